@@ -15,6 +15,7 @@ namespace {
 struct Doer {
   serial::Simulation& simulation;
   serial::HostPort* host;
+  const LineStation* of;
 
   void operator()(const SetMemory& set) const {
     for (const Assignment& assignment : set.assignments) assign(simulation.cpu(), assignment);
@@ -34,10 +35,12 @@ struct Doer {
     if (jump.to < simulation.cpu().program().ops.size()) simulation.cpu().go_to(jump.to);
   }
   void operator()(const InjectFault& inject) const {
-    if (inject.fault)
-      simulation.inject(*inject.fault);
-    else
+    if (!inject.fault)
       simulation.clear_faults();
+    else if (of)
+      of->line->faults().inject(*inject.fault, simulation.time(), of->driver);
+    else
+      simulation.inject(*inject.fault);
   }
   void operator()(const SetStack& set) const { simulation.cpu().set_stack(set.stack); }
   void operator()(const SetMode& set) const {
@@ -73,7 +76,8 @@ struct Teller {
   std::string operator()(const SetPower& power) const { return power.on ? "power on" : "power off"; }
   std::string operator()(const Jump&) const { return "goto"; }
   std::string operator()(const InjectFault& inject) const {
-    return "fault " + (inject.fault ? serial::to_text(*inject.fault) : "none");
+    return "fault " + (inject.fault ? serial::to_text(*inject.fault) : "none") +
+           (inject.of.empty() ? "" : " station=" + inject.of);
   }
   std::string operator()(const SetStack&) const { return "set the logic stack"; }
   std::string operator()(const SetMode& set) const { return set.mode == Mode::Run ? "mode run" : "mode stop"; }
@@ -95,8 +99,8 @@ std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& 
   return why.empty() ? std::optional(SetMode{mode}) : std::nullopt;
 }
 
-void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host) {
-  std::visit(Doer{simulation, host}, action);
+void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host, const LineStation* of) {
+  std::visit(Doer{simulation, host, of}, action);
 }
 
 std::string describe(const Action& action) { return std::visit(Teller{}, action); }

@@ -10,6 +10,7 @@
 #include "interpreter/program/address.hpp"
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/debugger/line_stations.hpp"
 
 namespace s7200::tools {
 
@@ -28,6 +29,7 @@ struct SendFrame {
 struct CancelRequest {
   std::size_t sent = 0;    ///< characters that have begun
   Time waited = 0;         ///< since the end of the request; 0 before
+  Time sent_until = 0;     ///< end of the last of these characters, if that is yet to come
   bool answering = false;  ///< an answer has begun
 };
 
@@ -47,6 +49,7 @@ struct Jump {
 /// A fault of the line from now on, or none any more.
 struct InjectFault {
   std::optional<serial::Fault> fault{};
+  std::string of{};  ///< the station of the line that it is about; empty: of anyone there
 };
 
 /// The logic stack of the routine that runs is another one. No programming device can do that either.
@@ -70,8 +73,9 @@ std::optional<SetMode> mode_of(std::string_view word, const serial::Simulation& 
 using Action = std::variant<SetMemory, SendFrame, CancelRequest, Jump, serial::HostCall, Force, Unforce, SetStack,
                             InjectFault, SetMode, SetPower>;
 
-/// `host`: the port that a HostCall is made to.
-void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host = nullptr);
+/// `host`: the port that a HostCall is made to. `of`: the station that a fault is about.
+void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host = nullptr,
+             const LineStation* of = nullptr);
 
 /// `set VW100`, `send 01 03 …`: what it was, in a few words.
 std::string describe(const Action& action);

@@ -10,6 +10,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/past_words.hpp"
+#include "tools/debugger/two_masters.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
@@ -52,6 +53,16 @@ std::vector<std::string> commands_in(std::string_view line) {
   return commands;
 }
 
+/// Is told what an action makes happen at once.
+class Told final : public Observer {
+ public:
+  explicit Told(std::function<void(const TraceRecord&)> tell) : tell_(std::move(tell)) {}
+  void record(const TraceRecord& record) override { tell_(record); }
+
+ private:
+  std::function<void(const TraceRecord&)> tell_;
+};
+
 History::Settings settings_of(const DebuggerOptions& options, std::function<void()> progress) {
   History::Settings settings = options.history;
   settings.stop_request = options.stop_request;
@@ -74,15 +85,16 @@ Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostrea
       stepper_(history_, options.stop_request) {
   for (serial::Simulation* const station : stations) stations_.emplace_back(*station);
   for (const DebuggedStation& station : options_.stations) name_width_ = std::max(name_width_, station.name.size());
+  for (const LineStation& station : history_.line_stations()) name_width_ = std::max(name_width_, station.name.size());
   stepper_.look_at(options_.station);
-  stepper_.host_timeout = options_.master.timeout;
+  stepper_.set_host_timeout(options_.master.timeout);
   stepper_.on_record = [this](std::size_t station, const TraceRecord& record) { print_trace(station, record); };
   stepper_.on_instruction = [this](std::size_t station, const InstructionRecord& record, bool started_at) {
     print_instruction(station, record, started_at);
   };
-  stepper_.on_message = [this](const StopPoint& stop) { print_message(stop); };
-  stepper_.on_answer = [this](const serial::Exchange& exchange) { print_answer(exchange); };
-  stepper_.on_unasked = [this](const Transmission& sent) { print_unasked(sent); };
+  stepper_.on_message = [this](const StopPoint& stop, const Hit& hit) { print_message(stop, hit); };
+  stepper_.on_answer = [this](std::size_t station, const serial::Exchange& exchange) { print_answer(station, exchange); };
+  stepper_.on_unasked = [this](const SentByPlc& sent) { print_unasked(sent); };
 }
 
 Debugger::Error Debugger::execute(std::string_view line) {
@@ -211,12 +223,13 @@ void Debugger::remember() {
 void Debugger::go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
   remember();
   first_error_.reset();
+  const std::size_t asker = focus();
   const Stop stop = at_length([&] { return stepper_.run_back(goal, count, stop_at_answer); });
   look_at(stop.station);
   note_going_elsewhere();
   report_hits(stop);
   report_reason(stop, {});
-  if (stop.reason == StopReason::Answer) print_answer(simulation().master().exchange());
+  if (stop.reason == StopReason::Answer) print_answer(asker, stations_[asker].simulation->master().exchange());
   show_place();
   note_the_past();
 }
@@ -231,7 +244,9 @@ void Debugger::act(Action action, std::size_t station) {
   const bool branches = history_.in_the_past();
   const Time left = history_.newest().time;
   if (branches) remember();
-  history_.act(std::move(action), station);
+  Told told([&](const TraceRecord& record) { print_trace(history_.told_of(), record); });
+  history_.act(std::move(action), station, &told);
+  write_trace(kNever);
   if (!branches) return;
   out_ << fmt::format("a new branch begins here; what ran up to {} is on the old one, to which 'back' returns\n",
                       moment_text(left));
@@ -270,9 +285,11 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       out_ << fmt::format("{} of simulated time passed with nothing to stop for{}\n", format_duration(run.limit),
                           run.limit == kDefaultLimit ? " (the limit; 'continue TIME' sets another)" : "");
       return;
-    case StopReason::Request:
-      out_ << interruption_text() << '\n';
+    case StopReason::Request: {
+      const std::string failure = options_.take_failure();
+      out_ << (failure.empty() ? interruption_text() : failure) << '\n';
       return;
+    }
     case StopReason::CpuStopped:
       report_cpu_stop();
       return;
@@ -304,15 +321,15 @@ std::string Debugger::routine_text(std::uint32_t op) const {
   return listing().routine_of(op) + (network.empty() ? "" : ", ") + network;
 }
 
-void Debugger::print_answer(const serial::Exchange& exchange) {
+void Debugger::print_answer(std::size_t station, const serial::Exchange& exchange) {
   hide_progress();
-  out_ << exchange_text(exchange, master().timeout);
+  out_ << exchange_text(exchange, master().timeout) << not_an_answer_text(history_, station, exchange);
   if (exchange.timed_out && simulation().plc().powered() && !simulation().plc().executes())
     out_ << "         the CPU is in STOP, where no program answers\n";
 }
 
 /// The first few of a run.
-void Debugger::print_unasked(const Transmission& sent) {
+void Debugger::print_unasked(const SentByPlc& sent) {
   constexpr std::size_t kShown = 3;
   if (++unasked_ > kShown) return;
   hide_progress();

@@ -46,8 +46,10 @@ struct DebuggerOptions {
   std::size_t station = 0;                          ///< that it looks at first
   const std::atomic<bool>* stop_request = nullptr;  ///< ends a run when it becomes true; may be set by a signal handler
   History::Settings history{};                      ///< with the records, which watch the CPU too
-  std::string files{};                              ///< that the records and captures write: "the trace"; "" for none
-  bool colour = false;                              ///< what is forced is shown in red
+  /// Why a run has ended by itself, such as a bridge that has failed: said once, empty otherwise. The next one goes on.
+  std::function<std::string()> take_failure = [] { return std::string(); };
+  std::string files{};  ///< that the records and captures write: "the trace"; "" for none
+  bool colour = false;  ///< what is forced is shown in red
   /// Shows how far a long command has come, in place of what it showed before; "" takes that away. None: nothing is shown.
   std::function<void(std::string_view text)> progress{};
   Time patience = 2 * kSecond;              ///< of the host: how long a command runs before it is shown
@@ -111,15 +113,37 @@ class Debugger {
 
   bool quit_asked() const { return quit_asked_; }
 
+  /// Where it stands, things have happened after that.
+  bool in_the_past() const { return history_.in_the_past(); }
+
   /// The last line, if it makes sense to give it again: `step`, `over`, `continue` … Empty otherwise.
   const std::string& repeatable() const { return repeatable_; }
 
  private:
   using Arguments = std::vector<std::string>;
 
+  /// What the words after a command may become.
+  enum class Takes : std::uint8_t {
+    Nothing,
+    Addresses,
+    Break,
+    Watch,
+    Forced,
+    Places,
+    Files,
+    Sessions,
+    Faults,
+    Commands,
+    Switch,
+    Mode,
+    Power,
+    Frame,
+    Stations
+  };
   struct Command {
     std::string_view name, short_form, syntax, meaning, more;
     Error (Debugger::*run)(const Arguments& arguments);
+    Takes takes = Takes::Nothing;
     bool repeats = false;
   };
   static const std::vector<Command>& commands();
@@ -180,6 +204,8 @@ class Debugger {
   Error back_to_write(const Arguments& arguments);
   Error why(const Arguments& arguments);
   Error back_to_decision(const Arguments& arguments);
+  Error list_faults();
+  const LineStation* without_program(std::string_view name) const;
   Error history(const Arguments& arguments);
   Error branch(const Arguments& arguments);
   Error past(const Arguments& arguments);
@@ -235,22 +261,27 @@ class Debugger {
   void report_breakpoint(const Hit& hit);
   std::string asked_by(const Hit& hit) const;
   void report_access(const Hit& hit);
-  void print_message(const StopPoint& stop);
+  void print_message(const StopPoint& stop, const Hit& hit);
   void report_cpu_stop();
   void report_standstill();
   void report_uncounted();
-  void print_unasked(const Transmission& sent);
-  void print_answer(const serial::Exchange& exchange);
+  void print_unasked(const SentByPlc& sent);
+  void print_answer(std::size_t station, const serial::Exchange& exchange);
   void print_trace(std::size_t station, const TraceRecord& record);
   void print_trace_lines(std::size_t station, const std::vector<TraceLine>& lines);
   void print_instruction(std::size_t station, const InstructionRecord& record, bool started_at);
 
   std::string name_of(const MemoryRange& range, std::string_view written) const;
+  static std::string name_of(const MemoryRange& range, std::string_view written, const Program& program);
   void print_bad_pointer(const std::string& name, const MemoryRange& pointer);
   void print_bad_pointers(std::uint32_t op);
   void print_place(const Place& place, const std::string& name, char form);
   void list_stops();
   std::optional<StopPoint> stop_of(const Arguments& words, std::string& why);
+  std::vector<SessionFile::SavedStop> saved_stops() const;
+  std::optional<StopPoint> stop_of(const SessionFile::SavedStop& saved, std::string& why) const;
+  std::optional<std::vector<StopPoint>> stops_of(const SessionFile& file, std::string& why) const;
+  std::size_t add_loaded(std::vector<StopPoint> stops);
   static std::string value_of(const Cpu& cpu, const MemoryRange& range);
   std::vector<Bits> operands_of(std::uint32_t op) const;
   std::string red(std::string text) const;  ///< on a terminal
@@ -317,6 +348,7 @@ class Debugger {
   std::uint64_t errors_of_all() const;
   SessionFile session_file() const;
   bool has_come_to(const SessionFile& file) const;
+  std::optional<serial::Exchange> last_exchange() const;
   std::string requests_under_way();
   SessionRecord::Station record_of(std::size_t station) const;
   void write_trace(Time until);

@@ -9,10 +9,14 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/fault_words.hpp"
+#include "tools/debugger/force_words.hpp"
 #include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/line_words.hpp"
 #include "tools/debugger/stop_words.hpp"
+#include "tools/debugger/two_masters.hpp"
+#include "tools/views/faults.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -30,6 +34,7 @@ places and files.
 Examples:
   continue 2s; send 01 03 00 0a 00 01 crc; continue      what a slave answers
   break unanswered; continue; rwho event 8; history 9    why it did not answer
+  break wrong; continue                                  an answer that cannot be taken
   watch VW100 if VW100 > 8; continue; who VW100          who writes an address
   force I0.3=1; scan 2; status NETWORK 2                 what the program does with an input
   display VW100; layout on                               keep an eye on memory
@@ -46,61 +51,67 @@ const std::vector<Debugger::Command>& Debugger::commands() {
       {"step", "s", "step [n]", "execute one instruction, or n, going into CALL and interrupt routines",
        R"(Each executed instruction is shown with its operands (inputs before it, results after it), S0 after it, and its
 time.)",
-       &Debugger::step, true},
+       &Debugger::step, Takes::Nothing, true},
       {"over", "o", "over", "execute one instruction; a CALL with all that it calls, interrupts in between too",
-       "Breakpoints and watches inside still stop.", &Debugger::over, true},
-      {"out", "u", "out", "run to the end of the subroutine or interrupt routine", "", &Debugger::out, true},
+       "Breakpoints and watches inside still stop.", &Debugger::over, Takes::Nothing, true},
+      {"out", "u", "out", "run to the end of the subroutine or interrupt routine", "", &Debugger::out, Takes::Nothing, true},
       {"network", "nw", "network", "run to the next network of this routine; a CALL with all that it calls, as 'over'", "",
-       &Debugger::network, true},
+       &Debugger::network, Takes::Nothing, true},
       {"interrupt", "int", "interrupt [begins | ends]", "run until the next interrupt routine begins, or the next one ends",
-       "It stands in front of its first instruction, or in front of the first one after it.", &Debugger::interrupt, true},
-      {"scan", "n", "scan [n]", "run to the start of the next scan's program, or of the nth", "", &Debugger::scan, true},
+       "It stands in front of its first instruction, or in front of the first one after it.", &Debugger::interrupt,
+       Takes::Nothing, true},
+      {"scan", "n", "scan [n]", "run to the start of the next scan's program, or of the nth", "", &Debugger::scan,
+       Takes::Nothing, true},
       {"continue", "c", "continue [TIME]", "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
-       "TIME is simulated: 250ms, 2s, 1min. It ends in front of the first instruction after it. Ctrl-C stops it too.",
-       &Debugger::continue_run, true},
-      {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n", "run to a place", "", &Debugger::until, true},
+       R"(TIME is simulated, in ns, us, ms, s, min or h: 250ms, 1.5s, 20min. It ends in front of the first instruction after
+it. Ctrl-C stops it too.)",
+       &Debugger::continue_run, Takes::Nothing, true},
+      {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n", "run to a place", "", &Debugger::until, Takes::Places,
+       true},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
        R"(The last 64 are kept. Breakpoints and watches stay. Going forward again plays what has run, with what was done to
 the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
        &Debugger::back},
       {"rstep", "rs", "rstep [n]", "back by one instruction, or n, into subroutines and interrupt routines", kBackwards,
-       &Debugger::back_step, true},
+       &Debugger::back_step, Takes::Nothing, true},
       {"rover", "ro", "rover", "back by one instruction; a CALL with all that it called, interrupts in between too",
-       kBackwards, &Debugger::back_over, true},
+       kBackwards, &Debugger::back_over, Takes::Nothing, true},
       {"rout", "ru", "rout", "back to the CALL of this subroutine, or to what this interrupt routine interrupted",
-       kBackwards, &Debugger::back_out, true},
+       kBackwards, &Debugger::back_out, Takes::Nothing, true},
       {"rnetwork", "rnw", "rnetwork", "back to the start of this network, or of the one before", kBackwards,
-       &Debugger::back_network, true},
+       &Debugger::back_network, Takes::Nothing, true},
       {"rinterrupt", "ri", "rinterrupt [begins | ends]", "back to where an interrupt routine last began, or ended",
-       kBackwards, &Debugger::back_interrupt, true},
+       kBackwards, &Debugger::back_interrupt, Takes::Nothing, true},
       {"rscan", "rn", "rscan [n]", "back to the start of the scan's program, then of the one before, or of the nth",
-       kBackwards, &Debugger::back_scan, true},
+       kBackwards, &Debugger::back_scan, Takes::Nothing, true},
       {"rcontinue", "rc", "rcontinue", "back to the last breakpoint, change of a watch, or end of an answer", kBackwards,
-       &Debugger::back_continue, true},
+       &Debugger::back_continue, Takes::Nothing, true},
       {"runtil", "rt", "runtil LINE | SBR n | INT n | LBL n | NETWORK n", "back to the last time that it was at a place",
-       kBackwards, &Debugger::back_until, true},
+       kBackwards, &Debugger::back_until, Takes::Places, true},
       {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
-       "It stands in front of the first instruction at or after it. start is the oldest moment, which is power-up as long "
-       "as nothing is forgotten, end the newest one.",
+       R"(TIME is in ns, us, ms, s, min or h. It stands in front of the first instruction at or after it. start is the oldest
+moment, which is power-up as long as nothing is forgotten, end the newest one.)",
        &Debugger::at},
       {"who", "", "who ADDRESS | event N",
        "the instruction that wrote an address last, or attached an event, without going there",
        R"(With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and
-messages only if they changed it. who *VD3570 takes the address that the pointer holds now. 'rwho' goes there.)",
-       &Debugger::who},
+messages only if they changed it. What an event of a system file has set is named as what a command has. who *VD3570
+takes the address that the pointer holds now. 'rwho' goes there.)",
+       &Debugger::who, Takes::Addresses},
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
-       &Debugger::back_to_write, true},
+       &Debugger::back_to_write, Takes::Addresses, true},
       {"why", "", "why", "what decided that it has come here: contacts, a jump or a conditional return, without going there",
        R"(The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.
-While a master waits for an answer, and where it gives up: also what has left the request without one, be it the
-program, an event that is not attached, a port in PPI mode, or the line that lost it or its answer.)",
+While a master or a program waits for an answer, and where it gives up: also what has left the request without one,
+be it the program, an event that is not attached, a port in PPI mode, or the line that lost it or its answer; or that
+it was for another station. That comes first, what led to this place last.)",
        &Debugger::why},
       {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
        R"(Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of
 contacts: after the last of them, where S0 is what they have decided; if it stands there already, in front of
 the first.)",
-       &Debugger::back_to_decision, true},
+       &Debugger::back_to_decision, Takes::Nothing, true},
       {"history", "", "history [n]", "the last 10 instructions before now, or n, with their operands and comments", "",
        &Debugger::history},
       {"fork", "", "fork", "forget what has run after this moment: going forward is new from here on",
@@ -108,17 +119,20 @@ the first.)",
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
       {"power", "", "power [all] [TIME] [lost] | off | on",
        "switch power off and on again: the CPU begins with what it has kept",
-       R"(TIME is how long it was off; the clock goes on: power 8h. lost: too long for the RAM, only the EEPROM is left. A
-new branch, from time 0: back takes it back. Of a system say which: all is every PLC at once, power all 8h; off and on
-switch this PLC alone, and time goes on: power off; continue 2s; power on.)",
-       &Debugger::power},
+       R"(TIME is how long it was off, in ns, us, ms, s, min or h; the clock goes on: power 8h. lost: too long for the RAM,
+only the EEPROM is left. A new branch, from time 0: back takes it back. Of a system say which: all is every PLC at once,
+power all 8h; off and on switch this PLC alone, and time goes on: power off; continue 2s; power on.)",
+       &Debugger::power, Takes::Power},
       {"save", "", "save FILE [!]",
        "write where this session stands, and its past; 'load' returns there, in another session too",
        R"(The file has all that was done to the PLC, and when; 'load' runs that again, which comes to the same state to
-the bit. It fits the same program, CPU, execution times and version of s7200, started with the same options. An
-existing file is replaced if save has written it; ! replaces any.)",
-       &Debugger::save},
-      {"load", "", "load FILE", "go to where 'save' was given", "back returns to here.", &Debugger::load},
+the bit. Breakpoints and watches are in it too, and count their hits anew; displays are not. It fits the same program,
+CPU, execution times and version of s7200, started with the same options. An existing file is replaced if save has
+written it; ! replaces any.)",
+       &Debugger::save, Takes::Files},
+      {"load", "", "load FILE", "go to where 'save' was given",
+       "Its breakpoints and watches join those that are set. back returns to here, and leaves them.", &Debugger::load,
+       Takes::Sessions},
       {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
        "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
@@ -126,82 +140,95 @@ existing file is replaced if save has written it; ! replaces any.)",
        R"(PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has
 one; boxes and coils stop only with power flow, or 'always'.
 WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a
-queue), lost (a character), mode, unanswered (a request on a line of this PLC). It hears 'send' and the masters that
-poll, which know their time-outs; masters on bridges and PLCs that ask in Modbus RTU, with one XMT a request: then
-nobody has sent anything within --timeout, or before the next request. It hears no requests of PPI.
+queue), lost (a character), mode, unanswered (a request on a line of this PLC), wrong (an answer to one, which it
+cannot take: wrong parity or CRC, cut short, of another station or function; an exception is an answer). It hears
+'send' and the masters that poll, which know their time-outs; masters on bridges and PLCs that ask in Modbus RTU,
+with one XMT a request: then nobody has sent anything within --timeout, or before the next request. It hears no
+requests of PPI. To a request that is not Modbus RTU an answer is wrong if its characters are damaged.
 CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7; a constant that an operand can never be is refused.
 hits N stops from the Nth time on since it was set: moments before that do not count when 'back' or 'at' lead there.
 log prints a line and goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.)",
-       &Debugger::set_break},
+       &Debugger::set_break, Takes::Break},
       {"watch", "w", "watch ADDRESS[:COUNT]… [read | write | read write | change] [if …] [hits N] [log …]",
        "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it",
-       R"(Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'write'
-stops also if the value stays the same. Entries of tables, strings and messages count only if they change. watch
+       R"(Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'read' and
+'write' are for instructions alone, and 'write' stops also if the value stays the same. Entries of tables, strings and messages count only if they change. watch
 *VD3570 takes the address that the pointer holds now, and stays there.)",
-       &Debugger::watch},
+       &Debugger::watch, Takes::Watch},
       {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
       {"station", "", "station [NAME]", "the stations of a system: where each stands; or go over to another one",
-       R"(Steps, addresses, places and 'send' are about one station at a time; all of them run, and breakpoints and
-watches stay with the station that they were set at. What stops at another station goes over to it.)",
-       &Debugger::station},
+       R"(PLCs first, then the peers and bridges on their lines, which have no program to step through. Steps, addresses, places
+and 'send' are about one station at a time; all of them run, and breakpoints and watches stay with the station that
+they were set at. What stops at another station goes over to it.)",
+       &Debugger::station, Takes::Stations},
       {"list", "l", "list [LINE | SBR n | INT n | LBL n | NETWORK n]", "the program around the current place or elsewhere",
-       "> is the current line, * a breakpoint.", &Debugger::list},
+       "> is the current line, * a breakpoint.", &Debugger::list, Takes::Places},
       {"status", "", "status [LINE | SBR n | INT n | LBL n | NETWORK n]",
        "the program with power flow and operands of each instruction's last execution",
-       "Of the last 2 s at least. S0 is the top of the logic stack after it.", &Debugger::status},
+       "Of the last 2 s at least. S0 is the top of the logic stack after it.", &Debugger::status, Takes::Places},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
       {"record", "", "record FILE.yaml [!]", "write this session, up to now, as a scenario that 's7200 test' replays",
        R"(Frames, memory and inputs that were set, faults of the line and power cycles, each at its time, and the answers
 that came. Displayed memory is expected to have its values at the end. What no scenario can do is refused: force,
-a bridge, 'power all' of a system, something set while a frame or its answer was under way.)",
-       &Debugger::record},
+mode, a bridge, 'power all' of a system, something set or sent while a frame or its answer was under way, a request
+given up within its answer, and a session with --fault, --memory or --port 1.)",
+       &Debugger::record, Takes::Files},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
       {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",
        "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T37, HC0, *VD3570:8, *AC1:word; or VW2 * 2 + 1",
        R"(/x hex, /d decimal, /b binary, /c characters. What a pointer points to is a byte unless :word, :dword or :real
-is asked for; of one that points nowhere it says who wrote it. SMB30 is shown in words, timers with bit, preset
-and base. A double word that the program uses as a real is shown as one too. In expressions words and double words
-have a sign, and beside them a constant above 32767 or 2147483647 stands for its bits: VW20 = 16#FFFF is VW20 = -1.)",
-       &Debugger::print},
+is asked for; of one that points nowhere it says who wrote it. &VB100 is a pointer to VB100, as in VD20 = &VB100. SMB30
+is shown in words, timers with bit, preset and base. A double word that the program uses as a real is shown as one too.
+In expressions words and double words have a sign, and beside them a constant above 32767 or 2147483647 stands for its
+bits: VW20 = 16#FFFF is VW20 = -1.)",
+       &Debugger::print, Takes::Addresses},
       {"expect", "", "expect EXPRESSION", "a wrong command unless it holds: a script with such lines is a test",
-       "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 2.", &Debugger::expect},
+       "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 2.", &Debugger::expect,
+       Takes::Addresses},
       {"display", "", "display [ADDRESS[:COUNT]… | off]", "print memory after each stop",
        R"(Further ones are added. Alone: print them now. display *VD3570 takes the address that the pointer holds now, and
 stays there.)",
-       &Debugger::display},
+       &Debugger::display, Takes::Addresses},
       {"port", "", "port", "SMB30 in words, receiver, transmitter, and the master on the line", "", &Debugger::port},
       {"errors", "e", "errors", "run-time and fatal errors up to now", "", &Debugger::errors},
-      {"trace", "", "trace on | off", "print interrupts, characters and errors while running", "", &Debugger::trace},
+      {"trace", "", "trace on | off", "print interrupts, characters and errors while running", "", &Debugger::trace,
+       Takes::Switch},
       {"layout", "", "layout on | off", "keep program, status and memory in view, in the upper part of a terminal",
        R"(It needs 80×24 or more. Above: where it stands, the instructions around it with their last execution, and the
 memory that 'display' names, or the registers. Below: the prompt.)",
-       &Debugger::layout},
-      {"set", "", "set ADDRESS=VALUE…", "write memory: set VW100=5 M0.3=1 VB4=16#FF; I addresses are the input points", "",
-       &Debugger::set},
+       &Debugger::layout, Takes::Switch},
+      {"set", "", "set ADDRESS=VALUE…",
+       "write memory: set VW100=5 M0.3=1 VB4=16#FF VD8=&VB100; I addresses are the input points",
+       "SMB28 and SMB29 are the potentiometers; the rest of SM0.0 to SM29.7 only the CPU writes.", &Debugger::set,
+       Takes::Addresses},
       {"input", "i", "input I0.3=1…", "switch input points; edges of I0.0 to I0.3 cause events 0 to 7",
        "The program finds the new level when the inputs are next read, or at once with an immediate instruction.",
-       &Debugger::input},
+       &Debugger::input, Takes::Addresses},
       {"force", "", "force [ADDRESS=VALUE…]", "hold points of I and Q, V and M memory, AI and AQ at a value; alone: list",
        R"(As a programming device forces: force I0.3=1 Q0.0=0 VW100=5. Inputs have the value when they are read, outputs
 when they are written (end of scan, immediate, STOP), memory after each program: in between the program may
 change it. Up to 16 values of memory: bytes, words, double words; AI and AQ words. Shown in red. Edges and
 counters see the terminal. The CPU keeps it without power; going back undoes it.)",
-       &Debugger::force},
+       &Debugger::force, Takes::Forced},
       {"unforce", "", "unforce ADDRESS… | all", "release what is forced",
-       "Inputs follow their terminals again, outputs their image; memory keeps what it has.", &Debugger::unforce},
+       "Inputs follow their terminals again, outputs their image; memory keeps what it has.", &Debugger::unforce,
+       Takes::Forced},
       {"mode", "", "mode run | stop", "switch the CPU to RUN or STOP, as a programming device does",
-       "After a fatal error only 'restart' or 'power' bring it back.", &Debugger::mode},
+       "After a fatal error only 'restart' or 'power' bring it back.", &Debugger::mode, Takes::Mode},
       {"send", "", "send HEX… | 'TEXT' [crc] | read ADDRESS[:COUNT] | write ADDRESS=VALUE… [station n] | cancel",
        "put a frame on the line from now on, with crc its Modbus CRC; or give it up",
        R"(p after a byte sends it with wrong parity. TEXT is ASCII, with \r \n \t \\ \' and \xHH. 'continue' runs while it
 arrives and stops when the answer is complete. cancel: the master gives the request up, wherever it is. A character
 that has begun is still sent; then the master is ready for the next request.)",
-       &Debugger::send},
-      {"fault", "", "fault KIND[:PARAMETER=VALUE,…] | none", "a fault of the line from now on, or none any more",
+       &Debugger::send, Takes::Frame},
+      {"fault", "", "fault KIND[:PARAMETER=VALUE,…] [station=NAME] | none",
+       "a fault of the line from now on, or none any more",
        R"(As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:ber=0.001, fault cut:from=2ms. It counts
-exchanges and times from now; 's7200 run --help' has all kinds. Going back undoes it.)",
-       &Debugger::fault},
-      {"help", "h", "help [COMMAND]", "this list, or more about a command", "", &Debugger::help},
+exchanges and times from now; 's7200 run --help' has all kinds. In a system station=NAME says whose characters it
+strikes, as 'station' of a system file: fault parity:character=2 station=slave2. Going back undoes it. Alone: the
+faults in force, and how often each has happened.)",
+       &Debugger::fault, Takes::Faults},
+      {"help", "h", "help [COMMAND]", "this list, or more about a command", "", &Debugger::help, Takes::Commands},
       {"quit", "q", "quit", "end", "", &Debugger::quit},
   };
   return kTable;
@@ -275,7 +302,8 @@ Debugger::Error Debugger::continue_run(const Arguments& arguments) {
   Run run{.goal = goal::none(), .stop_at_answer = true, .of_all = true};
   if (!arguments.empty()) {
     const auto time = parse_duration(joined(arguments));
-    if (!time || *time == 0) return expects("continue", "a duration, for example: continue 250ms");
+    if (!time || *time == 0)
+      return expects("continue", fmt::format("a duration above 0 in {}, for example: continue 250ms", kTimeUnits));
     run.limit = *time;
   }
   go(run);
@@ -381,6 +409,9 @@ Debugger::Error Debugger::port(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("port");
   say_without_power();
   out_ << port_text(simulation());
+  for (const auto& [name, poller] : history_.pollers())
+    if (simulation().has_master() && poller->is_on(simulation().line().line()))
+      out_ << fmt::format("           (the master of 'send'; {} asks by itself)\n", stl::printable(name));
   return {};
 }
 
@@ -440,6 +471,7 @@ Debugger::Error Debugger::assign_all(const Arguments& arguments, bool inputs_onl
     std::string why;
     const auto assignment = parse_assignment(text, simulation().cpu().program(), why);
     if (!assignment) return why;
+    if (std::string refused = not_settable(assignment->place); !refused.empty()) return refused;
     if (inputs_only && assignment->place.area != Area::I)
       return fmt::format("'{}' is not an input; 'input' expects for example I0.3=1, and 'set' writes other memory",
                          stl::shortened(text));
@@ -513,18 +545,31 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   const auto send = send_of(*frame, simulation(), master(), why);
   if (!send) return "send: " + why;
   act(*send);
-  out_ << sent_text(*send, simulation());
+  out_ << sent_text(*send, simulation()) << other_master_text(history_, focus());
   if (!simulation().plc().powered()) out_ << without_power_text(name_of(focus())) << '\n';
   return {};
 }
 
+/// With how often each has happened.
+Debugger::Error Debugger::list_faults() {
+  const auto name = [&](int driver) {
+    for (const LineStation& one : history_.line_stations())
+      if (one.line == &simulation().line() && one.driver == driver) return stl::printable(one.name);
+    return std::string();
+  };
+  const std::vector<std::string> notes = fault_notes(simulation().faults(), name);
+  if (notes.empty()) out_ << "the line has no fault now; this would be one: fault flip:character=3,bit=5\n";
+  for (const std::string& note : notes) out_ << note << '\n';
+  return {};
+}
+
 Debugger::Error Debugger::fault(const Arguments& arguments) {
-  if (arguments.empty()) return expects("fault", "a fault of the line, for example: fault flip:character=3,bit=5, or none");
+  if (arguments.empty()) return list_faults();
   std::string why;
-  const auto inject = inject_of(joined(arguments), why);
+  const auto inject = fault_of(joined(arguments), history_, focus(), why);
   if (!inject) return why;
-  act(*inject);
-  out_ << injected_text(*inject);
+  act(*inject, focus());
+  out_ << fault_text(*inject);
   return {};
 }
 

@@ -91,38 +91,12 @@ Words sessions_of(std::string_view word) {
   return files;
 }
 
+/// Each kind with the colon before its parameters.
 Words fault_words() {
   Words words{"none"};
-  for (const serial::FaultKindInfo& kind : serial::fault_kinds()) words.emplace_back(kind.name);
+  for (const serial::FaultKindInfo& kind : serial::fault_kinds()) words.push_back(std::string(kind.name) + ":");
   return words;
 }
-
-enum class Takes : std::uint8_t {
-  Nothing,
-  Addresses,
-  Break,
-  Watch,
-  Forced,
-  Places,
-  Files,
-  Sessions,
-  Faults,
-  Commands,
-  Switch,
-  Mode,
-  Power,
-  Frame,
-  Stations
-};
-
-constexpr std::pair<std::string_view, Takes> kTakes[]{
-    {"help", Takes::Commands},    {"save", Takes::Files},        {"load", Takes::Sessions},  {"record", Takes::Files},
-    {"trace", Takes::Switch},     {"layout", Takes::Switch},     {"break", Takes::Break},    {"until", Takes::Places},
-    {"runtil", Takes::Places},    {"list", Takes::Places},       {"status", Takes::Places},  {"print", Takes::Addresses},
-    {"expect", Takes::Addresses}, {"display", Takes::Addresses}, {"watch", Takes::Watch},    {"set", Takes::Addresses},
-    {"input", Takes::Addresses},  {"force", Takes::Forced},      {"unforce", Takes::Forced}, {"who", Takes::Addresses},
-    {"rwho", Takes::Addresses},   {"station", Takes::Stations},  {"mode", Takes::Mode},      {"fault", Takes::Faults},
-    {"power", Takes::Power},      {"send", Takes::Frame}};
 
 /// Whether the next word belongs to a condition.
 bool is_in_condition(const std::string& before) { return before == "IF" || before == "AND" || before == "OR"; }
@@ -139,9 +113,7 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
   };
   std::string why;
   const Command* command = words.size() > 1 ? find_command(words.front(), why) : nullptr;
-  Takes takes = words.size() == 1 ? Takes::Commands : Takes::Nothing;
-  for (const auto& [name, what] : kTakes)
-    if (command && command->name == name) takes = what;
+  Takes takes = words.size() == 1 ? Takes::Commands : command ? command->takes : Takes::Nothing;
   const Words given = words.size() > 1 ? Words(words.begin() + 1, words.end() - 1) : Words();
   const std::string before = given.empty() ? "" : stl::upper_case(given.back());
   const bool stops = takes == Takes::Break || takes == Takes::Watch;
@@ -175,7 +147,10 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
       all = sessions_of(last);
       break;
     case Takes::Faults:
-      all = fault_words();
+      all = given.empty() ? fault_words() : Words();
+      for (const LineStation& one : history_.line_stations())
+        if (given.size() == 1 && given[0] != "none" && one.line == &simulation().line() && !one.name.empty())
+          all.push_back("station=" + one.name);
       break;
     case Takes::Addresses:
       all = addresses_of(program);

@@ -6,6 +6,7 @@
 
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/force_words.hpp"
+#include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
@@ -32,7 +33,9 @@ std::string Debugger::red(std::string text) const {
 std::string Debugger::memory_text(std::size_t station, const MemoryRange& range) const {
   const Cpu& cpu = stations_[station].simulation->cpu();
   const std::string forced = forced_text(cpu, {bits_of(range)});
-  return dump_text(cpu, range) + (forced.empty() ? "" : "       " + forced + "\n");
+  const std::string symbol = symbol_text(cpu.program(), range);
+  return dump_text(cpu, range) + (forced.empty() ? "" : "       " + forced + "\n") +
+         (symbol.empty() ? "" : "         " + symbol + "\n");
 }
 
 Debugger::Error Debugger::force(const Arguments& arguments) {

@@ -174,15 +174,17 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
 
 /// Where it goes back to.
 std::optional<LastDecision> Debugger::find_decision() {
-  const DecisionSearch search = at_length([&] { return find_last_decision(history_, focus(), options_.stop_request); });
+  const DecisionSearch search =
+      at_length([&] { return find_last_decision(history_, focus(), stepper_.host_timeout(), options_.stop_request); });
+  for (const TraceLine& line : search.unanswered) out_ << fmt::format("{}  {}\n", moment_text(line.at), line.text);
   if (search.interrupted)
     out_ << interruption_text() << '\n';
   else if (search.decision)
-    out_ << fmt::format("{}  {}: {}\n", moment_text(search.decision->by.at), routine_text(search.decision->by.op),
+    out_ << fmt::format("{}  {}{}: {}\n", moment_text(search.decision->by.at),
+                        search.unanswered.empty() ? "" : "what led here: ", routine_text(search.decision->by.op),
                         search.decision->text);
   else if (search.unanswered.empty())
     out_ << "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far\n";
-  for (const TraceLine& line : search.unanswered) out_ << fmt::format("{}  {}\n", moment_text(line.at), line.text);
   return search.origin();
 }
 
@@ -194,7 +196,10 @@ Debugger::Error Debugger::why(const Arguments& arguments) {
 
 Debugger::Error Debugger::back_to_decision(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("rwhy");
-  if (const auto decision = find_decision()) go_to(decision->moment);
+  if (const auto decision = find_decision())
+    go_to(decision->moment);
+  else
+    out_ << "rwhy goes nowhere: no instruction is named that it could go back to\n";
   return {};
 }
 

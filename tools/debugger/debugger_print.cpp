@@ -8,6 +8,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/ports.hpp"
 #include "tools/debugger/bad_pointers.hpp"
+#include "tools/debugger/counter_preset.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
@@ -80,13 +81,16 @@ bool bit_of(const State& state, std::uint32_t bits, std::uint32_t number) {
 }
 
 /// What belongs to a timer or counter besides its current value.
-std::string element_text(const State& state, const MemoryRange& range) {
+std::string element_text(const Cpu& cpu, const MemoryRange& range) {
+  const State& state = cpu.state();
   std::string text;
   for (std::uint32_t n = range.number; n < range.number + range.count; ++n) {
     if (range.area == Area::T)
       text += fmt::format("         T{}: bit {}, preset {}, counts {}\n", n, bit_of(state, image::kTBits, n) ? 1 : 0,
                           state.timer[n].preset, format_duration(timer_base(n).base));
-    if (range.area == Area::C) text += fmt::format("         C{}: bit {}\n", n, bit_of(state, image::kCBits, n) ? 1 : 0);
+    if (range.area == Area::C)
+      text +=
+          fmt::format("         C{}: bit {}{}\n", n, bit_of(state, image::kCBits, n) ? 1 : 0, counter_preset_text(cpu, n));
     if (range.area != Area::HC) continue;
     const HighSpeedCounter& counter = state.counter[n];
     text += counter.defined ? fmt::format("         HSC{}: mode {}, preset {}, {}{}\n", n, counter.mode, counter.preset,
@@ -120,7 +124,11 @@ void Debugger::print_bad_pointers(std::uint32_t number) {
 
 /// `VW100 (Speed)`, or as it was written.
 std::string Debugger::name_of(const MemoryRange& range, std::string_view written) const {
-  const stl::Symbol* symbol = symbol_of(simulation().cpu().program(), range);
+  return name_of(range, written, simulation().cpu().program());
+}
+
+std::string Debugger::name_of(const MemoryRange& range, std::string_view written, const Program& program) {
+  const stl::Symbol* symbol = symbol_of(program, range);
   if (!symbol) return stl::upper_case(written);
   return fmt::format("{} ({})", range.name_of(0), stl::printable(symbol->name));
 }
@@ -137,7 +145,7 @@ void Debugger::print_place(const Place& place, const std::string& name, char for
   if (const std::string forced = forced_text(simulation().cpu(), {bits_of(*range)}); !forced.empty())
     out_ << "       " << forced << '\n';
   if (const std::string symbol = symbol_text(cpu.program(), *range); !symbol.empty()) out_ << "         " << symbol << '\n';
-  out_ << element_text(cpu.state(), *range) << special_text(cpu, *range);
+  out_ << element_text(cpu, *range) << special_text(cpu, *range);
 }
 
 Debugger::Error Debugger::print(const Arguments& arguments) {
@@ -160,7 +168,7 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   }
   std::string why_no_expression;
   const auto expression = Expression::parse(joined(words), program, why_no_expression);
-  const bool has_operator = joined(words).find_first_of(" (+-/<>=") != std::string::npos;
+  const bool has_operator = joined(words).find_first_of(" (+-/<>=&") != std::string::npos;
   if (!expression) return has_operator ? why_no_expression : why;
   const auto value = expression->value(simulation().cpu(), why);
   out_ << fmt::format("{} {}\n", stl::printable(expression->text()),

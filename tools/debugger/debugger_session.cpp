@@ -68,7 +68,8 @@ std::vector<SessionOption> Debugger::session_conditions() const {
 }
 
 SessionFile Debugger::session_file() const {
-  SessionFile file{.stations = {}, .options = session_conditions(), .recording = history_.recording()};
+  SessionFile file{
+      .stations = {}, .options = session_conditions(), .recording = history_.recording(), .stops = saved_stops()};
   for (std::size_t number = 0; number < stations_.size(); ++number) {
     const Cpu& cpu = stations_[number].simulation->cpu();
     file.stations.push_back({.name = is_system() ? options_.stations[number].name : "",
@@ -93,8 +94,9 @@ Debugger::Error Debugger::save(const Arguments& arguments) {
   const SessionFile file = session_file();
   if (!file.recording.complete) return "cannot save: " + oldest_text(history_);
   if (!write_result(*to, to_text(file), why)) return why;
-  out_ << fmt::format("saved: {} with {} from outside\n", moment_text(history_.now().time),
-                      counted(file.recording.actions.size(), "action"));
+  out_ << fmt::format("saved: {} with {} from outside{}\n", moment_text(history_.now().time),
+                      counted(file.recording.actions.size(), "action"),
+                      file.stops.empty() ? "" : fmt::format("; breakpoints and watches: {}", file.stops.size()));
   return {};
 }
 
@@ -123,6 +125,7 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
   }
   if (why.empty() && !history_.has_hosts_of(file->recording))
     why = "a bridge belongs to it, and there is no port for that here: give --pty, --device or --tcp as then";
+  const auto stops = why.empty() ? stops_of(*file, why) : std::nullopt;
   if (!why.empty()) return fmt::format("cannot load {}: {}", path, why);
   const History::Place place = history_.here();
   if (!at_length([&] { return history_.replay(file->recording); }) || !has_come_to(*file)) {
@@ -134,6 +137,8 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
   kept_.push_back({command_, place, focus()});
   note_new_branch();
   note_going_elsewhere();
+  if (const std::size_t added = add_loaded(*stops))
+    out_ << fmt::format("breakpoints and watches of that session: {}; 'break' lists them\n", added);
   show_place();
   note_the_past();
   return {};
@@ -151,6 +156,8 @@ SessionRecord::Station Debugger::record_of(std::size_t number) const {
 Debugger::Error Debugger::record(const Arguments& arguments) {
   if (!options_.write_scenario) return "record: scenarios cannot be written here";
   std::string why;
+  if (!arguments.empty() && stl::lower_case(without_quotes(arguments[0])).ends_with(".json"))
+    return "record writes a scenario in YAML: name it .yaml; 'save' writes a session in JSON, which 'load' returns to";
   const auto to = destination(arguments, "record", {"a transcript", std::string(options_.scenario_beginning)}, why);
   if (!to) return why;
   if (const std::string requests = requests_under_way(); !requests.empty())
@@ -162,12 +169,23 @@ Debugger::Error Debugger::record(const Arguments& arguments) {
   SessionRecord record{.session = history_.recording(), .stations = {}};
   if (!record.session.complete) return "cannot record: " + oldest_text(history_);
   for (std::size_t number = 0; number < stations_.size(); ++number) record.stations.push_back(record_of(number));
-  if (simulation().has_master() && !simulation().master().busy() && !simulation().master().exchange().request.empty())
-    record.last = simulation().master().exchange();
+  record.last = last_exchange();
   if (!options_.write_scenario(record, *to, why)) return fmt::format("cannot record this session: {}", why);
   out_ << fmt::format("recorded up to {}; 's7200 test {}' replays it\n", moment_text(history_.now().time),
                       stl::printable(to->path));
   return {};
+}
+
+/// Of the masters of all lines; nothing if none has asked.
+std::optional<serial::Exchange> Debugger::last_exchange() const {
+  std::optional<serial::Exchange> last;
+  for (const Station& station : stations_) {
+    const serial::Simulation& here = *station.simulation;
+    if (!here.has_master() || here.master().busy() || here.master().exchange().request.empty()) continue;
+    const serial::Exchange& exchange = here.master().exchange();
+    if (!last || exchange.request_start > last->request_start) last = exchange;
+  }
+  return last;
 }
 
 /// `slave1: 01 03 00 00 00 02 c4 0b, pump: 04 …`: of all masters, each named by the first PLC on its line.
@@ -213,9 +231,11 @@ Debugger::Error Debugger::power(const Arguments& arguments) {
   if (lost) words.pop_back();
   const auto off = words.empty() ? std::optional<Time>(0) : parse_duration(joined(words));
   if (!off)
-    return expects("power", is_system() ? "off, on, or all, how long it was off, and lost: power all 8h, power all lost"
-                                        : "how long it was off, and lost if that was too long for the RAM: power 8h, power "
-                                          "lost");
+    return expects("power",
+                   fmt::format("{}how long it was off, in {}, and lost if that was too long for the RAM: power {}8h, "
+                               "power {}lost",
+                               is_system() ? "off, on, or all, " : "", kTimeUnits, is_system() ? "all " : "",
+                               is_system() ? "all " : ""));
   const std::string requests = requests_under_way();
   remember();
   history_.power_cycle(lost, *off);

@@ -45,14 +45,27 @@ void Debugger::look_at(std::size_t station) {
   out_ << fmt::format("now at {}\n", name_of(station));
 }
 
+/// A peer or a bridge; null if there is none of that name.
+const LineStation* Debugger::without_program(std::string_view name) const {
+  for (const LineStation& one : history_.line_stations())
+    if (one.kind != LineStation::Kind::Plc && one.name == name) return &one;
+  return nullptr;
+}
+
 Debugger::Error Debugger::station(const Arguments& arguments) {
   if (!is_system()) return "there is one PLC only, without a name; a system file has several: s7200 debug SYSTEM.yaml";
   if (arguments.empty()) {
     for (std::size_t station = 0; station < stations_.size(); ++station)
       out_ << fmt::format("{} {:<{}}  {}\n", station == focus() ? '>' : ' ', name_of(station), name_width_,
                           place_line(station));
+    for (const LineStation& one : history_.line_stations())
+      if (one.kind != LineStation::Kind::Plc)
+        out_ << fmt::format("  {:<{}}  {} on line {}\n", stl::printable(one.name), name_width_, kind_text(one.kind),
+                            stl::printable(one.line_name));
     return {};
   }
+  if (const LineStation* const other = without_program(joined(arguments)))
+    return fmt::format("{} is {}; it has no program to step through", stl::printable(other->name), kind_text(other->kind));
   const auto named = std::ranges::find(options_.stations, joined(arguments), &DebuggedStation::name);
   if (named == options_.stations.end())
     return fmt::format("there is no station '{}'; 'station' lists them", stl::shortened(joined(arguments)));

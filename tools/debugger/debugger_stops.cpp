@@ -1,4 +1,5 @@
-// Where to stop: the commands break, watch and delete, and what is said when a run comes to a stop.
+// Where to stop: the commands break, watch and delete, what a saved session has of them, and what is said when a run comes
+// to a stop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/stop_words.hpp"
+#include "tools/debugger/two_masters.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
@@ -112,6 +114,15 @@ std::string options_text(const StopPoint& stop) {
   return text;
 }
 
+/// As they are written: ` if VW2 > 8 hits 4`.
+std::string option_words(const StopPoint& stop) {
+  std::string text;
+  if (stop.condition) text += fmt::format(" if {}", stl::printable(stop.condition->text()));
+  if (stop.from_hit > 1) text += fmt::format(" hits {}", stop.from_hit);
+  if (!stop.log.empty()) text += fmt::format(" log '{}'", stl::printable(stop.log));
+  return text;
+}
+
 }  // namespace
 
 std::optional<StopPoint> Debugger::stop_of(const Arguments& words, std::string& why) {
@@ -166,6 +177,8 @@ Debugger::Error Debugger::watch(const Arguments& arguments) {
     added.name = name + (added.on == On::Change ? "" : fmt::format(" {}", access->word));
     out_ << fmt::format("watch {}: {} is {}{}\n", added.number, added.name, value_of(simulation().cpu(), range),
                         options_text(added));
+    if (added.on == On::Write)
+      out_ << fmt::format("  it is for writes of instructions; 'watch {}' stops at what the system changes too\n", name);
     stepper_.add(std::move(added));
   }
   return {};
@@ -210,14 +223,97 @@ std::string Debugger::mark_of(std::uint32_t op) const {
   return std::string(breakpoint ? "*" : " ") + (op == current_op() ? ">" : " ");
 }
 
+// --- in a saved session ---
+
+namespace {
+
+/// `VW100:4`, `VD20:real`: as parse_range() reads it.
+std::string address_of(const MemoryRange& range) {
+  return range.name_of(0) + (range.count > 1 ? fmt::format(":{}", range.count) : "") + (range.real ? ":real" : "");
+}
+
+SessionFile::SavedStop saved(const StopPoint& stop) {
+  const auto access = std::ranges::find(kAccesses, stop.on, &AccessWord::on);
+  return {.number = stop.number,
+          .station = stop.station,
+          .on = stop.is_watch() ? address_of(*stop.range) : stop.name,
+          .access = stop.is_watch() ? std::string(access->word) : "",
+          .always = stop.on == On::Place && !stop.needs_power,
+          .condition = stop.condition ? stop.condition->text() : "",
+          .from_hit = stop.from_hit,
+          .log = stop.log};
+}
+
+}  // namespace
+
+std::vector<SessionFile::SavedStop> Debugger::saved_stops() const {
+  std::vector<SessionFile::SavedStop> all;
+  for (const StopPoint& stop : stepper_.stops) all.push_back(saved(stop));
+  return all;
+}
+
+std::optional<StopPoint> Debugger::stop_of(const SessionFile::SavedStop& saved, std::string& why) const {
+  const Station& of = stations_[saved.station];
+  const Program& program = of.simulation->cpu().program();
+  std::string note;
+  std::optional<StopPoint> stop;
+  if (saved.access.empty()) {
+    stop = find_stop(stl::split_words(saved.on), program, of.listing, why, note);
+  } else if (const auto range = parse_range(saved.on, program, why)) {
+    const auto access = std::ranges::find(kAccesses, saved.access, &AccessWord::word);
+    if (access == std::end(kAccesses)) return {};
+    stop = StopPoint{.on = access->on, .range = range, .name = name_of(*range, saved.on, program)};
+    if (stop->on != On::Change) stop->name += fmt::format(" {}", access->word);
+  }
+  if (stop && !saved.condition.empty()) stop->condition = Expression::parse(saved.condition, program, why);
+  if (!stop || !why.empty() || !check_message(saved.log, program, why)) return {};
+  stop->number = saved.number;
+  stop->station = saved.station;
+  if (saved.always) stop->needs_power = false;
+  stop->from_hit = saved.from_hit;
+  stop->log = saved.log;
+  return stop;
+}
+
+std::optional<std::vector<StopPoint>> Debugger::stops_of(const SessionFile& file, std::string& why) const {
+  std::vector<StopPoint> stops;
+  for (const SessionFile::SavedStop& saved : file.stops) {
+    std::string wrong;
+    const auto stop = stop_of(saved, wrong);
+    if (!stop)
+      return why = fmt::format("it is damaged: a breakpoint or watch at '{}'", stl::shortened(saved.on)), std::nullopt;
+    stops.push_back(*stop);
+  }
+  return stops;
+}
+
+/// Those that are not there already, each with its number if no other one has that. How many they are.
+std::size_t Debugger::add_loaded(std::vector<StopPoint> stops) {
+  std::size_t added = 0;
+  for (StopPoint& stop : stops) {
+    const auto is_same = [&](const StopPoint& other) {
+      SessionFile::SavedStop its = saved(other);
+      its.number = stop.number;
+      return its == saved(stop);
+    };
+    if (std::ranges::any_of(stepper_.stops, is_same)) continue;
+    if (std::ranges::find(stepper_.stops, stop.number, &StopPoint::number) != stepper_.stops.end())
+      stop.number = next_number_;
+    next_number_ = std::max(next_number_, stop.number + 1);
+    stepper_.add(std::move(stop));
+    ++added;
+  }
+  return added;
+}
+
 // --- a run has come to a stop ---
 
 void Debugger::report_hits(const Stop& stop) {
   for (const Hit& hit : stop.hits) hit.stop.is_watch() ? report_access(hit) : report_breakpoint(hit);
   for (const StopPoint& s : stepper_.stops)
     if (s.skipped != 0)
-      out_ << fmt::format("breakpoint {} was passed {} without power flow; 'break {} always' stops there then too\n",
-                          s.number, times_once(s.skipped), s.name);
+      out_ << fmt::format("breakpoint {} was passed {} without power flow; 'break {} always{}' stops there then too\n",
+                          s.number, times_once(s.skipped), s.name, option_words(s));
   for (const StopPoint& s : stepper_.stops)
     if (s.unknown != 0)
       out_ << fmt::format("the condition of {} {} could not be computed {}: {}\n", s.is_watch() ? "watch" : "breakpoint",
@@ -239,14 +335,16 @@ void Debugger::report_breakpoint(const Hit& hit) {
   out_ << fmt::format("{}breakpoint {}{}{}\n", said_of(hit.stop.station), hit.stop.number, name, hits);
   if (hit.record) out_ << fmt::format("  {}  {}\n", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) out_ << fmt::format("  {}{}\n", serial::to_hex(hit.frame), asked_by(hit));
+  if (!hit.wrong.empty()) out_ << fmt::format("  {}\n", wrong_answer_text(hit));
+  if (const std::string mixed = not_an_answer_text(history_, hit); !mixed.empty()) out_ << fmt::format("  {}\n", mixed);
 }
 
-/// `  asked by pump`, if it is not said otherwise.
+/// `  asked by pump`, if it is known.
 std::string Debugger::asked_by(const Hit& hit) const {
   if (!hit.asker) return {};
-  if (hit.asker->kind == Asker::Kind::Poller)
-    return "  asked by " + stl::printable(history_.pollers()[hit.asker->number].name);
-  return is_system() ? "  asked by " + name_of(hit.asker->number) : "  asked by the program";
+  const bool is_named = is_system() && hit.asker->kind == Asker::Kind::Plc;
+  const std::string text = asked_by_text(history_, *hit.asker, is_named ? options_.stations[hit.asker->number].name : "");
+  return text.empty() ? "" : "  " + text;
 }
 
 void Debugger::report_access(const Hit& hit) {
@@ -259,17 +357,16 @@ void Debugger::report_access(const Hit& hit) {
                      : fmt::format("watch {}: {} was {}, is {}\n", hit.stop.number, hit.stop.name, was, is));
   if (hit.by)
     out_ << fmt::format("  by {} {}\n", station.listing.routine_of(hit.by->op), execution_text(*hit.by, program));
-  else if (const Action* const action = hit.action ? history_.action(*hit.action) : nullptr)
-    out_ << fmt::format("  by '{}', from outside\n", describe(*action));
   else
-    out_ << "  by the system, between two instructions" << forced_text(station.simulation->cpu(), {bits_of(*hit.stop.range)})
-         << '\n';
+    out_ << "  by " << changer_text(history_, hit.action, hit.planned)
+         << (hit.action || hit.planned ? "" : forced_text(station.simulation->cpu(), {bits_of(*hit.stop.range)})) << '\n';
 }
 
-void Debugger::print_message(const StopPoint& stop) {
+void Debugger::print_message(const StopPoint& stop, const Hit& hit) {
   hide_progress();
   const Cpu& cpu = stations_[stop.station].simulation->cpu();
-  out_ << fmt::format("{}{}\n", said_of(stop.station), stl::printable(filled_in(stop.log, cpu, history_.now().time)));
+  const std::string text = filled_in(stop.log, cpu, history_.now().time, hit.by ? &*hit.by : nullptr);
+  out_ << fmt::format("{}{}\n", said_of(stop.station), stl::printable(text));
 }
 
 }  // namespace s7200::tools

@@ -63,8 +63,8 @@ auto members(const NetworkPort::Job& part) {
 }
 
 auto members(const NetworkPort& part) {
-  const auto& [jobs, count, phase, tries, damaged, frame_count, status, number, data] = part;
-  return std::tie(jobs, count, phase, tries, damaged, frame_count, status, number, data);
+  const auto& [jobs, count, phase, tries, damaged, frame_count, status, number, accepted, data] = part;
+  return std::tie(jobs, count, phase, tries, damaged, frame_count, status, number, accepted, data);
 }
 
 auto members(const TimerState& part) {

@@ -138,6 +138,8 @@ std::optional<double> constant_of(const Node& node) {
 class Reader {
  public:
   static constexpr std::size_t kMostNested = 100;  ///< parentheses, `not` and signs in each other
+  static constexpr std::size_t kMostOperators =
+      1000;  ///< between two operands each; a chain of them is as deep as it is long
 
   Reader(std::string_view text, const Program& program) : text_(text), program_(program) {}
 
@@ -158,6 +160,7 @@ class Reader {
     while (left) {
       const std::string_view op = take_operator(level);
       if (op.empty()) break;
+      if (++operators_ > kMostOperators) return fail(fmt::format("more than {} operators", kMostOperators));
       skip_blanks();
       const std::size_t right_at = at_;
       NodePtr right = binary(level + 1);
@@ -214,6 +217,7 @@ class Reader {
 
   NodePtr operand() {
     const std::size_t begin = at_;
+    if (text_.substr(at_).starts_with('&')) ++at_;
     if (text_.substr(at_).starts_with('"')) at_ = std::min(text_.find('"', at_ + 1), text_.size() - 1) + 1;
     while (at_ < text_.size() && (at_ == begin || text_[at_] != '*') &&
            std::string_view(" \t+-/()=<>").find(text_[at_]) == std::string_view::npos)
@@ -224,7 +228,9 @@ class Reader {
       return std::make_shared<Node>(Node{.constant = {static_cast<double>(*integer)}});
     if (const auto real = parse_real(word)) return std::make_shared<Node>(Node{.constant = {*real, true}});
     std::string why;
-    const auto place = parse_place(word, program_, why);
+    const auto pointer = word.starts_with('&') ? parse_pointer(word, program_, why) : std::nullopt;
+    if (pointer) return std::make_shared<Node>(Node{.constant = {static_cast<double>(*pointer)}});
+    const auto place = why.empty() ? parse_place(word, program_, why) : std::nullopt;
     if (!place) {
       at_ = begin;
       return fail(why);
@@ -273,7 +279,7 @@ class Reader {
   std::string_view text_;
   const Program& program_;
   std::size_t at_ = 0;
-  std::size_t nested_ = 0;
+  std::size_t nested_ = 0, operators_ = 0;
   std::string why_;
 };
 

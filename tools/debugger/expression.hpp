@@ -1,7 +1,8 @@
 // Expressions in STL terms: `VW3300 > 8 and M31.7`, `VD20:real * 2`, `*AC1 = 16#03`, `not SM3.0`.
 //
 // Bytes have no sign, words and double words have one, as the instructions take them; a constant like 16#FFFF is compared
-// bit by bit with a word. `*VD100` is the byte that the pointer points to; `*VD100:word`, `:dword`, `:real` are wider.
+// bit by bit with a word. `*VD100` is the byte that the pointer points to; `*VD100:word`, `:dword`, `:real` are wider;
+// `&VB0` is a pointer to VB0.
 #pragma once
 
 #include <cstdint>

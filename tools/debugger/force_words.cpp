@@ -8,6 +8,8 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/cpu/forcing.hpp"
+#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/special_memory.hpp"
 #include "tools/debugger/access.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/views/machine_text.hpp"
@@ -70,6 +72,15 @@ std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const 
     unforce.places.push_back(*range);
   }
   return unforce;
+}
+
+/// Potentiometers are turned by hand.
+std::string not_settable(const MemoryRange& place) {
+  const bool read_only = place.area == Area::SM && place.at < sm::byte(kReadOnlySpecialMemory);
+  const bool turned =
+      place.width == Width::Byte && std::ranges::find(sm::kPotentiometer, place.at) != sm::kPotentiometer.end();
+  if (!read_only || turned) return {};
+  return fmt::format("{} cannot be set: only the CPU writes SM0.0 to SM{}.7", place.name_of(0), kReadOnlySpecialMemory - 1);
 }
 
 std::vector<Forced> forced_in(const Cpu& cpu) {

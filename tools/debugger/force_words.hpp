@@ -16,6 +16,9 @@ std::optional<Force> force_of(const std::vector<std::string>& assignments, const
 /// `VW10`, or `all`; nothing, and `why`, if one of them is not forced.
 std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const Cpu& cpu, std::string& why);
 
+/// What is wrong with setting that place; empty if it may be set.
+std::string not_settable(const MemoryRange& place);
+
 struct Forced {
   MemoryRange place;
   std::string value;  ///< `1`, `16#0005 (5)`

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/base/text.hpp"
 #include "serial_sim/modbus/functions.hpp"
+#include "tools/views/memory.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -35,14 +37,21 @@ std::size_t bytes_of(const serial::Simulation::Snapshot& state) {
   return bytes;
 }
 
+constexpr Time kLongestFrame = 3 * kSecond;    // 256 characters of 11 bits at 1200 baud
 constexpr Time kSlice = 100 * kMillisecond;    // a stop request is heard in between
 constexpr std::uint32_t kTellEvery = 1 << 10;  // instructions
 
-/// Comes to the first instruction.
-struct StopAtOnce final : Observer {
+/// Comes to the first instruction, before what was done in front of it.
+class StopAtOnce final : public Observer {
+ public:
+  explicit StopAtOnce(const History& history) : history_(history) {}
   bool before(std::uint32_t) override { return false; }
+  bool before_action() override { return !history_.now().settled; }
   bool wants_instructions() const override { return true; }
   Time idles_until(Time now) override { return now; }  // it goes to STOP instead
+
+ private:
+  const History& history_;
 };
 
 }  // namespace
@@ -62,6 +71,7 @@ History::History(std::vector<serial::Simulation*> stations, Settings settings)
     station(number).cpu().set_sink(taps_.emplace_back(std::make_unique<Tap>(*this, number)).get());
   for (std::size_t number = 0; number < settings_.hosts.size(); ++number)
     settings_.hosts[number]->set_journal(journals_.emplace_back(std::make_unique<Journal>(*this, number)).get());
+  system().watch_schedule([this](std::size_t number, bool done) { planned(number, done); });
   begin_branch(system().snapshot());
   origin_ = branch_->checkpoints.front();
 }
@@ -70,18 +80,70 @@ PlcRequests::Others History::others() {
   PlcRequests::Others others{.stations = stations_, .host_has_sent = {}};
   for (const PollingMaster& master : settings_.pollers) others.pollers.push_back(master.poller);
   others.host_has_sent = [this](const serial::Line& line, Time after, const auto& is) {
-    for (std::size_t number = 0; number < settings_.hosts.size(); ++number) {
-      const serial::HostPort& host = *settings_.hosts[number];
-      if (host.state().attached && host.is_on(line) && host.sent_until() > after && has_sent(number, is)) return true;
-    }
-    return false;
+    return std::ranges::any_of(hosts_on(line), [&](std::size_t number) {
+      return settings_.hosts[number]->sent_until() > after && has_sent(number, is);
+    });
   };
   return others;
 }
 
 History::~History() {
+  system().watch_schedule({});
   for (serial::Simulation* station : stations_) station->cpu().set_sink(nullptr);
   for (serial::HostPort* host : settings_.hosts) host->set_journal(nullptr);
+}
+
+std::string History::name_of(std::size_t station) const {
+  const bool named = station < settings_.plcs.size() && !settings_.plcs[station].name.empty();
+  return named ? stl::printable(settings_.plcs[station].name) : "the PLC";
+}
+
+std::string History::name_of(const Asker& asker) const {
+  switch (asker.kind) {
+    case Asker::Kind::Send:
+      return "the master";
+    case Asker::Kind::Poller:
+      return stl::printable(settings_.pollers[asker.number].name);
+    case Asker::Kind::Plc:
+      return name_of(asker.number);
+    case Asker::Kind::Bridge:
+      break;
+  }
+  const std::string bridge = bridge_of(asker.number);
+  return bridge.empty() ? "the bridge" : bridge;
+}
+
+std::string History::name_at(const serial::SharedLine& line, int driver) const {
+  const auto number = std::ranges::find(requests_.lines(), &line) - requests_.lines().begin();
+  for (std::size_t plc = 0; plc < stations_.size(); ++plc)
+    if (const auto port = requests_.port_on(static_cast<std::size_t>(number), plc);
+        port && station(plc).plc().driver(*port) == driver)
+      return name_of(plc);
+  for (const SimulatedMaster& master : requests_.masters_on(static_cast<std::size_t>(number)))
+    if (master.driver == driver) return name_of(master.asker);
+  for (const std::size_t host : hosts_on(line.line()))
+    if (settings_.hosts[host]->driver() == driver) return name_of({Asker::Kind::Bridge, host});
+  return "a peer";
+}
+
+std::string History::bridge_of(std::size_t host) const {
+  const serial::HostPort& port = *settings_.hosts[host];
+  const auto is_it = [&](const LineStation& one) {
+    return one.kind == LineStation::Kind::Bridge && port.is_on(one.line->line()) && port.driver() == one.driver;
+  };
+  const auto bridge = std::ranges::find_if(settings_.line_stations, is_it);
+  return bridge == settings_.line_stations.end() ? "" : stl::printable(bridge->name);
+}
+
+std::vector<std::size_t> History::hosts_on(const serial::Line& line) const {
+  std::vector<std::size_t> hosts;
+  for (std::size_t number = 0; number < settings_.hosts.size(); ++number)
+    if (settings_.hosts[number]->state().attached && settings_.hosts[number]->is_on(line)) hosts.push_back(number);
+  return hosts;
+}
+
+std::optional<std::uint8_t> History::address_of(std::size_t station) const {
+  return station < settings_.plcs.size() ? settings_.plcs[station].address : std::nullopt;
 }
 
 std::uint64_t History::executed() const {
@@ -193,8 +255,16 @@ bool History::has_next_action() const { return actions_ - branch_->forgotten < b
 
 const Moment& History::next_action() const { return branch_->moments[actions_ - branch_->forgotten]; }
 
+/// Null if it is no fault, or one of anyone on the line.
+const LineStation* History::station_of_fault(const Action& action, std::size_t station) const {
+  const auto* const inject = std::get_if<InjectFault>(&action);
+  if (!inject || inject->of.empty()) return nullptr;
+  return find_station(line_stations(), this->station(station).line(), inject->of);
+}
+
 /// False if the observer has stopped before it.
 bool History::do_next_action() {
+  told_of_ = next_station().value_or(told_of_);
   stopped_by_observer_ = observer_ && !observer_->before_action();
   if (stopped_by_observer_) return false;
   const std::size_t number = actions_++ - branch_->forgotten;
@@ -203,7 +273,7 @@ bool History::do_next_action() {
   if (std::holds_alternative<serial::HostCall>(action))
     perform(action, station(0), settings_.hosts[where]);
   else
-    perform(action, station(where));
+    perform(action, station(where), nullptr, station_of_fault(action, where));
   settled_ = false;
   if (observer_) observer_->acted();
   return true;
@@ -228,11 +298,15 @@ bool History::reach(const Moment& moment) {
 }
 
 /// Plays until `end`, or the goal; false if the observer has ended it, who is asked again and again while no CPU executes.
+/// Scans are passed over no further than the observer lets them be.
 bool History::pass(Time end) {
   serial::Halt halt = serial::Halt::Time;
   while (halt == serial::Halt::Time && time() < end) {
-    const bool idles = observer_ && !executes();
-    const Time until = idles ? std::min({end, observer_->idles_until(time()), time() + kSlice}) : end;
+    Time until = end;
+    if (observer_ && !executes())
+      until = std::min({end, observer_->idles_until(time()), time() + kSlice});
+    else if (observer_ && !wants_scans(0))
+      until = std::min(end, observer_->passes_over_until());
     if (until <= time()) return false;
     halt = run_until(until);
   }
@@ -290,6 +364,11 @@ void History::instruction(std::size_t station, const InstructionRecord& record) 
   if (observer_ && observer_->watches(station)) observer_->instruction(record);
 }
 
+void History::planned(std::size_t number, bool done) {
+  if (!observer_) return;
+  done ? observer_->planned_done(number) : observer_->before_planned(number);
+}
+
 // --- going elsewhere ---
 
 const History::Checkpoint& History::checkpoint_before(const Moment& moment) const {
@@ -328,7 +407,7 @@ bool History::go_to(Time time) {
     go_to(start);
     return false;
   }
-  StopAtOnce here;
+  StopAtOnce here(*this);
   if (executes()) play(here, newest());
   return true;
 }
@@ -389,13 +468,15 @@ void History::return_to(const Place& place) {
 
 // --- doing something ---
 
-void History::act(Action action, std::size_t station) {
+void History::act(Action action, std::size_t station, Observer* told) {
   if (in_the_past()) fork();
   branch_->actions.push_back(std::move(action));
   branch_->stations.push_back(station);
   branch_->moments.push_back(now());
   live_ = true;
+  observer_ = told;
   do_next_action();
+  observer_ = nullptr;
   live_ = false;
   branch_->end = now();
 }
@@ -428,6 +509,16 @@ bool History::has_sent(std::size_t host, const std::function<bool(std::span<cons
   return false;
 }
 
+std::vector<SentByHost> History::sent_by_host(std::size_t host, Time since) const {
+  std::size_t first = actions_;
+  while (first > branch_->forgotten && moment_of_action(first - 1).time + kLongestFrame >= since) --first;
+  HostFrames sent;
+  for (std::size_t number = first; number < actions_; ++number)
+    if (const auto* const call = std::get_if<serial::HostCall>(action(number)); call && station_of_action(number) == host)
+      sent.note(*call, moment_of_action(number).time);
+  return sent.frames();
+}
+
 void History::fork() {
   auto branch = std::make_shared<Branch>(*branch_);
   const Moment here = now();
@@ -449,12 +540,17 @@ void History::power_cycle(bool ram_lost, Time off) {
     memory.back().ram_lost = ram_lost;
     memory.back().power_off = off;
   }
-  auto cycle = std::make_shared<const PowerCycle>(recording(), ram_lost, off);
+  auto cycle = std::make_shared<const PowerCycle>(PowerCycle{recording(), ram_lost, off});
+  std::vector<State> before;
+  for (const serial::Simulation* station : stations_) before.push_back(station->cpu().state());
   system().restore(origin_->state);
   power_up_stations(memory);
   begin_branch(system().snapshot());
   branch_->memory = std::move(memory);
   branch_->power = std::move(cycle);
+  for (std::size_t number = 0; number < stations_.size(); ++number)
+    if (auto inputs = inputs_as_before(station(number).cpu(), before[number]); !inputs.empty())
+      act(SetMemory{std::move(inputs)}, number);
 }
 
 void History::power_up_stations(const std::vector<RetentiveMemory>& memory) {
@@ -530,6 +626,9 @@ const Action* History::action(std::size_t number) const {
 }
 std::size_t History::station_of_action(std::size_t number) const {
   return branch_->stations.at(number - branch_->forgotten);
+}
+const Moment& History::moment_of_action(std::size_t number) const {
+  return branch_->moments.at(number - branch_->forgotten);
 }
 const std::vector<Moment>& History::action_moments() const { return branch_->moments; }
 

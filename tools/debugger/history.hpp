@@ -24,6 +24,8 @@
 
 #include "interpreter/trace/trace.hpp"
 #include "tools/debugger/action.hpp"
+#include "tools/debugger/host_frames.hpp"
+#include "tools/debugger/line_stations.hpp"
 #include "tools/debugger/plc_requests.hpp"
 
 namespace s7200::tools {
@@ -75,6 +77,10 @@ class Observer : public TraceSink {
   /// Something was done to the simulation, which is the same as it was in front of an instruction otherwise.
   virtual void acted() {}
 
+  /// What the system file has planned for this instant is about to be done, and was done; by its number.
+  virtual void before_planned(std::size_t /*number*/) {}
+  virtual void planned_done(std::size_t /*number*/) {}
+
   /// How far to run on from `now` while no CPU executes a program, or to play what has run; `now` ends it. It is asked
   /// again on the way.
   virtual Time idles_until(Time /*now*/) { return kNever; }
@@ -92,6 +98,12 @@ struct PollingMaster {
   const serial::Poller* poller = nullptr;
 };
 
+/// What a PLC of a system is known as.
+struct NamedPlc {
+  std::string name;
+  std::optional<std::uint8_t> address{};  ///< of its Modbus slave, if the system file says so
+};
+
 class History final {
  public:
   /// Runs the simulation for real: Simulation::run_until(), or the same at the pace of a clock.
@@ -100,11 +112,14 @@ class History final {
   struct Settings {
     Drive drive{};                      ///< none: as fast as the computer can
     std::vector<TraceSink*> records{};  ///< by station, null for none: told what happens for the first time, nothing twice
-    std::vector<serial::HostPort*> hosts{};  ///< through which something comes in; none: the one beside the only station
-    std::vector<PollingMaster> pollers{};    ///< must live as long as the history
-    std::size_t bound = 256 << 20;           ///< bytes for checkpoints
-    std::size_t log_bound = 64 << 20;        ///< bytes for what came in over a bridge
-    Time interval = 500 * kMillisecond;      ///< of checkpoints while it executes, until they have to be thinned
+    std::vector<serial::HostPort*> hosts{};    ///< through which something comes in; none: the one beside the only station
+    std::vector<PollingMaster> pollers{};      ///< must live as long as the history
+    std::vector<LineStation> line_stations{};  ///< all on the lines of the system
+    std::vector<NamedPlc> plcs{};              ///< by station; none: one PLC without a name
+    std::vector<std::string> planned{};        ///< what the system file does, in words, in its order
+    std::size_t bound = 256 << 20;             ///< bytes for checkpoints
+    std::size_t log_bound = 64 << 20;          ///< bytes for what came in over a bridge
+    Time interval = 500 * kMillisecond;        ///< of checkpoints while it executes, until they have to be thinned
     const std::atomic<bool>* stop_request = nullptr;  ///< ends what plays for long: go_to() a time, replay()
     std::function<void()> progress{};                 ///< told now and then while something runs or plays
   };
@@ -127,6 +142,19 @@ class History final {
   /// Masters that poll, by their numbers.
   const std::vector<PollingMaster>& pollers() const { return settings_.pollers; }
 
+  /// All on the lines, who has a program to step through and who has none.
+  const std::vector<LineStation>& line_stations() const { return settings_.line_stations; }
+
+  /// What a PLC is known as, by its station: `slave2`, or `the PLC` without a name.
+  std::string name_of(std::size_t station) const;
+  /// Who asks, in a sentence: `the master`, `scada`, `slave2`, `gateway`.
+  std::string name_of(const Asker& asker) const;
+  /// As what its Modbus slave answers, if that is known.
+  std::optional<std::uint8_t> address_of(std::size_t station) const;
+
+  /// What the system file does at its instants, in words: `slave2: power off`.
+  const std::vector<std::string>& planned() const { return settings_.planned; }
+
   /// What the programs ask: as of now, in an observer's record() as of before it.
   const PlcRequests& requests() const { return requests_; }
 
@@ -134,7 +162,19 @@ class History final {
   /// that it has sent. False if it is not known any more.
   bool has_sent(std::size_t host, const std::function<bool(std::span<const std::uint8_t>)>& are) const;
 
-  /// For observers: the station that they are being told of.
+  /// Who has a driver of a line: a PLC, a master in the simulation, one on a bridge; `a peer` of another one.
+  std::string name_at(const serial::SharedLine& line, int driver) const;
+
+  /// The name of the bridge at a host port; empty if it has none.
+  std::string bridge_of(std::size_t host) const;
+
+  /// The host ports of a line that something outside is attached to.
+  std::vector<std::size_t> hosts_on(const serial::Line& line) const;
+
+  /// What a host port has put on the line, or will put there, since then and a little before.
+  std::vector<SentByHost> sent_by_host(std::size_t host, Time since) const;
+
+  /// For observers: the station that they are being told of, or in front of whose instruction something is done.
   std::size_t told_of() const { return told_of_; }
 
   /// The one whose instruction is next, of those that execute a program. None: no one does.
@@ -170,7 +210,8 @@ class History final {
   Search search_back(Observer& observer, Moment end, const std::function<void()>& begin, const std::function<bool()>& found);
 
   /// Does something to a station, or on its line, now. In the past a new branch begins; what ran on the old one stays in it.
-  void act(Action action, std::size_t station = 0);
+  /// `told`: what that makes happen at once; null for nobody.
+  void act(Action action, std::size_t station = 0, Observer* told = nullptr);
 
   struct Branch;
   using BranchPtr = std::shared_ptr<Branch>;
@@ -186,7 +227,8 @@ class History final {
   /// A new branch that begins as the whole history did, with a state of its own, or with power coming back.
   void restart();
   void begin_with(serial::Simulation::Snapshot state);
-  /// After power was off for all stations; `ram_lost`: for too long.
+  /// After power was off for all stations; `ram_lost`: for too long. The field has the levels that it had, which is the
+  /// first action of the new branch.
   void power_cycle(bool ram_lost, Time off);
 
   Recording recording() const;
@@ -210,6 +252,8 @@ class History final {
   const Action* action(std::size_t number) const;
   /// At which it was done, of one that is not forgotten; of a HostCall the number of the host port.
   std::size_t station_of_action(std::size_t number) const;
+  /// When it was done.
+  const Moment& moment_of_action(std::size_t number) const;
 
   struct Usage {
     std::size_t checkpoints = 0;  ///< of this branch
@@ -262,6 +306,7 @@ class History final {
   bool wants_instructions(std::size_t station) const;
   bool wants_scans(std::size_t station) const;
   void host_called(std::size_t host, const serial::HostCall& call);
+  void planned(std::size_t number, bool done);
   TraceSink* records_of(std::size_t station) const;
 
   PlcRequests::Others others();
@@ -285,6 +330,7 @@ class History final {
   bool has_next_action() const;
   void forget();
   bool do_next_action();
+  const LineStation* station_of_fault(const Action& action, std::size_t station) const;
   bool play_to(Time time);
   void tell_progress() const {
     if (settings_.progress) settings_.progress();

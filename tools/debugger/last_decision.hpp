@@ -20,10 +20,10 @@ struct LastDecision {
 
 struct DecisionSearch {
   std::optional<LastDecision> decision;  ///< nothing: the scan, or the interrupt routine, has come by none so far
-  /// Frames that have got no answer since the scan began, or since the master's request did if it waits for an answer or
-  /// has just given up; with a bridge the last one of the last two seconds. The program has left them, or no routine got
-  /// their characters; or the line has lost the request or what the PLC sent. With the moment when that was decided; now for
-  /// one that no routine has read so far.
+  /// Frames that have got no answer since the scan began, or since a request did that waits for an answer or has just been
+  /// given up, whoever has asked; with a bridge the last one of two time-outs. First that another station was asked, then
+  /// what the line has lost or damaged; then that the program has left them, or swallowed them, or that no routine got their
+  /// characters. With the moment when that was decided; now for one that no routine has read so far.
   std::vector<TraceLine> unanswered{};
   /// What decided about the last of them; nothing if there is none, or if that is not known.
   std::optional<LastDecision> left{};
@@ -34,7 +34,8 @@ struct DecisionSearch {
 };
 
 /// Of a station: the contacts of the rung so far, or the last jump, conditional end or conditional call before it. The
-/// simulation stands where it stood.
-DecisionSearch find_last_decision(History& history, std::size_t station, const std::atomic<bool>* stop_request);
+/// simulation stands where it stood. `host_timeout`: as of OpenRequests.
+DecisionSearch find_last_decision(History& history, std::size_t station, Time host_timeout,
+                                  const std::atomic<bool>* stop_request);
 
 }  // namespace s7200::tools

@@ -22,7 +22,10 @@ class WriteFinder final : public Reader {
       may_write_.push_back(may_access(cpu_, op, Access::Write, bits_));
   }
 
-  void begin() { value_ = range_.bytes_in(cpu_.state().image); }
+  void begin() {
+    value_ = range_.bytes_in(cpu_.state().image);
+    in_front_ = history_.now();
+  }
   /// Whether there was a write, in this part or between its last instruction and its end.
   bool found() {
     in_front_ = history_.now();
@@ -35,6 +38,13 @@ class WriteFinder final : public Reader {
     in_front_ = history_.now();
     note_change_between();
     return true;
+  }
+
+  void before_planned(std::size_t) override { note_change_between(); }
+  void planned_done(std::size_t number) override {
+    if (!changed()) return;
+    note(std::nullopt, history_.now().time);
+    last_->planned = number;
   }
 
   void acted() override {
@@ -90,6 +100,7 @@ class WriteFinder final : public Reader {
     last_ = {.moment = in_front_,
              .by = by,
              .action = {},
+             .planned = {},
              .at = at,
              .in_interrupt = by && in_interrupt_,
              .event = state.serving_event,

@@ -10,9 +10,11 @@
 namespace s7200::tools {
 
 struct LastWrite {
-  Moment moment;                        ///< in front of the instruction or the action; otherwise of what came next
-  std::optional<InstructionRecord> by;  ///< nothing: between two instructions, by the system or an action
+  Moment moment;                        ///< in front of the instruction or the action, or of the instruction before what
+                                        ///< the system file did; otherwise of what came next
+  std::optional<InstructionRecord> by;  ///< nothing: between two instructions, by the system, an action or the system file
   std::optional<std::size_t> action;    ///< its number in History::actions()
+  std::optional<std::size_t> planned;   ///< what the system file did, its number in History::planned()
   Time at = 0;                          ///< end of the instruction, or when it was found changed
   bool in_interrupt = false;
   std::uint8_t event = 0, routine = 0;      ///< of the interrupt

@@ -54,10 +54,11 @@ std::optional<CancelRequest> cancel_of(serial::Simulation& simulation, std::stri
   const bool coming_in = end != 0 && simulation.master_uart().state().start_edge < simulation.time();
   return CancelRequest{.sent = master.sent,
                        .waited = end == 0 ? 0 : simulation.time() - end,
+                       .sent_until = end == 0 && master.sent > 0 ? simulation.master_uart().state().send_end : 0,
                        .answering = coming_in || master.phase == serial::Requester::Phase::Receiving};
 }
 
-std::string cancelled_text(const CancelRequest& cancel, serial::Simulation& simulation) {
+std::string cancelled_text(const CancelRequest& cancel, const serial::Simulation& simulation) {
   const serial::Exchange& exchange = simulation.master().exchange();
   const std::string frame = serial::to_hex(exchange.request);
   if (cancel.answering)
@@ -67,9 +68,8 @@ std::string cancelled_text(const CancelRequest& cancel, serial::Simulation& simu
     return fmt::format("given up while it waited for the answer, {} after its end: {}\n", format_duration(cancel.waited),
                        frame);
   if (cancel.sent == 0) return fmt::format("given up before its first character: {}\n", frame);
-  const Time over = simulation.master_uart().state().send_end;
   return fmt::format("given up on the line: character {} of {} is its last, and ends at {}: {}\n", cancel.sent,
-                     exchange.request.size(), moment_text(over), frame);
+                     exchange.request.size(), moment_text(cancel.sent_until), frame);
 }
 
 std::optional<InjectFault> inject_of(const std::string& text, std::string& why) {

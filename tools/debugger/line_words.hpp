@@ -21,7 +21,7 @@ std::optional<CancelRequest> cancel_of(serial::Simulation& simulation, std::stri
 
 /// `given up while it waited for the answer, 12 ms after its end: 41 42`, in front of that; a line more if the master is not
 /// ready for the next request at once.
-std::string cancelled_text(const CancelRequest& cancel, serial::Simulation& simulation);
+std::string cancelled_text(const CancelRequest& cancel, const serial::Simulation& simulation);
 
 /// `flip:character=3,bit=5`, or `none`. Returns nothing and sets `why` if it is not a fault.
 std::optional<InjectFault> inject_of(const std::string& text, std::string& why);

@@ -37,13 +37,13 @@ std::optional<Time> parse_moment(std::string_view text, const History& history, 
   const bool before_now = text.starts_with('-');
   const auto given = parse_duration(text.substr(before_now ? 1 : 0));
   if (!given)
-    return why = fmt::format("'{}' is not a moment; write for example 15.193ms, -5ms, start or end", stl::shortened(text)),
+    return why = fmt::format("'{}' is not a moment; write for example 15.193ms or -5ms (in {}), start or end",
+                             stl::shortened(text), kTimeUnits),
            std::nullopt;
-  const Time now = history.now().time, time = before_now ? now - std::min(*given, now) : *given;
+  const Time now = history.now().time, time = before_now ? now - *given : *given;
   if (time < oldest)
     return why = fmt::format("the oldest moment is {}, {}", moment_text(oldest), oldest_text(history)), std::nullopt;
-  if (time > newest)
-    return why = fmt::format("nothing has run after {}; 'continue TIME' goes on", moment_text(newest)), std::nullopt;
+  if (time > newest) return why = fmt::format("nothing has run after {} so far", moment_text(newest)), std::nullopt;
   return time;
 }
 

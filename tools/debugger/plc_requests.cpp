@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/views/broadcast.hpp"
 
@@ -11,19 +12,27 @@ namespace {
 
 constexpr std::size_t kShortest = 4;       // station, function, CRC
 constexpr std::uint8_t kException = 0x80;  // of the function in an answer
+constexpr std::size_t kLongest = 256;      // MODBUS over Serial Line V1.02, 2.5.1
+constexpr std::size_t kAskedBefore = 3;    // requests of a line whose answers may still come
 
-bool is_for_one_station(PlcRequests::Frame frame) {
-  return frame.size() >= kShortest && modbus::crc_ok(frame) && !is_broadcast(frame);
-}
+bool is_for_one_station(PlcRequests::Frame frame) { return is_rtu_frame(frame) && !is_broadcast(frame); }
 
 }  // namespace
+
+bool is_rtu_frame(PlcRequests::Frame frame) { return frame.size() >= kShortest && modbus::crc_ok(frame); }
 
 bool may_answer(PlcRequests::Frame frame, PlcRequests::Frame request) {
   return request.size() >= 2 && frame[0] == request[0] && (frame[1] & ~kException) == (request[1] & ~kException);
 }
 
 bool asks_something_else(PlcRequests::Frame frame, PlcRequests::Frame request) {
-  return is_for_one_station(frame) && !may_answer(frame, request);
+  return is_rtu_frame(frame) && !may_answer(frame, request);
+}
+
+/// The one reason to ignore a character that hides what others send is that the port sends itself.
+bool is_heard(const TraceRecord& record) {
+  if (record.kind == TraceKind::CharacterIgnored) return Ignored{record.code} != Ignored::WhileSending;
+  return record.kind == TraceKind::CharacterReceived || record.kind == TraceKind::CharacterDropped;
 }
 
 PlcRequests::PlcRequests(Others others) : others_(std::move(others)) {
@@ -31,13 +40,45 @@ PlcRequests::PlcRequests(Others others) : others_(std::move(others)) {
     for (std::uint8_t port = 0; port < station->cpu().program().model->ports; ++port)
       if (const serial::SharedLine* const line = &station->plc().line(port); std::ranges::find(lines_, line) == lines_.end())
         lines_.push_back(line);
+  for (const serial::SharedLine* const line : lines_) masters_.push_back(find_masters_on(*line));
   forget();
+}
+
+/// Stations on one line have the same master of `send`.
+std::vector<SimulatedMaster> PlcRequests::find_masters_on(const serial::SharedLine& line) const {
+  std::vector<SimulatedMaster> masters;
+  for (std::size_t number = 0; number < others_.stations.size() && masters.empty(); ++number) {
+    const serial::Simulation& station = *others_.stations[number];
+    if (station.has_master() && &station.line() == &line)
+      masters.push_back({.asker = {Asker::Kind::Send, number},
+                         .requester = &station.master(),
+                         .driver = station.master_uart().driver(),
+                         .format = &station.master_uart().state().format});
+  }
+  for (std::size_t number = 0; number < others_.pollers.size(); ++number) {
+    const serial::Poller& poller = *others_.pollers[number];
+    if (poller.is_on(line.line()))
+      masters.push_back({.asker = {Asker::Kind::Poller, number},
+                         .requester = &poller.requester(),
+                         .driver = poller.driver(),
+                         .format = &poller.format()});
+  }
+  return masters;
+}
+
+std::optional<std::uint8_t> PlcRequests::port_on(std::size_t line, std::size_t station) const {
+  const serial::Plc& plc = others_.stations[station]->plc();
+  for (std::uint8_t port = 0; port < plc.cpu().program().model->ports; ++port)
+    if (&plc.line(port) == lines_[line]) return port;
+  return {};
 }
 
 void PlcRequests::forget() {
   state_ = {};
   state_.sending.resize(others_.stations.size());
   state_.last.resize(lines_.size());
+  state_.before.resize(lines_.size());
+  state_.asked.resize(lines_.size());
 }
 
 std::size_t PlcRequests::line_of(std::size_t station, std::uint8_t port) const {
@@ -52,31 +93,26 @@ void PlcRequests::note(std::size_t station, const TraceRecord& record) {
     case TraceKind::CharacterSent:
     case TraceKind::TransmitEnd:
       return note_sender(station, record);
-    case TraceKind::CharacterReceived:
-    case TraceKind::CharacterIgnored:
-    case TraceKind::CharacterDropped:
-      return note_heard(station, record);
     default:
-      return;
+      if (is_heard(record)) note_heard(station, record);
   }
 }
 
 bool PlcRequests::gives_up(std::size_t station, const TraceRecord& record) const {
   const bool is_end = record.kind == TraceKind::TransmitEnd, is_transmit = record.kind == TraceKind::Transmit || is_end;
-  const bool is_heard = record.kind == TraceKind::CharacterReceived || record.kind == TraceKind::CharacterIgnored ||
-                        record.kind == TraceKind::CharacterDropped;
-  if (!is_transmit && !is_heard) return false;
-  const std::optional<Request>& last = state_.last[line_of(station, record.port)];
+  if (!is_transmit && !is_heard(record)) return false;
+  const std::size_t line = line_of(station, record.port);
+  const std::optional<Request>& last = state_.last[line];
   if (!last || !last->waits()) return false;
   if (is_end) return ends_request(station, record);
   if (is_transmit) return last->station == station;
-  const serial::Line& line = others_.stations[station]->plc().line(record.port).line();
-  return master_asks(line, last->end) ||
-         others_.host_has_sent(line, last->end, [&](Frame frame) { return asks_something_else(frame, last->frame); });
+  return master_asks(line, last->end) || others_.host_has_sent(lines_[line]->line(), last->end, [&](Frame frame) {
+    return asks_something_else(frame, last->frame);
+  });
 }
 
 bool PlcRequests::ends_request(std::size_t station, const TraceRecord& record) const {
-  const std::optional<Transmission>& sent = sending(station, record.port);
+  const std::optional<SentByPlc>& sent = sending(station, record.port);
   return record.kind == TraceKind::TransmitEnd && sent && is_request(station, record.port, *sent);
 }
 
@@ -92,20 +128,14 @@ bool PlcRequests::is_sending(std::size_t line) const {
   return false;
 }
 
-bool PlcRequests::master_asks(const serial::Line& line, Time since) const {
-  const auto asks = [&](const serial::Requester& requester) {
-    return requester.asks() && requester.exchange().request_start >= since;
-  };
-  const auto is_asking = [&](const serial::Simulation* station) {
-    return station->has_master() && &station->line().line() == &line && asks(station->master());
-  };
-  return std::ranges::any_of(others_.stations, is_asking) ||
-         std::ranges::any_of(others_.pollers,
-                             [&](const serial::Poller* poller) { return poller->is_on(line) && asks(poller->requester()); });
+bool PlcRequests::master_asks(std::size_t line, Time since) const {
+  return std::ranges::any_of(masters_on(line), [&](const SimulatedMaster& master) {
+    return master.requester->asks() && master.requester->exchange().request_start >= since;
+  });
 }
 
 void PlcRequests::note_sender(std::size_t station, const TraceRecord& record) {
-  std::optional<Transmission>& sending = state_.sending[station].at(record.port);
+  std::optional<SentByPlc>& sending = state_.sending[station].at(record.port);
   if (record.kind == TraceKind::Transmit) {
     sending = {.from = record.at, .to = record.at};
   } else if (record.kind == TraceKind::CharacterSent && sending) {
@@ -116,13 +146,19 @@ void PlcRequests::note_sender(std::size_t station, const TraceRecord& record) {
   }
 }
 
-/// What is no request is taken for the answer to the one that waits.
-void PlcRequests::note_end(std::size_t station, std::uint8_t port, Transmission sent) {
-  std::optional<Request>& last = state_.last[line_of(station, port)];
-  if (is_request(station, port, sent))
-    last = {.station = station, .frame = std::move(sent.bytes), .end = sent.to};
-  else if (last && last->waits())
-    last->answer = {sent.from, sent.to};
+/// What is no request is taken for the answer to the one that waits, unless it began before, or answers another one.
+void PlcRequests::note_end(std::size_t station, std::uint8_t port, SentByPlc sent) {
+  const std::size_t line = line_of(station, port);
+  std::optional<Request>& last = state_.last[line];
+  if (is_request(station, port, sent)) {
+    const bool is_for_all = is_broadcast(sent.bytes);
+    if (last && !last->answer) note_asked(line, {last->start, last->frame, last->station});
+    state_.before[line] = std::move(last);
+    last = {.station = station, .frame = std::move(sent.bytes), .start = sent.from, .end = sent.to, .given_up = is_for_all};
+  } else if (last && last->waits() && sent.from >= last->end) {
+    const bool is_another_ones = asks_something_else(sent.bytes, last->frame) && is_late_answer(station, line, sent.bytes);
+    if (!is_another_ones) last->answer = {sent.from, sent.to};
+  }
 }
 
 /// Any character that a PLC does not send itself. A damaged one is no answer, and of one that another PLC is sending that
@@ -130,33 +166,75 @@ void PlcRequests::note_end(std::size_t station, std::uint8_t port, Transmission 
 void PlcRequests::note_heard(std::size_t station, const TraceRecord& record) {
   const std::size_t line = line_of(station, record.port);
   std::optional<Request>& last = state_.last[line];
+  note_masters(line);
   if (!last || last->given_up || record.since < last->end) return;
+  if (station == last->station && last->heard.bytes.size() <= kLongest) {
+    last->heard.bytes.push_back(record.byte);
+    last->heard.to = record.at;
+    last->heard.parity_error |= record.parity_error;
+    last->heard.framing_error |= record.framing_error;
+  }
   const Time silence = others_.stations[station]->plc().port_format(record.port).silence();
   const bool damaged = record.parity_error || record.framing_error;
   if (last->waits() && !damaged && !is_sending(line)) last->answer = {record.since, record.since};
   if (last->answer && record.since - last->answer->to < silence) last->answer->to = std::max(last->answer->to, record.at);
 }
 
-bool PlcRequests::is_request(std::size_t station, std::uint8_t port, const Transmission& sent) const {
-  return is_for_one_station(sent.bytes) && !is_answer(station, port, sent);
+/// What the masters in the simulation are asking on a line, and whether what has come so far is the answer.
+void PlcRequests::note_masters(std::size_t line) {
+  for (const SimulatedMaster& master : masters_on(line)) {
+    const serial::Exchange& exchange = master.requester->exchange();
+    if (exchange.request.empty()) continue;
+    const auto known = std::ranges::find(state_.asked[line], exchange.request_start, &Asked::start);
+    if (known == state_.asked[line].end()) {
+      note_asked(line, {.start = exchange.request_start, .frame = bytes_of(exchange.request)});
+      continue;
+    }
+    const Bytes response = exchange.response_bytes();
+    known->answered |= response.size() >= 2 && may_answer(response, known->frame);
+  }
 }
 
-bool PlcRequests::has_asked(const serial::Requester& requester, const Transmission& answer) const {
+void PlcRequests::note_asked(std::size_t line, Asked asked) {
+  std::vector<Asked>& all = state_.asked[line];
+  if (all.size() == kAskedBefore) all.erase(all.begin());
+  all.push_back(std::move(asked));
+}
+
+/// To a request that was given up. Its form tells it from a request to the same station, which the sender may have.
+bool PlcRequests::is_late_answer(std::size_t station, std::size_t line, Frame sent) const {
+  const auto has_the_form = [&](Frame request) {
+    return may_answer(sent, request) && modbus::check_answer(request, sent).verdict != modbus::Verdict::Wrong;
+  };
+  const std::optional<Request>& last = state_.last[line];
+  if (last && last->station != station && last->given_up && has_the_form(last->frame)) return true;
+  return std::ranges::any_of(state_.asked[line], [&](const Asked& asked) {
+    return asked.by != station && !asked.answered && has_the_form(asked.frame);
+  });
+}
+
+bool PlcRequests::is_request(std::size_t station, std::uint8_t port, const SentByPlc& sent) const {
+  return is_broadcast(sent.bytes) || (is_rtu_frame(sent.bytes) && !is_answer(station, port, sent));
+}
+
+/// What a master takes for its answer, or gives up for, is not always what a PLC sends for it: noise may come before.
+bool PlcRequests::has_asked(const serial::Requester& requester, const SentByPlc& answer) const {
   const serial::Exchange& exchange = requester.exchange();
-  const bool answered = !exchange.response.empty() && exchange.response_start < answer.from;
-  return (requester.asks() || !answered) && may_answer(answer.bytes, serial::bytes_of(exchange.request));
+  const Bytes request = serial::bytes_of(exchange.request), response = exchange.response_bytes();
+  const bool answered = exchange.response_start < answer.from && is_rtu_frame(response) && may_answer(response, request);
+  return (requester.asks() || !answered) && may_answer(answer.bytes, request);
 }
 
 /// Somebody else has asked for it: the simulated master of a line, one that polls, another PLC, or one on a bridge whose
 /// last frame is not the answer to the PLC's own request. What the PLC has asked before it asks again.
-bool PlcRequests::is_answer(std::size_t station, std::uint8_t port, const Transmission& sent) const {
+bool PlcRequests::is_answer(std::size_t station, std::uint8_t port, const SentByPlc& sent) const {
   const serial::Plc& plc = others_.stations[station]->plc();
   const serial::SharedLine& here = plc.line(port);
-  for (const serial::Simulation* const other : others_.stations)
-    if (other->has_master() && &other->line() == &here && has_asked(other->master(), sent)) return true;
-  for (const serial::Poller* const poller : others_.pollers)
-    if (poller->is_on(here.line()) && has_asked(poller->requester(), sent)) return true;
-  const std::optional<Request>& last = state_.last[line_of(station, port)];
+  const std::size_t line = line_of(station, port);
+  const auto is_asker = [&](const SimulatedMaster& master) { return has_asked(*master.requester, sent); };
+  if (std::ranges::any_of(masters_on(line), is_asker)) return true;
+  if (is_late_answer(station, line, sent.bytes)) return true;
+  const std::optional<Request>& last = state_.last[line];
   const bool own = last && last->station == station;
   if (last && !own && last->waits() && may_answer(sent.bytes, last->frame)) return true;
   if (own && std::ranges::equal(sent.bytes, last->frame)) return false;

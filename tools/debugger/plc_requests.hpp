@@ -1,5 +1,5 @@
-// What the programs of PLCs send, and which of it is a request: a Modbus RTU frame with a right CRC to one station, unless
-// it answers what somebody else has asked on its line. How long a program waits for its answer only the program knows.
+// What the programs of PLCs send, and which of it is a request: a Modbus RTU frame with a right CRC, unless it answers what
+// somebody else has asked on its line. How long a program waits for its answer only the program knows; a broadcast has none.
 #pragma once
 
 #include <array>
@@ -13,17 +13,24 @@
 #include "interpreter/model/ports.hpp"
 #include "interpreter/trace/trace.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/debugger/asker.hpp"
 
 namespace s7200::tools {
 
 /// Whether a Modbus RTU frame, of two characters at least, has the station and the function of a request.
 bool may_answer(std::span<const std::uint8_t> frame, std::span<const std::uint8_t> request);
 
-/// Whether it is a Modbus RTU frame to one station with a right CRC, which does not answer that request.
+/// Whether it is a Modbus RTU frame with a right CRC, which does not answer that request.
 bool asks_something_else(std::span<const std::uint8_t> frame, std::span<const std::uint8_t> request);
 
+/// Whether it is one with a right CRC, whoever it is for.
+bool is_rtu_frame(std::span<const std::uint8_t> frame);
+
+/// Whether a record is of a character that a station hears, whatever its program makes of it.
+bool is_heard(const TraceRecord& record);
+
 /// What a PLC has sent.
-struct Transmission {
+struct SentByPlc {
   Time from = 0, to = 0;
   std::vector<std::uint8_t> bytes{};
 };
@@ -47,16 +54,38 @@ class PlcRequests {
 
     std::size_t station = 0;  ///< that asks
     std::vector<std::uint8_t> frame{};
+    Time start = 0;                  ///< when the program began to send it
     Time end = 0;                    ///< of its last character
     std::optional<Answer> answer{};  ///< what anyone but a master has sent next, up to a silence of 3.5 characters
-    bool given_up = false;           ///< its station has sent again, or somebody else has asked, before there was one
+    bool given_up = false;           ///< its station has sent again, or somebody else has asked, before there was one; or
+                                     ///< it is a broadcast, which has none
     bool waits() const { return !answer && !given_up; }
+    Asker asker() const { return {Asker::Kind::Plc, station}; }
+
+    /// What its station has heard since.
+    struct Heard {
+      std::vector<std::uint8_t> bytes{};
+      Time to = 0;
+      bool parity_error = false, framing_error = false;  ///< of any character
+    };
+    Heard heard{};
+  };
+
+  /// A request of a master in the simulation, or of a PLC that has not waited for its answer: the answer may come when
+  /// somebody asks the next station already.
+  struct Asked {
+    Time start = 0;
+    std::vector<std::uint8_t> frame{};
+    std::optional<std::size_t> by{};  ///< the station of the PLC
+    bool answered = false;
   };
 
   /// Plain, so that a snapshot is a copy.
   struct State {
-    std::vector<std::array<std::optional<Transmission>, kPorts.size()>> sending;  ///< by station and port
-    std::vector<std::optional<Request>> last;                                     ///< by line, of a PLC
+    std::vector<std::array<std::optional<SentByPlc>, kPorts.size()>> sending;  ///< by station and port
+    std::vector<std::optional<Request>> last;                                  ///< by line, of a PLC
+    std::vector<std::optional<Request>> before;                                ///< the one before that
+    std::vector<std::vector<Asked>> asked;                                     ///< by line, the last few in their order
   };
 
   explicit PlcRequests(Others others);
@@ -68,11 +97,20 @@ class PlcRequests {
   const std::vector<const serial::SharedLine*>& lines() const { return lines_; }
   std::size_t line_of(std::size_t station, std::uint8_t port) const;
 
+  /// The port of a station that is on a line; nothing if none is.
+  std::optional<std::uint8_t> port_on(std::size_t line, std::size_t station) const;
+
+  /// The masters in the simulation that are on a line.
+  const std::vector<SimulatedMaster>& masters_on(std::size_t line) const { return masters_[line]; }
+
   /// The last request of a PLC on a line; nothing if there was none.
   const std::optional<Request>& last(std::size_t line) const { return state_.last[line]; }
 
+  /// The one before that.
+  const std::optional<Request>& before(std::size_t line) const { return state_.before[line]; }
+
   /// Whether the request that waits on the line of that station is given up with this record, which was not noted yet: its
-  /// own station sends again, or a PLC has sent a request of its own, or the first character of a master's is heard.
+  /// own station sends again, or another PLC has sent one, or the first character of a master's is heard.
   bool gives_up(std::size_t station, const TraceRecord& record) const;
 
   /// Whether this record, which was not noted yet, is the end of a request.
@@ -82,10 +120,10 @@ class PlcRequests {
   bool is_sending(std::size_t line) const;
 
   /// A simulated master of the line has begun to ask then or later, and is not done.
-  bool master_asks(const serial::Line& line, Time since) const;
+  bool master_asks(std::size_t line, Time since) const;
 
   /// What a port is sending, from the first character on; nothing if it sends nothing.
-  const std::optional<Transmission>& sending(std::size_t station, std::uint8_t port) const {
+  const std::optional<SentByPlc>& sending(std::size_t station, std::uint8_t port) const {
     return state_.sending[station].at(port);
   }
 
@@ -96,14 +134,19 @@ class PlcRequests {
 
  private:
   void note_sender(std::size_t station, const TraceRecord& record);
-  void note_end(std::size_t station, std::uint8_t port, Transmission sent);
+  void note_end(std::size_t station, std::uint8_t port, SentByPlc sent);
   void note_heard(std::size_t station, const TraceRecord& record);
-  bool is_request(std::size_t station, std::uint8_t port, const Transmission& sent) const;
-  bool has_asked(const serial::Requester& requester, const Transmission& answer) const;
-  bool is_answer(std::size_t station, std::uint8_t port, const Transmission& sent) const;
+  void note_masters(std::size_t line);
+  void note_asked(std::size_t line, Asked asked);
+  std::vector<SimulatedMaster> find_masters_on(const serial::SharedLine& line) const;
+  bool is_late_answer(std::size_t station, std::size_t line, Frame sent) const;
+  bool is_request(std::size_t station, std::uint8_t port, const SentByPlc& sent) const;
+  bool has_asked(const serial::Requester& requester, const SentByPlc& answer) const;
+  bool is_answer(std::size_t station, std::uint8_t port, const SentByPlc& sent) const;
 
   Others others_;
   std::vector<const serial::SharedLine*> lines_;
+  std::vector<std::vector<SimulatedMaster>> masters_;  // by line
   State state_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kFormat = "s7200 session 4", kAnyFormat = "s7200 session ";
+constexpr std::string_view kFormat = "s7200 session 5", kAnyFormat = "s7200 session ";
 
 std::string sum_of(const Json& json) { return digest_of(std::string_view(json.dump())); }
 
@@ -69,7 +69,9 @@ struct ToJson {
   }
   Json operator()(const Jump& jump) const { return {{"goto", jump.to}}; }
   Json operator()(const InjectFault& inject) const {
-    return {{"fault", inject.fault ? serial::to_text(*inject.fault) : "none"}};
+    Json json{{"fault", inject.fault ? serial::to_text(*inject.fault) : "none"}};
+    if (!inject.of.empty()) json["of"] = inject.of;
+    return json;
   }
   Json operator()(const SetStack& set) const { return {{"stack", set.stack.bits()}}; }
   Json operator()(const SendFrame& send) const {
@@ -82,7 +84,11 @@ struct ToJson {
     return json;
   }
   Json operator()(const CancelRequest& cancel) const {
-    return {{"cancel", {{"sent", cancel.sent}, {"waited", cancel.waited}, {"answering", cancel.answering}}}};
+    return {{"cancel",
+             {{"sent", cancel.sent},
+              {"waited", cancel.waited},
+              {"sent_until", cancel.sent_until},
+              {"answering", cancel.answering}}}};
   }
   Json operator()(const SetPower& power) const { return {{"power", power.on ? "on" : "off"}}; }
   Json operator()(const SetMode& set) const { return {{"mode", set.mode == Mode::Run ? "run" : "stop"}}; }
@@ -142,11 +148,12 @@ serial::HostCall call_from(const Json& json) {
   return call;
 }
 
-InjectFault fault_from(const std::string& text) {
+InjectFault fault_from(const Json& json) {
+  const auto text = json.at("fault").get<std::string>();
   if (text == "none") return {};
   const serial::ParsedFault parsed = serial::parse_fault(text);
   if (!parsed.ok()) throw std::runtime_error(parsed.error->message);
-  return {parsed.fault};
+  return {parsed.fault, json.value("of", "")};
 }
 
 SetMode mode_from(const std::string& text) {
@@ -157,6 +164,7 @@ SetMode mode_from(const std::string& text) {
 CancelRequest cancel_from(const Json& json) {
   return {.sent = json.at("sent").get<std::size_t>(),
           .waited = json.at("waited").get<Time>(),
+          .sent_until = json.at("sent_until").get<Time>(),
           .answering = json.at("answering").get<bool>()};
 }
 
@@ -172,7 +180,7 @@ Action action_from(const Json& json, const CpuModel& model) {
   if (json.contains("power")) return power_from(json.at("power").get<std::string>());
   if (json.contains("host")) return call_from(json);
   if (json.contains("goto")) return Jump{json.at("goto").get<std::uint32_t>()};
-  if (json.contains("fault")) return fault_from(json.at("fault").get<std::string>());
+  if (json.contains("fault")) return fault_from(json);
   if (json.contains("mode")) return mode_from(json.at("mode").get<std::string>());
   if (json.contains("stack"))
     return SetStack{LogicStack::from_bits(json.at("stack").get<std::uint64_t>() & LogicStack::kAll)};
@@ -225,6 +233,29 @@ Recording recording_from(const Json& json, Models models) {
   return recording;
 }
 
+Json json_of(const SessionFile::SavedStop& stop) {
+  Json json{{"number", stop.number}, {"station", stop.station}, {stop.access.empty() ? "break" : "watch", stop.on}};
+  if (!stop.access.empty()) json["access"] = stop.access;
+  if (stop.always) json["always"] = true;
+  if (!stop.condition.empty()) json["if"] = stop.condition;
+  if (stop.from_hit > 1) json["hits"] = stop.from_hit;
+  if (!stop.log.empty()) json["log"] = stop.log;
+  return json;
+}
+
+SessionFile::SavedStop stop_from(const Json& json, std::size_t stations) {
+  SessionFile::SavedStop stop{.number = json.at("number").get<int>(),
+                              .station = json.at("station").get<std::size_t>(),
+                              .on = json.at(json.contains("watch") ? "watch" : "break").get<std::string>(),
+                              .access = json.contains("watch") ? json.at("access").get<std::string>() : "",
+                              .always = json.value("always", false),
+                              .condition = json.value("if", ""),
+                              .from_hit = json.value("hits", std::uint64_t{1}),
+                              .log = json.value("log", "")};
+  if (stop.station >= stations) throw std::runtime_error("a breakpoint of a station that it has not");
+  return stop;
+}
+
 std::vector<SessionOption> options_from(const Json& json) {
   std::vector<SessionOption> options;
   for (const auto& [name, value] : json.items()) options.push_back({name, value.get<std::string>()});
@@ -240,6 +271,7 @@ SessionFile file_from(const Json& json, Models models) {
                              .begin = station.at("begin").get<std::string>(),
                              .state = station.at("state").get<std::string>()});
   });
+  for (const Json& stop : json.at("stops")) file.stops.push_back(stop_from(stop, models.size()));
   return file;
 }
 
@@ -332,6 +364,8 @@ std::string to_text(const SessionFile& file) {
   }
   json["end"] = json_of(recording.end);
   json["now"] = json_of(recording.now);
+  json["stops"] = Json::array();
+  for (const SessionFile::SavedStop& stop : file.stops) json["stops"].push_back(json_of(stop));
   if (one) json["state"] = file.stations.front().state;
   json["sum"] = sum_of(json);
   return json.dump(2) + "\n";

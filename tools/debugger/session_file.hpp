@@ -1,7 +1,7 @@
 // A position of a session as a file. A run is deterministic, so the file has no state in it but, if the session began with
 // power coming back, the memory that was kept. It has digests of the program and of what the session began with, all that
 // was done to the PLC from outside with its moments, and where the session stood. Who loads it replays that, and compares
-// the digest of the state it comes to.
+// the digest of the state it comes to. Breakpoints and watches come with it; they count their hits anew.
 #pragma once
 
 #include <optional>
@@ -50,9 +50,24 @@ struct SessionFile {
     std::string cpu, program, begin, state;
   };
 
+  /// A breakpoint or a watch, in the words of its command.
+  struct SavedStop {
+    int number = 0;
+    std::size_t station = 0;
+    std::string on{};      ///< `int 123`, `event 8 served`; of a watch its address
+    std::string access{};  ///< of a watch: `read`, `change`; empty: it is a breakpoint
+    bool always = false;
+    std::string condition{};
+    std::uint64_t from_hit = 1;
+    std::string log{};
+
+    bool operator==(const SavedStop&) const = default;
+  };
+
   std::vector<Station> stations;
   std::vector<SessionOption> options;
   Recording recording;
+  std::vector<SavedStop> stops{};
 };
 
 std::string to_text(const SessionFile& file);

@@ -6,7 +6,6 @@
 
 #include "interpreter/program/networks.hpp"
 #include "tools/debugger/access.hpp"
-#include "tools/views/broadcast.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -18,15 +17,17 @@ using On = StopPoint::On;
 Stepper::Stepper(History& history, const std::atomic<bool>* stop_request)
     : on_record([](std::size_t, const TraceRecord&) {}),
       on_instruction([](std::size_t, const InstructionRecord&, bool) {}),
-      on_answer([](const serial::Exchange&) {}),
-      on_message([](const StopPoint&) {}),
-      on_unasked([](const Transmission&) {}),
+      on_answer([](std::size_t, const serial::Exchange&) {}),
+      on_message([](const StopPoint&, const Hit&) {}),
+      on_unasked([](const SentByPlc&) {}),
       on_search([](Time) {}),
       history_(history),
       stop_request_(stop_request),
-      listening_(history.stations()),
-      polling_(history.pollers().size()),
-      given_up_(history.requests().lines().size()) {}
+      frames_(history),
+      requests_(history) {
+  frames_.on_frame = [this](const HeardFrames::Frame& frame) { note_frame(frame); };
+  requests_.when_ended([this](const EndedRequest& request) { note_ended(request); });
+}
 
 Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   count_hits();
@@ -34,13 +35,11 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   limit_ = limit;
   stop_at_answer_ = stop_at_answer;
   const State& state = station(focus_).cpu().state();
-  start_ = Instruction{focus_, standing_at(state).value_or(0), state.in_interrupt};
+  start_ = instruction_of(focus_, standing_at(state).value_or(0));
   progress_ = {.executed = 0, .left = !standing_at(state)};
   next_.reset();
-  if (const auto at = history_.next_station()) {
-    const State& next = station(*at).cpu().state();
-    if (const auto op = standing_at(next)) next_ = {*at, *op, next.in_interrupt};
-  }
+  if (const auto at = history_.next_station())
+    if (const auto op = standing_at(station(*at).cpu().state())) next_ = instruction_of(*at, *op);
   executing_start_ = answered_ = false;
   cpu_stopped_.reset();
   begin_watching();
@@ -54,8 +53,8 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
 
 Time Stepper::idles_until(Time now) {
   if (asked_to_stop()) return now;
-  note_line(0, now);
-  const Time timeout = next_timeout();
+  look_at_lines(0, now);
+  const Time timeout = std::min(frames_.next_end(), requests_.next_timeout());
   if (backwards_) {
     note_found_here();
     return timeout > now ? timeout : kNever;
@@ -63,27 +62,6 @@ Time Stepper::idles_until(Time now) {
   answered_ |= answer_complete() && stop_at_answer_;
   const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_;
   return ends ? now : std::max(now, timeout > now ? std::min(limit_, timeout) : limit_);
-}
-
-/// When no CPU executes: of a simulated master, one that polls, one on a bridge, or a program; or of a frame that ends.
-Time Stepper::next_timeout() const {
-  Time next = kNever;
-  const auto note = [&](const serial::Requester& requester) {
-    const serial::Requester::State& state = requester.state();
-    if (state.phase == serial::Requester::Phase::Waiting)
-      next = std::min(next, state.exchange.request_end + state.request.timeout);
-  };
-  for (std::size_t number = 0; number < listening_.size(); ++number) {
-    const serial::Simulation& here = station(number);
-    const Listening& listening = listening_[number];
-    if (here.last_activity() != listening.silence_noted)
-      next = std::min(next, here.last_activity() + here.port_format().silence());
-    if (listening.host_waits) next = std::min(next, *listening.host_waits + host_timeout);
-    if (here.has_master()) note(here.master());
-  }
-  for (const auto& [name, poller] : history_.pollers()) note(poller->requester());
-  for (std::size_t line = 0; line < given_up_.size(); ++line) next = std::min(next, timeout_of_plc(line));
-  return next;
 }
 
 void Stepper::end_idle() {
@@ -104,13 +82,14 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
 
 void Stepper::begin_search(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
   count_hits();
+  for (StopPoint& stop : stops) stop.skipped = stop.unknown = 0;
   goal_ = goal;
   limit_ = kNever;
   stop_at_answer_ = stop_at_answer;
   cpu_stopped_.reset();
   progress_ = {.executed = 1, .left = true};
   const Places nowhere(history_.stations());
-  search_ = {.count = count, .first = nowhere, .after = nowhere};
+  search_ = {.start = history_.now(), .count = count, .first = nowhere, .after = nowhere};
 }
 
 /// An earlier part of the past is going to be played: what it begins with is what comes after the next one.
@@ -118,15 +97,23 @@ void Stepper::begin_part() {
   for (std::size_t number = 0; number < search_.first.size(); ++number)
     if (const auto first = std::exchange(search_.first[number], {})) search_.after[number] = first;
   search_.found.clear();
+  search_.skipped.clear();
   on_search(history_.now().time);
   begin_watching();
+  looked_ = looked_before();
 }
 
-/// Takes the last place of the part; the goal only if it is met for the last time to be counted.
+/// Takes the last place of the part; the goal only if it is met for the last time to be counted. It stands at the place in
+/// front of which something was done last.
 bool Stepper::end_part() {
+  std::erase_if(search_.found, [this](const Found& found) {
+    return found.before_action && found.moment.instructions == search_.start.instructions;
+  });
   search_.there = found_after_part();
   for (auto last = search_.found.rbegin(); last != search_.found.rend() && !search_.there; ++last)
     if (last->stop || --search_.count == 0) search_.there = std::move(*last);
+  const std::size_t before = search_.there ? search_.there->skipped : 0;
+  for (std::size_t i = before; i < search_.skipped.size(); ++i) ++stops[search_.skipped[i]].skipped;
   return search_.there.has_value();
 }
 
@@ -154,14 +141,14 @@ std::optional<Stepper::Found> Stepper::found_after_part() {
     const auto& after = search_.after[number];
     if (!after) continue;
     note_changes(number, nullptr);
-    note_line(number, after->time);
+    look_at_lines(number, after->time);
   }
   if (!earliest) return {};
   const bool answer = answer_complete() && stop_at_answer_;
   if (!answer && stop_.hits.empty()) return {};
   stop_.reason = answer ? StopReason::Answer : StopReason::StopPoint;
   const Moment place = place_of_first_hit(*earliest);
-  return Found{answer ? *earliest : place, stop_};
+  return Found{.moment = answer ? *earliest : place, .stop = stop_, .skipped = search_.skipped.size()};
 }
 
 /// In front of the next instruction of the station that it is about; of one that executes none any more, and without a hit,
@@ -181,64 +168,29 @@ Moment Stepper::place_of_first_hit(const Moment& earliest) {
 void Stepper::begin_watching() {
   search_.until = 0;
   stop_ = {.station = focus_};
+  looked_.reset();
   accessed_.clear();
   executing_since_ = kNever;
   const Moment now = history_.now();
   const bool goes_on =
       !backwards_ && listened_to_ && listened_to_->instructions == now.instructions && listened_to_->time == now.time;
-  for (std::size_t number = 0; number < listening_.size() && !goes_on; ++number) listen_from_now_on(number);
-  if (!goes_on) ask_from_now_on(now.time);
-  for (Listening& listening : listening_) listening.awaits_answer = false;
-  note_masters();
+  if (!goes_on) {
+    frames_.begin();
+    requests_.begin(now.time, frames_.frames_before());
+  }
+  requests_.await_no_masters();
+  requests_.await_masters();
   if (!backwards_)
     for (StopPoint& stop : stops) stop.skipped = stop.unknown = 0;
   read_values();
-}
-
-/// Stations on one line have the same master.
-void Stepper::note_masters() {
-  for (std::size_t number = 0; number < listening_.size(); ++number) {
-    const serial::Simulation& here = station(number);
-    if (!here.has_master() || !here.master().busy()) continue;
-    listening_[number].awaits_answer = first_beside(number) == number;
-  }
-}
-
-/// What came before is not known, only when the last character on the line ended, and when the last one that the PLC sent.
-void Stepper::listen_from_now_on(std::size_t number) {
-  const serial::Simulation& here = station(number);
-  Listening& listening = listening_[number];
-  listening.coming_in.clear();
-  const Time silence = here.port_format().silence(), half_a_character = silence / 7;
-  const Time last = here.last_activity();
-  listening.silence_noted = here.line_quiet_for(silence) ? last : 0;
-  listening.came_in = last > here.plc().state().uart.at(here.port()).send_end + half_a_character;
-  listening.heard = listening.came_in ? std::optional(last) : std::nullopt;
-  listening.host_waits.reset();
-  listening.host_frame_end = 0;
-  const bool waits = listening.came_in && listening.silence_noted != 0 && !here.freeport().transmitting;
-  if (waits && here.time() < last + host_timeout) note_host_request(number, {}, last);
-}
-
-/// What masters have asked already.
-void Stepper::ask_from_now_on(Time now) {
-  polling_.assign(polling_.size(), {});
-  note_polls();
-  for (std::size_t line = 0; line < given_up_.size(); ++line) {
-    const auto& last = history_.requests().last(line);
-    given_up_[line] = last && now - last->end >= host_timeout ? last->end : 0;
-  }
 }
 
 /// What comes from outside ends a row of such scans by itself. A time that has come is looked for here.
 bool Stepper::wants_scans() const {
   if (history_.stations() > 1) return true;  // a CPU in step never runs a whole one at once
   const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == On::Place || stop.is_watch(); };
-  const serial::Simulation& only = station(0);
-  const bool asks = std::ranges::any_of(std::views::iota(std::size_t{0}, given_up_.size()),
-                                        [this](std::size_t line) { return is_open(line); });
-  const bool waits = asks || listening_[0].host_waits || only.last_activity() != listening_[0].silence_noted;
-  const bool ends = only.time() >= limit_;
+  const bool waits = requests_.has_patient_one() || frames_.next_end() != kNever;
+  const bool ends = station(0).time() >= limit_;
   return goal_ || backwards_ || waits || ends || std::ranges::any_of(stops, is_within_a_scan);
 }
 
@@ -252,17 +204,56 @@ bool Stepper::before_action() {
   if (std::holds_alternative<serial::HostCall>(*history_.action(history_.now().actions))) return true;
   if (const auto next = history_.next_station()) {
     note_changes(*next, nullptr);
-    note_line(*next, station(*next).cpu().time());
+    look_at_lines(*next, station(*next).cpu().time());
   } else {
-    note_line(0, history_.now().time);
+    look_at_lines(0, history_.now().time);
   }
   if (backwards_) {
     note_found_here();
-    return true;
+  } else if (const auto reason = reason_to_stop_here()) {
+    stop_.reason = *reason;
+    return false;
   }
-  const auto reason = reason_to_stop_here();
-  if (reason) stop_.reason = *reason;
-  return !reason;
+  return !stops_before_action();
+}
+
+Stepper::Instruction Stepper::instruction_of(std::size_t number, std::uint32_t op) const {
+  return {number, op, station(number).cpu().state().in_interrupt};
+}
+
+/// What is done in front of an instruction was done while the run stood there: stops at that place come before it.
+bool Stepper::stops_before_action() {
+  const auto number = history_.next_station();
+  const auto op = number ? standing_at(station(*number).cpu().state()) : std::nullopt;
+  if (!history_.now().settled || !op) return false;
+  const Instruction here = instruction_of(*number, *op);
+  looked_ = {history_.in_front().instructions, here};
+  if (!backwards_ && next_ == here) return false;
+  hit_places(*op);
+  if (!has_due_hit()) return false;
+  stop_.reason = StopReason::StopPoint;
+  if (!backwards_) return true;
+  search_.found.push_back(take_found(StopReason::StopPoint));
+  search_.found.back().before_action = true;
+  return false;
+}
+
+/// A part of the past may begin between what was done in front of an instruction and that instruction.
+std::optional<Stepper::Looked> Stepper::looked_before() const {
+  const Moment now = history_.now();
+  const auto station = history_.next_station();
+  const auto op = station ? standing_at(this->station(*station).cpu().state()) : std::nullopt;
+  for (std::size_t number = now.actions; op && number > 0;) {
+    const Action* const action = history_.action(--number);
+    if (!action || history_.moment_of_action(number).instructions != now.instructions) break;
+    const bool stood = history_.moment_of_action(number).settled && !std::holds_alternative<serial::HostCall>(*action);
+    if (stood) return Looked{now.instructions, instruction_of(*station, *op)};
+  }
+  return {};
+}
+
+bool Stepper::has_looked_at(const Instruction& instruction) const {
+  return looked_ && looked_->executed == history_.in_front().instructions && looked_->at == instruction;
 }
 
 /// Not in front of an instruction: it has stopped here when it ran, and nothing waits for its turn.
@@ -271,7 +262,7 @@ std::optional<StopReason> Stepper::reason_to_stop_here() {
     stop_.station = *cpu_stopped_;
     return StopReason::CpuStopped;
   }
-  if (answer_complete() && stop_at_answer_) return StopReason::Answer;
+  if (answer_complete() && stop_at_answer_) return stop_with_answer();
   if (stop_.hits.empty()) return {};
   stop_.station = stop_.hits.front().stop.station;
   return StopReason::StopPoint;
@@ -289,13 +280,19 @@ void Stepper::note_found_here() {
   const auto reason = reason_to_stop_here();
   if (!reason) return;
   stop_.reason = *reason;
-  search_.found.push_back({here, stop_});
+  search_.found.push_back({.moment = here, .stop = stop_, .skipped = search_.skipped.size()});
   stop_ = {.station = focus_};
 }
 
 void Stepper::acted() {
-  note_masters();
+  requests_.await_masters();
   note_changes_from_outside();
+}
+
+/// A change is noted in front of the next instruction.
+void Stepper::planned_done(std::size_t number) {
+  for (StopPoint& stop : stops)
+    if (stop.range && stop.range->bytes_in(station(stop.station).cpu().state().image) != stop.value) stop.planned = number;
 }
 
 /// They are no hits that count: only what the CPU does is.
@@ -304,7 +301,7 @@ void Stepper::note_changes_from_outside() {
     if (!stop.range) continue;
     std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);
     const bool meant = value != stop.value && stop.on != On::Read && stop.from_hit == 1 && holds(stop);
-    if (meant && !stop.log.empty() && !backwards_) on_message(stop);
+    if (meant && !stop.log.empty() && !backwards_) on_message(stop, {});
     if (meant && stop.log.empty())
       stop_.hits.push_back({.stop = stop, .value = value, .action = history_.now().actions - 1});
     stop.value = std::move(value);
@@ -327,16 +324,16 @@ bool Stepper::is_turn_of(std::size_t number) const {
 bool Stepper::before(std::uint32_t op) {
   const std::size_t number = history_.told_of();
   note_changes(number, nullptr);
-  note_line(number, station(number).cpu().time());
+  look_at_lines(number, station(number).cpu().time());
   if (backwards_) {
-    const bool goes_on = note_place(op);
+    const bool goes_on = note_place(instruction_of(number, op));
     note_accesses(op);
     executing_since_ = station(number).cpu().time();
     return goes_on;
   }
-  const Instruction here{number, op, station(number).cpu().state().in_interrupt};
-  const bool stood_there = next_ == here;
-  if (const auto reason = reason_to_stop(op, stood_there)) {
+  const Instruction here = instruction_of(number, op);
+  const bool stood_there = next_ == here, looked = has_looked_at(here);
+  if (const auto reason = reason_to_stop(op, !stood_there && !looked)) {
     stop_.reason = *reason;
     return false;
   }
@@ -351,37 +348,51 @@ bool Stepper::before(std::uint32_t op) {
   return true;
 }
 
-bool Stepper::note_place(std::uint32_t op) {
+bool Stepper::note_place(const Instruction& instruction) {
   if (asked_to_stop()) return false;
   auto& first = search_.first[history_.told_of()];
   if (!first) first = history_.in_front();
-  const auto reason = reason_to_stop(op, false);
-  if (!reason) return true;
-  stop_.reason = *reason;
-  const bool goal = *reason == StopReason::Goal && stop_.hits.empty();
-  search_.found.push_back({history_.in_front(), goal ? std::nullopt : std::optional(stop_)});
-  stop_ = {.station = focus_};
+  if (const auto reason = reason_to_stop(instruction.op, !has_looked_at(instruction)))
+    search_.found.push_back(take_found(*reason));
   return true;
 }
 
-/// `stood_there`: the run started in front of this instruction, which is no hit then.
-std::optional<StopReason> Stepper::reason_to_stop(std::uint32_t op, bool stood_there) {
+/// In front of an instruction.
+Stepper::Found Stepper::take_found(StopReason reason) {
+  Stop stop = std::exchange(stop_, {.station = focus_});
+  stop.reason = reason;
+  const bool goal = reason == StopReason::Goal && stop.hits.empty();
+  return {.moment = history_.in_front(),
+          .stop = goal ? std::nullopt : std::optional(std::move(stop)),
+          .skipped = search_.skipped.size()};
+}
+
+std::optional<StopReason> Stepper::reason_to_stop(std::uint32_t op, bool looks_for_places) {
   const std::size_t number = history_.told_of();
   if (cpu_stopped_) {
     stop_.station = *cpu_stopped_;
     return StopReason::CpuStopped;
   }
-  if (answer_complete() && stop_at_answer_) return StopReason::Answer;
-  if (!stood_there) hit_places(op);
-  const auto due = std::ranges::find_if(stop_.hits, [this](const Hit& hit) { return is_turn_of(hit.stop.station); });
-  if (due != stop_.hits.end()) {
-    stop_.station = due->stop.station;
-    return StopReason::StopPoint;
-  }
+  if (answer_complete() && stop_at_answer_) return stop_with_answer();
+  if (looks_for_places) hit_places(op);
+  if (has_due_hit()) return StopReason::StopPoint;
   if (number == focus_ && goal_ && goal_(station(number).cpu().state(), op, progress_)) return StopReason::Goal;
   if (is_turn_of(focus_) && history_.in_front().time >= limit_) return StopReason::Limit;
   if (asked_to_stop()) return StopReason::Request;
   return {};
+}
+
+/// Something may have come up with it: if only at other stations, it goes over to one of them.
+StopReason Stepper::stop_with_answer() {
+  const auto is_own = [this](const Hit& hit) { return hit.stop.station == focus_; };
+  if (!stop_.hits.empty() && std::ranges::none_of(stop_.hits, is_own)) stop_.station = stop_.hits.front().stop.station;
+  return StopReason::Answer;
+}
+
+bool Stepper::has_due_hit() {
+  const auto due = std::ranges::find_if(stop_.hits, [this](const Hit& hit) { return is_turn_of(hit.stop.station); });
+  if (due != stop_.hits.end()) stop_.station = due->stop.station;
+  return due != stop_.hits.end();
 }
 
 void Stepper::instruction(const InstructionRecord& record) {
@@ -458,7 +469,7 @@ void Stepper::hit(StopPoint& stop, Hit with) {
   const std::uint64_t number = count(stop, time_of(with));
   if (stop.from_hit > 1 && number < stop.from_hit) return;
   if (!stop.log.empty()) {
-    if (!backwards_) on_message(stop);
+    if (!backwards_) on_message(stop, with);
     return;
   }
   with.stop = stop;
@@ -470,10 +481,20 @@ void Stepper::hit_places(std::uint32_t op) {
   const Cpu& cpu = station(history_.told_of()).cpu();
   for (StopPoint& stop : stops) {
     if (stop.station != history_.told_of() || stop.on != On::Place || stop.op != op) continue;
-    const bool idle = stop.needs_power && is_box_or_coil(cpu.program().ops[op]) && !cpu.state().stack.top();
-    if (!idle) hit(stop, {});
-    if (idle && !backwards_) ++stop.skipped;
+    const bool idle = stop.needs_power && depends_on_power_flow(cpu.program().ops[op]) && !cpu.state().stack.top();
+    if (!idle)
+      hit(stop, {});
+    else if (holds(stop))
+      note_skipped(stop);
   }
+}
+
+/// Backwards it counts only from where it comes to a stop.
+void Stepper::note_skipped(StopPoint& stop) {
+  if (backwards_)
+    search_.skipped.push_back(static_cast<std::size_t>(&stop - stops.data()));
+  else
+    ++stop.skipped;
 }
 
 void Stepper::note_accesses(std::uint32_t op) {
@@ -518,19 +539,9 @@ bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
 
 void Stepper::note_record(const TraceRecord& record) {
   const std::size_t number = history_.told_of();
-  Listening& listening = listening_[number];
-  if (history_.requests().gives_up(number, record)) note_unanswered_plc(history_.requests().line_of(number, record.port));
-  constexpr std::uint16_t kWhileSending = 2;  // the one reason to ignore it that hides what others send
-  const bool heard = record.kind == TraceKind::CharacterIgnored && record.code != kWhileSending;
-  const bool on_line = record.port == station(number).port();
-  const bool received =
-      on_line && (record.kind == TraceKind::CharacterReceived || heard || record.kind == TraceKind::CharacterDropped);
-  const bool sent = on_line && record.kind == TraceKind::CharacterSent;
-  if (received || (on_line && record.kind == TraceKind::TransmitEnd)) note_end_of_wait(number, record);
-  if (received) listening.coming_in.push_back(record.byte);
-  if (received) listening.heard = record.at;
-  if (received || sent) listening.came_in = received;
+  requests_.note_record(number, record);
   const std::vector<std::uint8_t> frame = note_sent(number, record);
+  frames_.note(number, record);
   for (StopPoint& stop : stops)
     if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record, .frame = frame});
 }
@@ -538,10 +549,9 @@ void Stepper::note_record(const TraceRecord& record) {
 /// All of a transmission that ends.
 std::vector<std::uint8_t> Stepper::note_sent(std::size_t number, const TraceRecord& record) {
   if (record.kind != TraceKind::TransmitEnd) return {};
-  const std::optional<Transmission>& sent = history_.requests().sending(number, record.port);
-  const bool unasked = record.port == station(number).port() && is_unasked(number);
-  listening_[number].heard.reset();
+  const std::optional<SentByPlc>& sent = history_.requests().sending(number, record.port);
   if (!sent) return {};
+  const bool unasked = record.port == station(number).port() && is_unasked(number);
   if (unasked && !backwards_) on_unasked({sent->from, record.at, sent->bytes});
   return sent->bytes;
 }
@@ -550,184 +560,43 @@ bool Stepper::is_unasked(std::size_t number) const {
   const serial::Simulation& here = station(number);
   if (history_.stations() > 1 || !here.has_master() || here.master().asks()) return false;
   if (here.has_host_port() && here.host_port().state().attached) return false;
-  const std::optional<Time>& heard = listening_[number].heard;
+  const std::optional<Time>& heard = frames_.last_heard(number, here.port());
   const serial::Exchange& last = here.master().exchange();
   return !heard || last.given_up || (last.timed_out && *heard <= last.request_end + here.port_format().silence());
 }
 
-/// A frame has ended when nothing came for 3.5 characters.
-void Stepper::note_silence(std::size_t number, Time now) {
-  const serial::Simulation& here = station(number);
-  Listening& listening = listening_[number];
-  const Time last = here.last_activity();
-  if (last == listening.silence_noted || now - last < here.port_format().silence()) return;
-  listening.silence_noted = last;
-  const std::vector<std::uint8_t> heard = std::exchange(listening.coming_in, {});
-  if (!listening.came_in) return;
-  const std::vector<std::uint8_t> frame = backwards_ ? std::vector<std::uint8_t>{} : heard;
+/// Backwards its beginning may lie in a part that was not played yet.
+void Stepper::note_frame(HeardFrames::Frame frame) {
+  if (backwards_) frame.bytes.clear();
   for (StopPoint& stop : stops)
-    if (stop.station == number && stop.on == On::FrameReceived && here.plc().powered()) hit(stop, {.frame = frame});
-  note_host_request(number, frame, last);
+    if (stop.station == frame.station && stop.on == On::FrameReceived && station(frame.station).plc().powered())
+      hit(stop, {.frame = frame.bytes});
+  requests_.note_frame(frame);
 }
 
 /// In front of an instruction of a station, and for those that execute none.
-void Stepper::note_line(std::size_t number, Time now) {
-  for (std::size_t other = 0; other < listening_.size(); ++other) {
-    if (other != number && station(other).plc().executes()) continue;
-    note_silence(other, now);
-    note_host_timeout(other, now);
-  }
-  note_polls();
-  note_plc_timeouts(now);
+void Stepper::look_at_lines(std::size_t number, Time now) {
+  frames_.look(number, now);
+  requests_.look(now);
 }
 
-/// A station has sent something, or hears a character: of an answer, unless it is damaged, or of the next request.
-void Stepper::note_end_of_wait(std::size_t number, const TraceRecord& record) {
-  Listening& line = line_of(number);
-  if (!line.host_waits) return;
-  const bool heard = record.kind != TraceKind::TransmitEnd;
-  const bool again = heard ? is_of_a_master(number, record) : history_.requests().ends_request(number, record);
-  const bool unclear = record.parity_error || record.framing_error || is_sending(number);
-  if (heard && unclear && !again) return;
-  line.host_waits.reset();
-  if (again) note_unanswered(station(number).line(), line.host_frame);
-}
-
-/// `frame`: of a request that is not the simulated master's; nothing if it is not known.
-void Stepper::note_unanswered(const serial::SharedLine& line, const std::vector<std::uint8_t>& frame,
-                              std::optional<Asker> asker) {
+void Stepper::note_ended(const EndedRequest& request) {
+  const On on = request.wrong.empty() ? On::Unanswered : On::WrongAnswer;
   for (StopPoint& stop : stops)
-    if (stop.on == On::Unanswered && hears(stop, line)) hit(stop, {.frame = frame, .asker = asker});
+    if (stop.on == on && hears(stop, request.line))
+      hit(stop, {.frame = request.frame, .asker = request.asker, .wrong = request.wrong, .answer = request.answer});
 }
 
-bool Stepper::hears(const StopPoint& stop, const serial::SharedLine& line) const {
-  if (stop.line) return history_.requests().lines()[*stop.line] == &line;
-  const serial::Plc& plc = station(stop.station).plc();
-  for (std::uint8_t port = 0; port < plc.cpu().program().model->ports; ++port)
-    if (&plc.line(port) == &line) return true;
-  return false;
-}
-
-// --- masters that poll, and programs that ask ---
-
-/// Between two looks one request may be over and the next under way.
-void Stepper::note_polls() {
-  for (std::size_t number = 0; number < polling_.size(); ++number) {
-    const serial::Poller& poller = *history_.pollers()[number].poller;
-    const serial::Poller::State& now = poller.state();
-    const bool asks = poller.requester().asks();
-    Polling& polling = polling_[number];
-    const bool next = now.asked != polling.asked;
-    const bool in_vain = next ? now.answered == polling.answered : poller.requester().exchange().timed_out;
-    if (polling.asks && (next || !asks) && in_vain && !is_broadcast(polling.frame))
-      for (const serial::SharedLine* const line : history_.requests().lines())
-        if (poller.is_on(line->line())) note_unanswered(*line, polling.frame, Asker{Asker::Kind::Poller, number});
-    if (asks && (next || !polling.asks)) polling.frame = serial::bytes_of(poller.requester().exchange().request);
-    polling.asks = asks;
-    polling.asked = now.asked;
-    polling.answered = now.answered;
-  }
-}
-
-/// A program has asked on that line, and nobody has answered yet.
-bool Stepper::is_open(std::size_t line) const {
-  const std::optional<PlcRequests::Request>& last = history_.requests().last(line);
-  return last && last->waits() && last->end != given_up_[line];
-}
-
-/// Of the request of a program; kNever if none waits, or if what may be its answer is being sent.
-Time Stepper::timeout_of_plc(std::size_t line) const {
-  const PlcRequests& requests = history_.requests();
-  return is_open(line) && !requests.is_sending(line) ? requests.last(line)->end + host_timeout : kNever;
-}
-
-void Stepper::note_unanswered_plc(std::size_t line) {
-  if (!is_open(line)) return;
-  const PlcRequests::Request& last = *history_.requests().last(line);
-  given_up_[line] = last.end;
-  note_unanswered(*history_.requests().lines()[line], last.frame, Asker{Asker::Kind::Plc, last.station});
-}
-
-void Stepper::note_plc_timeouts(Time now) {
-  for (std::size_t line = 0; line < given_up_.size(); ++line)
-    if (timeout_of_plc(line) <= now) note_unanswered_plc(line);
-}
-
-// --- masters on bridges ---
-
-/// A PLC on the line of a station.
-bool Stepper::is_sending(std::size_t number) const {
-  const PlcRequests& requests = history_.requests();
-  return requests.is_sending(requests.line_of(number, station(number).port()));
-}
-
-/// Of those on the line of a station.
-std::size_t Stepper::first_beside(std::size_t number) const {
-  std::size_t first = 0;
-  while (&station(first).line() != &station(number).line()) ++first;
-  return first;
-}
-
-/// A bridge on the line of a station that was sending then, or later.
-std::optional<std::size_t> Stepper::host_that_sent(std::size_t number, Time after) const {
-  const auto sent = [&](const serial::HostPort* host) {
-    return host->state().attached && host->is_on(station(number).line().line()) && host->sent_until() > after;
-  };
-  const auto host = std::ranges::find_if(history_.hosts(), sent);
-  if (host == history_.hosts().end()) return {};
-  return static_cast<std::size_t>(host - history_.hosts().begin());
-}
-
-/// Of a simulated one or of one on a bridge. Any other character is of a station that answers.
-bool Stepper::is_of_a_master(std::size_t number, const TraceRecord& received) const {
-  return history_.requests().master_asks(station(number).line().line(), 0) || host_that_sent(number, received.since);
-}
-
-/// What a bridge has sent is a request, unless somebody on the line has just asked. All stations on its line hear it, one
-/// of them later than another.
-void Stepper::note_host_request(std::size_t number, std::vector<std::uint8_t> frame, Time end) {
-  Listening& line = line_of(number);
-  const Time character = station(number).port_format().character_time();  // who is set otherwise hears an end later
-  const auto host = host_that_sent(number, end - character);
-  if (!host || end <= line.host_frame_end || answers(number, end, character)) return;
-  line.host_frame_end = end;
-  if (history_.has_sent(*host, is_broadcast)) return;
-  line.host_waits = end;
-  line.host_frame = std::move(frame);
-}
-
-/// What has ended then on the line of a station is the answer to a simulated master, or to a program.
-bool Stepper::answers(std::size_t number, Time end, Time character) const {
-  const serial::Simulation& here = station(number);
-  if (here.has_master() && here.master().busy()) return true;
-  for (const auto& [name, poller] : history_.pollers()) {
-    const serial::Requester& requester = poller->requester();
-    if (poller->is_on(here.line().line()) && (requester.asks() || requester.exchange().response_end + character > end))
-      return true;
-  }
-  const auto& last = history_.requests().last(history_.requests().line_of(number, here.port()));
-  return last && last->answer && end > last->end && end < last->answer->to + character;
-}
-
-void Stepper::note_host_timeout(std::size_t number, Time now) {
-  Listening& line = line_of(number);
-  if (!line.host_waits || now - *line.host_waits < host_timeout || is_sending(number)) return;
-  line.host_waits.reset();
-  note_unanswered(station(number).line(), line.host_frame);
+bool Stepper::hears(const StopPoint& stop, std::size_t line) const {
+  if (stop.line) return *stop.line == line;
+  return history_.requests().port_on(line, stop.station).has_value();
 }
 
 bool Stepper::answer_complete() {
-  bool complete = false;
-  for (std::size_t number = 0; number < listening_.size(); ++number) {
-    if (!listening_[number].awaits_answer || station(number).master().busy()) continue;
-    listening_[number].awaits_answer = false;
-    const serial::Exchange& exchange = station(number).master().exchange();
-    if (exchange.given_up) continue;
-    complete = true;
-    if (exchange.timed_out && !is_broadcast(serial::bytes_of(exchange.request))) note_unanswered(station(number).line(), {});
-    if (!backwards_) on_answer(station(number).master().exchange());
-  }
-  return complete;
+  const std::vector<std::size_t> finished = requests_.take_finished();
+  for (const std::size_t number : finished)
+    if (!backwards_) on_answer(number, station(number).master().exchange());
+  return !finished.empty();
 }
 
 /// By an instruction of a station; or between two, also of those that execute none.
@@ -743,7 +612,9 @@ void Stepper::note_changes(std::size_t number, const InstructionRecord* by) {
                        : stop.on == On::Write     ? touched || (by && changed)
                        : stop.on == On::ReadWrite ? touched || changed
                                                   : changed;
-    if (meant) hit(stop, {.value = value, .by = by ? std::optional(*by) : std::nullopt});
+    const std::optional<std::size_t> planned = std::exchange(stop.planned, {});
+    if (meant)
+      hit(stop, {.value = value, .by = by ? std::optional(*by) : std::nullopt, .planned = by ? std::nullopt : planned});
     stop.value = std::move(value);
   }
 }

@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "interpreter/model/ports.hpp"
+#include "tools/debugger/heard_frames.hpp"
 #include "tools/debugger/history.hpp"
+#include "tools/debugger/open_requests.hpp"
 #include "tools/debugger/stop_point.hpp"
 
 namespace s7200::tools {
@@ -62,17 +64,17 @@ class Stepper final : public Observer {
 
   std::vector<StopPoint> stops;
 
-  /// How long a master on a bridge and a program wait for an answer: their own time-outs are not known here. One that sends
-  /// again before has given up then.
-  Time host_timeout = kSecond;
+  /// How long a master on a bridge and a program wait for an answer.
+  Time host_timeout() const { return requests_.host_timeout(); }
+  void set_host_timeout(Time timeout) { requests_.set_host_timeout(timeout); }
 
   // Told while running forwards; all must be set.
   std::function<void(std::size_t station, const TraceRecord&)> on_record;
   std::function<void(std::size_t station, const InstructionRecord&, bool started_at)> on_instruction;
-  std::function<void(const serial::Exchange&)> on_answer;
-  std::function<void(const StopPoint&)> on_message;  ///< instead of stopping
+  std::function<void(std::size_t station, const serial::Exchange&)> on_answer;
+  std::function<void(const StopPoint&, const Hit&)> on_message;  ///< instead of stopping
   /// What the only PLC sends though nothing has come to it, or after the master has given its request up; not with a bridge.
-  std::function<void(const Transmission&)> on_unasked;
+  std::function<void(const SentByPlc&)> on_unasked;
 
   std::function<void(Time from)> on_search;  ///< told while running backwards: an ever earlier part is being played
 
@@ -85,13 +87,16 @@ class Stepper final : public Observer {
   Time passes_over_until() const override { return limit_; }
   bool before_action() override;
   void acted() override;
+  void planned_done(std::size_t number) override;
   Time idles_until(Time now) override;
 
  private:
   /// Where a run forwards would have stopped.
   struct Found {
     Moment moment;
-    std::optional<Stop> stop;  ///< nothing: the goal
+    std::optional<Stop> stop;    ///< nothing: the goal
+    bool before_action = false;  ///< in front of an instruction in front of which something was done then
+    std::size_t skipped = 0;     ///< stops in the part before it
   };
 
   /// An instruction that is to come, until it has come.
@@ -101,47 +106,40 @@ class Stepper final : public Observer {
     bool in_interrupt = false;
     bool operator==(const Instruction&) const = default;
   };
+  /// An instruction in front of which something was done: its stops were looked for before that.
+  struct Looked {
+    std::uint64_t executed = 0;  ///< instructions before it
+    Instruction at{};
+  };
   using Places = std::vector<std::optional<Moment>>;
 
   /// Backwards: the past is played in parts, ever earlier ones.
   struct Search {
-    std::uint64_t count = 1;       ///< how often the goal is still to be met
-    Places first{};                ///< by station: its first place in the part being played
-    Places after{};                ///< by station: its first place after that part
-    std::vector<Found> found{};    ///< in that part
-    Time until = 0;                ///< what comes up at the end of that part is known by then
-    std::optional<Found> there{};  ///< where to go
-  };
-
-  /// What is heard on the line of a station.
-  struct Listening {
-    std::vector<std::uint8_t> coming_in{};  ///< characters since the last silence
-    Time silence_noted = 0;                 ///< after the character that ended then; 0: after none
-    bool came_in = false;                   ///< the last character on the line was received
-    // Of the line, noted at the first station on it.
-    std::optional<Time> host_waits{};        ///< a master on a bridge, since the end of its frame
-    Time host_frame_end = 0;                 ///< of its last frame that was noted
-    std::vector<std::uint8_t> host_frame{};  ///< that one; nothing if it is not known
-    bool awaits_answer = false;              ///< its master is busy, and no station before it has the same one
-    std::optional<Time> heard{};             ///< the last character since it has sent anything
-  };
-
-  /// A master that polls.
-  struct Polling {
-    bool asks = false;
-    std::uint64_t asked = 0, answered = 0;  ///< requests, with this one
-    std::vector<std::uint8_t> frame{};
+    Moment start{};                      ///< where it stood
+    std::uint64_t count = 1;             ///< how often the goal is still to be met
+    Places first{};                      ///< by station: its first place in the part being played
+    Places after{};                      ///< by station: its first place after that part
+    std::vector<Found> found{};          ///< in that part
+    std::vector<std::size_t> skipped{};  ///< the same: stops that had no power flow, in order
+    Time until = 0;                      ///< what comes up at the end of that part is known by then
+    std::optional<Found> there{};        ///< where to go
   };
 
   serial::Simulation& station(std::size_t number) { return history_.station(number); }
   const serial::Simulation& station(std::size_t number) const { return history_.station(number); }
   bool is_turn_of(std::size_t station) const;
   void begin_watching();
-  void note_masters();
   void read_values();
-  bool note_place(std::uint32_t op);
+  Instruction instruction_of(std::size_t station, std::uint32_t op) const;
+  bool stops_before_action();
+  std::optional<Looked> looked_before() const;
+  bool has_looked_at(const Instruction& instruction) const;
+  bool note_place(const Instruction& instruction);
+  Found take_found(StopReason reason);
+  StopReason stop_with_answer();
+  bool has_due_hit();
   void end_idle();
-  std::optional<StopReason> reason_to_stop(std::uint32_t op, bool stood_there);
+  std::optional<StopReason> reason_to_stop(std::uint32_t op, bool looks_for_places);
   std::optional<StopReason> reason_to_stop_here();
   void note_found_here();
   void begin_search(const Goal& goal, std::uint64_t count, bool stop_at_answer);
@@ -155,36 +153,19 @@ class Stepper final : public Observer {
   void hit(StopPoint& stop, Hit with);
   Time time_of(const Hit& hit) const;
   std::uint64_t count(StopPoint& stop, Time at);
+  void note_skipped(StopPoint& stop);
   void note_accesses(std::uint32_t op);
   void note_record(const TraceRecord& record);
   std::vector<std::uint8_t> note_sent(std::size_t station, const TraceRecord& record);
+  void note_frame(HeardFrames::Frame frame);
   bool is_unasked(std::size_t station) const;
-  void listen_from_now_on(std::size_t station);
-  void note_silence(std::size_t station, Time now);
   static bool is_meant(const StopPoint& stop, const TraceRecord& record);
   bool answer_complete();
   void note_changes(std::size_t station, const InstructionRecord* by);
   void note_changes_from_outside();
-  void note_line(std::size_t station, Time now);
-  void note_unanswered(const serial::SharedLine& line, const std::vector<std::uint8_t>& frame,
-                       std::optional<Asker> asker = std::nullopt);
-  bool hears(const StopPoint& stop, const serial::SharedLine& line) const;
-  void ask_from_now_on(Time now);
-  void note_polls();
-  bool is_open(std::size_t line) const;
-  void note_unanswered_plc(std::size_t line);
-  void note_plc_timeouts(Time now);
-  Time timeout_of_plc(std::size_t line) const;
-  Time next_timeout() const;
-  std::size_t first_beside(std::size_t station) const;
-  Listening& line_of(std::size_t station) { return listening_[first_beside(station)]; }
-  std::optional<std::size_t> host_that_sent(std::size_t station, Time after) const;
-  bool is_sending(std::size_t station) const;
-  void note_end_of_wait(std::size_t station, const TraceRecord& record);
-  bool is_of_a_master(std::size_t station, const TraceRecord& received) const;
-  void note_host_request(std::size_t station, std::vector<std::uint8_t> frame, Time end);
-  bool answers(std::size_t station, Time end, Time character) const;
-  void note_host_timeout(std::size_t station, Time now);
+  void look_at_lines(std::size_t station, Time now);
+  void note_ended(const EndedRequest& request);
+  bool hears(const StopPoint& stop, std::size_t line) const;
   bool asked_to_stop() const { return stop_request_ && *stop_request_; }
 
   History& history_;
@@ -197,14 +178,14 @@ class Stepper final : public Observer {
   bool stop_at_answer_ = false;
   std::optional<Instruction> start_;        ///< of the station it looks at, where it started or the first one after power-up
   std::optional<Instruction> next_;         ///< of any station, that the run started in front of
+  std::optional<Looked> looked_;            ///< the last one
   std::optional<std::size_t> cpu_stopped_;  ///< one of several, in this run
   bool answered_ = false;                   ///< the master has its answer
   bool executing_start_ = false;            ///< the instruction being executed is the one it started at
   bool backwards_ = false;
   std::vector<std::size_t> accessed_;  ///< stops on memory that the instruction being executed reads or writes
-  std::vector<Listening> listening_;   ///< by station
-  std::vector<Polling> polling_;       ///< by master
-  std::vector<Time> given_up_;         ///< by line, the end of the last request of a PLC that is known to be unanswered
+  HeardFrames frames_;
+  OpenRequests requests_;
   History::BranchPtr counted_on_;      ///< the branch on which hits were counted last
   std::optional<Moment> listened_to_;  ///< where the last run ended: one from there goes on listening
   Time executing_since_ = kNever;      ///< the start of the instruction being executed; kNever: none is

@@ -11,12 +11,12 @@
 namespace s7200::tools {
 namespace {
 
-std::optional<std::string> word_text(std::string_view word, const Cpu& cpu, Time now) {
+std::optional<std::string> word_text(std::string_view word, const Cpu& cpu, Time now, const InstructionRecord* by) {
   const State& state = cpu.state();
   if (word == "time") return moment_text(std::max(state.time, now));
   if (word == "scan") return fmt::format("{}", state.scans + 1);
   if (word == "line") {
-    const auto op = standing_at(state);
+    const auto op = by ? std::optional(by->op) : standing_at(state);
     return op ? fmt::format("{}", cpu.program().statement(*op).position.line) : "-";
   }
   if (word == "event") return state.in_interrupt ? fmt::format("{}", state.serving_event) : "-";
@@ -41,13 +41,13 @@ void split(const std::string& text, const std::function<void(std::string_view)>&
 
 }  // namespace
 
-std::string filled_in(const std::string& text, const Cpu& cpu, Time now) {
+std::string filled_in(const std::string& text, const Cpu& cpu, Time now, const InstructionRecord* by) {
   std::string filled;
   split(
       text, [&](std::string_view part) { filled += part; },
       [&](std::string_view part) {
         std::string why;
-        const auto word = word_text(part, cpu, now);
+        const auto word = word_text(part, cpu, now, by);
         const auto expression = word ? std::nullopt : Expression::parse(part, cpu.program(), why);
         const auto value = expression ? expression->value(cpu, why) : std::nullopt;
         filled += word ? *word : value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);

@@ -11,6 +11,7 @@
 
 #include "interpreter/trace/trace.hpp"
 #include "tools/debugger/expression.hpp"
+#include "tools/debugger/plc_requests.hpp"
 
 namespace s7200::tools {
 
@@ -28,8 +29,9 @@ struct StopPoint {
     LostCharacter,  ///< the program does not get it: its queue is full, its event is not attached, the port is in PPI mode
                     ///< or sends
     ModeChange,
-    Unanswered,  ///< a request of any master on a line of the station
-    Read,        ///< access to memory by an instruction
+    Unanswered,   ///< a request of any master on a line of the station
+    WrongAnswer,  ///< the same; an answer came that it cannot take
+    Read,         ///< access to memory by an instruction
     Write,
     ReadWrite,  ///< either of them, or a change
     Change      ///< of memory, whoever did it
@@ -41,7 +43,7 @@ struct StopPoint {
   std::uint32_t op = 0;                 ///< Place
   std::optional<std::uint8_t> event{};  ///< EventOccurs, EventServed; any without
   std::optional<std::uint16_t> code{};  ///< RuntimeError; any without
-  std::optional<std::size_t> line{};    ///< Unanswered: of PlcRequests::lines(); all of the station without
+  std::optional<std::size_t> line{};    ///< of a request: of PlcRequests::lines(); all of the station without
   std::optional<MemoryRange> range{};   ///< Read, Write, ReadWrite, Change
   std::string name{};                   ///< as the user wrote it: `VW30`, `event 8 served`
   bool needs_power = false;             ///< Place: not in front of a box or coil without power flow
@@ -60,18 +62,14 @@ struct StopPoint {
   std::uint64_t hits = 0;                                                     ///< of them, up to where it stands
 
   // In the last run forwards.
-  std::uint64_t skipped = 0;          ///< times that it had no power flow
-  std::uint64_t unknown = 0;          ///< times that its condition could not be computed
-  std::string why_unknown{};          ///< the first time
-  std::vector<std::uint8_t> value{};  ///< of the memory as last seen, like bytes_of()
+  std::uint64_t skipped = 0;             ///< times that it had no power flow
+  std::uint64_t unknown = 0;             ///< times that its condition could not be computed
+  std::string why_unknown{};             ///< the first time
+  std::vector<std::uint8_t> value{};     ///< of the memory as last seen, like bytes_of()
+  std::optional<std::size_t> planned{};  ///< what of the system file has changed it since, its number in History::planned()
 
   bool is_watch() const { return range.has_value(); }
-};
-
-/// Who has asked on a line.
-struct Asker {
-  enum class Kind : std::uint8_t { Plc, Poller } kind{};
-  std::size_t number = 0;  ///< of the station, or of the master in History::pollers()
+  bool is_of_requests() const { return on == On::Unanswered || on == On::WrongAnswer; }
 };
 
 /// One that a run has come to.
@@ -80,15 +78,19 @@ struct Hit {
   std::vector<std::uint8_t> value{};      ///< new
   std::optional<InstructionRecord> by{};  ///< of an access; nothing: it changed between two instructions
   std::optional<std::size_t> action{};    ///< that changed it, its number in History::actions()
+  std::optional<std::size_t> planned{};   ///< the same of the system file, in History::planned()
   std::optional<TraceRecord> record{};    ///< what happened
-  std::vector<std::uint8_t> frame{};      ///< FrameReceived, FrameSent, and Unanswered if it is not of the simulated
+  std::vector<std::uint8_t> frame{};      ///< FrameReceived, FrameSent, and a request if it is not of the simulated
                                           ///< master; empty if it is not known
-  std::optional<Asker> asker{};           ///< Unanswered, of a PLC or a master that polls
+  std::optional<Asker> asker{};           ///< of a request
+  std::string wrong{};                    ///< WrongAnswer: what is wrong with it
+  std::vector<std::uint8_t> answer{};     ///< WrongAnswer; empty if it is not known
 };
 
 /// `{VW20} at {time}` filled in: expressions, and time, scan, line, event. What cannot be read stays as it is.
-/// `now`: that of the run; the clock of a CPU without power stands still.
-std::string filled_in(const std::string& text, const Cpu& cpu, Time now);
+/// `now`: that of the run; the clock of a CPU without power stands still. `by`: the instruction that did it, if it is over;
+/// null for the one that is next.
+std::string filled_in(const std::string& text, const Cpu& cpu, Time now, const InstructionRecord* by = nullptr);
 
 /// Whether all in braces can be read, and each is closed; sets `why` if not.
 bool check_message(const std::string& text, const Program& program, std::string& why);

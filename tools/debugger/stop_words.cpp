@@ -9,6 +9,9 @@
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/errors.hpp"
+#include "interpreter/model/instruction.hpp"
+#include "serial_sim/line/frame.hpp"
 #include "tools/debugger/words.hpp"
 
 namespace s7200::tools {
@@ -21,9 +24,9 @@ struct Happening {
   On on;
 };
 constexpr Happening kHappenings[] = {
-    {"received", On::FrameReceived}, {"sent", On::FrameSent},     {"xmt", On::Transmit},
-    {"rcv", On::ReceiveEnd},         {"error", On::RuntimeError}, {"overflow", On::QueueOverflow},
-    {"lost", On::LostCharacter},     {"mode", On::ModeChange},    {"unanswered", On::Unanswered}};
+    {"received", On::FrameReceived}, {"sent", On::FrameSent},         {"xmt", On::Transmit},       {"rcv", On::ReceiveEnd},
+    {"error", On::RuntimeError},     {"overflow", On::QueueOverflow}, {"lost", On::LostCharacter}, {"mode", On::ModeChange},
+    {"unanswered", On::Unanswered},  {"wrong", On::WrongAnswer}};
 
 constexpr std::string_view kPlaces = "a line number, SBR n, INT n, LBL n or NETWORK n";
 
@@ -61,27 +64,37 @@ std::optional<NamedPlace> place_of_network(const std::string& text, const Listin
   return {};
 }
 
-std::optional<StopPoint> event_stop(const std::vector<std::string>& words, std::string& why) {
+std::optional<StopPoint> event_stop(const std::vector<std::string>& words, const CpuModel& model, std::string& why) {
   const auto number = words.size() >= 2 ? parse_decimal<std::uint8_t>(words[1]) : std::nullopt;
   const std::string what = words.size() == 3 ? stl::lower_case(words[2]) : words.size() == 2 ? "served" : "";
   if (!number || !find_event(*number) || (what != "served" && what != "occurs")) {
     why = expects("break event", "the number of an event, and occurs or served, for example: break event 8 occurs");
     return {};
   }
+  if (const CpuSet cpus = find_event(*number)->cpus; (cpus & model.self) == 0) {
+    why = needs(fmt::format("event {} needs", *number), cpus);
+    return {};
+  }
   return StopPoint{.on = what == "served" ? On::EventServed : On::EventOccurs, .event = *number};
 }
 
 std::optional<StopPoint> happening_stop(const Happening& happening, const std::vector<std::string>& words,
-                                        std::string& why) {
+                                        const CpuModel& model, std::string& why) {
+  if (const CpuSet cpus = find_instruction("RCV")->cpus; happening.on == On::ReceiveEnd && (cpus & model.self) == 0) {
+    why = needs("RCV needs", cpus);
+    return {};
+  }
   if (words.size() == 1) return StopPoint{.on = happening.on};
   if (happening.on != On::RuntimeError) {
     why = fmt::format("break {} expects nothing more", happening.word);
     return {};
   }
-  const auto code = words.size() == 2 ? parse_integer("16#" + words[1]) : std::nullopt;
-  if (code && *code > 0 && *code <= 0xFFFF) return StopPoint{.on = happening.on, .code = static_cast<std::uint16_t>(*code)};
-  why = expects("break error", "nothing or a code in hex, for example: break error 0006");
-  return {};
+  if (words.size() > 2 || !parse_integer("16#" + words[1])) {
+    why = expects("break error", "nothing or a code in hex, for example: break error 0006");
+    return {};
+  }
+  const auto code = error_code_of(words[1], why);
+  return code ? std::optional(StopPoint{.on = happening.on, .code = code}) : std::nullopt;
 }
 
 /// Those that are not among the words; none where an option has not got what it needs.
@@ -96,6 +109,15 @@ std::vector<std::string> options_after(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+std::optional<std::uint16_t> error_code_of(std::string_view text, std::string& why) {
+  constexpr RunError kNone{};
+  const auto code = parse_integer(fmt::format("16#{}", text));
+  const bool is_known = code && *code > 0 && *code <= 0xFFFF && meaning_of(RunError(*code)) != meaning_of(kNone);
+  if (is_known) return static_cast<std::uint16_t>(*code);
+  why = fmt::format("'{}' is not the code of a run-time error; write for example 0006 or 0091", stl::shortened(text));
+  return {};
+}
 
 std::optional<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
                                      std::string_view command, std::string& why) {
@@ -123,8 +145,8 @@ std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const 
     return stop;
   };
   for (const Happening& happening : kHappenings)
-    if (first == happening.word) return named(happening_stop(happening, words, why));
-  if (first == "event") return named(event_stop(words, why));
+    if (first == happening.word) return named(happening_stop(happening, words, *program.model, why));
+  if (first == "event") return named(event_stop(words, *program.model, why));
   const auto place = find_place(words, program, listing, "break", why);
   if (!place) return {};
   note = place->note;
@@ -154,6 +176,10 @@ std::vector<std::string_view> happening_words() {
   std::vector<std::string_view> words{"event"};
   for (const Happening& happening : kHappenings) words.push_back(happening.word);
   return words;
+}
+
+std::string wrong_answer_text(const Hit& hit) {
+  return hit.answer.empty() ? hit.wrong : fmt::format("answered {}: {}", serial::to_hex(hit.answer), hit.wrong);
 }
 
 std::vector<std::string> words_after_break(const std::vector<std::string>& words, const Program& program) {

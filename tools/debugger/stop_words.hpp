@@ -39,6 +39,9 @@ std::optional<NamedPlace> find_place(const std::vector<std::string>& words, cons
 std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const Program& program, const Listing& listing,
                                    std::string& why, std::string& note);
 
+/// `0006`: of a run-time error. Nothing, and `why`, if there is no such error.
+std::optional<std::uint16_t> error_code_of(std::string_view text, std::string& why);
+
 /// The words for places with a number, for completion: `SBR`, `LBL` …
 std::vector<std::string> place_words();
 /// The numbers that the program has of one of them, in their order.
@@ -46,6 +49,9 @@ std::vector<std::string> numbers_of(std::string_view word, const Program& progra
 
 /// The words for happenings, for completion: `received`, `xmt` …
 std::vector<std::string_view> happening_words();
+
+/// `answered 01 83 02 c0: wrong CRC`, of a hit of WrongAnswer.
+std::string wrong_answer_text(const Hit& hit);
 
 /// What may come after the words of `break` or `watch`, for completion.
 std::vector<std::string> words_after_break(const std::vector<std::string>& words, const Program& program);

@@ -12,6 +12,9 @@ namespace s7200::tools {
 /// The words with a blank between them.
 std::string joined(const std::vector<std::string>& words);
 
+/// `panel`, `panel and recorder`, `panel, recorder and pump`
+std::string list_text(const std::vector<std::string>& names);
+
 /// `1 action`, `2 actions`
 std::string counted(std::size_t count, std::string_view thing);
 
@@ -20,6 +23,9 @@ std::vector<std::string> assignments_of(const std::vector<std::string>& argument
 
 /// `break expects a line number`
 std::string expects(std::string_view command, std::string_view what);
+
+/// As parse_duration() takes them.
+inline constexpr std::string_view kTimeUnits = "ns, us, ms, s, min or h";
 
 /// `regs takes no argument`
 std::string no_argument(std::string_view command);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/last_attachment.hpp"
 #include "tools/debugger/last_write.hpp"
@@ -18,11 +19,32 @@ std::string by_text(const LastWrite& write, const History& history, const Progra
     return fmt::format("  by {} {}{}{}", listing.routine_of(write.by->op), describe(*write.by, program),
                        write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "",
                        remark_on(write.by->op, program));
-  const Action* const action = write.action ? history.action(*write.action) : nullptr;
-  return action ? fmt::format("  by '{}', from outside", describe(*action)) : "  by the system, between two instructions";
+  return "  by " + changer_text(history, write.action, write.planned);
 }
 
 }  // namespace
+
+std::string asked_by_text(const History& history, const Asker& asker, const std::string& plc) {
+  switch (asker.kind) {
+    case Asker::Kind::Send:
+      return {};
+    case Asker::Kind::Plc:
+      return "asked by " + (plc.empty() ? "the program" : stl::printable(plc));
+    case Asker::Kind::Bridge:
+      return history.bridge_of(asker.number).empty() ? "" : "asked by " + history.name_of(asker);
+    case Asker::Kind::Poller:
+      break;
+  }
+  return "asked by " + history.name_of(asker);
+}
+
+std::string changer_text(const History& history, std::optional<std::size_t> number, std::optional<std::size_t> planned) {
+  const Action* const action = number ? history.action(*number) : nullptr;
+  if (action) return fmt::format("'{}', from outside", describe(*action));
+  if (planned && *planned < history.planned().size())
+    return fmt::format("'{}', in the system file", stl::printable(history.planned()[*planned]));
+  return "the system, between two instructions";
+}
 
 WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, const MemoryRange& range,
                          std::string_view name, const std::atomic<bool>* stop_request) {
@@ -39,7 +61,7 @@ WriterSearch find_writer(History& history, std::size_t station, const Listing& l
   return {.writer =
               Writer{.moment = write.moment,
                      .by = write.by,
-                     .by_system = !write.by && !write.action,
+                     .by_system = !write.by && !write.action && !write.planned,
                      .text = fmt::format("{} was {}, became {}, at {}\n{}", name, value_text(program, range, write.before),
                                          value_text(program, range, write.after), moment_text(write.at),
                                          by_text(write, history, program, listing))}};

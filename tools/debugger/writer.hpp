@@ -25,6 +25,13 @@ struct WriterSearch {
   bool interrupted = false;
 };
 
+/// Who has changed memory between two instructions: `'set VW20', from outside`, `'slave2: power on', in the system file`.
+std::string changer_text(const History& history, std::optional<std::size_t> action, std::optional<std::size_t> planned);
+
+/// `asked by pump`: a master that polls, one on a bridge, or the PLC that is called `plc`; without a name it is the only
+/// one. Empty if there is nothing to tell it from others: that of `send`, one on the only bridge.
+std::string asked_by_text(const History& history, const Asker& asker, const std::string& plc);
+
 /// Of memory of a station, which is called `name`; or of an event. The simulation stands where it stood.
 WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, const MemoryRange& range,
                          std::string_view name, const std::atomic<bool>* stop_request);

@@ -87,10 +87,10 @@ std::vector<std::string> fault_notes(const Faults& faults, const StationName& st
   return notes;
 }
 
-std::vector<std::string> fault_notes(const Faults& faults, const Faults::State& since, Time now,
+std::vector<std::string> fault_notes(const Faults::State& faults, const Faults::State& since, Time now,
                                      const StationName& station) {
   std::vector<std::string> notes;
-  for (const Faults::Injected& injected : faults.state().injected) {
+  for (const Faults::Injected& injected : faults.injected) {
     const std::uint64_t count = injected.count - counts_then(injected, since).happened;
     if (count != 0)
       notes.push_back(note_of(injected, count, station));

@@ -20,9 +20,9 @@ inline std::string without_names(int) { return {}; }
 /// What has happened so far, a line for each fault.
 std::vector<std::string> fault_notes(const serial::Faults& faults, const StationName& station = without_names);
 
-/// The same of what has happened since then: `fault missing:of=answer: 2×`. A line that was cut then, and still is, counts
-/// too.
-std::vector<std::string> fault_notes(const serial::Faults& faults, const serial::Faults::State& since, Time now,
+/// The same of what happened from `since` on: `fault missing:of=answer: 2×`. A line that was cut then, and still is `now`,
+/// counts too.
+std::vector<std::string> fault_notes(const serial::Faults::State& faults, const serial::Faults::State& since, Time now,
                                      const StationName& station = without_names);
 
 /// [{"fault": "flip:bit=3", "count": 2, "impossible": 0}], and "station" if it is of one.

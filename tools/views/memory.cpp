@@ -111,6 +111,21 @@ std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::stri
   return parse_all<MemoryRange>(texts, space, parse_range, why);
 }
 
+std::vector<Assignment> inputs_as_before(const Cpu& cpu, const State& before) {
+  const CpuModel& model = *cpu.program().model;
+  const State& now = cpu.state();
+  std::vector<Assignment> changes;
+  for (std::uint32_t byte = 0; byte < model.size_of(Area::I); ++byte)
+    if (now.terminals[byte] != before.terminals[byte])
+      changes.push_back({{Area::I, Width::Byte, byte, 0, 1, info(Area::I).base + byte}, before.terminals[byte]});
+  for (std::uint32_t byte = 0; byte + 1 < model.size_of(Area::AI); byte += 2) {
+    const std::uint16_t level = load16(&before.analog_terminals[byte]);
+    if (level != load16(&now.analog_terminals[byte]))
+      changes.push_back({{Area::AI, Width::Word, byte, 0, 1, info(Area::AI).base + byte}, level});
+  }
+  return changes;
+}
+
 void assign(Cpu& cpu, const Assignment& assignment) {
   const MemoryRange& place = assignment.place;
   std::array<std::uint8_t, 4> big_endian{};

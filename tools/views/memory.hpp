@@ -21,6 +21,9 @@ std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::stri
 /// I addresses set the input points, everything else is written as a programming device would.
 void assign(Cpu& cpu, const Assignment& assignment);
 
+/// What gives the inputs of `cpu` the levels that they had in `before`, as the field has them still.
+std::vector<Assignment> inputs_as_before(const Cpu& cpu, const State& before);
+
 /// Its value in hex, `16#0005`, in the digits of its place.
 std::string hex_text(const Assignment& assignment);
 

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/s7_pdu.hpp"
 
 namespace s7200::tools {
 
-std::string_view s7_error_name(std::uint8_t code) {
-  switch (code) {
+std::string_view s7_error_name(std::uint16_t code) {
+  switch (code > UINT8_MAX ? code >> 8 : code) {
     case s7::kNotAllowed:
       return "not allowed";
     case s7::kOutside:
@@ -33,6 +36,16 @@ std::string s7_clock_text(std::span<const std::uint8_t> data) {
   if (data.size() < kLength) return {};
   return fmt::format("{:02x}{:02x}-{:02x}-{:02x} {:02x}:{:02x}:{:02x}", data[5], data[6], data[7], data[8], data[9],
                      data[10], data[11]);
+}
+
+std::string s7_identification_text(std::span<const std::uint8_t> bytes) {
+  const std::string text(bytes.begin(), bytes.end());
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (text.size() != s7::kIdentificationBytes || !std::all_of(text.begin() + s7::kIdentificationName, text.end(), is_digit))
+    return fmt::format("'{}'", stl::printable(text));
+  const std::string name(stl::trim(std::string_view(text).substr(0, s7::kIdentificationName)));
+  return fmt::format("{}, release {}.{}", stl::printable(name), text.substr(s7::kIdentificationName, 2),
+                     text.substr(s7::kIdentificationName + 2));
 }
 
 }  // namespace s7200::tools

@@ -81,7 +81,7 @@ class Timeline::Reader {
  public:
   explicit Reader(const Program& program) : program_(program) {}
 
-  /// `why`: an interrupt that begins has waited.
+  /// `why`: an interrupt that begins has waited; or the line of the program that did it, with its comment.
   void read(const TraceRecord& r, const std::string& why) {
     switch (r.kind) {
       case TraceKind::ScanBegin:
@@ -106,7 +106,7 @@ class Timeline::Reader {
         return end_service(r);
       case TraceKind::Transmit:
         add(r, Kind::Transmit, r.count ? fmt::format("XMT {} characters", r.count) : "XMT break");
-        rows_.back().place = place_of(r);
+        rows_.back().place = place_of(r) + why;
         return;
       case TraceKind::Attach:
       case TraceKind::Detach:
@@ -114,7 +114,7 @@ class Timeline::Reader {
       case TraceKind::TransmitEnd:
         return;
       default:
-        return add(r, Kind::Other, describe(r, program_));
+        return add(r, Kind::Other, describe(r, program_) + why);
     }
   }
 
@@ -123,6 +123,8 @@ class Timeline::Reader {
     if (!std::exchange(way_known_, true)) return;
     add({.at = at}, Kind::Way, std::move(way));
   }
+  void read_note(Time at, std::string what) { add({.at = at}, Kind::Other, std::move(what)); }
+
   void read_unanswered(const TraceRecord& r, TraceReasons::Unanswered unanswered) {
     add({.at = r.at}, Kind::Unanswered, "no answer to " + characters_text(unanswered.characters));
     rows_.back().why = std::move(unanswered.decided_by);
@@ -403,9 +405,16 @@ void Timeline::begin() {
   looking_ = true;
 }
 
+/// `  line 82: XMT VB200, 0  // answer` of what stands there: not of an event, whose routine says why it waited.
+std::string Timeline::place_text(const TraceRecord& record) {
+  const bool shown =
+      record.kind == TraceKind::Transmit || record.kind == TraceKind::PortControl || record.kind == TraceKind::Receive;
+  return shown ? reasons_.of(record) : "";
+}
+
 void Timeline::record(const TraceRecord& record) {
   if (looking_) {
-    reader_->read(record, record.kind == TraceKind::ServiceBegin ? reasons_.held_up_by(record) : "");
+    reader_->read(record, record.kind == TraceKind::ServiceBegin ? reasons_.held_up_by(record) : place_text(record));
     for (auto& unanswered : reasons_.unanswered(record)) reader_->read_unanswered(record, std::move(unanswered));
   }
   reasons_.note(record);
@@ -419,6 +428,10 @@ void Timeline::instruction(const InstructionRecord& record) {
     if (std::string way = path_.of(record); !way.empty()) reader_->read_way(record.end, std::move(way));
   }
   if (next_wants_instructions()) next_->instruction(record);
+}
+
+void Timeline::note(Time at, const std::string& what) {
+  if (looking_) reader_->read_note(at, what);
 }
 
 TimelineReport Timeline::report() const { return reader_->report(); }

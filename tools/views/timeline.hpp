@@ -74,6 +74,9 @@ class Timeline final : public TraceSink {
   void begin();
   void end() { looking_ = false; }
 
+  /// What is done to the PLC from outside, in words.
+  void note(Time at, const std::string& what);
+
   /// Since begin().
   TimelineReport report() const;
 
@@ -87,6 +90,7 @@ class Timeline final : public TraceSink {
  private:
   class Reader;
 
+  std::string place_text(const TraceRecord& record);
   bool next_wants_instructions() const { return next_ && next_->wants_instructions(); }
 
   std::shared_ptr<const Program> program_;

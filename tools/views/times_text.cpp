@@ -8,6 +8,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/named_times.hpp"
+#include "interpreter/model/times_file.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -92,13 +93,6 @@ std::vector<Line> lines_of_all(const CpuModel& model, const std::vector<TitledTi
   return lines;
 }
 
-std::string names_of(Areas areas) {
-  std::string names;
-  for (const AreaInfo& area : all_areas())
-    if (contains(areas, area.area)) names.append(names.empty() ? "" : " ").append(area.name);
-  return names;
-}
-
 /// `76 + 4`: base and per unit.
 std::string figure_text(const TimeRow* row) {
   if (!row) return "–";
@@ -106,25 +100,33 @@ std::string figure_text(const TimeRow* row) {
   return fmt::format("{} + {}", in_microseconds(row->base), in_microseconds(row->per_unit));
 }
 
-/// In how many columns the title and each figure fit.
-constexpr int kColumn = 16;
+/// In how many columns each figure fits.
+constexpr std::size_t kColumn = 16;
 
 nlohmann::ordered_json in_us(Time time) { return static_cast<double>(time) / kMicrosecond; }
+
+/// What is wider than its column goes on in the next line.
+std::string in_column(const std::string& text, std::size_t begin, std::size_t width) {
+  if (stl::count_characters(text) > width) return fmt::format("{}\n{}", text, std::string(begin + width, ' '));
+  return fmt::format("{:<{}}", text, width);
+}
 
 }  // namespace
 
 std::string table_text(const CpuModel& model, const TimeTable& times) {
   std::string text = fmt::format(
-      "Execution times of CPU {} in microseconds. Only a figure marked 'manual' was read in a manual.\n"
-      "To correct them: s7200 times --csv > my_times.csv, edit, and give --times my_times.csv to any verb.\n\n"
-      "{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {:>7}  {}\n",
+      "Execution times of CPU {0} in microseconds. Only a figure marked 'manual' was read in a manual.\n"
+      "To correct them: s7200 times --cpu {0} --csv > my_times.csv, edit, and give --times my_times.csv to a verb, or "
+      "write\n"
+      "times: my_times.csv into a scenario or a system file.\n\n"
+      "{1:<40} {2:<28} {3:>9} {4:>9}  {5:<10} {6:<11} {7:>7}  {8}\n",
       model.name, "instructions", "form", "base", "per unit", "unit", "marker", "within", "source");
   for (const TimeRow& row : times.rows())
-    text +=
-        fmt::format("{:<40} {:<28} {:>9} {:>9}  {:<10} {:<11} {:>6}%  {}\n",
-                    stl::printable(fmt::format("{}", fmt::join(row.mnemonics, " "))), stl::printable(row.form),
-                    in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", stl::printable(row.unit),
-                    row.marker, fmt::format("{:g}", row.uncertainty), stl::printable(row.source));
+    text += fmt::format("{} {} {:>9} {:>9}  {:<10} {:<11} {:>6}%  {}\n",
+                        in_column(stl::printable(fmt::format("{}", fmt::join(row.mnemonics, " "))), 0, 40),
+                        in_column(stl::printable(row.form), 41, 28), in_microseconds(row.base),
+                        row.per_unit ? in_microseconds(row.per_unit) : "", stl::printable(row.unit), row.marker,
+                        fmt::format("{:g}", row.uncertainty), stl::printable(row.source));
   return text;
 }
 
@@ -157,26 +159,36 @@ nlohmann::ordered_json tables_json(const CpuModel& model) {
   return tables;
 }
 
+/// The largest by the smallest; 0 where a table has none.
+double ratio_of(const Line& line, Time TimeRow::*figure) {
+  Time smallest = kNever, largest = 0;
+  for (const TimeRow* row : line.found) {
+    smallest = std::min(smallest, row ? row->*figure : 0);
+    largest = std::max(largest, row ? row->*figure : 0);
+  }
+  return smallest > 0 ? static_cast<double>(largest) / static_cast<double>(smallest) : 0;
+}
+
 std::string side_by_side_text(const CpuModel& model, const std::vector<TitledTimes>& tables) {
   std::string text = fmt::format(
-      "Execution times of CPU {} in microseconds, base + per unit, and the largest by the smallest base.\n\n", model.name);
+      "Execution times of CPU {} in microseconds, base + per unit, and by how many times they differ, in the one or the\n"
+      "other.\n\n",
+      model.name);
   std::string heading;
-  for (const TitledTimes& table : tables) heading += fmt::format("  {:>{}}", stl::shortened(table.title), kColumn);
+  std::vector<std::size_t> widths;
+  for (const TitledTimes& table : tables) {
+    const std::string title = stl::shortened(table.title);
+    widths.push_back(std::max(kColumn, stl::count_characters(title)));
+    heading += fmt::format("  {:>{}}", title, widths.back());
+  }
   text += fmt::format("{:<42} {:<22}{}   ratio\n", "instructions", "first operand", heading);
   for (const Line& line : lines_of_all(model, tables)) {
     std::string figures;
-    Time smallest = kNever, largest = 0;
-    for (const TimeRow* row : line.found) {
-      figures += fmt::format("  {:>{}}", figure_text(row), kColumn);
-      if (!row) continue;
-      smallest = std::min(smallest, row->base);
-      largest = std::max(largest, row->base);
-    }
-    const std::string ratio = smallest > 0 && smallest != kNever
-                                  ? fmt::format("{:.2f}", static_cast<double>(largest) / static_cast<double>(smallest))
-                                  : "";
-    text += fmt::format("{:<42} {:<22}{}  {:>6}\n", fmt::format("{}", fmt::join(line.mnemonics, " ")), names_of(line.areas),
-                        figures, ratio);
+    for (std::size_t i = 0; i < line.found.size(); ++i)
+      figures += fmt::format("  {:>{}}", figure_text(line.found[i]), widths[i]);
+    const double ratio = std::max(ratio_of(line, &TimeRow::base), ratio_of(line, &TimeRow::per_unit));
+    text += fmt::format("{} {}{}  {:>6}\n", in_column(fmt::format("{}", fmt::join(line.mnemonics, " ")), 0, 42),
+                        in_column(names_of(line.areas), 43, 22), figures, ratio > 0 ? fmt::format("{:.2f}", ratio) : "");
   }
   return text;
 }

@@ -1,4 +1,5 @@
 #include "serial_sim/modbus/crc.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tests/support/source_path.hpp"
 #include "tests/unit/debugger/session.hpp"
@@ -136,7 +137,33 @@ TEST(Debugger, AFaultOfTheLineBeginsNowAndGoingBackUndoesIt) {
   EXPECT_TRUE(has(session("print /x VB1"), "VB1      16#41"));
   EXPECT_TRUE(has(session("fault flip; fault none; send 42; continue; print /x VB1"), "VB1      16#42"));
   EXPECT_TRUE(has(session.error_of("fault flip:bit=12"), "fault, column 10: "));
-  EXPECT_TRUE(has(session.error_of("fault"), "fault expects a fault of the line"));
+}
+
+TEST(Debugger, FaultAloneListsTheFaultsInForceAndHowOftenEachHasHappened) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session("fault"), "the line has no fault now; "));
+  session("scan 3; fault flip:bit=0; fault missing:character=9; send 41; continue");
+  EXPECT_EQ(session("fault"), "fault flip: 1×\nfault missing:character=9: 0×\n");
+  EXPECT_TRUE(has(session("fault none; fault"), "the line has no fault now; "));
+}
+
+TEST(Debugger, OnlyTheCpuWritesItsReadOnlySpecialMemory) {
+  Session session(kEcho);
+  EXPECT_EQ(session.error_of("set SM0.0=0"), "SM0.0 cannot be set: only the CPU writes SM0.0 to SM29.7");
+  EXPECT_TRUE(has(session.error_of("set VB0=1 SMW29=5"), "SMW29 cannot be set"));
+  EXPECT_TRUE(has(session("set SMB28=77 SMB34=5; scan 2; print /x SMB34"), "16#05")) << "a potentiometer is turned";
+}
+
+TEST(Debugger, AMomentBeforeTheOldestIsRefusedHoweverItIsWritten) {
+  Session session(kEcho);
+  session("continue 100ms");
+  EXPECT_TRUE(has(session.error_of("at -3s"), "the oldest moment is 0.000000 ms"));
+  EXPECT_TRUE(has(session.error_of("at 99s"), "nothing has run after"));
+}
+
+TEST(Debugger, RwhyThatGoesNowhereSaysSo) {
+  Session session("LD SM0.0\n= Q0.0\nMEND\n");
+  EXPECT_TRUE(has(session("rwhy"), "rwhy goes nowhere: no instruction is named"));
 }
 
 TEST(Debugger, ContinueEndsAtItsTimeAndSaysSo) {
@@ -437,7 +464,8 @@ struct Bridged {
       const serial::Halt halt = simulation.run_until(std::min(end, next));
       if (halt != serial::Halt::Time || next > end) return halt;
       std::vector<serial::HostCharacter> frame;
-      for (const std::uint8_t byte : asked_for) frame.push_back({.byte = byte, .format = kFormat});
+      for (const std::uint8_t byte : pieces.empty() ? asked_for : pieces[asked])
+        frame.push_back({.byte = byte, .format = kFormat});
       port.send(frame, simulation.time());
       ++asked;
     }
@@ -455,8 +483,36 @@ struct Bridged {
   std::unique_ptr<Debugger> debugger;
   std::vector<Time> asks;
   Bytes asked_for;
+  std::vector<Bytes> pieces{};  ///< instead of it, one each time
   std::size_t asked = 0;
 };
+
+TEST(Debugger, ARequestThatComesOverABridgeInPiecesIsOne) {
+  Bridged session(kListening, {2 * kSecond, 2'020 * kMillisecond, 2'060 * kMillisecond});
+  session.pieces = {{0x01, 0x03}, {0x00, 0x0a, 0x00}, {0x01, 0xa4, 0x08}};
+  EXPECT_TRUE(has(session("break unanswered; continue"),
+                  "breakpoint 1, unanswered, hit for the first time\n  01 03 00 0a 00 01 a4 08\n"));
+  const Time end_of_frame = 2'060 * kMillisecond + 30 * kSecond / 9600, stopped = session.simulation.time();
+  EXPECT_GE(stopped, end_of_frame + kSecond);
+  EXPECT_LT(stopped, end_of_frame + kSecond + 10 * kMillisecond);
+  EXPECT_FALSE(has(session("continue"), "breakpoint"));
+  session("rcontinue");
+  EXPECT_EQ(session.simulation.time(), stopped);
+  EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
+}
+
+TEST(Debugger, ABroadcastThatComesOverABridgeInPiecesIsNeverUnanswered) {
+  Bridged session(kListening, {2 * kSecond, 2'020 * kMillisecond});
+  session.pieces = {{0x00, 0x03, 0x00}, {0x0a, 0x00, 0x01, 0xa5, 0xd9}};
+  EXPECT_FALSE(has(session("break unanswered; continue"), "breakpoint 1, unanswered, hit"));
+}
+
+TEST(Debugger, AWholeRequestOverABridgeIsOverWithTheNextOneHoweverSoonItComes) {
+  Bridged session(kListening, {2 * kSecond, 2'020 * kMillisecond});
+  session("break unanswered; continue");
+  EXPECT_GT(session.simulation.time(), 2'020 * kMillisecond);
+  EXPECT_LT(session.simulation.time(), 2'030 * kMillisecond);
+}
 
 TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredAfterTheTimeOut) {
   Bridged session(kListening, {2 * kSecond});
@@ -510,6 +566,14 @@ TEST(Debugger, ARequestOfTheOnlyProgramIsUnansweredAfterTheTimeOutOrWhenItAsksAg
   EXPECT_EQ(session.simulation.time(), first);
 }
 
+TEST(Debugger, ABroadcastOfAProgramIsNeverUnanswered) {
+  Session session(
+      "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 8, VB0\nMOVD 16#0003000A, VD1\nMOVD 16#0001A5D9, VD5\nENI\n"
+      "LD SM0.5\nEU\nXMT VB0, 0\nMEND\n");
+  EXPECT_TRUE(has(session("break sent; continue; delete 1"), "  00 03 00 0a 00 01 a5 d9\n"));
+  EXPECT_FALSE(has(session("break unanswered; continue 5s"), "unanswered, hit"));
+}
+
 TEST(Debugger, ABridgeThatAnswersAProgramIsNoMaster) {
   Bytes answer{0x01, 0x03, 0x02, 0x00, 0x05};
   modbus::add_crc(answer);
@@ -517,6 +581,30 @@ TEST(Debugger, ABridgeThatAnswersAProgramIsNoMaster) {
   session("continue 1550ms; break unanswered");
   EXPECT_FALSE(has(session("continue 2900ms"), "breakpoint 1, unanswered, hit")) << "each has its answer";
   EXPECT_TRUE(has(session("continue 1500ms"), "asked by the program")) << "nobody has answered the last";
+}
+
+TEST(Debugger, AnAnswerThatComesOverABridgeInPiecesIsOne) {
+  Bytes answer{0x01, 0x03, 0x02, 0x00, 0x05};
+  modbus::add_crc(answer);
+  const auto half = answer.begin() + 3;
+  Bridged session(kAsks, {1'600 * kMillisecond, 1'620 * kMillisecond, 2'600 * kMillisecond, 2'630 * kMillisecond});
+  session.pieces = {{answer.begin(), half}, {half, answer.end()}, {answer.begin(), half}, {half, answer.end()}};
+  session("continue 1550ms; break unanswered");
+  EXPECT_FALSE(has(session("continue 1900ms"), "breakpoint 1, unanswered, hit")) << "each has its answer";
+  EXPECT_TRUE(has(session("continue 2s"), "asked by the program")) << "nobody has answered the last";
+  EXPECT_TRUE(has(session("continue 100ms; rc"), "breakpoint 1, unanswered, hit"));
+}
+
+TEST(Debugger, APieceOfAnAnswerOverABridgeMayTakeLongerThanTheNextOneIsWaitedFor) {
+  Bytes answer{0x01, 0x03, 0x78};
+  answer.resize(3 + 0x78);
+  modbus::add_crc(answer);
+  const auto head = answer.begin() + 10;  // the rest lasts 120 ms
+  Bridged session(kAsks, {1'600 * kMillisecond, 1'650 * kMillisecond});
+  session.pieces = {{answer.begin(), head}, {head, answer.end()}};
+  session("continue 1550ms; break unanswered");
+  EXPECT_TRUE(has(session("continue 1900ms"), "asked by the program")) << "the next request, at 2 s";
+  EXPECT_GT(session.simulation.time(), 2'900 * kMillisecond);
 }
 
 TEST(Debugger, AProgramAndAMasterOnABridgeThatAskOneAfterTheOtherAreBothUnanswered) {
@@ -565,7 +653,7 @@ TEST(Debugger, ACancelledRequestIsInThePastAndInASavedSession) {
   const serial::Simulation::Snapshot there = session.simulation.snapshot();
   session("at 50ms; at end; rscan 2");
   session("at end");
-  const std::string file = testing::TempDir() + "cancelled.json";
+  const std::string file = test::scratch_folder() + "cancelled.json";
   session("rscan; save " + file + " !");
   Session other(kListening);
   other("load " + file + "; at end; rscan");
@@ -622,6 +710,32 @@ TEST(Debugger, WhyNamesOfAMasterOnABridgeOnlyItsLastRequest) {
   EXPECT_FALSE(has(text, "since 2500."));
 }
 
+TEST(Debugger, AddressesArePointersAsInStl) {
+  Session session(kEcho);
+  session("continue 10ms; set VD100=&VB200 VD104=&T5");
+  EXPECT_EQ(session("print &VB200"), "&VB200 = 134217928 (16#080000C8)\n");
+  EXPECT_EQ(session("print &T5"), "&T5 = 117440522 (16#0700000A)\n");
+  session("expect VD100 = &VB200 and VD104 = &T5 and VD100 + 1 = &vb201");
+  EXPECT_TRUE(has(session("print VD100 - &VB0"), "= 200 (16#000000C8)"));
+  EXPECT_TRUE(has(session("print *VD100"), "*VD100 is VB200\n"));
+  for (const char* wrong : {"print &M0.1", "print &AC0", "print &VB0:2", "expect VD100 = &HC0", "set VD100=&SMB2"})
+    EXPECT_TRUE(has(session.error_of(wrong), "a pointer can point to bytes of I, Q, M, V or S")) << wrong;
+  EXPECT_TRUE(has(session.error_of("print &VB99999"), "does not exist on CPU"));
+  EXPECT_TRUE(has(session.error_of("set VW100=&VB0"), "a value that fits it")) << "too wide";
+}
+
+TEST(Debugger, AtAMomentBeforeSomethingWasDoneStandsBeforeThat) {
+  Session session(kEcho);
+  session("continue 100ms; scan");
+  const Time at = session.simulation.time();
+  session("set VW20=7; continue 10ms");
+  session("at " + format_duration(at - 1, 9));
+  EXPECT_EQ(session.simulation.time(), at);
+  EXPECT_EQ(session.vw(20), 0);
+  session("at " + format_duration(at, 9));
+  EXPECT_EQ(session.vw(20), 7);
+}
+
 TEST(Debugger, WhoNamesTheActionThatHasWrittenOfSeveralAtOneMoment) {
   Session session(kEcho);
   EXPECT_TRUE(has(session("continue 100ms; set VW20=7; force VW22=9; who VW20"), "by 'set VW20', from outside"));
@@ -661,6 +775,34 @@ TEST(Debugger, AnAnsweredRequestOfAMasterOnABridgeDoesNotStop) {
   session("break unanswered; break sent");
   EXPECT_TRUE(has(session("continue"), "breakpoint 2, sent"));
   EXPECT_FALSE(has(session("continue 5s"), "unanswered"));
+}
+
+TEST(Debugger, WhatAPlcSendsToAMasterOnABridgeIsAWrongAnswerUnlessItAnswersTheRequest) {
+  Bridged wrong(
+      "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 10, SMB34\nATCH 1, 8\nENI\nMEND\n"
+      "INT 1\nLD SM0.0\nINCW VW2\nLDW= VW2, 8\nATCH 2, 10\nRETI\n"
+      "INT 2\nLD SM0.0\nDTCH 10\nMOVB 1, VB0\nXMT VB0, 0\nRETI\n",
+      {2 * kSecond});
+  EXPECT_TRUE(has(wrong("break wrong; continue"),
+                  "breakpoint 1, wrong, hit for the first time\n  01 03 00 0a 00 01 a4 08\n  answered 00: too short for an "
+                  "answer: 00\n"));
+  const Time at = wrong.simulation.time();
+  EXPECT_FALSE(has(wrong("continue 3s"), "wrong, hit"));
+  wrong("rcontinue");
+  EXPECT_EQ(wrong.simulation.time(), at);
+}
+
+TEST(Debugger, AnAnswerOfABridgeInPiecesIsWrongOnlyIfAllOfItIs) {
+  Bytes answer{0x01, 0x03, 0x02, 0x00, 0x05};
+  modbus::add_crc(answer);
+  const auto half = answer.begin() + 3;
+  const Bytes first(answer.begin(), half), second(half, answer.end());
+  Bridged right(kAsks, {1'600 * kMillisecond, 1'630 * kMillisecond}), torn(kAsks, {1'600 * kMillisecond});
+  right.pieces = {first, second};
+  torn.pieces = {first};
+  EXPECT_FALSE(has(right("continue 1550ms; break wrong; continue 400ms"), "wrong, hit"));
+  EXPECT_TRUE(has(torn("continue 1550ms; break wrong; continue 400ms"), "  answered 01 03 02: too short for an answer"));
+  EXPECT_GE(torn.simulation.time(), 1'700 * kMillisecond) << "the rest might have come up to then";
 }
 
 TEST(Debugger, AFrameHasEndedAtTheSameMomentWhereverARunPausedInIt) {
@@ -1175,6 +1317,16 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
   EXPECT_EQ(session.simulation.snapshot(), before);
 }
 
+TEST(Debugger, WhatTakesATimeNamesItsUnits) {
+  Session session(kNested);
+  for (const char* wrong : {"continue 20m", "at 20m", "power 20m"})
+    EXPECT_TRUE(has(session.error_of(wrong), "in ns, us, ms, s, min or h")) << wrong;
+  for (const char* command : {"help continue", "help at", "help power"})
+    EXPECT_TRUE(has(session(command), "in ns, us, ms, s, min or h")) << command;
+  EXPECT_EQ(kTimeUnits, "ns, us, ms, s, min or h");
+  for (const char* unit : {"ns", "us", "ms", "s", "min", "h"}) EXPECT_TRUE(parse_duration(std::string("20") + unit)) << unit;
+}
+
 TEST(Debugger, WrongAssignmentMeansThatNoneOfItsLineIsMade) {
   Session session(kNested);
   session.error_of("set VW100=5 VB102=300");
@@ -1229,7 +1381,7 @@ TEST(Debugger, HelpExplainsEveryCommand) {
 TEST(Debugger, EveryFaultInAHelpTextIsOneThatIsAccepted) {
   Session session(kEcho);
   for (const std::string command : {"fault", "help fault"}) {
-    std::string text = command == "fault" ? session.error_of(command) : session(command);
+    const std::string text = session(command);
     int examples = 0;
     for (std::size_t at = 0; (at = text.find("fault ", at)) != std::string::npos; at += 6) {
       const std::string fault = text.substr(at + 6, text.find_first_of(" \n;", at + 6) - at - 6);
@@ -1288,6 +1440,53 @@ TEST(Debugger, AfterAStopRequestTheRestOfAScriptIsNotDoneAndCounted) {
   std::istringstream pipe("scan 5\nstep\n");
   EXPECT_FALSE(session.debugger->run_script(pipe, false));
   EXPECT_FALSE(has(session.out.str(), "not done")) << "what is still to come over a pipe is not known";
+}
+
+TEST(Debugger, TheFieldHasItsLevelsWhenPowerComesBack) {
+  Session session("LD I0.3\n= Q0.0\nMEND\n");
+  session("input I0.3=1; continue 20ms; power; continue 20ms");
+  EXPECT_TRUE(has(session("print I0.3"), "1"));
+  EXPECT_TRUE(has(session("print Q0.0"), "1"));
+  session("input I0.3=0; power; continue 20ms");
+  EXPECT_TRUE(has(session("print I0.3"), "0"));
+  session("at start; step");
+  EXPECT_TRUE(has(session("print I0.3"), "0"));
+}
+
+TEST(Debugger, ATimeFromThePastOnEndsWhereItEndsWhereverScansArePassedOver) {
+  serial::Simulation simulation(program_of("LD I0.0\n= Q0.0\nMEND\n"));
+  simulation.power_up();
+  std::ostringstream out;
+  DebuggerOptions options{};
+  options.history.drive = [&](Time end) {  // Ctrl-C between two scans
+    const serial::Halt halt = simulation.run_until(std::min<Time>(end, 700 * kMillisecond));
+    return simulation.time() < end ? serial::Halt::Request : halt;
+  };
+  Debugger debugger(simulation, out, options);
+  EXPECT_FALSE(debugger.execute("continue 60s; at 300ms; continue 10ms"));
+  EXPECT_GE(simulation.time(), 310 * kMillisecond);
+  EXPECT_LT(simulation.time(), 312 * kMillisecond);
+}
+
+TEST(Debugger, APeerThatIsLostIsSaidOnceAndTheSessionGoesOn) {
+  serial::Simulation simulation(program_of("LD SM0.0\nINCW VW0\nMEND\n"));
+  simulation.power_up();
+  std::ostringstream out;
+  DebuggerOptions options{};
+  std::string failure = "the device is gone";
+  options.history.drive = [&](Time end) {
+    const serial::Halt halt = simulation.run_until(failure.empty() ? end : std::min<Time>(end, 5 * kMillisecond));
+    return failure.empty() ? halt : serial::Halt::Request;
+  };
+  options.take_failure = [&] { return std::exchange(failure, {}); };
+  Debugger debugger(simulation, out, options);
+  EXPECT_FALSE(debugger.execute("continue 60s"));
+  EXPECT_TRUE(has(out.str(), "the device is gone\n"));
+  EXPECT_FALSE(has(out.str(), "Ctrl-C"));
+  out.str("");
+  EXPECT_FALSE(debugger.execute("continue 10ms"));
+  EXPECT_TRUE(has(out.str(), "10 ms of simulated time passed"));
+  EXPECT_FALSE(has(out.str(), "gone"));
 }
 
 }  // namespace

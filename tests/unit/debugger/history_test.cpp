@@ -17,6 +17,7 @@
 #include "tools/debugger/last_write.hpp"
 #include "tools/debugger/past_words.hpp"
 #include "tools/debugger/stepper.hpp"
+#include "tools/views/listing.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -136,7 +137,7 @@ TEST(History, StateAtEveryEventOfASessionIsThatOfARunThatOnlyWentForward) {
 /// S7200_WALKS sets how many.
 TEST(History, RandomWalksForwardsAndBackwardsStandWhereAPlainRunStands) {
   const char* const asked = std::getenv("S7200_WALKS");
-  const int walks = asked ? std::atoi(asked) : 3000;
+  const int walks = asked ? std::atoi(asked) : 10'000;
   const auto program = slave();
   Recorded session(program, {.interval = 10 * kMillisecond});
   session.live_through_it();
@@ -179,18 +180,22 @@ Snapshot plain_state_at(const std::shared_ptr<const Program>& program, const Mom
 /// S7200_WALKS sets how many steps.
 TEST(History, RandomWalksOfStepsInBothDirectionsStandWhereAPlainRunStands) {
   const char* const asked = std::getenv("S7200_WALKS");
-  const int walks = asked ? std::atoi(asked) : 500;
+  const int walks = asked ? std::atoi(asked) : 10'000;
   const auto program = slave();
   Recorded session(program, {.interval = 10 * kMillisecond});
   session.live_through_it();
   Stepper stepper(*session.history, nullptr);
   const Cpu& cpu = session.simulation.cpu();
   std::mt19937 chance(12);
+  const Listing listing(*program);
+  const Time last = session.history->newest().time;
   session.history->go_to(Time{100 * kMillisecond});
   for (int i = 0; i < walks; ++i) {
-    const auto which = chance() % 8, count = 1 + chance() % 200;
+    const auto which = chance() % 16, count = 1 + chance() % 200;
     const bool ends_soon = session.history->now().instructions + 1000 > kEnd;
     const auto run = [&](const Stepper::Goal& goal) { stepper.run(goal, kNever, false); };
+    const auto run_within = [&](const Stepper::Goal& goal) { stepper.run(goal, last, false); };
+    const auto some_place = static_cast<std::uint32_t>(chance() % cpu.program().ops.size());
     if (which == 0 || ends_soon)
       stepper.run_back(goal::back_instruction(), ends_soon ? 2000 : count, false);
     else if (which == 1)
@@ -205,8 +210,23 @@ TEST(History, RandomWalksOfStepsInBothDirectionsStandWhereAPlainRunStands) {
       run(goal::scan(cpu.state(), 1 + count % 3));
     else if (which == 6 && goal::is_in_routine(cpu.state()))
       run(goal::out(cpu.state()));
+    else if (which == 7)
+      run_within(goal::network_over(cpu.state(), listing));
+    else if (which == 8)
+      stepper.run_back(goal::back_network_over(cpu.state(), listing), 1, false);
+    else if (which == 9)
+      run_within(goal::interrupt_begins(cpu.program()));
+    else if (which == 10)
+      stepper.run_back(goal::back_interrupt_ends(cpu.program()), 1, false);
+    else if (which == 11)
+      run_within(goal::place(some_place));
+    else if (which == 12)
+      stepper.run_back(goal::place(some_place), 1, false);
+    else if (which == 13)
+      session.history->go_to(static_cast<Time>(chance() % static_cast<std::uint64_t>(last)));
     else
       run(goal::instructions(count));
+    if (!session.history->now().settled) run(goal::instructions(1));  // it is at the beginning
     const Moment now = session.history->now();
     ASSERT_TRUE(session.simulation.snapshot() == plain_state_at(program, now))
         << "walk " << i << " in front of instruction " << now.instructions;

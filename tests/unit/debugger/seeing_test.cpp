@@ -236,5 +236,20 @@ TEST(Seeing, AConstantIsComparedAsTheInstructionsTakeIt) {
     EXPECT_EQ(session.error_of(std::string("expect ") + holds), "no error") << holds;
 }
 
+TEST(Seeing, WhatIsDoneFromOutsideIsInTheTrace) {
+  Session session("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n");
+  const std::string text = session("continue 20ms; trace on; input I0.0=1; mode stop; mode run; set SMB30=16#49");
+  EXPECT_TRUE(has(text, "event 0 (rising edge of I0.0) occurred"));
+  EXPECT_TRUE(has(text, "STOP"));
+  EXPECT_TRUE(has(text, "RUN"));
+  EXPECT_TRUE(has(text, "SMB30 = 16#49"));
+}
+
+TEST(Seeing, ACounterHasThePresetOfItsInstruction) {
+  Session session("LD I0.0\nLD I0.1\nCTU C1, 3\nMEND\n");
+  EXPECT_TRUE(has(session("print C1"), "C1: bit 0, preset 3\n"));
+  EXPECT_TRUE(has(session("print C2"), "C2: bit 0\n"));
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -55,6 +55,27 @@ TEST_F(SavedSession, HasWhatOneCommandDidToAPlaceTwiceInItsOrder) {
   }
 }
 
+TEST_F(SavedSession, HasItsBreakpointsAndWatches) {
+  Session session(kNested);
+  session(
+      "continue 12ms; break INT 0 if VW30 > 2 hits 2; break 4 always; watch VW30 write; watch VB20:2 VD100:real; "
+      "break event 10 occurs; break error 0006 log \"it's {VW10}  at {time}\"; delete 2; save " +
+      file("a.json"));
+  EXPECT_TRUE(has(session.out.str(), "from outside; breakpoints and watches: 6\n"));
+  const std::string there = session("break");
+  Session other(kNested);
+  EXPECT_TRUE(has(other("load " + file("a.json")), "breakpoints and watches of that session: 6; 'break' lists them\n"));
+  EXPECT_EQ(other("break"), there);
+  EXPECT_FALSE(has(other("load " + file("a.json")), "of that session")) << "they are there already";
+  EXPECT_EQ(other("break"), there);
+  EXPECT_EQ(session("delete 3 4 5 6; continue"), other("delete 3 4 5 6; continue")) << "they stop the same";
+  EXPECT_TRUE(has(other.out.str(), "breakpoint 1, hit 2 times"));
+  Session third(kNested);
+  third("break 4; load " + file("a.json"));
+  EXPECT_TRUE(has(third("break"), "1   break")) << "its own keeps its number";
+  EXPECT_TRUE(has(third.out.str(), "2   break    0 hits  INT 0")) << "that of another one is not taken";
+}
+
 TEST_F(SavedSession, KeepsAPowerCycleThatItBeganWith) {
   Session session(kNested);
   session("scan 5; set MB14=9; power 1s; scan 2; save " + file("a.json"));

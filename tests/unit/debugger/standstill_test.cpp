@@ -1,9 +1,7 @@
 // A CPU in STOP: time passes, requests come to their end, and the past is the past.
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <filesystem>
-
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/debugger/session.hpp"
 
 namespace s7200::tools {
@@ -91,8 +89,7 @@ TEST(Standstill, ModeStopsAndStartsTheProgramAsAProgrammingDeviceDoes) {
 }
 
 TEST(Standstill, ModeIsPlayedAgainAndSaved) {
-  const std::string path = (std::filesystem::path(testing::TempDir()) / "mode_session.json").string();
-  std::remove(path.c_str());
+  const std::string path = test::scratch_folder() + "mode_session.json";
   Session session(kNested);
   session("continue 20ms; mode stop; continue 100ms; mode run; continue 20ms");
   const auto there = session.simulation.snapshot();

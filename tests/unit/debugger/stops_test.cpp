@@ -54,6 +54,25 @@ TEST(Stops, AWatchStopsAtWhatWasSetFromOutside) {
   EXPECT_TRUE(has(session("rc"), "this is the oldest moment"));
 }
 
+TEST(Stops, ABreakpointStopsBeforeWhatWasDoneWhereItStands) {
+  Session session(kNested);
+  session("until INT 0");
+  const serial::Simulation::Snapshot there = session.simulation.snapshot();
+  session("set VW100=7; set VW102=8; continue 12ms; break INT 0; at start; continue");
+  EXPECT_TRUE(session.simulation.snapshot() == there) << "as it stood there, before anything was set";
+  EXPECT_EQ(session.vw(100), 0U);
+  EXPECT_TRUE(has(session("continue"), "breakpoint 1")) << "not a second time in front of the same instruction";
+  EXPECT_EQ(session.vw(30), 1U);
+  EXPECT_EQ(session.vw(100), 7U);
+  EXPECT_EQ(session.vw(102), 8U);
+  session("rc");
+  EXPECT_TRUE(session.simulation.snapshot() == there) << "a part of the past that is searched begins right there";
+  EXPECT_TRUE(has(session("rc"), "this is the oldest moment"));
+  EXPECT_EQ(session("delete all; break INT 0 log '{VW100} at {time}'; at start; continue 6ms").find("7 at "),
+            std::string::npos)
+      << "looked at once, and that before";
+}
+
 TEST(Stops, AWatchStopsAtAForcedValue) {
   Session session(kNested);
   session("watch VW100; continue 5ms; force VW100=9; continue 5ms");
@@ -136,7 +155,7 @@ TEST(Stops, CompletionOffersWhatMayComeNext) {
   EXPECT_EQ(offered("force VW1"), Words{"VW10"});
   session("force VW10=5");
   EXPECT_EQ(offered("unforce "), (Words{"all", "VW10"}));
-  EXPECT_EQ(offered("fault fli"), Words{"flip"});
+  EXPECT_EQ(offered("fault fli"), Words{"flip:"});
   EXPECT_EQ(offered("mode "), (Words{"run", "stop"}));
 }
 
@@ -149,6 +168,57 @@ TEST(Stops, OptionsComeInAnyOrderAfterATextInQuotesTooAndOnce) {
   EXPECT_EQ(session.error_of("break 4 hits 2 hits 3"), "'hits' is there twice; give it once");
   EXPECT_EQ(session.error_of("break 4 log 'x' log 'y'"), "'log' is there twice; give it once");
   EXPECT_TRUE(has(session.error_of("break 4 log 'x' frob"), "always, if CONDITION, hits N, log 'TEXT'"));
+}
+
+TEST(Stops, WhatRunsWithoutPowerFlowTooStopsWithoutIt) {
+  Session session(
+      "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nCALL 1\nFOR VW0, 1, 2\nLD I0.0\nNEXT\nLD I0.0\nLBL 3\nLD I0.0\n"
+      "MEND\nSBR 1\nLD I0.0\nRET\nINT 0\nLD I0.0\nRETI\n");
+  for (const char* const place : {"9", "LBL 3", "13", "16", "19"}) {
+    const std::string text = session(std::string("delete all; break ") + place + "; continue 20ms");
+    EXPECT_TRUE(has(text, "for the first time")) << place;
+    EXPECT_FALSE(has(text, "without power flow")) << place;
+  }
+}
+
+TEST(Stops, WhatIsPassedWithoutPowerFlowIsSaidBackwardsTooWithTheConditionThatHeld) {
+  Session session("LD I0.0\n= Q0.0\nLD SM0.0\nINCW VW0\nMEND\n");
+  session("continue 5ms; break 2 if VW0 > 1");
+  EXPECT_TRUE(has(session("scan"), "breakpoint 1 was passed once without power flow; 'break 2 always if VW0 > 1' stops"));
+  const std::string back = session("rscan 3");
+  EXPECT_TRUE(has(back, "breakpoint 1 was passed 3 times without power flow"));
+  EXPECT_FALSE(has(session("delete 1; break 2 if VW0 < 0; rscan; scan"), "was passed")) << "the condition did not hold";
+}
+
+TEST(Stops, TheLineInTheMessageOfAWatchIsThatOfTheInstructionThatDidIt) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("watch VW10 log '{VW10} in line {line}'; continue 2ms"), "1 in line 4\n"));
+}
+
+TEST(Stops, AWatchOfWritesSaysThatItIsForInstructions) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("watch SMB2 write"), "it is for writes of instructions; 'watch SMB2' stops at what the system"));
+  EXPECT_FALSE(has(session("watch SMB2"), "instructions"));
+}
+
+TEST(Stops, WhatCanNeverHappenIsRefused) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session.error_of("break event 27"), "event 27 needs CPU"));
+  EXPECT_TRUE(has(session.error_of("break rcv"), "RCV needs CPU"));
+  EXPECT_TRUE(has(session.error_of("break error 9999"), "'9999' is not the code of a run-time error"));
+  EXPECT_EQ(session.error_of("break error 0006"), "no error");
+}
+
+TEST(Stops, AConditionOfAnyLengthIsAnsweredOrRefused) {
+  Session session(kNested);
+  const auto chain = [](int operators) {
+    std::string text = "print 1";
+    for (int i = 0; i < operators; ++i) text += "+1";
+    return text;
+  };
+  EXPECT_TRUE(has(session(chain(1000)), "+1 = 1001 (16#"));
+  EXPECT_TRUE(has(session.error_of(chain(1001)), "more than 1000 operators"));
+  EXPECT_TRUE(has(session.error_of(chain(200'000)), "more than 1000 operators"));
 }
 
 }  // namespace

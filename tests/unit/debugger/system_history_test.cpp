@@ -55,7 +55,7 @@ std::string difference(const Snapshot& is, const Snapshot& expected) {
     if (!(is.queues[i] == expected.queues[i])) text += fmt::format("queue {}\n", i);
   if (!(is.lines == expected.lines)) text += "lines\n";
   if (!(is.requesters == expected.requesters)) text += "requesters\n";
-  if (is.clock != expected.clock || is.acted != expected.acted) text += "what was scheduled\n";
+  if (is.clock != expected.clock || is.done != expected.done) text += "what was scheduled\n";
   return text;
 }
 

@@ -107,6 +107,184 @@ TEST(Why, ARequestThatThePlcHasNotHeardIsNamedWithTheFault) {
   EXPECT_TRUE(has(text, ", and the PLC heard nothing: fault cut:from=0"));
 }
 
+constexpr std::string_view kAsk = "; send 01 03 00 0a 00 01 crc; continue";
+
+/// What `why` says of the last request after those commands.
+std::string why_after(const std::string& commands) {
+  static const auto program = test::compile(test::slave_text());
+  Session session(program);
+  session("continue 2s; break unanswered; " + commands);
+  return session("why");
+}
+
+TEST(Why, OnlyFaultsThatStruckThisRequestAreNamed) {
+  const std::string text = why_after(
+      "fault flip:character=1,exchange=1; fault gap:character=2,length=1ms,exchange=9; fault "
+      "missing:of=answer,character=each,exchange=2" +
+      std::string(kAsk) + "; continue 100ms" + std::string(kAsk));
+  EXPECT_TRUE(has(text, "and the master heard none of them: fault missing:character=each,of=answer,exchange=2: 7×\n"));
+  EXPECT_FALSE(has(text, "flip"));
+  EXPECT_FALSE(has(text, "gap"));
+}
+
+TEST(Why, AllFaultsThatStruckARequestAreNamedWithTheirCharacters) {
+  const std::string text = why_after(
+      "fault flip:character=3,bit=2; fault flip:character=6,bit=0; fault flip:of=answer,character=1" + std::string(kAsk));
+  EXPECT_TRUE(has(text, "the master sent 8 characters from 20"));
+  EXPECT_TRUE(has(text, ", and the PLC heard 01 03 04 "));
+  EXPECT_TRUE(has(text,
+                  " instead of 01 03 00 0a 00 01 a4 08: fault flip:character=3,bit=2: 1×, in character 3; fault "
+                  "flip:character=6: 1×, in character 6\n"));
+  EXPECT_FALSE(has(text, "of=answer"));
+}
+
+TEST(Why, ACollisionIsNamedWithTheCharactersThatItStruckWhateverElseMovedThem) {
+  const auto why = [](const std::string& faults) { return why_after("fault " + faults + std::string(kAsk)); };
+  EXPECT_TRUE(has(why("collision:character=3,bytes=0000"), ": 2×, in characters 3 and 4\n"));
+  EXPECT_TRUE(has(why("collision:character=3,bytes=000000; fault gap:character=4,length=5ms"), ": 3×, in character 3; "));
+  EXPECT_TRUE(has(why("gap:character=2,length=3ms; fault collision:character=1,bytes=0000"), ": 2×, in character 1; "));
+  EXPECT_TRUE(has(why("collision:character=2,at=25bit,bytes=00"), ": 1×, in characters 4 and 5\n"));
+  const std::string behind = why("extra:behind=2,bytes=55; fault collision:character=2,bytes=0000");
+  EXPECT_TRUE(has(behind, "fault extra:behind=2,bytes=55: 1×, behind character 2; ")) << behind;
+  EXPECT_TRUE(has(behind, "fault collision:character=2,bytes=0000: 2×, in character 2\n")) << behind;
+  EXPECT_TRUE(has(why("break:character=2,length=40bit"), ": 1×, in characters 2, 3, 4 and 5\n"));
+}
+
+TEST(Why, AnEchoIsNotToBlameForWhatAnotherFaultChanged) {
+  const std::string text = why_after("fault echo; fault flip:of=answer,character=3" + std::string(kAsk));
+  EXPECT_TRUE(has(text, ": fault flip:character=3,of=answer: 1×, in character 3\n")) << text;
+  EXPECT_FALSE(has(text, "echo"));
+}
+
+TEST(Why, AFaultThatDamagedARequestIsNamedBeforeWhatTheProgramMadeOfIt) {
+  const std::string text = why_after("fault parity:character=2" + std::string(kAsk));
+  EXPECT_TRUE(has(text, "and the PLC heard them with wrong parity: fault parity:character=2: 1×, in character 2\n"));
+  EXPECT_TRUE(has(text, "no answer to 8 characters since 20"));
+  EXPECT_LT(text.find("fault parity"), text.find("no answer to"));
+}
+
+TEST(Why, ABreakThatBeganBeforeTheRequestIsNamedWithItsTimes) {
+  const std::string text = why_after("fault break:from=1ms,length=200ms; continue 20ms" + std::string(kAsk));
+  EXPECT_TRUE(has(text, ", and the PLC heard nothing: fault break:length=200ms,from=1ms: 1×, from 2001."));
+  EXPECT_FALSE(has(why_after("fault break:from=1ms,length=200ms; continue 20ms; fault none; continue 5ms; fault missing:"
+                             "character=each" +
+                             std::string(kAsk)),
+                   "break"))
+      << "which had been taken away";
+}
+
+TEST(Why, APauseThatAFaultMadeInARequestIsNamed) {
+  const std::string text = why_after("fault gap:character=4,length=10ms" + std::string(kAsk));
+  EXPECT_TRUE(has(text, "and the PLC heard them with a pause: fault gap:character=4,length=10ms: 1×, in character 4\n"));
+  EXPECT_LT(text.find("with a pause"), text.find("no answer to 3 characters"));
+}
+
+TEST(Why, ABitThatAFaultInvertsInTheAnswerIsNotSomebodySendingAtTheSameTime) {
+  const std::string text = why_after("fault flip:of=answer,character=2" + std::string(kAsk));
+  EXPECT_TRUE(has(text, "fault flip:character=2,of=answer: 1×"));
+  EXPECT_FALSE(has(text, "receiver is off"));
+}
+
+TEST(Why, ACharacterWhoseParityTheMasterWantsWrongIsNotTheFaultOfTheLine) {
+  EXPECT_FALSE(has(why_after("send 01 03p 00 0a 00 01 crc; continue"), "the master sent"));
+}
+
+TEST(Why, AnAnswerThatCameDamagedIsNamedThoughTheRequestWasAnswered) {
+  const std::string text = why_after("fault parity:of=answer,character=3" + std::string(kAsk));
+  EXPECT_TRUE(
+      has(text, "and the master heard them with wrong parity: fault parity:character=3,of=answer: 1×, in character 3"));
+  EXPECT_TRUE(has(why_after("fault missing:of=answer,character=5,count=3" + std::string(kAsk)),
+                  "and the master heard 01 03 02 00 instead of 01 03 02 00 00 b8 44: fault "
+                  "missing:character=5,count=3,of=answer: 3×, in characters 5, 6 and 7\n"));
+}
+
+TEST(Why, AnAnswerThatTheProgramSentWithoutARightCrcIsNotTheFaultOfTheLine) {
+  Session session(
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nMOVW 16#0103, VW1\nMOVB 2, VB0\nMEND\n"
+      "INT 1\nLD SM0.0\nINCW VW90\nLDW= VW90, 8\nXMT VB0, 0\nRETI\n");
+  session("continue 50ms; fault flip:exchange=2; send 01 03 00 0a 00 01 crc; continue");
+  EXPECT_TRUE(has(session("why"), "the PLC sent 2 characters from 5"));
+  EXPECT_TRUE(has(session("why"),
+                  "and the master heard them as they were sent; they are not a Modbus RTU frame with a right CRC\n"));
+  EXPECT_FALSE(has(why_after("send 01 03 00 0a 00 01 crc; continue"), "heard"));
+}
+
+TEST(Why, NoiseThatTheMasterTookForTheAnswerIsNamed) {
+  const std::string text = why_after("fault noise:ber=5%" + std::string(kAsk));
+  EXPECT_TRUE(has(text, "the master heard ff fd ff fb ef fe from 2010."));
+  EXPECT_TRUE(has(text, ", which no S7-200 has sent: fault noise:ber=0.05: "));
+}
+
+TEST(Why, ARequestForAnotherStationIsSaidToBeSoFirst) {
+  const std::string text = why_after("send 02 03 00 0a 00 01 crc; continue");
+  EXPECT_TRUE(has(text, "the request was for station 2; the program compared its first character with 1\n"));
+  EXPECT_TRUE(has(text, "CRETI in line 662, not taken"));
+  EXPECT_LT(text.find("the request was for"), text.find("CRETI"));
+  EXPECT_FALSE(has(why_after("send 01 03 00 0a 00 01 00 00; continue"), "the request was for"));
+}
+
+/// Keeps a line of text in VB101 …; sends it when its end has come, M0.0.
+constexpr std::string_view kLines =
+    "LD      SM0.1\n"  // 1
+    "MOVB    16#09, SMB30\n"
+    "MOVB    0, VB100\n"
+    "MOVD    &VB101, VD0\n"
+    "ATCH    1, 8\n"
+    "ENI\n"
+    "LD      M0.0\n"             // 7
+    "XMT     VB100, 0  // it\n"  // 8
+    "R       M0.0, 1\n"
+    "MEND\n"
+    "INT     1\n"
+    "LD      SM0.0\n"
+    "MOVB    SMB2, *VD0\n"
+    "INCD    VD0\n"
+    "INCB    VB100\n"
+    "LDB=    SMB2, 16#0D\n"  // 16
+    "S       M0.0, 1\n"
+    "RETI\n";
+
+TEST(Why, ATextThatAProgramSwallowsLeadsToTheXmtWithoutPowerFlow) {
+  std::string text(kLines);
+  text.replace(text.find("INCB    VB100\n"), 14, "INCW    VW90 \n");  // of CPU 214, which has no INCB
+  Session session(text);
+  session("continue 50ms; break unanswered; send 'one'; continue; send 'two'; continue");
+  const std::string why = session("why");
+  EXPECT_TRUE(has(why, "no answer to 3 characters since "));
+  EXPECT_TRUE(has(why,
+                  ": INT 1 took them, and nothing was sent since: XMT VB100, 0 in line 8, without power flow (LD M0.0: "
+                  "M0.0=0)  // it\n"));
+  session("rwhy");
+  EXPECT_EQ(session.line(), 8u);
+}
+
+TEST(Why, ATextThatAProgramSwallowsLeadsToTheJumpOverItsXmt) {
+  Session session(
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nLDN M0.0\nJMP 1\nLD SM0.0\nXMT VB0, 0\nLBL 1\nLD SM0.0\nINCW VW10\nMEND\n"
+      "INT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
+  session("continue 50ms; break unanswered; send 41; continue");
+  EXPECT_TRUE(has(session("why"), "no answer to a character since 5"));
+  EXPECT_TRUE(has(session("why"), ": INT 1 took it, and nothing was sent since: JMP 1 in line 6 (LDN M0.0: M0.0=0)\n"));
+}
+
+TEST(Why, ATextThatAProgramWithoutXmtSwallowsIsSaidToBeTaken) {
+  Session session("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
+  session("continue 50ms; break unanswered; send 41 42; continue");
+  EXPECT_TRUE(has(session("why"), ": INT 1 took them, and nothing was sent since (no XMT was executed)\n"));
+}
+
+TEST(Why, TheAnswerComesBeforeWhatLedToWhereItStands) {
+  const std::string text = why_after("fault cut:from=0ms" + std::string(kAsk) + "; until 85");
+  ASSERT_TRUE(has(text, "what led here: main"));
+  EXPECT_LT(text.find("the PLC heard nothing"), text.find("what led here"));
+}
+
+TEST(Why, AFrameWithALongBreakInItsFirstCharacterIsOneThatTheProgramHasLeft) {
+  const std::string text = why_with("break:character=1,length=40bit");
+  EXPECT_TRUE(has(text, "no answer to 5 characters since 20"));
+  EXPECT_TRUE(has(text, ": JMP 255 in line 141 (LDW= AC0, 0"));
+}
+
 TEST(Why, AnAnswerThatArrivesIsNotMentioned) {
   EXPECT_FALSE(has(why_with("none"), "the PLC sent"));
   EXPECT_FALSE(has(why_with("flip:of=answer,character=2,exchange=2"), "the PLC sent"));
@@ -129,6 +307,151 @@ TEST(Why, AnAnswerThatBeganBeforeTheRequestHadEndedIsNamedSo) {
   Session session(kEcho);
   session("continue 50ms; break unanswered; send 41 42; continue");
   EXPECT_TRUE(has(session("why"), "the master was still sending, up to 52."));
+}
+
+/// The slave with its ENI replaced, after a request that nothing has answered.
+struct SlaveWithoutEni : Session {
+  explicit SlaveWithoutEni(const std::string& instead)
+      : Session(test::changed(test::slave_text(), "\nENI", "\n" + instead)) {
+    (*this)("continue 1s; break unanswered; send 01 03 00 0a 00 01 crc; continue");
+  }
+};
+
+TEST(Why, CharactersThatWaitForDisabledInterruptsWereNotTakenByTheirRoutine) {
+  constexpr std::string_view kWait =
+      ": interrupts are disabled; 4 characters wait in the queue, 4 were lost because it was full; ";
+  SlaveWithoutEni never("NOP 0");
+  EXPECT_TRUE(has(never("why"), "no answer to 8 characters since 100"));
+  EXPECT_TRUE(has(never.out.str(), std::string(kWait) + "no ENI was executed since power-up\n"));
+  EXPECT_FALSE(has(never.out.str(), "took"));
+  SlaveWithoutEni disabled("DISI");
+  EXPECT_TRUE(has(disabled("why"), std::string(kWait) + "disabled at 52."));
+  EXPECT_TRUE(has(disabled.out.str(), " by DISI in line 122"));
+  disabled("rwhy");
+  EXPECT_EQ(disabled.line(), 122u) << "in front of it";
+  EXPECT_LT(disabled.state().time, 60 * kMillisecond);
+}
+
+TEST(Why, ACpuThatWentToRunHasDisabledInterruptsItself) {
+  Session session("LDN M0.0\nAN SM0.1\nENI\nLD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nMEND\nINT 1\nRETI\n");
+  session(
+      "continue 50ms; set M0.0=1; mode stop; continue 10ms; mode run; continue 50ms; break unanswered; send 41; continue");
+  EXPECT_TRUE(has(session("why"),
+                  ": interrupts are disabled; a character waits in the queue; no ENI was executed since the "
+                  "CPU went to RUN at "));
+}
+
+TEST(Why, CharactersLostBecauseTheirQueueWasFullAreNotTaken) {
+  std::string text = "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI\nLD I0.0\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n";
+  Session session(text);
+  session("continue 50ms; break unanswered; send 41 42 43 44 45 46; continue 50ms; input I0.0=1; continue");
+  EXPECT_TRUE(has(session("why"), "of 6 characters since 5"));
+  EXPECT_TRUE(has(session.out.str(), ", 2 were lost because the interrupt queue was full\n"));
+  EXPECT_TRUE(has(session.out.str(), "no answer to 4 characters since 5"));
+  EXPECT_TRUE(has(session.out.str(), ": INT 1 took them"));
+}
+
+TEST(Why, CharactersLostBeforeInterruptsWereDisabledAreNotBlamedOnThat) {
+  std::string text =
+      "LD I0.1\nEU\nDISI  // short\nLD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI\nLD I0.0\nENI\nMEND\n"
+      "INT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n";
+  Session session(text);
+  session("continue 50ms; break unanswered; send 41 42 43 44 45 46; continue 50ms; input I0.0=1; continue 10ms");
+  session("input I0.0=0; input I0.1=1; continue 10ms");
+  const std::string why = session("continue; why");
+  EXPECT_TRUE(has(why, "of 6 characters since 5")) << why;
+  EXPECT_TRUE(has(why, ", 2 were lost because the interrupt queue was full\n")) << why;
+  EXPECT_FALSE(has(why, "short")) << why;
+  EXPECT_FALSE(has(why, "RCV")) << why;
+}
+
+TEST(Why, AllCharactersLostAreNotSaidToBeTakenByRCV) {
+  std::string text = "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI\nLD I0.0\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n";
+  Session session(text);
+  session("continue 50ms; send 41 42 43 44; continue 50ms; send cancel; break unanswered; send 51 52; continue 50ms");
+  const std::string why = session("input I0.0=1; continue; why");
+  EXPECT_TRUE(has(why, "of 2 characters since ")) << why;
+  EXPECT_TRUE(has(why, ", 2 were lost because the interrupt queue was full\n")) << why;
+  EXPECT_FALSE(has(why, "RCV")) << why;
+}
+
+TEST(Why, OfSeveralDisiInARowTheFirstIsNamed) {
+  Session session(
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nLD I0.0\nEU\nDISI  // first\nLD I0.0\nDISI  // again\nMEND\n"
+      "INT 1\nMOVB SMB2, VB1\nRETI\n");
+  session("continue 50ms; input I0.0=1; continue 20ms; break unanswered; send 41; continue");
+  EXPECT_TRUE(has(session("why"), "interrupts are disabled; a character waits in the queue; disabled at 5"))
+      << session.out.str();
+  EXPECT_TRUE(has(session.out.str(), "// first\n"));
+}
+
+/// What a slave's characters are kept by: I0.4 and I0.5 change it once, I0.6 and I0.7 in every scan.
+constexpr std::string_view kTurns =
+    "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\n"                       // 1 to 4
+    "LD I0.4\nEU\nMOVB 8, SMB30  // to PPI\n"                         // 7
+    "LD I0.5\nEU\nDTCH 8  // not now\n"                               // 10
+    "LD I0.6\nMOVB 8, SMB30\nLD I0.7\nDTCH 8\nLD I1.0\nDISI\nMEND\n"  // 12, 14, 16
+    "INT 0\nLD SM0.0\nMOVB SMB2, VB50\nRETI\n";
+
+TEST(Why, WhatChangedWithinTheFirstCharacterIsNamed) {
+  for (const std::string wait : {"100us", "400us", "900us"})
+    for (const std::string& send : {"continue " + wait + "; send 'mn'; continue 1100us", "send 'mn'; continue " + wait}) {
+      Session ppi(kTurns), detached(kTurns);
+      ppi("continue 20ms; break unanswered; input I0.4=1; " + send + "; continue");
+      EXPECT_TRUE(has(ppi("why"), "in PPI mode, and no PPI frame; SMB30 was set at 2")) << send;
+      EXPECT_TRUE(has(ppi.out.str(), " by MOVB 8, SMB30 in line 7  // to PPI\n"));
+      detached("continue 20ms; break unanswered; input I0.5=1; " + send + "; continue");
+      EXPECT_TRUE(has(detached("why"), "event 8 is not attached; detached at 2")) << send;
+      EXPECT_TRUE(has(detached.out.str(), " by DTCH 8 in line 10  // not now\n"));
+      detached("rwhy");
+      EXPECT_EQ(detached.line(), 10u);
+    }
+}
+
+TEST(Why, WhatWasSoAlreadyIsNotToBlame) {
+  const auto why_with = [](const std::string& first, const std::string& again) {
+    Session session(kTurns);
+    session("continue 20ms; break unanswered; input " + first + "=1; continue 20ms; input " + again + "=1; continue 50ms");
+    return session("send 'ab'; continue; why");
+  };
+  EXPECT_TRUE(has(why_with("I0.4", "I0.6"), " by MOVB 8, SMB30 in line 7"));
+  EXPECT_TRUE(has(why_with("I0.5", "I0.7"), " by DTCH 8 in line 10"));
+  const std::string every_scan = why_with("I0.7", "I0.0");
+  EXPECT_TRUE(has(every_scan, "detached at 2")) << every_scan;
+  EXPECT_TRUE(has(every_scan, " by DTCH 8 in line 14\n"));
+  const std::string disabled = why_with("I1.0", "I0.0");
+  EXPECT_TRUE(has(disabled, "interrupts are disabled; 2 characters wait in the queue; disabled at 2")) << disabled;
+  EXPECT_TRUE(has(disabled, " by DISI in line 16\n"));
+}
+
+TEST(Why, AllTransmissionsThatATextCouldHaveMeantAreNamedAsTheyWereAfterIt) {
+  Session session(
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 1, VB99\nATCH 0, 8\nENI\n"
+      "LD M0.0\nA I0.5\nXMT VB99, 0\nLD M0.0\nR M0.0, 1\nLD I0.6\nXMT VB98, 0  // alarm\nMEND\n"  // 8, 12
+      "INT 0\nLD SM0.0\nMOVB SMB2, VB100\nS M0.0, 1\nRETI\n");
+  session("continue 50ms; break unanswered; send 41; continue");
+  const std::string why = session("why");
+  EXPECT_TRUE(has(why, "XMT VB99, 0 in line 8, without power flow (LD M0.0: M0.0=1; A I0.5: I0.5=0)")) << why;
+  EXPECT_TRUE(has(why, "XMT VB98, 0 in line 12, without power flow (LD I0.6: I0.6=0)  // alarm")) << why;
+}
+
+TEST(Why, AFaultThatBrokeAnAnswerOffIsNamedWhileThePlcIsStillSending) {
+  for (const std::string fault : {"cut:character=4,of=answer", "gap:character=4,length=20ms,of=answer"}) {
+    Session session(test::compile(test::slave_text()));
+    session("continue 1s; break wrong; fault " + fault + "; send 01 03 00 0a 00 01 crc; continue");
+    EXPECT_TRUE(has(session.out.str(), "wrong, hit"));
+    EXPECT_TRUE(has(session("why"), "the PLC has been sending since 10")) << fault;
+    EXPECT_TRUE(has(session.out.str(), ", and the master heard 01 03 02: fault " + fault + ": 1×, in character 4\n"));
+  }
+}
+
+TEST(Why, ABreakIsNamedWithTheXmtThatHadNothingToSend) {
+  Session session(
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nMEND\n"
+      "INT 1\nLD SM0.0\nXMT VB0, 0   // length in VB0\nRETI\n");
+  session("continue 50ms; break wrong; send 41; continue");
+  EXPECT_TRUE(
+      has(session("why"), "the PLC sent a break: 0 characters to send for XMT VB0, 0 in line 8  // length in VB0\n"));
 }
 
 TEST(Why, AStopWithinARequestIsWhatKeptItsCharactersFromTheProgram) {

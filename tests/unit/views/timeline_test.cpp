@@ -39,6 +39,15 @@ class TimelineOf : public testing::Test {
   Timeline timeline_{test::compile("MEND\n"), nullptr};
 };
 
+TEST_F(TimelineOf, TheLineOfTheProgramStandsBesideXmtAndSmb30) {
+  timeline_.record({.at = 1, .kind = TraceKind::Transmit, .op = 0, .count = 3});
+  timeline_.record({.at = 2, .kind = TraceKind::PortControl, .byte = 9, .op = 0});
+  const TimelineReport report = timeline_.report();
+  ASSERT_EQ(report.rows.size(), 2U);
+  EXPECT_TRUE(report.rows[0].place.ends_with("  line 1: MEND")) << report.rows[0].place;
+  EXPECT_TRUE(report.rows[1].text.ends_with("  line 1: MEND")) << report.rows[1].text;
+}
+
 TEST_F(TimelineOf, ScansAreCountedAndNotKept) {
   for (int scan = 0; scan <= 1'000'000; ++scan)
     timeline_.record({.at = scan * kMillisecond, .kind = TraceKind::ScanBegin, .count = static_cast<std::uint64_t>(scan)});

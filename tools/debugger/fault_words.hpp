@@ -1,0 +1,18 @@
+// A fault as people write it at the prompt, with the station that it is about.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/debugger/history.hpp"
+
+namespace s7200::tools {
+
+/// `parity:character=2`, or `none`; of a system also `parity:character=2 station=slave2`, for what that station on the line
+/// of PLC `station` sends. Returns nothing and sets `why` if it is not a fault, or cannot be that station's.
+std::optional<InjectFault> fault_of(const std::string& text, const History& history, std::size_t station, std::string& why);
+
+/// `on the line from now on, of what slave2 sends: parity:character=2`, and a line that describes it.
+std::string fault_text(const InjectFault& inject);
+
+}  // namespace s7200::tools

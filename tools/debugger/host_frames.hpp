@@ -1,0 +1,36 @@
+// What a host port has put on its line, from what was asked of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "serial_sim/peers/host_port.hpp"
+
+namespace s7200::tools {
+
+/// A frame that came in from outside.
+struct SentByHost {
+  Time from = 0, to = 0;
+  std::vector<std::uint8_t> bytes{};
+  SerialFormat format{};
+};
+
+class HostFrames {
+ public:
+  /// Must be told the calls of the port in their order, with their moments.
+  void note(const serial::HostCall& call, Time at);
+
+  /// Pieces that follow each other within kNextPiece are one, unless the first of them are a whole Modbus RTU frame.
+  std::vector<SentByHost> frames() const;
+
+ private:
+  struct Character {
+    std::uint8_t byte = 0;
+    std::uint64_t sender = 0;
+    SerialFormat format{};
+    Time from = 0, to = 0;
+  };
+  std::vector<Character> characters_{};
+};
+
+}  // namespace s7200::tools

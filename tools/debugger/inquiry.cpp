@@ -1,0 +1,110 @@
+#include "tools/debugger/inquiry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "interpreter/trace/statement_text.hpp"
+#include "tools/debugger/last_stop.hpp"
+#include "tools/views/machine_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr Time kEarlier = kSecond;  // who attached the routine that got a frame is mostly seen, too
+
+/// Stops in front of an instruction, in an interrupt or not.
+class Finder final : public Observer {
+ public:
+  Finder(const History& history, std::size_t station, std::uint32_t op, bool in_interrupt)
+      : Observer(station), cpu_(history.station(station).cpu()), op_(op), in_interrupt_(in_interrupt) {}
+  bool wants_instructions() const override { return true; }
+  bool before(std::uint32_t op) override { return op != op_ || cpu_.state().in_interrupt != in_interrupt_; }
+
+ private:
+  const Cpu& cpu_;
+  std::uint32_t op_;
+  bool in_interrupt_;
+};
+
+}  // namespace
+
+Inquiry::Inquiry(History& history, std::size_t station, Time host_timeout, const std::atomic<bool>* stop_request)
+    : history_(history),
+      station_(station),
+      stop_request_(stop_request),
+      start_(history.now()),
+      in_main_(!here().cpu().state().in_interrupt),
+      request_(last_asked(history, station, host_timeout)),
+      since_(beginning()),
+      stopped_(when_stopped()),
+      witness_(history, station, port(), stop_request) {}
+
+serial::Simulation& Inquiry::here_at_start() const {
+  history_.go_to(start_);
+  return here();
+}
+
+Time Inquiry::beginning() const {
+  const Time from = here().plc().powered() ? here().cpu().state().scan_begin : start_.time;
+  return request_ && request_->unanswered ? std::min(from, request_->start) : from;
+}
+
+std::optional<Time> Inquiry::when_stopped() const {
+  if (here().cpu().state().mode == Mode::Run) return {};
+  return find_last_stop(history_, station_, stop_request_);
+}
+
+bool Inquiry::hear_the_witness() {
+  Time from = request_ ? std::min(since_, request_->start) : since_;
+  if (stopped_) from = std::min(from, *stopped_);
+  if (!history_.go_to(from - std::min(from, kEarlier))) return false;
+  witness_.line.begin();
+  const bool heard = history_.play(witness_, start_);
+  witness_.line.end();
+  return heard;
+}
+
+void Inquiry::add(Time at, std::string text, const Keeper& keeper) {
+  answers.unanswered.push_back({at, std::move(text)});
+  if (in_main_ && !answers.left) answers.left = keeper.by;
+}
+
+void find_what_the_line_lost(Inquiry& inquiry) {
+  inquiry.here_at_start();
+  if (auto lost = inquiry.request() ? inquiry.witness().line.lost(*inquiry.request()) : std::nullopt)
+    inquiry.add_first(std::move(*lost));
+}
+
+void Inquiry::note_left(const TraceReasons::Cause& cause) {
+  if (in_main_) answers.left = decision_of(cause);
+}
+
+std::string Inquiry::left_text(const TraceReasons::Unanswered& frame) const {
+  if (!request_ || is_by_others()) return unanswered_text(frame);
+  return fmt::format("the program has not taken {} since {}{}{}", characters_text(frame.characters),
+                     moment_text(frame.since), frame.decided_by.empty() ? "" : ": ", frame.decided_by);
+}
+
+Keeper Inquiry::kept_by(const Moment& moment, const InstructionRecord& by, std::string_view done) const {
+  LastDecision decision{moment, named_in_sentence(by.op, program()), by};
+  return {.text = fmt::format("; {} at {} by {}", done, moment_text(by.at), decision.text),
+          .by = std::move(decision),
+          .since = by.at};
+}
+
+LastDecision Inquiry::decision_of(const TraceReasons::Cause& cause) {
+  LastDecision decision{in_front_of(cause.by, cause.by.op + (cause.contacts ? 1 : 0), cause.in_interrupt), cause.text,
+                        cause.by};
+  if (decision.moment == start_) decision.moment = in_front_of(cause.first, cause.first.op, cause.in_interrupt);
+  return decision;
+}
+
+Moment Inquiry::in_front_of(const InstructionRecord& from, std::uint32_t op, bool in_interrupt) {
+  Finder finder(history_, station_, op, in_interrupt);
+  if (history_.go_to(from.at)) history_.play(finder, start_);
+  return history_.now();
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,21 @@
+// Masters that share a line: each takes for its answer whatever comes next.
+#pragma once
+
+#include <string>
+
+#include "tools/debugger/history.hpp"
+#include "tools/debugger/stop_point.hpp"
+
+namespace s7200::tools {
+
+/// That there is one on the line of a PLC, when something is sent there; empty if there is none.
+std::string other_master_text(const History& history, std::size_t station);
+
+/// Whose request the master of `send` at a PLC has taken for its answer, or who has sent one into its answer; empty if
+/// nobody has.
+std::string not_an_answer_text(const History& history, std::size_t station, const serial::Exchange& exchange);
+
+/// The same of a wrong answer to a master that polls, in a line without its end.
+std::string not_an_answer_text(const History& history, const Hit& hit);
+
+}  // namespace s7200::tools
