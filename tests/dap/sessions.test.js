@@ -38,7 +38,7 @@ const at_int_123 = (s) => s.ask("setFunctionBreakpoints", named("INT 123"));
 session("what is announced is offered", async (s, program, capabilities) => {
   assert.equal(capabilities.supportsStepBack, true);
   assert.deepEqual(capabilities.exceptionBreakpointFilters.map((one) => one.filter),
-    ["error", "overflow", "lost", "unanswered", "watchdog"]);
+    ["error", "overflow", "lost", "unanswered", "wrong", "watchdog"]);
   assert.equal((await s.begin({ program, stopOnEntry: true })).reason, "entry");
   assert.match(await s.refused("modules"), /not a request that is offered/);
   assert.equal((await s.ask("loadedSources")).sources[0].path, fs.realpathSync(program));
@@ -295,6 +295,95 @@ session("exception filters: a full queue, and a character that nobody wants", as
   } finally {
     await full.end();
   }
+});
+
+session("a moment is gone to, by its time and by how long ago it was", async (s, program) => {
+  await s.begin({ program, stopOnEntry: true });
+  await s.stops("stepScan", { count: 20 });
+  assert.match((await s.stops("goToMoment", { time: "5ms" })).description, /^at 5\.\d+ ms/);
+  assert.match((await s.stops("goToMoment", { time: "-1ms" })).description, /^at 4\.\d+ ms/);
+  assert.match((await s.stops("goToMoment", { time: "start" })).description, /^at 0\.000000 ms/);
+  assert.match(await s.refused("goToMoment", { time: "10h" }), /nothing has run after/);
+  assert.match(await s.refused("goToMoment", { time: "frob" }), /not a moment/);
+});
+
+session("interrupts are stepped to, where they begin and where they end, and back", async (s, program) => {
+  await s.begin({ program, send: READ }, () => at_int_123(s));
+  await s.ask("setFunctionBreakpoints", { breakpoints: [] });
+  const lines = fs.readFileSync(program, "latin1").split(/\r?\n/);
+  await s.stops("stepInterrupt", { end: true });
+  assert.doesNotMatch((await s.frame()).name, /^INT /);
+  await s.stops("stepInterrupt");
+  assert.match((await s.frame()).name, /^INT /);
+  await s.stops("reverseStepInterrupt", { end: true });
+  assert.match(lines[(await s.frame()).line - 1], /^C?RETI/);
+  await s.stops("reverseStepInterrupt");
+  assert.match((await s.frame()).name, /^INT /);
+});
+
+session("a fault of the line, and what decided about the frame", async (s, program) => {
+  await s.begin({ program, stopOnEntry: true });
+  await s.stops("stepScan", { count: 100 });
+  assert.match(await s.refused("fault", { fault: "frob" }), /frob/);
+  await s.ask("fault", { fault: "flip:character=3,bit=5" });
+  await s.ask("setExceptionBreakpoints", { filters: ["unanswered"] });
+  await s.ask("sendFrame", { frame: READ });
+  assert.equal((await s.stops("continue")).reason, "exception");
+  assert.match((await s.ask("exceptionInfo", { threadId: 1 })).description, /01 03 00 0a 00 01 a4 08/);
+  assert.ok((await s.ask("lastDecision", { threadId: 1 })).text.length > 0);
+});
+
+session("exception filters: errors by their codes, the watchdog, a wrong answer", async (s) => {
+  const write = (name, text) => { const file = path.join(folder, name); fs.writeFileSync(file, text); return file; };
+  const filter = (filterId, condition) => ({ filters: [], filterOptions: [{ filterId, ...(condition ? { condition } : {}) }] });
+  const bad = write("pointer.stl", "LD SM0.0\nMOVB *VD0, VB10\nMEND\n");
+  const { breakpoints } = await (async () => {
+    let answer;
+    const hit = await s.begin({ program: bad, set: ["VD0=16#7F000000"] }, async () => {
+      await s.ask("setExceptionBreakpoints", filter("error", "9999")).then((one) => { answer = one; });
+      await s.ask("setExceptionBreakpoints", filter("error", "0006"));
+    });
+    assert.equal(hit.reason, "exception");
+    return answer;
+  })();
+  assert.equal(breakpoints[0].verified, false);
+  const endless = new Session();
+  try {
+    await endless.start();
+    const loop = write("endless.stl", "LBL 1\nLD SM0.0\nJMP 1\nMEND\n");
+    const hit = await endless.begin({ program: loop }, () => endless.ask("setExceptionBreakpoints", filter("watchdog")));
+    assert.equal(hit.reason, "exception");
+    assert.match(hit.text, /0003.*it stands in front of it/);
+  } finally {
+    await endless.end();
+  }
+  const wrong = new Session();
+  try {
+    await wrong.start();
+    const echo = write("wrong.stl", "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\nMOVB 1, VB0\nMEND\n" +
+      "INT 0\nLDB= SMB2, 8\nMOVB 16#55, VB1\nXMT VB0, 0\nRETI\n");
+    const hit = await wrong.begin({ program: echo, send: READ }, () => wrong.ask("setExceptionBreakpoints", filter("wrong")));
+    assert.equal(hit.reason, "exception");
+    assert.match((await wrong.ask("exceptionInfo", { threadId: 1 })).description, /wrong answer/);
+  } finally {
+    await wrong.end();
+  }
+});
+
+session("values in hex and for the clipboard, partial writes, levels of the stack", async (s, program) => {
+  await s.begin({ program, send: READ }, () => at_int_123(s));
+  assert.match((await s.ask("evaluate", { expression: "VW3300", format: { hex: true } })).result, /^16#[0-9A-F]{4}$/);
+  assert.ok((await s.ask("evaluate", { expression: "VW3300", context: "clipboard" })).result.length > 0);
+  const { stackFrames, totalFrames } = await s.ask("stackTrace", { threadId: 1, startFrame: 0, levels: 1 });
+  assert.equal(stackFrames.length, 1);
+  assert.equal(totalFrames, (await s.ask("stackTrace", { threadId: 1 })).stackFrames.length);
+  const last = { memoryReference: "MB31", data: "AQI=" };
+  assert.match(await s.refused("writeMemory", last), /run past the end/);
+  assert.equal((await s.ask("writeMemory", { ...last, allowPartial: true })).bytesWritten, 1);
+  const { dataId } = await s.ask("dataBreakpointInfo", { name: "VW3300" });
+  await s.ask("setFunctionBreakpoints", { breakpoints: [] });
+  await s.ask("setDataBreakpoints", { breakpoints: [{ dataId, accessType: "readWrite" }] });
+  assert.equal((await s.stops("continue")).reason, "data breakpoint");
 });
 
 session("the STL status shows each line's last execution", async (s, program) => {

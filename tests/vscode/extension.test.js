@@ -171,11 +171,15 @@ function stand_in() {
       registerDebugAdapterDescriptorFactory: (type, factory) => { registered.factory = factory; },
       registerDebugConfigurationProvider: (type, provider) => { registered.configurations = provider; },
     },
-    languages: { registerInlineValuesProvider: (where, provider) => { registered.status = provider; } },
+    languages: {
+      registerInlineValuesProvider: (where, provider) => { registered.status = provider; },
+      registerHoverProvider: (where, provider) => { registered.hover = provider; },
+    },
     tasks: { registerTaskProvider: (type, provider) => { registered.tasks = provider; } },
     commands: { registerCommand: (name, run) => { registered.commands[name] = run; } },
     DebugAdapterExecutable: class { constructor(...args) { this.args = args; } },
     DebugAdapterServer: class { constructor(...args) { this.args = args; } },
+    Hover: class { constructor(...args) { this.args = args; } },
     InlineValueText: class { constructor(...args) { this.args = args; } },
     ProcessExecution: class { constructor(...args) { this.args = args; } },
     Task: class { constructor(...args) { this.args = args; } },
@@ -220,6 +224,14 @@ test("the STL status stands beside its lines", async () => {
   const values = await status.provideInlineValues(document, { start: { line: 0 }, end: { line: 9 } }, {});
   assert.deepEqual(values.map((one) => one.args), [["line 2", "S0=1 VB0=16#05"]]);
   assert.deepEqual(asked, [["stlStatus", { source: { path: "/a.stl" }, line: 1, endLine: 10 }]]);
+});
+
+test("pointing at a line says which power flow S0 is", async () => {
+  const { hover, asked } = stand_in();
+  const { args: [lines] } = await hover.provideHover({ uri: { fsPath: "/a.stl" } }, { line: 2 });
+  assert.equal(lines[0], "S0=1 VB0=16#05");
+  assert.match(lines[1], /^S0 is the power flow behind a contact, and in front of a coil, box or call/);
+  assert.deepEqual(asked, [["stlStatus", { source: { path: "/a.stl" }, line: 3, endLine: 3 }]]);
 });
 
 test("tasks run the command with the problem matcher", () => {

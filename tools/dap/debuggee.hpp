@@ -31,8 +31,9 @@ class Debuggee {
   /// The files that are written while it runs, by their names; empty if there are none.
   virtual std::string recorded_files() const = 0;
 
-  /// Why it cannot run on, such as a bridge that has failed; empty as long as it can.
-  virtual std::string failure() const = 0;
+  /// Why the last run has ended by itself, such as a bridge that has failed: said once, empty otherwise. The next one goes
+  /// on.
+  virtual std::string take_failure() = 0;
 
   /// What there is to say while it runs, a line each.
   virtual void when_saying(std::function<void(const std::string& text)> say) = 0;

@@ -10,7 +10,9 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "tools/dap/exception_filters.hpp"
 #include "tools/debugger/goals.hpp"
+#include "tools/debugger/two_masters.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/text_frame.hpp"
@@ -20,27 +22,13 @@ namespace {
 
 constexpr Time kSendAfter = kSecond;  // every program has set its port up by then
 
-struct Filter {
-  const char* id;
-  const char* label;
-  const char* description;
-  bool conditional;
-};
-constexpr Filter kFilters[] = {
-    {"error", "Run-time errors", "Stops after the instruction that causes a run-time error", true},
-    {"overflow", "Queue overflow", "An interrupt is lost because its queue is full", false},
-    {"lost", "Lost characters", "A character that the program does not get", false},
-    {"unanswered", "Unanswered requests", "A master, a bridge or a PLC has asked on a line of a PLC, and got no answer",
-     false},
-    {"watchdog", "Watchdog and other fatal errors", "Stops in front of the instruction that ends in STOP", false}};
-
 Json capabilities() {
   Json filters = Json::array();
-  for (const Filter& filter : kFilters)
+  for (const ExceptionFilter& filter : kExceptionFilters)
     filters.push_back({{"filter", filter.id},
                        {"label", filter.label},
                        {"description", filter.description},
-                       {"default", filter.id == std::string_view("watchdog")},
+                       {"default", filter.id == "watchdog"},
                        {"supportsCondition", filter.conditional},
                        {"conditionDescription", filter.conditional ? "codes in hex: 0006, 0091" : ""}});
   Json body{{"exceptionBreakpointFilters", filters}, {"completionTriggerCharacters", Json::array({"*", "B", "W", "D"})}};
@@ -322,14 +310,17 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
   stepper_->look_at(debuggee_->first_station());
   stations_.clear();
   for (std::size_t station = 0; station < stations(); ++station) stations_.emplace_back(*debuggee_->program(station));
-  stepper_->host_timeout = master().timeout;
+  stepper_->set_host_timeout(master().timeout);
   debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
-  stepper_->on_message = [this](const StopPoint& stop) {
+  stepper_->on_message = [this](const StopPoint& stop, const Hit& hit) {
     const Cpu& at = debuggee_->history().station(stop.station).cpu();
-    print_of(stop.station, filled_in(stop.log, at, debuggee_->history().now().time), "console", standing_at(at.state()));
+    print_of(stop.station, filled_in(stop.log, at, debuggee_->history().now().time, hit.by ? &*hit.by : nullptr), "console",
+             standing_at(at.state()));
   };
-  stepper_->on_answer = [this](const serial::Exchange& exchange) { print(exchange_text(exchange, master().timeout)); };
-  stepper_->on_unasked = [this](const Transmission& sent) {
+  stepper_->on_answer = [this](std::size_t station, const serial::Exchange& exchange) {
+    print(exchange_text(exchange, master().timeout) + not_an_answer_text(debuggee_->history(), station, exchange));
+  };
+  stepper_->on_unasked = [this](const SentByPlc& sent) {
     print(unasked_text(sent.bytes) + fmt::format("from {} to {}", moment_text(sent.from), moment_text(sent.to)));
   };
   stepper_->on_record = [this](std::size_t station, const TraceRecord& record) {

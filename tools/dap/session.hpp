@@ -160,6 +160,8 @@ class Session {
   Stop searched_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer);
   bool send_what_is_due();
   void report(const Stop& stop, const std::string& reason);
+  bool has_asked_last(const Hit& hit) const;
+  void report_failure(const Stop& stop, const std::string& failure);
   void report_error(std::size_t station, const TraceRecord& error);
   void report_stopped(Json body);
   Json body_of(const Stop& stop, const std::string& reason);
@@ -214,7 +216,7 @@ class Session {
   Json forced() const;
   Json console_command(const std::string& line);
   struct Written {
-    Moment moment;
+    std::optional<Moment> moment;  ///< nothing: nothing was found that it could go back to
     Json body;
   };
   Written find_writer(const std::string& expression);
@@ -294,7 +296,7 @@ class Session {
   std::optional<Run> running_;
   bool configured_ = false, begun_ = false, pause_asked_ = false, over_ = false, terminated_ = false;
   std::optional<std::pair<std::size_t, TraceRecord>> first_error_;  ///< run-time error of the run under way, and its station
-  Json exception_;                                                  ///< of the last stop; null if it was none
+  std::map<std::size_t, Json> exceptions_;                          ///< of the last stop, by station
   std::map<std::int64_t, std::pair<std::size_t, std::uint32_t>> goto_targets_;  ///< station and instruction
   std::map<std::string, std::vector<std::uint8_t>> read_;  ///< memory that the client has read: area and its bytes then
   std::int64_t handling_ = 0;                              ///< number of the request

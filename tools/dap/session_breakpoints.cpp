@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/dap/addresses.hpp"
+#include "tools/dap/exception_filters.hpp"
 #include "tools/dap/session.hpp"
 #include "tools/debugger/stop_words.hpp"
 #include "tools/debugger/words.hpp"
@@ -138,8 +139,10 @@ std::vector<StopPoint> Session::at_all_stations(const Json& wanted, Json& answer
 std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& wanted, Json& answer) {
   const auto wanted_line = client_line_in(wanted);
   const LookAt look(*this, station_with(path));
-  if (!sources().line_in(path, line_of_client(wanted_line)))
-    throw Refused(fmt::format("{} is not a file of this program, or has no line {}", path, wanted_line));
+  const auto lines = sources().lines_of(path);
+  if (!lines) throw Refused(fmt::format("{} is not a file of this program", path));
+  if (line_of_client(wanted_line) > *lines)
+    throw Refused(fmt::format("{} has no line {}; its last one is {}", path, wanted_line, client_line(*lines)));
   return at_all_stations(wanted, answer, [&](std::string& why) -> std::optional<StopPoint> {
     const auto line = sources().line_in(path, line_of_client(wanted_line));
     const auto op = line ? listing().op_from_line(*line) : std::nullopt;
@@ -267,23 +270,21 @@ Json Session::set_data_breakpoints(const Json& arguments) {
 // --- exceptions ---
 
 std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
-  const std::string filter = wanted.value("filterId", "");
-  if (filter == "watchdog") return {};  // the CPU goes to STOP, which ends every run
-  if (filter == "overflow") return {{.on = On::QueueOverflow, .name = "queue overflow"}};
-  if (filter == "lost") return {{.on = On::LostCharacter, .name = "lost character"}};
-  if (filter == "unanswered") return {{.on = On::Unanswered, .name = "unanswered request"}};
-  if (filter != "error") throw Refused(fmt::format("there is no exception filter '{}'", stl::shortened(filter)));
-  std::string codes = wanted.value("condition", "");
+  const std::string id = wanted.value("filterId", "");
+  const auto filter = std::ranges::find(kExceptionFilters, id, &ExceptionFilter::id);
+  if (filter == std::end(kExceptionFilters))
+    throw Refused(fmt::format("there is no exception filter '{}'", stl::shortened(id)));
+  if (!filter->on) return {};
+  std::string codes = filter->conditional ? wanted.value("condition", "") : "";
   std::ranges::replace(codes, ',', ' ');
   std::vector<StopPoint> stops;
   for (const std::string& text : stl::split_words(codes)) {
-    const auto code = parse_integer("16#" + text);
-    if (!code || *code <= 0 || *code > 0xFFFF)
-      throw Refused(
-          fmt::format("'{}' is not the code of a run-time error; write for example 0006, 0091", stl::shortened(text)));
-    stops.push_back({.on = On::RuntimeError, .code = static_cast<std::uint16_t>(*code), .name = "run-time error " + text});
+    std::string why;
+    const auto code = error_code_of(text, why);
+    if (!code) throw Refused(why);
+    stops.push_back({.on = *filter->on, .code = code, .name = fmt::format("{} {}", filter->name, text)});
   }
-  if (stops.empty()) stops.push_back({.on = On::RuntimeError, .name = "run-time error"});
+  if (stops.empty()) stops.push_back({.on = *filter->on, .name = filter->name});
   return stops;
 }
 
@@ -297,7 +298,7 @@ std::size_t Session::first_on(std::size_t line) const {
 
 /// At each PLC; on each line once, for the first PLC on it.
 std::vector<StopPoint> Session::at_all_stations(StopPoint stop) const {
-  const bool of_lines = stop.on == On::Unanswered;
+  const bool of_lines = stop.is_of_requests();
   const std::size_t count = of_lines ? debuggee_->history().requests().lines().size() : stations();
   std::vector<StopPoint> stops;
   for (std::size_t number = 0; number < count; ++number) {
@@ -319,8 +320,9 @@ Json Session::set_exception_breakpoints(const Json& arguments) {
 }
 
 Json Session::exception_info(const Json&) {
-  if (exception_.is_null()) throw Refused("it has not stopped for an exception");
-  return exception_;
+  const auto exception = exceptions_.find(looks_at());
+  if (exception == exceptions_.end()) throw Refused(said_of(looks_at()) + "it has not stopped for an exception");
+  return exception->second;
 }
 
 }  // namespace s7200::tools::dap

@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/dap/session.hpp"
+#include "tools/debugger/fault_words.hpp"
 #include "tools/debugger/force_words.hpp"
 #include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/last_decision.hpp"
@@ -16,6 +17,7 @@
 #include "tools/debugger/last_instructions.hpp"
 #include "tools/debugger/line_words.hpp"
 #include "tools/debugger/timeline_of_past.hpp"
+#include "tools/debugger/two_masters.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/debugger/writer.hpp"
 #include "tools/views/execution_text.hpp"
@@ -72,16 +74,16 @@ Json Session::send_frame(const Json& arguments) {
   const auto send = send_of(frame, simulation(), master(), why);
   if (!send) throw Refused(why);
   act(*send);
-  print(sent_text(*send, simulation()) + without_power());
+  print(sent_text(*send, simulation()) + other_master_text(debuggee_->history(), looks_at()) + without_power());
   return {{"frame", serial::to_hex(frame)}};
 }
 
 Json Session::inject_fault(const Json& arguments) {
   std::string why;
-  const auto inject = inject_of(arguments.at("fault").get<std::string>(), why);
+  const auto inject = fault_of(arguments.at("fault").get<std::string>(), debuggee_->history(), looks_at(), why);
   if (!inject) throw Refused(why);
   act(*inject);
-  return {{"text", injected_text(*inject)}};
+  return {{"text", fault_text(*inject)}};
 }
 
 // --- mode ---
@@ -154,7 +156,7 @@ Session::Written Session::find_writer(const std::string& expression) {
       event ? tools::find_writer(history, looks_at(), listing(), *event, settings_.stop_request)
             : tools::find_writer(history, looks_at(), listing(), range_for(expression), expression, settings_.stop_request);
   if (search.interrupted) refuse_interrupted();
-  if (!search.writer) throw Refused(search.none);
+  if (!search.writer) return {std::nullopt, {{"text", search.none}}};
   Json body{{"text", search.writer->text}};
   if (const auto& by = search.writer->by) body.update(named(*by));
   return {search.writer->moment, body};
@@ -171,9 +173,10 @@ Json Session::last_write(const Json& arguments) { return find_writer(arguments.a
 
 Json Session::reverse_to_last_write(const Json& arguments) {
   const Written written = find_writer(arguments.at("expression").get<std::string>());
+  if (!written.moment) throw Refused(written.body["text"].get<std::string>());
   after_response([this, written] {
     print(written.body["text"].get<std::string>());
-    debuggee_->history().go_to(written.moment);
+    debuggee_->history().go_to(*written.moment);
     stopped_at("step", "in front of the last write");
   });
   return written.body;
@@ -182,18 +185,21 @@ Json Session::reverse_to_last_write(const Json& arguments) {
 // --- why ---
 
 Session::Written Session::find_decision() {
-  const DecisionSearch search = find_last_decision(debuggee_->history(), looks_at(), settings_.stop_request);
+  const DecisionSearch search =
+      find_last_decision(debuggee_->history(), looks_at(), stepper_->host_timeout(), settings_.stop_request);
   if (search.interrupted) refuse_interrupted();
-  std::string unanswered;
-  for (const TraceLine& line : search.unanswered) unanswered += fmt::format("\n{}  {}", moment_text(line.at), line.text);
-  const std::string nothing =
-      "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far";
-  if (!search.decision && unanswered.empty()) throw Refused(nothing);
-  if (!search.origin()) return {debuggee_->history().now(), {{"text", unanswered.substr(1)}}};
+  std::string text;
+  const auto say = [&](Time at, std::string_view what) {
+    text += fmt::format("{}{}  {}", text.empty() ? "" : "\n", moment_text(at), what);
+  };
+  for (const TraceLine& line : search.unanswered) say(line.at, line.text);
+  if (search.decision)
+    say(search.decision->by.at, (search.unanswered.empty() ? "" : "what led here: ") + search.decision->text);
+  if (text.empty())
+    text = "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far";
+  if (!search.origin()) return {std::nullopt, {{"text", text}}};
   const LastDecision& found = *search.origin();
-  const std::string decision =
-      search.decision ? fmt::format("{}  {}", moment_text(search.decision->by.at), search.decision->text) : "";
-  Json body{{"text", decision.empty() ? unanswered.substr(1) : decision + unanswered}};
+  Json body{{"text", text}};
   body.update(named(found.by));
   return {found.moment, body};
 }
@@ -202,9 +208,11 @@ Json Session::last_decision(const Json&) { return find_decision().body; }
 
 Json Session::reverse_to_last_decision(const Json&) {
   const Written found = find_decision();
+  if (!found.moment)
+    throw Refused(found.body["text"].get<std::string>() + "\nno instruction is named that it could go back to");
   after_response([this, found] {
     print(found.body["text"].get<std::string>());
-    debuggee_->history().go_to(found.moment);
+    debuggee_->history().go_to(*found.moment);
     stopped_at("step", "in front of what decided");
   });
   return found.body;

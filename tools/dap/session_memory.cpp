@@ -8,6 +8,7 @@
 #include "tools/dap/addresses.hpp"
 #include "tools/dap/base64.hpp"
 #include "tools/dap/session.hpp"
+#include "tools/debugger/force_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 
@@ -49,6 +50,8 @@ void Session::write_image(const MemoryPlace& place, std::uint32_t first, const s
   for (std::uint32_t i = 0; i < bytes.size(); ++i)
     set.assignments.push_back(
         {{.area = area->area, .width = Width::Byte, .number = first + i - area->base, .at = first + i}, bytes[i]});
+  for (const Assignment& assignment : set.assignments)
+    if (const std::string refused = not_settable(assignment.place); !refused.empty()) throw Refused(refused);
   act(std::move(set));
 }
 
@@ -97,9 +100,11 @@ MemoryRange Session::range_for(const std::string& expression) const {
 Json Session::assign(const std::string& expression, const std::string& value) {
   const MemoryRange range = range_for(expression);
   const auto assignment = parse_value(range, value);
+  if (range.count != 1) throw Refused(fmt::format("'{}' is not one value but {}", stl::shortened(expression), range.count));
   if (!assignment)
     throw Refused(
-        fmt::format("'{}' is not a value that fits {}; write for example 5, 16#FF, 1.5", stl::shortened(value), expression));
+        fmt::format("'{}' is not a value that fits {}: {}", stl::shortened(value), expression, values_text(range)));
+  if (const std::string refused = not_settable(range); !refused.empty()) throw Refused(refused);
   act(SetMemory{{*assignment}});
   const Variable variable = variable_of(cpu(), range, expression);
   Json body{

@@ -146,7 +146,7 @@ Json Session::evaluated(const std::string& expression, bool hex) {
             {"memoryReference", at_station(variable.memory, looks_at())}};
   }
   const auto parsed = Expression::parse(expression, cpu().program(), why_no_expression);
-  const bool one_word = expression.find_first_of(" (+-/<>=") == std::string::npos;
+  const bool one_word = expression.find_first_of(" (+-/<>=&") == std::string::npos;
   if (!parsed) throw Refused(one_word ? why : why_no_expression);
   const auto value = parsed->value(cpu(), why);
   if (!value) throw Refused("cannot be computed: " + why);

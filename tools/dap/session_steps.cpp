@@ -12,6 +12,9 @@
 #include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/past_words.hpp"
+#include "tools/debugger/stop_words.hpp"
+#include "tools/debugger/two_masters.hpp"
+#include "tools/debugger/writer.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 
@@ -31,7 +34,7 @@ std::uint64_t count_in(const Json& arguments) {
 void Session::run_to(Stepper::Goal goal, const std::string& reason) {
   running_ = Run{std::move(goal), reason};
   first_error_.reset();
-  exception_ = nullptr;
+  exceptions_.clear();
 }
 
 Json Session::go_on(const Json&) {
@@ -41,7 +44,11 @@ Json Session::go_on(const Json&) {
 
 /// Without a granularity a step is what the launch says: a line, or a network.
 bool Session::by_networks(const Json& arguments) const {
-  return arguments.contains("granularity") ? arguments["granularity"] == "statement" : steps_are_networks_;
+  if (!arguments.contains("granularity")) return steps_are_networks_;
+  const Json& wanted = arguments["granularity"];
+  if (wanted != "statement" && wanted != "line" && wanted != "instruction")
+    throw Refused(fmt::format("granularity: {} is not statement, line or instruction", stl::shortened(wanted.dump())));
+  return wanted == "statement";
 }
 
 Json Session::next(const Json& arguments) {
@@ -104,7 +111,7 @@ void Session::run() {
     Time limit = more && now < send_after_ ? send_after_ : kNever;
     if (stands && !waits) limit = history.newest().time;
     const Stop stop = stepper_->run(running_->goal, limit, more || stands);
-    if (!debuggee_->failure().empty()) return report(stop, "pause");
+    if (const std::string failure = debuggee_->take_failure(); !failure.empty()) return report_failure(stop, failure);
     if (stop.reason == StopReason::Request) {
       if (!pause_asked_) return;
     } else if (!stop.hits.empty() || (stop.reason != StopReason::Limit && stop.reason != StopReason::Answer)) {
@@ -158,7 +165,7 @@ Json Session::reverse_step_interrupt(const Json& arguments) {
 void Session::run_back(Stepper::Goal goal, std::uint64_t count, bool stop_at_answer) {
   after_response([this, goal = std::move(goal), count, stop_at_answer] {
     first_error_.reset();
-    exception_ = nullptr;
+    exceptions_.clear();
     const Stop stop = searched_back(goal, count, stop_at_answer);
     report(stop, stop.reason == StopReason::Request ? "pause" : "step");
   });
@@ -246,6 +253,15 @@ void Session::report(const Stop& stop, const std::string& reason) {
   report_stopped(body_of(stop, reason));
 }
 
+/// Something outside has ended the run.
+void Session::report_failure(const Stop& stop, const std::string& failure) {
+  running_.reset();
+  pause_asked_ = false;
+  stepper_->look_at(stop.station);
+  print(failure, "important");
+  report_stopped({{"reason", "pause"}, {"description", failure}, {"text", failure}});
+}
+
 void Session::report_error(std::size_t station, const TraceRecord& error) {
   const LookAt look(*this, station);
   print(said_of(station) + describe(error, cpu().program()), "important", error.op);
@@ -255,7 +271,7 @@ void Session::report_error(std::size_t station, const TraceRecord& error) {
 }
 
 void Session::stopped_at(const std::string& reason, const std::string& description) {
-  exception_ = nullptr;
+  exceptions_.clear();
   report_stopped({{"reason", reason}, {"description", description}});
 }
 
@@ -275,15 +291,17 @@ void Session::show_the_past() {
 }
 
 Json Session::body_of(const Stop& stop, const std::string& reason) {
-  if (const std::string failure = debuggee_->failure(); !failure.empty())
-    return {{"reason", "pause"}, {"description", failure}, {"text", failure}};
   if (!stop.hits.empty()) {
     const auto own = std::ranges::find(stop.hits, stop.station, [](const Hit& hit) { return hit.stop.station; });
     Json body = body_of_hit(own == stop.hits.end() ? stop.hits.front() : *own);
     Json ids = Json::array();
     for (const Hit& hit : stop.hits) {
       print(text_of(hit));
-      if (placed_[hit.stop.number].kind != StopKind::Exception) ids.push_back(hit.stop.number);
+      if (placed_[hit.stop.number].kind != StopKind::Exception)
+        ids.push_back(hit.stop.number);
+      else
+        exceptions_.try_emplace(
+            hit.stop.station, Json{{"exceptionId", hit.stop.name}, {"description", text_of(hit)}, {"breakMode", "always"}});
     }
     if (!ids.empty()) body["hitBreakpointIds"] = ids;
     return body;
@@ -301,10 +319,15 @@ Json Session::body_of_hit(const Hit& hit) {
   static constexpr const char* kReasons[] = {"breakpoint", "function breakpoint", "data breakpoint",
                                              "instruction breakpoint", "exception"};
   const StopKind kind = placed_[hit.stop.number].kind;
-  const std::string text = text_of(hit);
-  if (kind == StopKind::Exception)
-    exception_ = {{"exceptionId", hit.stop.name}, {"description", text}, {"breakMode", "always"}};
-  return {{"reason", kReasons[static_cast<std::size_t>(kind)]}, {"description", hit.stop.name}, {"text", text}};
+  return {{"reason", kReasons[static_cast<std::size_t>(kind)]}, {"description", hit.stop.name}, {"text", text_of(hit)}};
+}
+
+/// Whether the request of a hit is that of the simulated master, which is over now.
+bool Session::has_asked_last(const Hit& hit) const {
+  const serial::Simulation& there = debuggee_->history().station(hit.stop.station);
+  if (!there.has_master() || there.master().busy()) return false;
+  const serial::Exchange& last = there.master().exchange();
+  return !last.request.empty() && (hit.stop.on == StopPoint::On::WrongAnswer ? !hit.answer.empty() : last.timed_out);
 }
 
 /// `breakpoint 2, unanswered, hit 3 times: …`
@@ -314,19 +337,25 @@ std::string Session::text_of(const Hit& hit) const {
   std::string text = said_of(hit.stop.station);
   text += fmt::format("{} {}: {}", hit.stop.is_watch() ? "watch" : "breakpoint", hit.stop.number, hit.stop.name);
   if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
-  if (!hit.frame.empty()) text += ", " + serial::to_hex(hit.frame);
-  if (hit.asker && hit.asker->kind == Asker::Kind::Poller)
-    text += ", asked by " + debuggee_->history().pollers()[hit.asker->number].name;
-  else if (hit.asker)
-    text += stations() > 1 ? ", asked by " + debuggee_->name(hit.asker->number) : ", asked by the program";
+  if (!hit.frame.empty())
+    text += ", " + serial::to_hex(hit.frame);
+  else if (hit.stop.is_of_requests() && !hit.asker && has_asked_last(hit))
+    text +=
+        ", " + serial::to_hex(serial::bytes_of(debuggee_->history().station(hit.stop.station).master().exchange().request));
+  if (hit.asker) {
+    const bool is_named = stations() > 1 && hit.asker->kind == Asker::Kind::Plc;
+    const std::string by =
+        asked_by_text(debuggee_->history(), *hit.asker, is_named ? debuggee_->name(hit.asker->number) : "");
+    if (!by.empty()) text += ", " + by;
+  }
+  if (!hit.wrong.empty()) text += ", " + wrong_answer_text(hit);
+  if (const std::string mixed = not_an_answer_text(debuggee_->history(), hit); !mixed.empty()) text += ", " + mixed;
   if (hit.stop.is_watch()) {
     const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
     const std::string is = value_text(program, *hit.stop.range, hit.value);
     text += was == is ? fmt::format(" is {} as before", is) : fmt::format(" was {}, is {}", was, is);
-    const Action* const action = hit.action ? debuggee_->history().action(*hit.action) : nullptr;
-    text += hit.by   ? fmt::format(", by {} {}", listing.routine_of(hit.by->op), describe(*hit.by, program))
-            : action ? fmt::format(", by '{}', from outside", describe(*action))
-                     : ", by the system, between two instructions";
+    text += ", by " + (hit.by ? fmt::format("{} {}", listing.routine_of(hit.by->op), describe(*hit.by, program))
+                              : changer_text(debuggee_->history(), hit.action, hit.planned));
   }
   return text;
 }
@@ -342,7 +371,8 @@ Json Session::body_of_cpu_stop() {
       "{}the CPU went to STOP: fatal error {:04X}, {}, {}", said_of(looks_at()), code, meaning_of(FatalError{code}),
       between ? "between two scans" : fmt::format("in {} line {}", listing().routine_of(op), listing().line_of(op)));
   print(text, "important", between ? std::nullopt : std::optional(op));
-  exception_ = {{"exceptionId", fmt::format("fatal {:04X}", code)}, {"description", text}, {"breakMode", "always"}};
+  exceptions_[looks_at()] = {
+      {"exceptionId", fmt::format("fatal {:04X}", code)}, {"description", text}, {"breakMode", "always"}};
   const bool wanted = std::ranges::any_of(placed_, [](const auto& entry) {
     return entry.second.kind == StopKind::Exception && entry.second.wanted["filterId"] == "watchdog";
   });

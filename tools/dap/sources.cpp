@@ -32,11 +32,18 @@ Json Sources::place_of(std::uint32_t line) const {
 
 std::optional<std::uint32_t> Sources::line_in(const std::string& path, std::uint32_t line) const {
   const std::string full = full_name(path);
-  for (std::size_t i = 0; i < files_.size(); ++i) {
-    const std::uint32_t end = i + 1 < files_.size() ? files_[i + 1].before : lines_;
-    if (files_[i].path == full && line >= 1 && line <= end - files_[i].before) return files_[i].before + line;
-  }
+  for (std::size_t i = 0; i < files_.size(); ++i)
+    if (files_[i].path == full && line >= 1 && line <= lines_of(i)) return files_[i].before + line;
   return {};
+}
+
+std::optional<std::uint32_t> Sources::lines_of(const std::string& path) const {
+  const auto file = std::ranges::find(files_, full_name(path), &File::path);
+  return file == files_.end() ? std::nullopt : std::optional(lines_of(static_cast<std::size_t>(file - files_.begin())));
+}
+
+std::uint32_t Sources::lines_of(std::size_t file) const {
+  return (file + 1 < files_.size() ? files_[file + 1].before : lines_) - files_[file].before;
 }
 
 Json Sources::all() const {

@@ -21,6 +21,9 @@ class Sources {
   /// The line of the program that a line of a file is; nothing for a file that is not part of it.
   std::optional<std::uint32_t> line_in(const std::string& path, std::uint32_t line) const;
 
+  /// How many lines a file of the program has; nothing if it is none.
+  std::optional<std::uint32_t> lines_of(const std::string& path) const;
+
   Json all() const;
 
  private:
@@ -29,6 +32,7 @@ class Sources {
     std::uint32_t before = 0;  ///< lines of the program in front of its first
   };
   static Json source_of(const File& file);
+  std::uint32_t lines_of(std::size_t file) const;
 
   std::vector<File> files_;
   std::uint32_t lines_ = 0;

@@ -14,6 +14,7 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/dap/addresses.hpp"
 #include "tools/debugger/call_stack.hpp"
+#include "tools/debugger/counter_preset.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 
@@ -101,12 +102,13 @@ std::vector<Variable> bytes_of(const Cpu& cpu, Area area) {
 }
 
 /// What belongs to a timer or counter besides its current value.
-std::string element_text(const State& state, Area area, std::uint32_t number) {
+std::string element_text(const Cpu& cpu, Area area, std::uint32_t number) {
+  const State& state = cpu.state();
   const auto bit = [&](std::uint32_t bits) { return state.image[bits + number / 8] >> number % 8 & 1; };
   if (area == Area::T)
     return fmt::format(", bit {}, preset {}, counts {}", bit(image::kTBits), state.timer[number].preset,
                        format_duration(timer_base(number).base));
-  if (area == Area::C) return fmt::format(", bit {}", bit(image::kCBits));
+  if (area == Area::C) return fmt::format(", bit {}{}", bit(image::kCBits), counter_preset_text(cpu, number));
   if (area != Area::HC) return {};
   const HighSpeedCounter& counter = state.counter[number];
   return counter.defined ? fmt::format(", mode {}, preset {}, {}", counter.mode, counter.preset, counter.up ? "up" : "down")
@@ -120,7 +122,7 @@ std::vector<Variable> elements_of(const Cpu& cpu, Area area) {
     const std::string name = fmt::format("{}{}{}", info(area).name, words ? "W" : "", i);
     if (const auto range = range_of(name, cpu.program())) {
       elements.push_back(variable_of(cpu, *range, name));
-      if (!words) elements.back().value += element_text(cpu.state(), area, i);
+      if (!words) elements.back().value += element_text(cpu, area, i);
     }
   }
   return elements;

@@ -29,14 +29,29 @@ const configurations = {
 };
 
 // STL status: power flow and operands of each line's last execution.
+async function statusOf(document, first, last) {
+  const session = vscode.debug.activeDebugSession;
+  if (!session || session.type !== TYPE || !vscode.workspace.getConfiguration("s7200").get("status")) return [];
+  const { lines } = await session.customRequest("stlStatus", {
+    source: { path: document.uri.fsPath }, line: first + 1, endLine: last + 1,
+  });
+  return lines;
+}
+
 const status = {
   async provideInlineValues(document, viewport, context) {
-    const session = vscode.debug.activeDebugSession;
-    if (!session || session.type !== TYPE || !vscode.workspace.getConfiguration("s7200").get("status")) return [];
-    const { lines } = await session.customRequest("stlStatus", {
-      source: { path: document.uri.fsPath }, line: viewport.start.line + 1, endLine: viewport.end.line + 1,
-    });
+    const lines = await statusOf(document, viewport.start.line, viewport.end.line);
     return lines.map(({ line, text }) => new vscode.InlineValueText(document.lineAt(line - 1).range, text));
+  },
+};
+
+const S0_IS = "S0 is the power flow behind a contact, and in front of a coil, box or call.";
+
+const statusHover = {
+  async provideHover(document, position) {
+    const [last] = await statusOf(document, position.line, position.line);
+    if (!last) return undefined;
+    return new vscode.Hover([last.text, last.powerFlow ? S0_IS : `Passed without power flow. ${S0_IS}`]);
   },
 };
 
@@ -55,11 +70,17 @@ const tasks = {
   resolveTask: ({ definition }) => task(definition),
 };
 
+// The PLC of a system whose stack is selected, or the first one.
+function looksAt(session) {
+  const item = vscode.debug.activeStackItem;
+  return item && item.session.id === session.id ? item.threadId : 1;
+}
+
 // Asks what is missing, and sends the request; what comes back as text goes to the debug console.
 async function ask(request, argument, prompt, placeHolder) {
   const session = vscode.debug.activeDebugSession;
   if (!session || session.type !== TYPE) return vscode.window.showInformationMessage("No S7-200 program is being debugged.");
-  const args = { threadId: 1 };
+  const args = { threadId: looksAt(session) };
   if (argument) {
     args[argument] = await vscode.window.showInputBox({ prompt, placeHolder });
     if (!args[argument]) return undefined;
@@ -92,6 +113,7 @@ function activate(context) {
     vscode.debug.registerDebugAdapterDescriptorFactory(TYPE, adapters),
     vscode.debug.registerDebugConfigurationProvider(TYPE, configurations),
     vscode.languages.registerInlineValuesProvider([{ language: "s7200-stl" }, { language: "plaintext" }], status),
+    vscode.languages.registerHoverProvider([{ language: "s7200-stl" }, { language: "plaintext" }], statusHover),
     vscode.tasks.registerTaskProvider(TYPE, tasks),
     ...Object.entries(COMMANDS).map(([name, args]) =>
       vscode.commands.registerCommand(`s7200.${name}`, () => ask(name, ...args))));

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interpreter/program/load.hpp"
@@ -28,7 +29,7 @@ class BareDebuggee final : public Debuggee {
   std::size_t first_station() const override { return 0; }
   const serial::MasterSettings& master(std::size_t) const override { return master_; }
   std::string recorded_files() const override { return {}; }
-  std::string failure() const override { return failure_text; }
+  std::string take_failure() override { return std::exchange(failure_text, {}); }
   void when_saying(std::function<void(const std::string&)>) override {}
   std::vector<std::string> finish() override {
     ++finished;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tests/support/slave_bench.hpp"
 #include "tests/unit/dap/editor.hpp"
 #include "tools/dap/base64.hpp"
 
@@ -259,6 +260,14 @@ TEST(DapSession, ASymbolThatBeginsWithAlwaysIsOne) {
   EXPECT_TRUE(has(refused["message"], "Always_On")) << refused;
 }
 
+TEST(DapSession, ABreakpointAfterTheEndOfItsFileSaysWhereThatIs) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json answer = editor("setBreakpoints", {{"source", {{"path", "test.stl"}}}, {"breakpoints", {{{"line", 99999}}}}});
+  EXPECT_FALSE(answer["breakpoints"][0]["verified"]);
+  EXPECT_EQ(answer["breakpoints"][0]["message"], "test.stl has no line 99999; its last one is 23");
+}
+
 TEST(DapSession, ABreakpointThatStaysKeepsItsHits) {
   Editor editor(kNested);
   editor.begin();
@@ -486,7 +495,12 @@ TEST(DapSession, ARequestUnderWayIsGivenUp) {
 TEST(DapSession, WhatDecidedIsNamedAndReached) {
   Editor editor("LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
   editor.begin();
-  EXPECT_TRUE(has(editor.error_of("lastDecision"), "nothing has decided"));
+  EXPECT_TRUE(has(editor("lastDecision")["text"], "nothing has decided"));
+  EXPECT_TRUE(has(editor("evaluate", {{"expression", "why"}, {"context", "repl"}})["result"], "nothing has decided"));
+  EXPECT_TRUE(has(editor("evaluate", {{"expression", "who VW40"}, {"context", "repl"}})["result"],
+                  "nothing has written VW40 since power-up; it is "));
+  EXPECT_TRUE(has(editor("lastWrite", {{"expression", "VW40"}})["text"], "nothing has written VW40"));
+  EXPECT_TRUE(has(editor.error_of("reverseToLastDecision", {{"threadId", 1}}), "nothing has decided"));
   editor.lines({8});
   editor("continue", {{"threadId", 1}});
   EXPECT_TRUE(has(editor("evaluate", {{"expression", "why"}, {"context", "repl"}})["result"], "JMP 1 in line 3 (LD SM0.0"));
@@ -495,6 +509,22 @@ TEST(DapSession, WhatDecidedIsNamedAndReached) {
   editor("reverseToLastDecision", {{"threadId", 1}});
   EXPECT_EQ(editor.line(), 3);
   EXPECT_EQ(editor.last("stopped")["description"], "in front of what decided");
+}
+
+TEST(DapSession, GoingBackToADecisionIsRefusedWhereNoInstructionIsNamed) {
+  Editor editor(test::slave_text());
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 20}});
+  editor("fault", {{"fault", "missing:of=answer,character=each"}});
+  editor("setExceptionBreakpoints", {{"filters", {"unanswered"}}});
+  editor("sendFrame", {{"frame", "01 03 00 0a 00 01 crc"}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor("lastDecision")["text"], "missing"));
+  const std::size_t messages = editor.messages.size();
+  const std::string refused = editor.error_of("reverseToLastDecision", {{"threadId", 1}});
+  EXPECT_TRUE(has(refused, "missing")) << "why nothing came is said all the same";
+  EXPECT_TRUE(has(refused, "\nno instruction is named that it could go back to"));
+  EXPECT_EQ(editor.messages.size(), messages + 1) << "nothing but the response";
 }
 
 TEST(DapSession, AFaultOfTheLineBeginsNow) {
@@ -572,6 +602,10 @@ TEST(DapSession, AFailureOfThePeerStopsTheProgramAndTheSessionLives) {
   editor("continue", {{"threadId", 1}});
   EXPECT_EQ(editor.last("stopped")["description"], "the device has gone");
   EXPECT_EQ(editor.value("1"), "1");
+  editor("stepBack", {{"threadId", 1}});
+  EXPECT_EQ(editor.last("stopped")["description"], "step") << "said once";
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "breakpoint") << "and the program goes on without it";
 }
 
 TEST(DapSession, GotoLeadsToAnotherInstructionOfTheRoutine) {
@@ -654,6 +688,9 @@ TEST(DapSession, ExpressionsAreInStlTerms) {
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "frob"}}), "is not an address"));
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "division by 0"));
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", std::string(5000, '(') + "1"}}), "nested too deeply"));
+  std::string chain = "1";
+  for (int i = 0; i < 200'000; ++i) chain += "+1";
+  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", chain}}), "more than 1000 operators"));
   EXPECT_EQ(editor.value(std::string(50, '(') + "1" + std::string(50, ')')), "1");
 }
 
@@ -680,9 +717,17 @@ TEST(DapSession, VariablesAndExpressionsAreSet) {
   EXPECT_EQ(editor.value("VB11"), "16#02 (2)");
   editor("setExpression", {{"expression", "M0.3"}, {"value", "1"}});
   EXPECT_EQ(editor.value("MB0"), "16#08 (8)");
-  EXPECT_TRUE(
-      has(editor.error_of("setExpression", {{"expression", "VB0"}, {"value", "256"}}), "does not") ||
-      has(editor.error_of("setExpression", {{"expression", "VB0"}, {"value", "256"}}), "is not a value that fits VB0"));
+  const auto refused = [&](const char* expression, const char* value) {
+    return editor.error_of("setExpression", {{"expression", expression}, {"value", value}});
+  };
+  EXPECT_EQ(refused("VB0", "256"), "'256' is not a value that fits VB0: a byte is -128 to 255");
+  EXPECT_EQ(refused("M0.3", "2"), "'2' is not a value that fits M0.3: a bit is 0 to 1");
+  EXPECT_EQ(refused("VW10", "x"), "'x' is not a value that fits VW10: a word is -32768 to 65535");
+  EXPECT_EQ(refused("T37", "65536"),
+            "'65536' is not a value that fits T37: a word is -32768 to 65535, and T37 counts 100 ms");
+  EXPECT_EQ(refused("VD20:real", "x"), "'x' is not a value that fits VD20:real: a REAL is up to 3.4e38, of either sign");
+  EXPECT_EQ(refused("VB0:4", "1"), "'VB0:4' is not one value but 4");
+  EXPECT_TRUE(has(editor.error_of("setExpression", {{"expression", "SM0.0"}, {"value", "0"}}), "SM0.0 cannot be set"));
   editor("setExpression", {{"expression", "I0.0"}, {"value", "1"}});
   EXPECT_TRUE(has(editor.printed(), "when the next scan reads its inputs"));
 }
@@ -929,6 +974,36 @@ TEST(DapSession, RandomWalksStandWhereAPlainRunHasBeen) {
     }
     ASSERT_EQ(walk.state(), states[at]) << step;
   }
+}
+
+TEST(DapSession, StopsThatCanNeverHappenAreNotVerified) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json functions = editor("setFunctionBreakpoints", {{"breakpoints", {{{"name", "event 27"}}}}})["breakpoints"];
+  EXPECT_EQ(functions[0]["verified"], false);
+  const Json filters =
+      editor("setExceptionBreakpoints",
+             {{"filters", Json::array()}, {"filterOptions", {{{"filterId", "error"}, {"condition", "9999"}}}}});
+  EXPECT_EQ(filters["breakpoints"][0]["verified"], false);
+}
+
+TEST(DapSession, AGranularityThatIsNoneIsRefused) {
+  Editor editor(kNested);
+  editor.begin();
+  EXPECT_TRUE(
+      has(editor.error_of("next", {{"threadId", 1}, {"granularity", "foo"}}), "is not statement, line or instruction"));
+  EXPECT_TRUE(has(editor.error_of("stepIn", {{"threadId", 1}, {"granularity", 7}}), "7 is not statement"));
+}
+
+TEST(DapSession, AnInputThatIsSetAsAVariableSaysWhenTheProgramFindsIt) {
+  Editor editor(kNested);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}});
+  const Json scopes = editor("scopes", {{"frameId", 1}})["scopes"];
+  for (const Json& scope : scopes)
+    if (scope["name"] == "I")
+      editor("setVariable", {{"variablesReference", scope["variablesReference"]}, {"name", "IB0"}, {"value", "1"}});
+  EXPECT_TRUE(has(editor.printed(), "the program finds them in I when the next scan reads its inputs"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/debugger/system_bench.hpp"
 #include "tools/dap/session.hpp"
 
@@ -22,7 +23,7 @@ class SystemDebuggee final : public Debuggee {
   std::size_t first_station() const override { return 1; }
   const serial::MasterSettings& master(std::size_t) const override { return master_; }
   std::string recorded_files() const override { return {}; }
-  std::string failure() const override { return {}; }
+  std::string take_failure() override { return {}; }
   void when_saying(std::function<void(const std::string&)>) override {}
   std::vector<std::string> finish() override { return {}; }
 
@@ -170,8 +171,33 @@ TEST(DapSystem, TheFilterOfUnansweredRequestsHearsPlcsThatAskOnceALine) {
   EXPECT_EQ(said, 1) << "not for each PLC on the line";
 }
 
+TEST(DapSystem, TheFilterOfWrongAnswersStopsAtOneThatAPlcCannotTake) {
+  SystemEditor editor;
+  editor("setExceptionBreakpoints", {{"filters", {"wrong"}}});
+  editor("fault", {{"fault", "missing:of=answer,character=4"}});
+  editor("continue", {{"threadId", kSlave1Thread}});
+  EXPECT_EQ(editor.stopped()["reason"], "exception");
+  const std::string text = editor.stopped()["text"];
+  EXPECT_NE(text.find("wrong answer, 01 03 00 00 00 02 c4 0b, asked by master, answered 01 03 "), std::string::npos) << text;
+  EXPECT_NE(text.find(": wrong CRC"), std::string::npos) << text;
+}
+
+TEST(DapSystem, AnExceptionIsThatOfItsThread) {
+  SystemEditor editor;
+  editor("setExceptionBreakpoints", {{"filters", {"unanswered"}}});
+  editor("continue", {{"threadId", kSlave1Thread}});
+  const int stopped = editor.stopped()["threadId"];
+  EXPECT_EQ(editor("exceptionInfo", {{"threadId", stopped}})["exceptionId"], "unanswered request");
+  for (int thread = kMasterThread; thread <= kSlave2Thread; ++thread) {
+    if (thread == stopped) continue;
+    const Json refused = editor.ask("exceptionInfo", {{"threadId", thread}});
+    EXPECT_FALSE(refused["success"]);
+    EXPECT_NE(refused["message"].get<std::string>().find(": it has not stopped for an exception"), std::string::npos);
+  }
+}
+
 TEST(DapSystem, AnUnansweredRequestIsToldOnceThoughAnotherPlcHearsTwoLines) {
-  const std::string folder = testing::TempDir();
+  const std::string folder = test::scratch_folder();
   std::ofstream(folder + "asks.stl")
       << "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 8, VB100\nMOVD 16#0503000a, VD101\nMOVD 16#0001a58c, VD105\n"
          "LD SM0.0\nTON T37, 3\nLD T37\nEU\nXMT VB100, 0\nMEND\n";
