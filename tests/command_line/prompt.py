@@ -321,7 +321,7 @@ class Menu(unittest.TestCase):
         self.assertIn("16#0001      1", self.answer(terminal, "3 40011 1"), "what P has written")
         self.quit(terminal)
         gateway = self.menu("westinghouse:pc1200")
-        self.assertIn("reference 51: 00 00", self.answer(gateway, "z 0 0 2"))
+        self.assertIn("references of kind 16#33: 00 00", self.answer(gateway, "z 0 0 2"))
         self.assertIn("function 21", self.answer(gateway, "a 0 0 1 2"))
         self.quit(gateway)
 
@@ -345,12 +345,19 @@ class Menu(unittest.TestCase):
         for wrong, said in (("x", "'x' is not a key; M shows the menu"), ("3 frob 1", "frob"), ("7 5", "read exception status asks for nothing"), ("t 5", "asks for nothing"), ("8 x", "'x'"), ("5 3 maybe", "maybe"),
                             ("l x", "'x'"),
                             ("3 00003 1", "00003 is a coil, and this key is for holding"), ("3 40000 1", "there is no holding register 40000"),
+                            ("3 40001:2", "'40001:2': write 40001 alone; what follows ':' is asked for by itself"),
                             ("frob", "'frob' is not an action"), ("s 300", "not a slave from 0 to 255")):
             self.assertIn(said, self.answer(terminal, wrong))
         self.quit(terminal)
 
     def test_slave_and_port_are_changed_and_seen(self):
         terminal = self.menu()
+        terminal.type("s\n")
+        terminal.until("slave [1]: ")
+        terminal.type("\n")
+        terminal.until(">> ")
+        self.assertIn("125", self.answer(terminal, "3 0 999"))
+        self.assertNotIn("--beyond-limits", terminal.text, "an option can no longer be given")
         self.assertIn("slave 2", self.answer(terminal, "s 2"))
         self.assertIn("no answer", self.answer(terminal, "7"))
         self.answer(terminal, "s 1")
@@ -382,6 +389,16 @@ class Menu(unittest.TestCase):
         self.answer(terminal, "n")
         self.assertIn("function 7", self.answer(terminal, "7"))
         self.quit(terminal, "\x04")
+
+    def test_after_twenty_failures_further_ones_are_only_counted(self):
+        terminal = self.menu(SLAVE, "--timeout", "20ms")
+        self.answer(terminal, "s 2")
+        terminal.type("l\n")
+        shown = terminal.until("further failures are only counted", "1;1H")
+        terminal.signal(signal.SIGINT)
+        self.assertEqual(shown.count("no answer"), 20)
+        terminal.until(">> ")
+        self.quit(terminal)
 
     def test_ctrl_c_at_the_prompt_gives_a_new_one_and_a_polite_kill_ends_it(self):
         terminal = self.menu()

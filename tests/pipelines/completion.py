@@ -27,6 +27,16 @@ LINES = (
     ("s7200 master --protocol free", ["freeport-pc"]),
     ("s7200 instructions MOV", ["MOVB", "MOVW", "MOVD", "MOVR"]),
     ("s7200 manual instr", ["instructions"]),
+    ("s7200 run --times cpu214", ["cpu214", "cpu214_from_22x"]),
+    ("s7200 run --times pump", None),
+    ("s7200 run --times ", None),
+    ("s7200 master westinghouse:pc12", ["westinghouse:pc1200", "westinghouse:pc1250"]),
+    ("s7200 run --tcp 0 westinghouse:hp", ["westinghouse:hppc"]),
+    ("s7200 master pump", None),
+    ("s7200 master pump.stl loo", ["loopback"]),
+    ("s7200 master pump.stl read 40001 diag", ["diagnostics"]),
+    ("s7200 master --protocol ppi pump.stl set", ["set-clock"]),
+    ("s7200 master westinghouse:hppc --protocol=hppc read-", ["read-register"]),
     ("s7200 check pump", None),
     ("s7200 run --trace pump", None),
     ("s7200 frob pump", None),
@@ -68,6 +78,10 @@ class Candidates(Case):
         self.assertEqual(self.candidates("run", "--parity", "even", "--parit"), ["--parity"])
         self.assertEqual(self.candidates("run", "--trace", "--parity", ""), [], "--parity is the name of the trace here")
 
+    def test_an_action_is_no_target(self):
+        self.assertEqual(self.candidates("master", "--protocol", "hppc", "westinghouse:hp"), ["westinghouse:hppc"])
+        self.assertEqual(self.candidates("master", "pump.stl", "westinghouse:hp"), [])
+
 
 class Shell(Case):
     """Completes in a folder that has a file `pump.stl`."""
@@ -79,15 +93,15 @@ class Shell(Case):
     def completes_all_lines(self, complete):
         for line, expected in LINES:
             with self.subTest(line):
-                found = sorted(word.split("=")[-1] for word in complete(line))  # fish sorts
-                self.assertEqual(found, sorted(expected or ["pump.stl"]))
+                ends = lambda words: sorted(re.split("[=:]", word)[-1] for word in words)  # fish sorts, bash has no more of it
+                self.assertEqual(ends(complete(line)), ends(expected or ["pump.stl"]))
 
 
 @unittest.skipUnless(shutil.which("bash"), "bash is not installed")
 class Bash(Shell):
     def complete(self, line):
-        # As readline splits it, for which = is a word; and files where the function has nothing, as -o default has them.
-        words = [word for part in line.split(" ") for word in (re.split("(=)", part) if part else [""])]
+        # As readline splits it, for which = and : are words; and files where the function has nothing, as -o default has them.
+        words = [word for part in line.split(" ") for word in (re.split("([=:])", part) if part else [""])]
         script = f"""
             source {shlex.quote(str(SCRIPTS / 's7200.bash'))}
             [[ $(complete -p s7200) == 'complete -o default -F _s7200 s7200' ]] || exit 9

@@ -5,7 +5,7 @@ import re
 import shutil
 import unittest
 
-from support import ENVIRONMENT, FINE, SOURCE, Case, main
+from support import ENVIRONMENT, FINE, S7200, SOURCE, Case, main
 
 CONTAINERFILE = SOURCE / "tools/pipelines/container/Containerfile"
 
@@ -86,6 +86,11 @@ class Container(Case):
         (copied,) = all_of(self.final, "COPY")
         where = re.search(r"CPACK_PACKAGE_DIRECTORY \$\{PROJECT_BINARY_DIR\}/(\w+)", (SOURCE / "cmake/package.cmake").read_text(encoding="utf-8"))
         self.assertEqual(copied, f"--from=build /s7200/build/release/{where.group(1)}/s7200_*.deb /tmp/")
+
+    def test_the_command_that_is_shown_finds_its_scenarios_in_this_tree(self):
+        for path in (CONTAINERFILE, CONTAINERFILE.parent / "README.md"):
+            (words,) = re.findall(r"podman run .* s7200 s7200 (.*)", path.read_text(encoding="utf-8"))
+            self.assertIn("modbus_slave", self.ends(FINE, S7200, *words.split(), "--list", cwd=SOURCE).stdout)
 
     def test_it_runs_as_a_plain_user_that_exists(self):
         (user,) = all_of(self.final, "USER")

@@ -34,6 +34,17 @@ class Project(Case):
             self.assertEqual((suite.get("tests"), suite.get("failures")), ("1", failures))
         self.assertIn("limits.yaml", self.ctest("-N", "--verbose").stdout)
 
+    def test_the_lines_of_the_readme_make_tests_of_a_project(self):
+        lines = re.findall(r"(?m)^    (.+)$", (MODULES / "README.md").read_text(encoding="utf-8"))
+        project = self.folder / "readme"
+        (project / "scenarios").mkdir(parents=True)
+        for name in ("plant.yaml", "scenarios/start.yaml", "scenarios/alarm.yaml"):
+            (project / name).write_text("# empty\n", encoding="utf-8")
+        text = "\n".join(["cmake_minimum_required(VERSION 3.20)", "project(readme LANGUAGES NONE)", *lines])
+        (project / "CMakeLists.txt").write_text(text.replace("/usr/share/s7200/cmake", str(MODULES)), encoding="utf-8")
+        self.configure(project=project)
+        self.assertEqual(re.findall(r"Test +#\d+: (\S+)", self.ctest("-N").stdout), ["pump.start", "pump.alarm"])
+
     def changed(self, old, new):
         copy = self.folder / "project"
         shutil.copytree(PROJECT, copy)

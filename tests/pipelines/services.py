@@ -78,6 +78,10 @@ class GitHub(Service):
         self.run_step(FINE, "pump station", options="--only\nat rest\n--jobs\n2\n")
         self.assertEqual(self.results("s7200-junit.xml"), (1, 0))
 
+    def test_blanks_at_the_ends_of_a_line_and_carriage_returns_are_no_part_of_a_word(self):
+        self.run_step(FINE, f"  {PASSES}\t \r\n\r\n", options="--jobs \r\n 2\r\n")
+        self.assertEqual(self.results("s7200-junit.xml")[1], 0)
+
     def test_without_scenarios_the_step_fails(self):
         self.assertIn("nothing to test", self.run_step(UNUSABLE, "").stderr)
 

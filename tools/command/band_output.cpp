@@ -15,18 +15,40 @@
 namespace s7200::tools {
 namespace {
 
-void print_bands(const BandExchanges& exchanges, const std::string& title, const std::vector<ExchangeBand>& bands) {
-  fmt::print("{}\n", title);
-  for (std::size_t i = 0; i < bands.size(); ++i)
-    fmt::print("{}\n  {}\n", stl::printable(exchanges.labels[i]), bands[i].text());
+/// `shortest with cpu214, longest with random table 12 of seed 1`, if they differ; and with which table what came of the
+/// exchange was first another than with most.
+std::string tables_text(const ExchangeBand& band, const ProgramBand& tables) {
+  std::string text;
+  if (band.latency().any() && band.latency().least != band.latency().most)
+    text += fmt::format("  shortest with {}, longest with {}\n", tables.table_name(band.shortest()),
+                        tables.table_name(band.longest()));
+  const auto usual = std::ranges::max_element(band.counts(), {}, &ExchangeBand::Count::tables);
+  for (const ExchangeBand::Count& count : band.counts())
+    if (&count != &*usual) text += fmt::format("  {} with {}\n", count.verdict, tables.table_name(count.first));
+  return text;
 }
 
-void print_json(const BandExchanges& exchanges, const std::string& title, const std::vector<ExchangeBand>& bands) {
+void print_bands(const BandExchanges& exchanges, const std::string& title, const std::vector<ExchangeBand>& bands,
+                 const ProgramBand& tables) {
+  fmt::print("{}\n", title);
+  for (std::size_t i = 0; i < bands.size(); ++i)
+    fmt::print("{}\n  {}\n{}", stl::printable(exchanges.labels[i].text), bands[i].text(),
+               stl::printable_lines(tables_text(bands[i], tables)));
+}
+
+void print_json(const BandExchanges& exchanges, const std::string& title, const std::vector<ExchangeBand>& bands,
+                const ProgramBand& tables) {
   auto results = results_of(exchanges.verb);
   results["band"] = {{"times", title}, {"exchanges", nlohmann::ordered_json::array()}};
   for (std::size_t i = 0; i < bands.size(); ++i) {
-    nlohmann::ordered_json exchange{{"exchange", exchanges.labels[i]}};
+    nlohmann::ordered_json exchange{{exchanges.key, exchanges.labels[i].value}};
     exchange.update(bands[i].json());
+    const bool any = bands[i].latency().any();
+    const auto name = [&](std::size_t table) { return any ? nlohmann::ordered_json(tables.table_name(table)) : nullptr; };
+    exchange["shortest_with"] = name(bands[i].shortest());
+    exchange["longest_with"] = name(bands[i].longest());
+    for (std::size_t verdict = 0; verdict < bands[i].counts().size(); ++verdict)
+      exchange["verdicts"][verdict]["first_with"] = tables.table_name(bands[i].counts()[verdict].first);
     results["band"]["exchanges"].push_back(std::move(exchange));
   }
   fmt::print("{}", lines_of(results));
@@ -63,7 +85,10 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
       },
       std::ref(progress));
   progress.clear();
-  (json ? print_json : print_bands)(exchanges, band_title(program, band.settings()), bands);
+  std::string title = band_title(program, band.settings());
+  const std::size_t done = bands.empty() ? 0 : bands.front().tables();
+  if (done < programs->size()) title += fmt::format("; {} of these {} tables", done, programs->size());
+  (json ? print_json : print_bands)(exchanges, title, bands, *programs);
   print_interruption();
   const bool always =
       std::ranges::all_of(bands, [&](const ExchangeBand& each) { return each.count(exchanges.good) == programs->size(); });

@@ -11,9 +11,16 @@
 namespace s7200::tools {
 
 struct BandExchanges {
-  std::string verb;                 ///< for the JSON
-  std::vector<std::string> labels;  ///< of each exchange: its request, its action
-  std::string good;                 ///< the verdict that is wanted
+  /// Of each exchange.
+  struct Label {
+    std::string text;
+    std::string value;  ///< in the JSON
+  };
+
+  std::string verb;  ///< for the JSON
+  std::string key;   ///< of what is asked, there
+  std::vector<Label> labels;
+  std::string good;  ///< the verdict that is wanted
 
   /// Does them on a rig that has been powered up; those not come to may be missing at the end.
   std::function<std::vector<BandOutcome>(Rig& rig, const std::string& program, LostEvents& lost)> run;

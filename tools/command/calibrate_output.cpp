@@ -1,10 +1,37 @@
 #include "tools/command/calibrate_output.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <ctime>
+#include <string_view>
+#include <vector>
+
+#include "tools/command/measuring_target.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
+namespace {
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  return fmt::format("{}-{:02}-{:02}", local.tm_year + 1900, local.tm_mon + 1, local.tm_mday);
+}
+
+/// SMB6 has the type of the CPU in its upper half.
+int type_in(std::uint8_t identification) { return identification & 0xF0; }
+
+std::vector<std::string_view> cpus_of_type(std::uint8_t identification) {
+  std::vector<std::string_view> names;
+  for (const CpuModel* each : all_cpus())
+    if (type_in(each->identification) == type_in(identification)) names.push_back(each->name);
+  return names;
+}
+
+}  // namespace
 
 nlohmann::ordered_json to_json(const CpuModel& model, const Measurement& measurement, const Fit& fit) {
   auto results = results_of("calibrate");
@@ -20,8 +47,49 @@ nlohmann::ordered_json to_json(const CpuModel& model, const Measurement& measure
                                   {"per_unit", each.form.per_unit},
                                   {"us", each.ns / 1000},
                                   {"within_us", each.within / 1000}});
+  results["ratio"] = ratio_to_known(fit);
   results["not_measured"] = not_measured(fit, model);
   return results;
+}
+
+std::string source_of(const CpuModel& model, const Measurement& measurement, const Fit& fit, const std::string& firmware) {
+  return fmt::format("CPU {} (SMB6 = 16#{:02X}{}), measured {}, loops agree within {:.2f} us", model.name,
+                     measurement.identification, firmware.empty() ? "" : ", firmware " + firmware, today(),
+                     std::max(0.0, fit.contradiction) / 1000);
+}
+
+std::string not_measured_text(const Fit& fit, const CpuModel& model) {
+  return fmt::format(
+      "not measured, or not told apart, so {:.2f} times the figures of the CPU's own table (the EEPROM's as it is there): {}",
+      ratio_to_known(fit), fmt::join(not_measured(fit, model), " "));
+}
+
+void refuse_another_cpu(const CpuModel& model, std::uint8_t identification) {
+  const auto alike = cpus_of_type(identification);
+  if (type_in(model.identification) == type_in(identification) || alike.empty()) return;
+  throw WrongCpu(fmt::format("SMB6 = 16#{:02X} is not that of CPU {} but of CPU {}: call again with --cpu", identification,
+                             model.name, fmt::join(alike, ", ")));
+}
+
+std::string doubt_about_cpu(const CpuModel& model, std::uint8_t identification, bool known) {
+  const auto alike = cpus_of_type(identification);
+  const std::string of = fmt::format("{}", fmt::join(alike, ", "));
+  if (alike.empty()) return fmt::format("SMB6 = 16#{:02X} is that of no CPU; CPU {} was taken", identification, model.name);
+  if (known || alike.size() == 1) return {};
+  return fmt::format("SMB6 = 16#{:02X} is that of CPU {}; CPU {} was taken: if it is another, measure again with --cpu",
+                     identification, of, model.name);
+}
+
+std::string interruption_note(const Measurement& measurement, std::size_t loops) {
+  if (measurement.loops.size() == loops) return {};
+  return fmt::format("interrupted after {} of {} loops: the rest of the table is not measured", measurement.loops.size(),
+                     loops);
+}
+
+std::string contradiction_note(const Fit& fit) {
+  if (fit.contradiction <= 0) return {};
+  return fmt::format("loops contradict each other by {:.2f} us: some time depends on more than the instruction",
+                     fit.contradiction / 1000);
 }
 
 }  // namespace s7200::tools

@@ -2,11 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
+#include "tools/command/bench_comparison.hpp"
 #include "tools/command/bench_program.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
@@ -21,37 +21,12 @@ namespace {
 
 struct BenchOptions {
   ProgramOptions program;  // without a path: the slave program that is built in
-  Time each = kSecond;     // host time for each figure
+  Time each = kSecond;     // processor time for each figure
   std::string against;     // an earlier --json
   bool json = false;
 };
 
-/// By the names of their figures.
-using Rates = std::map<std::string, double>;
-
-/// Nothing after a message.
-std::optional<Rates> read_rates(const std::string& path) {
-  std::string why;
-  const auto text = read_text(path, why);
-  const auto json = nlohmann::json::parse(text.value_or(""), nullptr, false);
-  Rates rates;
-  if (text && json.is_object() && json.contains("figures") && json["figures"].is_array())
-    for (const auto& figure : json["figures"])
-      if (figure.is_object() && figure.value("name", nlohmann::json()).is_string() &&
-          figure.value("per_second", nlohmann::json()).is_number())
-        rates[figure["name"]] = figure["per_second"];
-  if (!rates.empty()) return rates;
-  print_error(fmt::format("cannot read {}: {}", path, text ? "it is not what `s7200 bench --json` printed" : why));
-  return {};
-}
-
-/// Nothing if there was no such figure.
-std::optional<double> ratio_of(const Figure& figure, const Rates& before) {
-  const auto found = before.find(std::string(figure.name));
-  return found == before.end() || found->second <= 0 ? std::nullopt : std::optional(figure.per_second / found->second);
-}
-
-void print_line(const Figure& figure, const Rates& before) {
+void print_line(const Figure& figure, const EarlierBench& before) {
   const bool millions = figure.per_second >= 1e6;
   const auto ratio = ratio_of(figure, before);
   fmt::print("  {:<26} {:>9.1f} {} {} a second{}\n", figure.name, figure.per_second / (millions ? 1e6 : 1e3),
@@ -68,15 +43,17 @@ int run_bench(const BenchOptions& options) {
   const auto text = read_bench_program(options.program.path);
   const auto program = text ? options.program.load(*text, exit_code) : nullptr;
   if (!program) return exit_code;
-  const auto before = options.against.empty() ? Rates{} : read_rates(options.against);
+  const auto before = options.against.empty() ? EarlierBench{} : read_earlier_bench(options.against);
   if (!before) return kUnusable;
+  const auto how = measured_with(options.program, *program, options.each);
+  if (!options.against.empty()) warn_of_differences(how, *before, options.against);
   std::vector<Figure> figures = measure(program, options.each);
   if (options.program.path.empty())
     for (const auto& others : {measure_mixed, measure_files})
       std::ranges::copy(others(options.each), std::back_inserter(figures));
   if (options.json) {
     auto results = results_of("bench");
-    results["program"] = program->source.name;
+    results.update(how);
     for (const Figure& f : figures) {
       const auto ratio = ratio_of(f, *before);
       results["figures"].push_back({{"name", f.name},
@@ -100,7 +77,8 @@ void add_bench(CLI::App& app, int& exit_code) {
   verb->add_option("PROGRAM", options->program.path,
                    "a Modbus slave at address 1 (default: our modbus_slave.stl, built in)");
   options->program.CpuOptions::add_to(*verb);
-  add_duration(*verb, "--each", options->each, "time to spend on each figure [1s]", {kMillisecond, 3600 * kSecond});
+  add_duration(*verb, "--each", options->each, "processor time to spend on each figure, 1ms to 1h [1s]",
+               {kMillisecond, 3600 * kSecond});
   verb->add_option("--against", options->against, "an earlier result of --json: how many times as fast it is now")
       ->type_name("FILE");
   verb->add_flag("--json", options->json, "print as JSON");

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <ctime>
+#include <algorithm>
 #include <stdexcept>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/times_file.hpp"
 #include "tools/calibration/fit.hpp"
 #include "tools/command/calibrate_output.hpp"
 #include "tools/command/commands.hpp"
@@ -24,71 +25,63 @@ namespace {
 struct CalibrateOptions {
   std::string target, output, firmware;
   ProgramOptions program;
+  CLI::Option* cpu = nullptr;
+  std::vector<CLI::Option*> of_programs;  // about a CPU in simulation
   Time each = 3 * kSecond;
   bool force = false, json = false;
 };
 
-constexpr const char* kHowTo =
-    "measure_times.stl must be in the CPU, and the CPU in RUN. To put it there: s7200 convert "
-    "stl_programs/measure_times.stl\n"
-    "--to microwin, paste the blocks into Micro/WIN, download them to a CPU whose outputs are not wired to a plant, and set "
-    "the\n"
-    "switch to RUN; then connect port 0 and call this again. It answers at 9600 baud, 8 data bits, even parity.";
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  return fmt::format("{}-{:02}-{:02}", local.tm_year + 1900, local.tm_mon + 1, local.tm_mday);
+bool in_simulation(const CalibrateOptions& options) {
+  return parse_slave_target(options.target).kind == SlaveTarget::Kind::Program;
 }
 
-void show_progress(std::size_t done, std::size_t all) {
-  if (!can_redraw(stderr)) return;
-  fmt::print(stderr, "\r{} of {} loops{}", done, all, done == all ? "\r\x1b[K" : "");
-  std::fflush(stderr);
+void refuse_what_does_not_fit(const CalibrateOptions& options) {
+  if (in_simulation(options)) return;
+  for (const CLI::Option* option : options.of_programs)
+    if (option->count() > 0)
+      throw std::invalid_argument(fmt::format("{} needs a PROGRAM to run in simulation", option->get_name()));
 }
 
-int run_calibrate(CalibrateOptions& options) {
+int run_calibrate(const CalibrateOptions& options) {
+  refuse_what_does_not_fit(options);
   const CpuModel* model = options.program.model();
-  if (!model) return kUnusable;
-  const auto times = options.program.times(*model);
-  if (!times) return kUnusable;
-  const TimeTable known = default_times(*model);
+  if (!model || !options.program.times(*model)) return kUnusable;
+  const TimeTable known = told_apart(*model);
   const Loops loops = find_loops(*model, known);
   if (loops.loops.empty())
     return print_error(fmt::format("measure_times.stl does not run on CPU {}", model->name)), kUnusable;
   catch_interruption();
   int exit_code = kFine;
-  const auto target = MeasuringTarget::open(options.target, options.program, exit_code);
-  if (!target) return exit_code;
-  Measurement measurement;
-  try {
-    measurement = measure_loops(target->slave(), loops.loops.size(), options.each,
-                                [&](std::size_t done) { show_progress(done, loops.loops.size()); });
-  } catch (const std::runtime_error& error) {
-    print_error(error.what());
-    if (!interrupted()) print_note(kHowTo);
-    return interrupted() ? kCheckFailed : kUnusable;
-  }
-  const Fit result = fit(loops, measurement.loops);
-  const std::string source = fmt::format(
-      "{} (SMB6 = 16#{:02X}{}), measured {}, loops agree within {:.2f} us", model->name, measurement.identification,
-      options.firmware.empty() ? "" : ", firmware " + options.firmware, today(), std::max(0.0, result.contradiction) / 1000);
-  const std::string csv = fitted_csv(result, "CPU " + source);
+  const auto measurement = measure(
+      options.target, options.program, loops.loops.size(), options.each,
+      [&](std::uint8_t identification) { refuse_another_cpu(*model, identification); }, exit_code);
+  if (!measurement) return exit_code;
+  const Fit result = fit(loops, measurement->loops);
+  const std::string source =
+      (in_simulation(options) ? "simulated " : "") + source_of(*model, *measurement, result, options.firmware);
+  const std::string csv = cpu_line(model->name) + to_csv(calibrated(result, known, default_times(*model), source));
   if (!options.output.empty()) {
     const int written = write_stl(options.output, {options.target}, options.force, csv);
     if (written != kFine) return written;
   }
   if (options.json) {
-    fmt::print("{}", lines_of(to_json(*model, measurement, result)));
+    fmt::print("{}", lines_of(to_json(*model, *measurement, result)));
   } else {
     if (options.output.empty()) print_file(csv);
-    fmt::print(stderr, "not measured, or not told apart: {}\n", fmt::join(not_measured(result, *model), " "));
+    fmt::print(stderr, "{}\n", not_measured_text(result, *model));
   }
-  if (result.contradiction > 0)
-    print_note(fmt::format("loops contradict each other by {:.2f} us: some time depends on more than the instruction",
-                           result.contradiction / 1000));
-  return kFine;
+  const bool known_cpu = in_simulation(options) || options.cpu->count() > 0;
+  print_note_if_any(doubt_about_cpu(*model, measurement->identification, known_cpu));
+  print_note_if_any(contradiction_note(result));
+  print_note_if_any(interruption_note(*measurement, loops.loops.size()));
+  return exit_code;
+}
+
+/// In a cell of the table.
+std::string check_firmware(const std::string& text) {
+  return std::ranges::any_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7F; })
+             ? "a line break or another control character does not go into a table"
+             : "";
 }
 
 }  // namespace
@@ -101,14 +94,22 @@ void add_calibrate(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--output", options->output, "write the times to FILE, for --times; without it they are printed")
       ->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing file");
-  add_duration(*verb, "--each", options->each, "how long each of the loops runs [3s]", {kSecond, 20 * kSecond});
+  add_duration(*verb, "--each", options->each, "how long each of the loops runs, 1s to 20s [3s]", {kSecond, 20 * kSecond});
   verb->add_option("--firmware", options->firmware, "release of the CPU's firmware, for the source of the figures")
+      ->check(check_firmware)
       ->type_name("TEXT");
+  const std::size_t before = verb->get_options().size();
   options->program.CpuOptions::add_to(*verb);
+  options->cpu = verb->get_option("--cpu");
+  for (CLI::Option* option : verb->get_options())
+    if (option != options->cpu) options->of_programs.push_back(option);
+  options->of_programs.erase(options->of_programs.begin(),
+                             options->of_programs.begin() + static_cast<std::ptrdiff_t>(before));
   verb->add_flag("--json", options->json, "print what was found as JSON");
   verb->footer(
-      fmt::format("{}\n{}Example: s7200 calibrate stl_programs/measure_times.stl --each 1s", kHowTo,
-                  slave_targets_help({SlaveTarget::Kind::System, SlaveTarget::Kind::ModbusTcp, SlaveTarget::Kind::Peer})));
+      fmt::format("{}\n{}Example: s7200 calibrate stl_programs/measure_times.stl --each 1s", how_to_measure("\n"),
+                  slave_targets_help({SlaveTarget::Kind::System, SlaveTarget::Kind::ModbusTcp, SlaveTarget::Kind::Peer},
+                                     "a serial line at 9600 8E1")));
   verb->callback([options, &exit_code] { exit_code = run_calibrate(*options); });
 }
 

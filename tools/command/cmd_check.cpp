@@ -81,7 +81,8 @@ void add_check(CLI::App& app, int& exit_code) {
   verb->add_option("PROGRAM", options->paths,
                    "STL files or published documents, with symbol tables and data blocks for all; - is standard input")
       ->required();
-  options->cpu.add_to(*verb);
+  options->cpu.add_cpu_and_times_to(*verb, "CPU that they are to run on");
+  add_repair_option(*verb, options->cpu.repairs);
   std::vector<std::string> warnings;
   for (const WarningInfo& warning : all_warnings()) warnings.emplace_back(warning.name);
   offer(verb->add_option("--no-warn", options->unwanted, "leave out a warning, see below (repeatable)"), warnings)

@@ -29,42 +29,57 @@ Candidates options_of(CLI::App& verb) {
   return found;
 }
 
-Candidates values_of(CLI::Option& option, const std::string& before = "") {
+/// `before` the value stands `--name=`.
+Candidates values_of(CLI::Option& option, const std::string& typed, const std::vector<std::string>& words,
+                     const std::string& before = "") {
   Candidates found;
-  for (const std::string& value : offered_by(option)) found.push_back({before + value, ""});
+  for (const std::string& value : offered_by(option, typed, words)) found.push_back({before + value, ""});
   return found;
 }
 
 bool takes_value(const CLI::Option* option) { return option != nullptr && option->get_items_expected_max() > 0; }
 
-/// The option whose value the last word is.
-CLI::Option* option_before_last(CLI::App& verb, const std::vector<std::string>& words) {
-  CLI::Option* waiting = nullptr;
+/// What the last word is.
+struct Place {
+  CLI::Option* value_of = nullptr;  ///< the value of this option
+  std::size_t positional = 0;       ///< or what stands after so many that are neither options nor their values
+};
+
+Place place_of_last(CLI::App& verb, const std::vector<std::string>& words) {
+  Place place;
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
     CLI::Option* option = words[i].starts_with('-') ? verb.get_option_no_throw(words[i]) : nullptr;
-    waiting = waiting == nullptr && takes_value(option) ? option : nullptr;
+    if (place.value_of == nullptr && !words[i].starts_with('-')) ++place.positional;
+    place.value_of = place.value_of == nullptr && takes_value(option) ? option : nullptr;
   }
-  return waiting;
+  return place;
 }
 
-CLI::Option* first_positional(CLI::App& verb) {
-  for (CLI::Option* option : verb.get_options())
-    if (option->get_positional()) return option;
-  return nullptr;
+/// The last of them if there are less.
+CLI::Option* positional_at(CLI::App& verb, std::size_t number) {
+  CLI::Option* found = nullptr;
+  for (CLI::Option* option : verb.get_options()) {
+    if (!option->get_positional()) continue;
+    found = option;
+    if (number-- == 0) break;
+  }
+  return found;
 }
 
 /// `words` are those after the verb, of which the last is being typed.
 Candidates candidates_of(CLI::App& verb, const std::vector<std::string>& words) {
   const std::string& last = words.back();
-  if (CLI::Option* option = option_before_last(verb, words)) return values_of(*option);
+  const Place place = place_of_last(verb, words);
+  if (place.value_of != nullptr) return values_of(*place.value_of, last, words);
   const std::size_t equals = last.find('=');
   if (last.starts_with("--") && equals != std::string::npos) {
     CLI::Option* option = verb.get_option_no_throw(last.substr(0, equals));
-    return takes_value(option) ? values_of(*option, last.substr(0, equals + 1)) : Candidates{};
+    return takes_value(option) ? values_of(*option, last.substr(equals + 1), words, last.substr(0, equals + 1))
+                               : Candidates{};
   }
-  CLI::Option* positional = first_positional(verb);
+  CLI::Option* positional = positional_at(verb, place.positional);
   if (last.starts_with('-') || positional == nullptr) return options_of(verb);
-  return values_of(*positional);
+  return values_of(*positional, last, words);
 }
 
 Candidates candidates(CLI::App& app, std::vector<std::string> words) {

@@ -71,18 +71,20 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
   rig->power_up();
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
 
-  bool good = false;
+  bool good = false, in_the_past = false;
   {
     DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), nullptr);
     if (!live.start(why)) return print_error(why), kUnusable;
     if (live.has_bridges()) print_note(kMastersWait);
-    Debugger debugger(options.rig.stations(*rig), std::cout, session_options(options, *rig, live.history()));
+    Debugger debugger(options.rig.stations(*rig), std::cout, session_options(options, *rig, live));
     good = run_commands(debugger, *script, options);
-    if (!live.failure().empty()) print_error(live.failure());
     good &= live.failure().empty();
+    in_the_past = debugger.in_the_past();
   }
   fmt::print("{}", dump_text(*rig));
-  print_notes(fault_notes(*rig));
+  const std::vector<std::string> notes = fault_notes(*rig);
+  print_notes(notes);
+  if (in_the_past && !notes.empty()) print_note("faults are counted up to where the session stands, in the past");
   if (!finish(*rig)) return kUnusable;
   if (std::ferror(stdin) != 0 && !interrupted()) return print_error("cannot read standard input"), kUnusable;
   print_interruption();

@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <ranges>
 #include <stdexcept>
 
+#include "interpreter/base/joined.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/recording_options.hpp"
@@ -73,8 +73,7 @@ void add_decode(CLI::App& app, int& exit_code) {
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
   verb->footer(
-      fmt::format("Recordings are\n  {}\n",
-                  fmt::join(recording_forms() | std::views::transform(&RecordingForm::meaning), "\n  ")) +
+      fmt::format("Recordings are\n  {}\n", stl::joined(recording_forms(), &RecordingForm::meaning, "\n  ")) +
       "Nothing is sent to a line. Times are those of arrival: a USB adapter delivers up to 16 ms late. Behind a --pty of\n"
       "`s7200 run` only what the simulated line says is heard, not what others ask it.\n" +
       std::string(kEndOfListening) + "Example: s7200 decode tests/recordings/plant.log");

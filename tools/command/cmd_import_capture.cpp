@@ -5,13 +5,18 @@
 #include <stdexcept>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/load.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
+#include "tools/command/options/program_options.hpp"
 #include "tools/command/options/recording_options.hpp"
 #include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/recordings/decoded.hpp"
+#include "tools/recordings/playback.hpp"
+#include "tools/rig/system_reader.hpp"
+#include "tools/scenario/limits.hpp"
+#include "tools/scenario/scenario.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -20,7 +25,7 @@ namespace {
 struct ImportCaptureOptions {
   RecordingOptions recording;
   PlaybackChoices choices{.tolerance = 5 * kMillisecond};
-  std::string program, output;
+  std::string program, output, cpu = Scenario{}.cpu;
   bool force = false, json = false;
 
   bool to_file() const { return !output.empty() && output != "-"; }
@@ -33,21 +38,32 @@ std::string seen_from(const std::string& path, const ImportCaptureOptions& optio
   return std::filesystem::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal()).string();
 }
 
+/// False after a message: `test` could not run it.
+bool is_a_program(const std::string& path) {
+  if (path.empty()) return true;
+  if (is_standard_input(path) || is_system_file(path))
+    return print_error(fmt::format("--program {}: the scenario names an STL file or a document here", path)), false;
+  return read_program_text(path).has_value();
+}
+
 int run_import_capture(const ImportCaptureOptions& options) {
+  if (!is_a_program(options.program)) return kUnusable;
+  if (const CpuModel* model = find_cpu(options.cpu); model && options.choices.port >= model->ports)
+    return print_error(fmt::format("CPU {} has no port {}: --cpu names one that has", options.cpu, options.choices.port)),
+           kUnusable;
   const auto read = read_conversation(options.recording);
   if (!read) return kUnusable;
   PlaybackChoices choices = options.choices;
   choices.name = read->name;
+  if (options.recording.protocol == "ppi") choices.ppi_station = ppi_station_asked(read->frames, choices.station);
   choices.program = seen_from(options.program, options);
+  if (options.cpu != Scenario{}.cpu) choices.cpu = options.cpu;
   const auto [scenario, notes] = playback(read->frames, read->stamps, choices);
   print_notes(notes);
   if (scenario.empty())
-    return print_error(fmt::format("{}: no request in it{}; s7200 decode shows what is", read->name,
-                                   notes.empty() ? "" : " that can be asked again")),
-           kUnusable;
-  const std::string text =
-      fmt::format("# Imported from {} by s7200 import-capture. Run by s7200 test{}.\n{}", stl::printable(read->name),
-                  options.program.empty() ? " --against TARGET" : "", scenario);
+    return print_error(fmt::format("{}: {}", read->name, why_nothing_is_asked(read->frames, choices))), kUnusable;
+  const std::string text = fmt::format("{} {} by s7200 import-capture. {}\n{}", kImportBeginning, stl::printable(read->name),
+                                       how_to_run(options.recording.protocol, choices), scenario);
   const int exit_code =
       options.to_file() ? write_stl(options.output, {options.recording.file, options.program}, options.force, text) : kFine;
   if (exit_code == kFine && options.json) {
@@ -71,8 +87,14 @@ void add_import_capture(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("import-capture", "write a recording of a line, or what is heard on it, as a scenario for `test`");
   options->recording.add_to(*verb);
-  verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --against")
+  verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --target")
       ->type_name("FILE");
+  add_cpu_option(*verb, options->cpu, "CPU that --program is to run on");
+  verb->get_option("--cpu")->needs("--program");
+  add_whole_number(
+      *verb, "--port", [options](std::uint64_t port) { options->choices.port = static_cast<std::uint8_t>(port); }, {0, 1},
+      "port of that CPU, that the recorded line is to be at", "0")
+      ->needs("--program");
   add_whole_number(
       *verb, "--station",
       [options](std::uint64_t station) { options->choices.station = static_cast<std::uint8_t>(station); }, {0, 255},

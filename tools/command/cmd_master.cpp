@@ -19,6 +19,7 @@ int run_master(const CLI::App& verb, MasterOptions& options) {
   options.refuse_what_does_not_fit(target.kind);
   const bool over_tcp = target.kind == SlaveTarget::Kind::ModbusTcp;
   const std::vector<MasterAction> actions = options.actions(over_tcp);
+  print_note_if_any(options.doubt(actions, over_tcp));
   catch_interruption();
   const bool is_program = target.kind == SlaveTarget::Kind::Program;
   if (is_program && options.band.wanted()) return run_on_program_band(options, actions);

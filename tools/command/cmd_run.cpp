@@ -23,10 +23,19 @@ Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
     const RunLimits limits{end, options.scans, options.rig.strict()};
     return {run(simulation, limits, Progress([&] { return simulation.time(); }, limits)), {}};
   }
-  LiveRun live(simulation, {options.bridge.speed(), options.bridge.line(), print_live_messages()}, bridge);
+  const bool to_ppi = bridge && bridge->carries_ppi();
+  LiveRun live(simulation,
+               {.speed = options.bridge.speed(),
+                .line = options.bridge.line(),
+                .messages = print_live_messages(),
+                .in_stop_too = to_ppi},
+               bridge);
   std::string why;
   if (!live.start(why)) return print_error(why), Ending{};
-  const std::string_view reason = run_live(live, simulation, {end, options.scans, options.rig.strict()});
+  LiveLimits limits{end, options.scans, options.rig.strict()};
+  if (to_ppi)
+    limits.stopped = [] { print_note("the CPU went to STOP: its ports speak PPI, and a PPI master may start it again"); };
+  const std::string_view reason = run_live(live, simulation, limits);
   if (!live.failure().empty()) print_error(live.failure());
   if (bridge && (reason == "stop" || reason == "fatal"))
     print_note("the CPU went to STOP, which ends the run: it no longer answers");

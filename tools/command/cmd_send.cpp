@@ -72,7 +72,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     fmt::print("{}", dump_text(*rig));
   }
   fmt::print(stderr, "{}", errors_text(*rig));
-  print_notes(fault_notes(*rig));
+  print_notes(line_notes(*rig));
   if (damaged > 0) print_note(fmt::format("{} of {} answers damaged", damaged, answered));
   if (ready && answered == 0) print_note_if_any(torn_frame_note(options.frames.in_hex()));
   print_notes(stop_notes(*rig));

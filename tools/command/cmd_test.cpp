@@ -87,6 +87,7 @@ int run_test(TestOptions& options) {
   options.suite.band = options.band.settings();
   options.suite.jobs = options.jobs > 0 ? options.jobs : options.band.wanted() ? options.band.jobs() : 1;
   options.suite.plc = options.other.settings();
+  options.suite.protocol = options.protocol->name;
   options.suite.exchanges_wanted = options.json || to.record || !options.against.empty();
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);
@@ -107,8 +108,8 @@ void add_test(CLI::App& app, int& exit_code) {
   options->add_to(*verb);
   verb->footer(
       slave_targets_help() +
-      "A SYSTEM.yaml and a westinghouse:MODEL, which speaks Modbus here, are new for each scenario, and nothing but their "
-      "line is\nseen; scenarios that set memory are skipped. 's7200 master --help' lists the settings of --plc.\n"
+      "A SYSTEM.yaml and a westinghouse:MODEL are new for each scenario, and nothing but their line is seen; scenarios that "
+      "set\nmemory are skipped. 's7200 master --help' lists the settings of --plc.\n"
       "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, or --against found a difference; "
       "2 nothing could be run,\nor the slave cannot be reached.\nExample: s7200 test tests/programs/modbus_slave --jobs 2");
   verb->callback([options, &exit_code] { exit_code = run_test(*options); });

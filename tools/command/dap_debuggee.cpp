@@ -45,7 +45,7 @@ class RigDebuggee final : public dap::Debuggee {
     return stations_.empty() ? options_->master : stations_[station].master;
   }
   std::string recorded_files() const override { return options_->rig.recorded_files(); }
-  std::string failure() const override { return live_.failure(); }
+  std::string take_failure() override { return live_.take_failure(); }
 
   void when_saying(std::function<void(const std::string&)> say) override {
     say_ = std::move(say);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "tools/command/session_scenario.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/debugger/digest.hpp"
@@ -25,7 +29,7 @@ struct StepOf {
   }
   SessionSteps::Step operator()(const Jump&) const { return refuse("the program was made to go on elsewhere"); }
   SessionSteps::Step operator()(const InjectFault& inject) const {
-    return {.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none"};
+    return {.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none", .fault_of = inject.of};
   }
   SessionSteps::Step operator()(const SetMode&) const { return refuse("the mode was changed"); }
   SessionSteps::Step operator()(const SetStack&) const { return refuse("the logic stack was set"); }
@@ -38,61 +42,109 @@ struct StepOf {
   }
 };
 
-/// What remains to be sent of a request that was given up; false, and `why`, if no step can give it up there.
-bool cut_short(std::vector<SessionSteps::Step>& steps, const CancelRequest& cancel, const std::string& on, Time at,
-               std::string& why) {
-  constexpr Time kAtOnce = 1;
-  const auto sent = std::find_if(steps.rbegin(), steps.rend(), [&](const auto& one) { return one.send && one.on == on; });
-  if (cancel.answering || sent == steps.rend()) {
-    why = fmt::format("a request was given up within its answer at {}, for which scenarios have no step", moment_text(at));
-    return false;
-  }
-  sent->send->frame.resize(cancel.sent);
-  sent->timeout = std::max(cancel.waited, kAtOnce);
-  if (cancel.sent == 0) steps.erase(std::next(sent).base());
-  return true;
-}
-
 using Places = std::vector<RigOptions::Station>;
 
-/// As scenarios name a station; nothing of the only PLC.
-std::string place_in(const Places& places, std::size_t station) {
-  return places.empty() ? std::string() : places[station].place;
-}
+/// What was done in a session, step by step, up to where no step can do it: `why` says what that was.
+class StepsOfSession {
+ public:
+  /// `places`: the stations as scenarios name them; none of the only PLC.
+  StepsOfSession(const Places& places, std::string& why) : places_(places), why_(why) {}
 
-/// What was done up to `now`; first what was done before power went off and came back.
-void add_steps(const Recording& recording, const Places& places, std::vector<SessionSteps::Step>& steps, std::string& why) {
-  if (recording.power) {
-    const auto& [before, ram_lost, off] = *recording.power;
-    add_steps(before, places, steps, why);
-    steps.push_back({.at = before.now.time, .power = SessionSteps::PowerCycle{ram_lost, off}});
-    if (!places.empty() && why.empty()) why = "power was switched off and on, for which scenarios of a system have no step";
-  } else if (!recording.memory.empty() && why.empty()) {
-    why = "it was loaded after power had been switched off, and what was before that is not in the file";
+  /// Up to its `now`; first what was done before power went off and came back.
+  void add(const Recording& recording) {
+    if (recording.power) {
+      const auto& [before, ram_lost, off] = *recording.power;
+      add(before);
+      steps_.push_back({.at = before.now.time, .power = SessionSteps::PowerCycle{ram_lost, off}});
+      if (!places_.empty()) fail("power was switched off and on, for which scenarios of a system have no step");
+    } else if (!recording.memory.empty()) {
+      fail("it was loaded after power had been switched off, and what was before that is not in the file");
+    }
+    if (!recording.complete) fail("what came over a bridge before power was switched off is forgotten");
+    cut_until_.clear();
+    for (std::size_t i = 0; i < recording.now.actions && why_.empty(); ++i)
+      add(recording.actions[i], recording.stations[i], recording.moments[i].time);
   }
-  if (!recording.complete && why.empty()) why = "what came over a bridge before power was switched off is forgotten";
-  for (std::size_t i = 0; i < recording.now.actions && why.empty(); ++i) {
-    const Time at = recording.moments[i].time;
-    auto step = std::visit(StepOf{at, why}, recording.actions[i]);
-    if (why.empty()) step.on = place_in(places, recording.stations[i]);
-    if (const auto* const cancel = std::get_if<CancelRequest>(&recording.actions[i]))
-      if (!cut_short(steps, *cancel, step.on, at, why)) return;
-    if (const auto* const power = std::get_if<SetPower>(&recording.actions[i]))
-      step = {.at = at, .event = fmt::format("power_{}: {}", power->on ? "on" : "off", places[recording.stations[i]].name)};
-    if (step.does_something()) steps.push_back(std::move(step));
-  }
-}
 
-/// `places` of the stations, as scenarios name them; none of a PROGRAM.
+  std::vector<SessionSteps::Step> take() { return std::move(steps_); }
+
+  std::string place(std::size_t station) const { return places_.empty() ? std::string() : places_[station].place; }
+
+ private:
+  using Steps = std::vector<SessionSteps::Step>;
+
+  void fail(std::string why) {
+    if (why_.empty()) why_ = std::move(why);
+  }
+
+  void add(const Action& action, std::size_t station, Time at) {
+    SessionSteps::Step step = std::visit(StepOf{at, why_}, action);
+    if (!why_.empty()) return;
+    step.on = place(station);
+    if (const auto* const cancel = std::get_if<CancelRequest>(&action)) return cut_short(*cancel, step.on, at);
+    if (const auto* const power = std::get_if<SetPower>(&action))
+      step = {.at = at, .event = fmt::format("power_{}: {}", power->on ? "on" : "off", places_[station].name)};
+    if (step.send && at < cut_until_[step.on]) return join(*step.send, step.on, at);
+    if (step.does_something()) steps_.insert(place_for(step), std::move(step));
+  }
+
+  /// What was done at the instant of a request is the same in front of it, where no step is in the way.
+  Steps::iterator place_for(const SessionSteps::Step& step) {
+    auto place = steps_.end();
+    while (!step.send && place != steps_.begin() && std::prev(place)->send && std::prev(place)->at == step.at) --place;
+    return place;
+  }
+
+  /// The last that sends something there.
+  Steps::reverse_iterator last_sent(const std::string& on) {
+    return std::find_if(steps_.rbegin(), steps_.rend(), [&](const auto& one) { return one.send && one.on == on; });
+  }
+
+  /// What remains to be sent of a request that was given up.
+  void cut_short(const CancelRequest& cancel, const std::string& on, Time at) {
+    constexpr Time kAtOnce = 1;
+    const auto sent = last_sent(on);
+    if (cancel.answering || sent == steps_.rend())
+      return fail(fmt::format(
+          "a request was given up within its answer at {}, for which scenarios have no step: 'at {}', 'fork' and "
+          "'continue' lead to the end of that answer; then record",
+          moment_text(at), moment_text(at - kMicrosecond)));
+    cut_until_[on] = cancel.sent_until;
+    sent->send->frame.resize(cancel.sent);
+    sent->timeout = std::max(cancel.waited, kAtOnce);
+    if (cancel.sent == 0) steps_.erase(std::next(sent).base());
+  }
+
+  /// A request that was sent while the last character of one that was given up was on the line begins right after it: on the
+  /// line they are one.
+  void join(const serial::Request& next, const std::string& on, Time at) {
+    SessionSteps::Step& cut = *last_sent(on);
+    if (cut.send->gap != 0)
+      return fail(fmt::format(
+          "a frame was sent at {} while the last character of one that was given up was on the line, which no step "
+          "can do with gaps between characters: 'continue 20ms' before 'send'",
+          moment_text(at)));
+    cut.send->frame.insert(cut.send->frame.end(), next.frame.begin(), next.frame.end());
+    cut.timeout.reset();
+    cut_until_.erase(on);
+  }
+
+  const Places& places_;
+  std::string& why_;
+  Steps steps_{};
+  std::map<std::string, Time> cut_until_{};  // by place, the end of the last character of a request that was given up
+};
+
 std::optional<SessionSteps> steps_of(const SessionRecord& record, const Places& places, std::string& why) {
-  SessionSteps steps{.steps = {}, .end = record.session.now.time, .ends = {}, .last = record.last};
-  const auto place_of = [&](std::size_t station) { return place_in(places, station); };
+  SessionSteps session{.steps = {}, .end = record.session.now.time, .ends = {}, .last = record.last};
+  StepsOfSession steps(places, why);
+  steps.add(record.session);
   for (std::size_t i = 0; i < record.stations.size(); ++i) {
     const SessionRecord::Station& station = record.stations[i];
-    steps.ends.push_back({place_of(i), station.memory, station.stopped, station.fatal_code});
+    session.ends.push_back({steps.place(i), station.memory, station.stopped, station.fatal_code});
   }
-  add_steps(record.session, places, steps.steps, why);
-  return why.empty() ? std::optional(steps) : std::nullopt;
+  session.steps = steps.take();
+  return why.empty() ? std::optional(session) : std::nullopt;
 }
 
 std::string joined_or_none(const std::vector<std::string>& texts) {
@@ -118,7 +170,7 @@ void show_progress(std::string_view text) {
 
 }  // namespace
 
-DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, const History::Settings& history) {
+DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, DebuggeeRun& live) {
   std::vector<DebuggedStation> stations;
   for (const RigOptions::Station& station : options.rig.named_stations(options.master))
     stations.push_back({station.name, station.master});
@@ -126,7 +178,8 @@ DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, con
           .stations = std::move(stations),
           .station = options.rig.first_station(),
           .stop_request = &interruption(),
-          .history = history,
+          .history = live.history(),
+          .take_failure = [&live] { return live.take_failure(); },
           .files = options.rig.recorded_files(),
           .colour = colour_wanted(stdout),
           .progress = can_redraw(stderr) ? show_progress : std::function<void(std::string_view)>(),

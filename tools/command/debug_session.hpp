@@ -3,12 +3,13 @@
 
 #include <memory>
 
+#include "tools/command/debuggee_run.hpp"
 #include "tools/command/options/debug_options.hpp"
 #include "tools/debugger/debugger.hpp"
 
 namespace s7200::tools {
 
 /// All that is given must live as long as the session.
-DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, const History::Settings& history);
+DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, DebuggeeRun& live);
 
 }  // namespace s7200::tools

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "tools/command/terminal.hpp"
+#include "tools/rig/system_trace.hpp"
 
 namespace s7200::tools {
 
@@ -46,6 +47,9 @@ History::Settings DebuggeeRun::history() {
   for (std::size_t peer = 0; peer < rig_.plan().peers.size(); ++peer)
     if (const serial::Poller* const poller = rig_.poller(peer))
       settings.pollers.push_back({rig_.plan().peers[peer].name, poller});
+  settings.line_stations = line_stations(rig_);
+  for (const PlcPlan& plc : rig_.plan().plcs) settings.plcs.push_back({plc.name, plc.address});
+  settings.planned = event_texts(rig_.plan());
   if (realtime_) settings.drive = [this](Time end) { return live_->run_until(end); };
   return settings;
 }

@@ -24,6 +24,8 @@ class DebuggeeRun {
 
   /// Why a bridge cannot go on; empty as long as all can.
   const std::string& failure() const { return live_->failure(); }
+  /// Why the last run has ended, if a bridge has failed in it; said once.
+  std::string take_failure() { return live_->take_failure(); }
 
   bool has_bridges() const { return has_bridges_; }
 

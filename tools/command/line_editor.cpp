@@ -144,9 +144,10 @@ struct LineEditor::Implementation {
     if (found.candidates.empty()) return CC_ERROR;
     const std::string common = common_beginning(found.candidates);
     const bool only = found.candidates.size() == 1;
+    const bool goes_on = common.ends_with('/') || common.ends_with(':');
     if (common.size() > found.word || only) {
       el_deletestr(edit, static_cast<int>(found.word));
-      el_insertstr(edit, (common + (only && !common.ends_with('/') ? " " : "")).c_str());
+      el_insertstr(edit, (common + (only && !goes_on ? " " : "")).c_str());
       return CC_REFRESH;
     }
     of(edit).show(found.candidates);

@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
@@ -17,6 +19,35 @@
 
 namespace s7200::tools {
 namespace {
+
+struct Verb {
+  std::string_view name;
+  void (*add)(CLI::App& app, int& exit_code);
+};
+constexpr std::array kVerbs{
+    Verb{"check", add_check},
+    Verb{"import", add_import},
+    Verb{"convert", add_convert},
+    Verb{"run", add_run},
+    Verb{"send", add_send},
+    Verb{"test", add_test},
+    Verb{"master", add_master},
+    Verb{"decode", add_decode},
+    Verb{"import-capture", add_import_capture},
+    Verb{"debug", add_debug},
+    Verb{"dap", add_dap},
+    Verb{"instructions", add_instructions},
+    Verb{"times", add_times},
+    Verb{"calibrate", add_calibrate},
+    Verb{"bench", add_bench},
+};
+
+/// In the order of the help. All their options take milliseconds: if it is clear which verb is asked for, only its own.
+void add_verbs(CLI::App& app, std::string_view asked, int& exit_code) {
+  const bool clear = std::ranges::find(kVerbs, asked, &Verb::name) != kVerbs.end();
+  for (const Verb& verb : kVerbs)
+    if (!clear || verb.name == asked) verb.add(app, exit_code);
+}
 
 int run_command(int argc, char** argv) {
   CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their Freeport on a simulated line."};
@@ -33,21 +64,7 @@ int run_command(int argc, char** argv) {
       "01030000000a");
 
   int exit_code = kFine;
-  add_check(app, exit_code);
-  add_import(app, exit_code);
-  add_convert(app, exit_code);
-  add_run(app, exit_code);
-  add_send(app, exit_code);
-  add_test(app, exit_code);
-  add_master(app, exit_code);
-  add_decode(app, exit_code);
-  add_import_capture(app, exit_code);
-  add_debug(app, exit_code);
-  add_dap(app, exit_code);
-  add_instructions(app, exit_code);
-  add_times(app, exit_code);
-  add_calibrate(app, exit_code);
-  add_bench(app, exit_code);
+  add_verbs(app, argc > 1 ? argv[1] : "", exit_code);
   derive_manual(app, exit_code);
   derive_complete(app, exit_code);
   refuse_empty_values(app);

@@ -101,12 +101,17 @@ std::size_t questions_of(const Function& function) {
       std::ranges::count_if(function.questions, [](const Question& one) { return !one.text.empty(); }));
 }
 
+ProtocolUse in_menu(ProtocolUse use) {
+  use.options_are_open = false;
+  return use;
+}
+
 class Menu {
  public:
   Menu(const MasterOptions& options, const MenuTarget& target)
       : options_(options),
         target_(target),
-        use_(options.use(target.over_modbus_tcp)),
+        use_(in_menu(options.use(target.over_modbus_tcp))),
         session_(options.session(!target.over_modbus_tcp)),
         slave_(target.open(session_.master)) {}
 
@@ -198,7 +203,7 @@ std::vector<std::string> Menu::view() const {
   std::vector<std::string> rows{
       fmt::format("Modbus master  slave {}  {}", use_.station, stl::printable(slave_ ? slave_->name() : options_.target)),
       format ? format_text(*format) : "over TCP"};
-  const std::string statistics = statistics_.text();
+  const std::string statistics = statistics_.text(options_.protocol->refusal);
   const std::size_t end = statistics.find('\n');
   rows.push_back(statistics.substr(0, end));
   if (screen_.view_rows() == rows.size()) return rows;
@@ -259,6 +264,9 @@ void Menu::do_function(const Function& function, Words& answers) {
   for (std::size_t i = 0; i < count; ++i) given[i] = function.questions[i].example;
   for (std::size_t i = 0; i < count; ++i) {
     given[i] = ask(function.questions[i], answers, i + 1 == count);
+    if (const std::size_t more = given[i].find_first_of(":="); more != std::string::npos)
+      throw Wrong(fmt::format("'{}': write {} alone; what follows '{}' is asked for by itself", stl::shortened(given[i]),
+                              given[i].substr(0, more), given[i][more]));
     actions_of({words_for(function, given), function.option});
   }
   Words words = words_for(function, given);
@@ -292,7 +300,7 @@ void Menu::repeat(Words&) {
   const std::vector<MasterAction> actions = actions_of(last_);
   fmt::print("until Ctrl-C …\n");
   perform(actions, UINT64_MAX);
-  fmt::print("{}", statistics_.text());
+  fmt::print("{}", statistics_.text(options_.protocol->refusal));
 }
 
 void Menu::perform(const std::vector<MasterAction>& actions, std::uint64_t rounds) {
@@ -306,7 +314,10 @@ void Menu::perform(const std::vector<MasterAction>& actions, std::uint64_t round
     statistics_.add(result.answer.verdict, result.exchange.latency());
     for (int attempt = 1; attempt < result.attempts; ++attempt) statistics_.add_retry();
     if (rounds == 1) return show(result);
-    if (result.answer.verdict != serial::Verdict::Right && failures++ < kFailuresShown)
+    if (result.answer.verdict == serial::Verdict::Right || failures > kFailuresShown) return;
+    if (failures++ == kFailuresShown)
+      fmt::print("further failures are only counted\n");
+    else
       fmt::print("{}: {}\n", heading(result), short_text(result));
   };
   const auto refresh = [&] {
@@ -321,14 +332,15 @@ void Menu::perform(const std::vector<MasterAction>& actions, std::uint64_t round
 void Menu::open() { slave_ = target_.open(session_.master); }
 
 void Menu::change_slave(Words& answers) {
-  const std::string text = ask({"slave", {}}, answers, true);
+  const std::string is = std::to_string(use_.station), text = ask({"slave", is}, answers, true);
   const auto station = parse_decimal<std::uint8_t>(text);
   if (!station) throw Wrong(fmt::format("'{}' is not a slave from 0 to 255", stl::shortened(text)));
   ProtocolUse use = use_;
   use.station = *station;
   options_.protocol->actions({"loopback", "0"}, {.station = *station == 0 ? std::uint8_t{1} : *station,
                                                  .over_modbus_tcp = use_.over_modbus_tcp,
-                                                 .given = use_.given});  // which says what is wrong with it
+                                                 .given = use_.given,
+                                                 .options_are_open = false});  // which says what is wrong with it
   use_ = std::move(use);
 }
 
@@ -406,7 +418,7 @@ int Menu::run() {
     if (Words words = stl::split_words(*line); !words.empty()) execute(std::move(words));
   }
   screen_.switch_off();
-  fmt::print("{}", statistics_.text());
+  fmt::print("{}", statistics_.text(options_.protocol->refusal));
   print_interruption();
   return interrupted() ? kCheckFailed : kFine;
 }

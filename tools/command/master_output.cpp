@@ -42,7 +42,7 @@ void MasterOutput::end(const ExchangeStatistics& statistics, const std::string& 
   } else if (polls() && can_redraw(stdout)) {
     table_.finish();
   } else if (settings_.rounds > 1) {
-    fmt::print("{}", statistics.text());
+    fmt::print("{}", statistics.text(settings_.refusal));
   }
 }
 
@@ -62,7 +62,7 @@ void MasterOutput::show(const MasterResult& result) {
 
 void MasterOutput::end_round(const ExchangeStatistics& statistics) {
   if (settings_.continuous) show_progress(statistics);
-  if (polls() && !settings_.json) table_.end_round(can_redraw(stdout) ? statistics.text() : "");
+  if (polls() && !settings_.json) table_.end_round(can_redraw(stdout) ? statistics.text(settings_.refusal) : "");
 }
 
 void MasterOutput::show_failure(const MasterResult& result) {
@@ -79,7 +79,7 @@ void MasterOutput::show_progress(const ExchangeStatistics& statistics) {
   constexpr Time kInterval = kSecond / 2;
   if (!can_redraw(stderr) || host_time() - progress_at_ < kInterval) return;
   progress_at_ = host_time();
-  const std::string text = statistics.text();
+  const std::string text = statistics.text(settings_.refusal);
   fmt::print(stderr, "{}{}\r", kEraseLine, text.substr(0, text.find('\n')));
 }
 

@@ -15,6 +15,7 @@ struct MasterOutputSettings {
   bool continuous = false;  ///< failures only, and on a terminal the progress
   Time every = kNever;      ///< polling: a table
   std::uint64_t rounds = 1;
+  std::string_view refusal = "exception";  ///< what the protocol calls one
 };
 
 class MasterOutput {

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "interpreter/model/special_memory.hpp"
 #include "tools/command/band_output.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/master_menu.hpp"
@@ -17,6 +18,29 @@
 #include "tools/views/report.hpp"
 
 namespace s7200::tools {
+namespace {
+
+/// Why a PPI master cannot join a line: a PLC there is one. Empty if it can.
+std::string why_no_other_ppi_master(const Rig& rig, std::size_t line) {
+  for (const StationPlan& station : rig.plan().lines[line].stations) {
+    if (station.kind != StationPlan::Kind::Plc) continue;
+    const std::uint8_t control = rig.plc(station.number).cpu().state().port[station.port].control;
+    if ((control & sm::kProtocol) != sm::kPpiMaster) continue;
+    const std::string& name = rig.plan().plcs[station.number].name;
+    return fmt::format(
+        "port {}{} is a PPI master, too ({} = 16#{:02X}): how masters pass the token on is not modelled, so they would "
+        "collide",
+        station.port, name.empty() ? "" : " of " + name, station.port == 0 ? "SMB30" : "SMB130", control);
+  }
+  return {};
+}
+
+/// The same for whoever speaks `protocol`.
+std::string why_no_other_master(const Rig& rig, std::size_t line, const Protocol& protocol) {
+  return protocol.wants_freeport ? std::string() : why_no_other_ppi_master(rig, line);
+}
+
+}  // namespace
 
 int run_session(const MasterOptions& options, MasterSession& session, const std::vector<MasterAction>& actions,
                 MasterOutput& output, const std::function<bool()>& over,
@@ -42,15 +66,17 @@ int run_session(const MasterOptions& options, MasterSession& session, const std:
 
 int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>& actions) {
   options.program.path = options.target;
-  BandExchanges exchanges{.verb = "master", .labels = {}, .good = verdict_name(serial::Verdict::Right), .run = {}};
+  BandExchanges exchanges{
+      .verb = "master", .key = "action", .labels = {}, .good = verdict_name(serial::Verdict::Right), .run = {}};
   for (const MasterAction& action : actions)
-    if (action.request) exchanges.labels.push_back(action.text);
+    if (action.request) exchanges.labels.push_back({action.text, action.text});
   exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost) {
-    SimulatedSlave slave(rig.simulation(), options.master, name);
+    SimulatedSlave slave(rig.simulation(), options.master, name, !options.protocol->wants_freeport);
     MasterSession session(slave, actions, options.session(true));
     std::vector<BandOutcome> outcomes;
     std::string why;
     if (!slave.wait_until_ready(options.after, why)) return outcomes;
+    if (why = why_no_other_master(rig, 0, *options.protocol); !why.empty()) throw std::invalid_argument(why);
     lost.take();
     const auto add = [&](const MasterResult& result) {
       outcomes.push_back({result.exchange, verdict_name(result.answer.verdict), lost.take()});
@@ -70,13 +96,19 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
   const auto plant = [&] { return rig_json(*rig); };
-  SimulatedSlave slave(rig->simulation(), options.master, options.rig.target());
+  SimulatedSlave slave(rig->simulation(), options.master, options.rig.target(), !options.protocol->wants_freeport);
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
   std::string why;
   if (options.after == kNever) run_first_scans(*rig, kReadyWithin);
   const bool ready = slave.wait_until_ready(options.after, why);
-  if (ready && options.wants_menu()) {
+  if (ready) why = why_no_other_master(*rig, options.rig.line(), *options.protocol);
+  if (ready && !why.empty()) {
+    print_error(why);
+    output.begin();
+    output.end(session.statistics(), why, plant());
+    exit_code = kUnusable;
+  } else if (ready && options.wants_menu()) {
     serial::Simulation& simulation = rig->simulation();
     const auto open = [&](const serial::MasterSettings& master) {
       return std::make_unique<SimulatedSlave>(simulation, master, options.rig.target());
@@ -99,7 +131,7 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   const bool fatal = exit_code_of(*rig) == kCpuFatal, stopped = rig->cpu().state().mode == Mode::Stop;
   if (!ready && stopped && !fatal) print_error("the CPU went to STOP before the first request");
   if (!ready) print_interruption();
-  if (ready) print_notes(fault_notes(*rig));
+  if (ready) print_notes(line_notes(*rig));
   if (ready) print_notes(stop_notes(*rig));
   if (!all_written) return kUnusable;
   if (fatal) return kCpuFatal;

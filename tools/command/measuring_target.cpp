@@ -1,21 +1,42 @@
 #include "tools/command/measuring_target.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <array>
+#include <cstdio>
 #include <span>
 #include <stdexcept>
 #include <vector>
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/slave/slave_target.hpp"
+#include "tools/views/report.hpp"
 
 namespace s7200::tools {
 namespace {
 
 /// Of an answer of measure_times.stl.
 constexpr std::size_t kAnswerLength = 11;
+
+constexpr std::array<std::string_view, 4> kHowTo{
+    "measure_times.stl must be in the CPU, and the CPU in RUN. To put it there: s7200 convert "
+    "stl_programs/measure_times.stl",
+    "--to microwin, paste the blocks into Micro/WIN, download them to a CPU whose outputs are not wired to a plant, and set "
+    "the",
+    "switch to RUN; then connect port 0 and call this again. It answers at 9600 baud, 8 data bits, even parity. A CPU does "
+    "not",
+    "say whether it is, for example, a 214 or a 224, whose SMB6 are alike: say it with --cpu."};
+
+void show_progress(std::size_t done, std::size_t all) {
+  if (!can_redraw(stderr)) return;
+  fmt::print(stderr, "\r{} of {} loops{}", done, all, done == all ? "\r\x1b[K" : "");
+  std::fflush(stderr);
+}
 
 }  // namespace
 
@@ -54,5 +75,38 @@ std::unique_ptr<MeasuringTarget> MeasuringTarget::open(const std::string& name, 
   result->slave_ = std::move(slave);
   return result;
 }
+
+std::string MeasuringTarget::why_it_stopped() const {
+  if (!rig_ || rig_->simulation().cpu().state().mode == Mode::Run) return {};
+  return std::string(stl::trim(errors_text(rig_->simulation().cpu())));
+}
+
+std::optional<Measurement> measure(const std::string& target, const ProgramOptions& program, std::size_t loops, Time each,
+                                   const std::function<void(std::uint8_t identification)>& answered, int& exit_code) {
+  std::unique_ptr<MeasuringTarget> cpu;
+  try {
+    cpu = MeasuringTarget::open(target, program, exit_code);
+    if (!cpu) return {};
+    Measurement measurement =
+        measure_loops(cpu->slave(), loops, each, {answered, [&](std::size_t done) { show_progress(done, loops); }});
+    if (measurement.loops.empty()) throw std::runtime_error("interrupted before anything was measured");
+    if (measurement.loops.size() < loops) exit_code = kCheckFailed;
+    return measurement;
+  } catch (const WrongCpu& wrong) {
+    print_error(wrong.what());
+  } catch (const SlaveUnreachable& gone) {
+    print_error(gone.what());
+  } catch (const std::runtime_error& error) {
+    print_error(error.what());
+    if (const std::string stopped = cpu ? cpu->why_it_stopped() : ""; !stopped.empty())
+      print_note(fmt::format("the CPU is in STOP; {}", stopped));
+    else if (!interrupted())
+      print_note(how_to_measure(" "));
+  }
+  exit_code = interrupted() ? kCheckFailed : kUnusable;
+  return {};
+}
+
+std::string how_to_measure(std::string_view between) { return fmt::format("{}", fmt::join(kHowTo, between)); }
 
 }  // namespace s7200::tools

@@ -100,8 +100,28 @@ std::vector<std::string> stop_notes(const Rig& rig) {
   return notes;
 }
 
+std::vector<std::string> line_notes(const Rig& rig) {
+  const auto set_to = [](const SerialFormat& format) {
+    return fmt::format("{} baud {}", format.baud, character_text(format));
+  };
+  std::vector<std::string> notes = fault_notes(rig);
+  for (const LinePlan& line : rig.plan().lines) {
+    const StationPlan* first = nullptr;
+    for (const StationPlan& station : line.stations) {
+      const auto format = rig.format_of(station);
+      if (!format) continue;
+      if (!first) first = &station;
+      if (const SerialFormat of_first = *rig.format_of(*first); *format != of_first)
+        notes.push_back(fmt::format("{}: {} is set to {}, {} to {}: they do not understand each other", line.name,
+                                    name_of(rig.plan(), station), set_to(*format), name_of(rig.plan(), *first),
+                                    set_to(of_first)));
+    }
+  }
+  return notes;
+}
+
 std::string poll_text(const serial::Poller::State& polls) {
-  std::string text = fmt::format("{} requests, {} answered", polls.asked, polls.answered);
+  std::string text = fmt::format("{} request{}, {} answered", polls.asked, polls.asked == 1 ? "" : "s", polls.answered);
   if (polls.wrong != 0) text += fmt::format(", {} of them wrong or refused", polls.wrong);
   if (polls.answered != 0)
     text += fmt::format(", after {} to {}", format_duration(polls.least_latency), format_duration(polls.most_latency));
@@ -140,6 +160,7 @@ Timelines::Timelines(Rig& rig) : rig_(rig) {
     TraceSink* const records = rig.sinks(i).empty() ? nullptr : &rig.sinks(i);
     timelines_.push_back(std::make_unique<Timeline>(rig.plan().plcs[i].program, records, Timeline::Looks::AtInstructions));
   }
+  rig.tell_of_events([this](std::size_t plc, Time at, const std::string& what) { timelines_[plc]->note(at, what); });
 }
 
 void Timelines::begin() {

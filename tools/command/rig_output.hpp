@@ -30,10 +30,13 @@ std::string errors_text(const Rig& rig);
 
 /// Faults that found nothing to do, and which CPUs are in STOP.
 std::vector<std::string> fault_notes(const Rig& rig);
+std::vector<std::string> stop_notes(const Rig& rig);
+
+/// Of the lines of a system: faults, and stations that are left at another rate or format than the first one there.
+std::vector<std::string> line_notes(const Rig& rig);
 
 /// Of a line of a system. The rig outlives it.
 StationName stations_of(const Rig& rig, std::size_t line);
-std::vector<std::string> stop_notes(const Rig& rig);
 
 /// What a master of the system has come to.
 std::string poll_text(const serial::Poller::State& polls);
@@ -47,8 +50,10 @@ int exit_code_of(const Rig& rig);
 /// What the CPUs do, exchange by exchange: a Timeline for each.
 class Timelines {
  public:
-  /// The rig is not owned; its records go on. Nothing is seen before begin().
+  /// The rig is not owned; its records go on. Nothing is seen before begin(). It lives as long as the rig runs.
   explicit Timelines(Rig& rig);
+  Timelines(const Timelines&) = delete;
+  Timelines& operator=(const Timelines&) = delete;
 
   void begin();
   void end();

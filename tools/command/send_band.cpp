@@ -43,8 +43,9 @@ int run_send_band(SendOptions& options) {
   std::string why;
   const auto frames = options.frames.read(why);
   if (!frames) return print_error(why), kUnusable;
-  BandExchanges exchanges{.verb = "send", .labels = {}, .good = "answered", .run = {}};
-  for (const serial::Frame& frame : *frames) exchanges.labels.push_back("request  " + shortened(frame));
+  BandExchanges exchanges{.verb = "send", .key = "request", .labels = {}, .good = "answered", .run = {}};
+  for (const serial::Frame& frame : *frames)
+    exchanges.labels.push_back({"request  " + shortened(frame), plain_hex(serial::bytes_of(frame))});
   exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost) {
     return outcomes(options, rig.simulation(), lost, *frames, name);
   };

@@ -39,6 +39,7 @@ std::string step_text(const SessionSteps::Step& step) {
            (step.power->off == 0 ? "" : fmt::format("    power_off: {}\n", exact(step.power->off)));
   return fmt::format("  - wait: until {}\n  - {}\n", exact(step.at),
                      step.fault.empty() ? "set: " + assignments_text(step.set) : "fault: " + step.fault) +
+         (step.fault_of.empty() ? "" : fmt::format("    station: {}\n", in_quotes(step.fault_of))) +
          on_text(step.on, "    ");
 }
 
@@ -53,19 +54,25 @@ std::string steps_text(const SessionSteps& session) {
 /// How many steps of a scenario one of the session becomes: memory is set, and the like, after a wait.
 std::size_t steps_in(const SessionSteps::Step& step) { return step.send ? 1 : 2; }
 
-/// Why the wait in front of that step of the scenario was over before it began: an exchange goes on up to its end first.
+/// Why that step of the scenario came too late: an exchange goes on up to its end first.
 std::string why_too_late(const SessionSteps& session, std::size_t number) {
   std::size_t first = 0;
   for (const SessionSteps::Step& step : session.steps) {
-    if (number < first + steps_in(step))
+    if (number >= first + steps_in(step)) {
+      first += steps_in(step);
+      continue;
+    }
+    if (step.send)
       return fmt::format(
-          "what was done at {} came while a request or its answer was under way, and the steps of a scenario come one after "
-          "the other: do it before 'send', or after the answer",
+          "the request of {} was sent while another one or its answer was under way, and the steps of a scenario come one "
+          "after the other: 'continue' to the end of that answer before the next 'send'",
           moment_text(step.at));
-    first += steps_in(step);
+    return fmt::format(
+        "what was done at {} came while a request or its answer was under way, and the steps of a scenario come one after "
+        "the other: do it before 'send', or after the answer and the silence that ends it",
+        moment_text(step.at));
   }
-  return "it stands directly at an answer, up to which several PLCs of a scenario cannot be run so exactly: 'continue 1ms' "
-         "first";
+  return "it stands before the end of an answer: 'continue 1ms' first";
 }
 
 /// What holds at the end, in the form of a transcript.
@@ -99,27 +106,31 @@ std::string repairs_text(const Repairs& repairs) {
   return repairs.all ? "all" : fmt::format("{}", fmt::join(repairs.ids, ","));
 }
 
-}  // namespace
+/// What is recorded, and where it came from.
+struct SessionSource {
+  const DebugOptions& options;
+  const std::shared_ptr<const Program>& program;
+  const SessionSteps& session;
 
-bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
-                            const SessionSteps& session, const Destination& to, std::string& why) {
-  why = without_a_key(options);
-  const std::string steps = steps_text(session);
-  if (!why.empty()) return false;
-  const bool is_system = is_system_file(options.program.path);
-  const std::string path = is_system ? options.program.path : program->source.name;
-  const std::string name = std::filesystem::path(path).filename().string();
+  bool is_system() const { return is_system_file(options.program.path); }
+  std::string path() const { return is_system() ? options.program.path : program->source.name; }
+  std::string name() const { return std::filesystem::path(path()).filename().string(); }
+};
+
+std::string scenario_text(const SessionSource& source) {
   const std::string head =
-      is_system ? fmt::format("system: {}\n", in_quotes(std::filesystem::absolute(path).string()))
-                : fmt::format("cpu: \"{}\"\n{}", program->model->name, input_text(options.rig.settings().input));
-  ScenarioFile file = read_scenarios(
-      fmt::format("name: {}\n{}after: 0 ms\nsteps:\n{}", in_quotes("a session with " + name), head, steps), to.path);
-  if (!file.diagnostics.empty() || file.scenarios.size() != 1) {
-    why = file.diagnostics.empty() ? "it has no steps" : file.diagnostics.front().message;
-    return false;
-  }
+      source.is_system()
+          ? fmt::format("system: {}\n", in_quotes(std::filesystem::absolute(source.path()).string()))
+          : fmt::format("cpu: \"{}\"\n{}", source.program->model->name, input_text(source.options.rig.settings().input));
+  return fmt::format("name: {}\n{}after: 0 ms\nsteps:\n{}", in_quotes("a session with " + source.name()), head,
+                     steps_text(source.session));
+}
+
+/// What the options have set comes beside what the text says.
+void take_options(const SessionSource& source, Scenario& scenario) {
+  const auto& [options, program, session] = source;
+  const bool is_system = source.is_system();
   const RigSettings& rig = options.rig.settings();
-  Scenario& scenario = file.scenarios.front();
   scenario.program = is_system ? "" : options.program.path;
   scenario.with = options.program.parts;
   scenario.times = options.program.times_table;
@@ -128,25 +139,47 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
   if (!is_system) scenario.repair = repairs_text(options.program.repairs);
   scenario.set = rig.set;
   scenario.clock = rig.clock;
-  Report report{&scenario, run_scenario(scenario, {.program = program})};
-  const auto bad = std::find_if(report.result.findings.begin(), report.result.findings.end(),
-                                [](const Finding& finding) { return finding.what != "mode at the end"; });
-  if (bad != report.result.findings.end() && bad->what == "wait" && bad->step) {
-    why = why_too_late(session, *bad->step);
-    return false;
+}
+
+/// Nothing, and `why`, if the scenario cannot be read.
+std::optional<Scenario> scenario_of(const SessionSource& source, const std::string& path, std::string& why) {
+  ScenarioFile file = read_scenarios(scenario_text(source), path);
+  if (!file.diagnostics.empty() || file.scenarios.size() != 1) {
+    why = file.diagnostics.empty() ? "it has no steps" : file.diagnostics.front().message;
+    return {};
   }
-  if (bad != report.result.findings.end()) {
-    why = fmt::format("as a scenario it does not run the same way: {}, expected {}, found {}", bad->what, bad->expected,
-                      bad->found);
-    return false;
-  }
-  if (session.last &&
-      (report.result.seen.empty() || report.result.seen.back().exchange.response != session.last->response)) {
-    why = "as a scenario it does not run the same way: the last answer differs";
-    return false;
-  }
+  take_options(source, file.scenarios.front());
+  return std::move(file.scenarios.front());
+}
+
+/// In what the scenario went another way than the session; empty if in nothing.
+std::string difference(const SessionSteps& session, const ScenarioResult& result) {
+  const auto bad = std::ranges::find_if(result.findings, [](const Finding& f) { return f.what != "mode at the end"; });
+  const bool too_late = bad != result.findings.end() && (bad->what == "wait" || bad->what.starts_with("begin"));
+  if (too_late && bad->step) return why_too_late(session, *bad->step);
+  constexpr std::string_view kNotTheSame = "as a scenario it does not run the same way";
+  if (bad != result.findings.end())
+    return fmt::format("{}: {}, expected {}, found {}", kNotTheSame, bad->what, bad->expected, bad->found);
+  const bool other_answer =
+      session.last && (result.seen.empty() || result.seen.back().exchange.response != session.last->response);
+  return other_answer ? fmt::format("{}: the last answer differs", kNotTheSame) : "";
+}
+
+}  // namespace
+
+bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
+                            const SessionSteps& session, const Destination& to, std::string& why) {
+  why = without_a_key(options);
+  if (!why.empty()) return false;
+  const SessionSource source{options, program, session};
+  const std::optional<Scenario> scenario = scenario_of(source, to.path, why);
+  if (!scenario) return false;
+  const Report report{&*scenario, run_scenario(*scenario, {.program = program})};
+  why = difference(session, report.result);
+  if (!why.empty()) return false;
   const std::string text =
-      transcript_text({report}, {.path = to.path, .recorded_from = name, .by = "s7200 debug, record"}) + end_text(session);
+      transcript_text({report}, {.path = to.path, .recorded_from = source.name(), .by = "s7200 debug, record"}) +
+      end_text(session);
   why = why_not_replayed(text.size());
   return why.empty() && write_result(to, text, why);
 }

@@ -25,6 +25,7 @@ struct SessionSteps {
     std::vector<Assignment> set{};
     std::optional<serial::Request> send{};
     std::string fault{};
+    std::string fault_of{};         ///< the station that it is about; empty: anyone on the line
     std::optional<Time> timeout{};  ///< of what is sent, if not the scenario's
     std::optional<PowerCycle> power{};
     std::string event{};  ///< of a system: `power_off: pump`

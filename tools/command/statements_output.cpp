@@ -3,8 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "interpreter/base/text.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/measuring/statements.hpp"
+#include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -13,16 +21,14 @@ std::size_t count(const std::vector<Statement>& statements, Statement::Verdict v
   return static_cast<std::size_t>(std::ranges::count(statements, verdict, &Statement::verdict));
 }
 
-}  // namespace
-
 bool any_fails(const std::vector<Statement>& statements) { return count(statements, Statement::Verdict::Fails) > 0; }
 
 std::string statements_text(const CpuModel& model, const std::string& table, const std::vector<Statement>& statements) {
   std::string text = fmt::format("What is known of the times of CPU {}, with {}:\n", model.name, stl::printable(table));
   for (const Statement& each : statements) {
     static constexpr const char* kVerdicts[] = {"holds", "FAILS", "not checked"};
-    text += fmt::format("  {:<11}  {}: {}   ({})\n", kVerdicts[static_cast<std::size_t>(each.verdict)], each.says,
-                        each.found, each.source);
+    text += fmt::format("  {:<11}  {}: {}   ({}{})\n", kVerdicts[static_cast<std::size_t>(each.verdict)], each.says,
+                        each.found, each.source, each.fitted ? "; the table was fitted to it" : "");
   }
   text += fmt::format("{} hold, {} fail", count(statements, Statement::Verdict::Holds),
                       count(statements, Statement::Verdict::Fails));
@@ -37,9 +43,38 @@ nlohmann::ordered_json statements_json(const std::vector<Statement>& statements)
     json.push_back({{"statement", each.says},
                     {"source", each.source},
                     {"found", each.found},
-                    {"verdict", kVerdicts[static_cast<std::size_t>(each.verdict)]}});
+                    {"verdict", kVerdicts[static_cast<std::size_t>(each.verdict)]},
+                    {"fitted", each.fitted}});
   }
   return json;
+}
+
+/// Nothing after a message: it cannot be read, or is another program.
+std::optional<SourceText> read_tip41(const std::string& path) {
+  auto text = read_program_text(path);
+  if (!text || is_tip41(*text)) return text;
+  print_error(fmt::format("--tip41: {} is not Application Tip 41: it has other routines", path));
+  return {};
+}
+
+}  // namespace
+
+int check_table(const CpuModel& model, const std::string& table, const std::string& tip41_path, bool json) {
+  const auto tables = load_all({table}, model);
+  if (!tables) return kUnusable;
+  std::optional<SourceText> tip41;
+  if (!tip41_path.empty() && !(tip41 = read_tip41(tip41_path))) return kUnusable;
+  const auto statements = check_statements(model, tables->front().times, tip41 ? &*tip41 : nullptr);
+  if (json) {
+    auto results = results_of("times");
+    results["cpu"] = model.name;
+    results["statements"] = statements_json(statements);
+    fmt::print("{}", lines_of(results));
+  } else {
+    fmt::print("{}", statements_text(model, table, statements));
+  }
+  if (statements.empty()) print_note(fmt::format("nothing is known of the times of CPU {}", model.name));
+  return any_fails(statements) ? kCheckFailed : kFine;
 }
 
 }  // namespace s7200::tools

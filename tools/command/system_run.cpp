@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -69,8 +70,8 @@ void print_text(Rig& rig, const Ending& ending, Bridges bridges) {
   fmt::print("{} after {}: {}\n", ending_text(ending.reason), format_duration(rig.system().time(), 6), who_there_was(plan));
   for (std::size_t i = 0; i < plan.plcs.size(); ++i) {
     const State& state = rig.plc(i).cpu().state();
-    fmt::print("{}: {} scans, {} instructions, CPU {} {}\n", stl::printable(plan.plcs[i].name), state.scans,
-               state.instructions, plan.plcs[i].program->model->name,
+    fmt::print("{}: {} scan{}, {} instructions, CPU {} {}\n", stl::printable(plan.plcs[i].name), state.scans,
+               state.scans == 1 ? "" : "s", state.instructions, plan.plcs[i].program->model->name,
                rig.plc(i).powered() ? fmt::format("in {}", mode_of(rig.plc(i))) : "without power");
     fmt::print("{}", indented(errors_text(rig.plc(i).cpu())));
     for (const MemoryRange& range : plan.plcs[i].settings.dumps)
@@ -101,6 +102,15 @@ void print_json(Rig& rig, const Ending& ending, Bridges bridges) {
   fmt::print("{}", lines_of(results));
 }
 
+void note_events_to_come(Rig& rig) {
+  const Time end = rig.system().time();
+  const auto& events = rig.plan().events;
+  const auto first = std::ranges::find_if(events, [&](const EventPlan& event) { return event.at > end; });
+  if (first == events.end()) return;
+  print_note(fmt::format("the run ended before {}, the first at {}: --for says how long to run",
+                         counted(static_cast<std::size_t>(events.end() - first), "event"), format_duration(first->at)));
+}
+
 int run_plan(SystemPlan plan, const RigSurroundings& surroundings, Bridges bridges, const RunOptions& options) {
   std::vector<std::string> problems;
   const auto rig = Rig::assemble(std::move(plan), surroundings, problems);
@@ -118,7 +128,8 @@ int run_plan(SystemPlan plan, const RigSurroundings& surroundings, Bridges bridg
     print_json(*rig, ending, bridges);
   else
     print_text(*rig, ending, bridges);
-  print_notes(fault_notes(*rig));
+  print_notes(line_notes(*rig));
+  if (ending.reason == "time") note_events_to_come(*rig);
   if (!problems.empty() || ending.reason == "bridge") return kUnusable;
   if (ending.reason == "interrupted" && options.has_end(!bridges.empty())) return kCheckFailed;
   return exit_code_of(*rig);

@@ -20,7 +20,7 @@ unsigned BandOptions::every_core() { return std::max(1U, std::thread::hardware_c
 
 void BandOptions::add_tables_to(CLI::App& app) {
   auto* band = add_whole_number(app, "--times-band", settings_.random, {1, 100'000},
-                                "how sure it is: with every table of times and N random ones within their uncertainty");
+                                "how sure it is: with every table of times and N random ones around them");
   add_whole_number(app, "--band-seed", settings_.seed, {0, UINT32_MAX}, "seed of the random tables", "1")->needs(band);
 }
 
@@ -45,8 +45,9 @@ std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, in
 
 std::string band_title(const CpuOptions& cpu, const BandSettings& settings) {
   const std::string names = cpu.times_table.empty() ? names_of_times(*cpu.model()) : stl::printable(cpu.times_table);
-  return fmt::format("execution times: {}, and {} random table{} within the uncertainty of the first (seed {})", names,
-                     settings.random, settings.random == 1 ? "" : "s", settings.seed);
+  const bool one = names.find(", ") == std::string::npos;
+  return fmt::format("execution times: {}, and {} random table{} around {} (seed {})", names, settings.random,
+                     settings.random == 1 ? "" : "s", one ? "it" : "them", settings.seed);
 }
 
 BandProgress::BandProgress(std::size_t all) : all_(all), from_(host_time() + 2 * kSecond), wanted_(isatty(STDERR_FILENO)) {}

@@ -31,7 +31,7 @@ class BandOptions {
   static unsigned every_core();
 };
 
-/// `under 202 tables of execution times: cpu214, cpu214_from_22x, 200 random ones (seed 1)`
+/// `execution times: cpu214, cpu214_from_22x, and 200 random tables around them (seed 1)`
 std::string band_title(const CpuOptions& cpu, const BandSettings& settings);
 
 /// How far the work has come: on a terminal, from the second second on.

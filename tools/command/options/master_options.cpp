@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "serial_sim/peers/quiet_time.hpp"
+#include "tools/command/options/choices.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 
@@ -32,12 +33,12 @@ std::vector<CLI::Option*> added_by(CLI::App& app, Add add) {
   return added;
 }
 
-/// What holds without an option: `0; pc1000-lan, hppc: 2`.
+/// What holds without an option: `0; pc1000-lan, hppc: 2`; nothing of a protocol without it.
 std::string usual(std::string (*of)(const Protocol&)) {
   const std::string first = of(*protocols().front());
   std::vector<std::pair<std::string, std::string>> others;  // value, names
   for (const Protocol* protocol : protocols().subspan(1)) {
-    if (of(*protocol) == first) continue;
+    if (of(*protocol) == first || of(*protocol).empty()) continue;
     const auto known = std::ranges::find(others, of(*protocol), &std::pair<std::string, std::string>::first);
     if (known == others.end())
       others.emplace_back(of(*protocol), protocol->name);
@@ -56,13 +57,16 @@ bool has_option(const Protocol& protocol, std::string_view name) {
 }  // namespace
 
 void MasterOptions::add_to(CLI::App& app) {
-  app.add_option("TARGET", target, "a PROGRAM to run in simulation, a device, or an address; see below")->required();
-  app.add_option("ACTION", words, "what to do, see below");
+  offer_other_plcs(
+      app.add_option("TARGET", target, "a PROGRAM to run in simulation, a device, or an address; see below")->required());
+  std::vector<OfferedWith> actions;
+  for (const Protocol* one : protocols()) actions.push_back({std::string(one->name), one->action_words});
+  offer_with(app.add_option("ACTION", words, "what to do, see below"), "--protocol", actions);
   add_protocol_option(app, protocol, {protocols().begin(), protocols().end()}, "what to speak");
   add_whole_number(
       app, "--station", [this](std::uint64_t given) { station_ = static_cast<std::uint8_t>(given); }, {0, UINT8_MAX},
       "station to ask; in Modbus 0 is all, above 247 is Modbus TCP",
-      usual([](const Protocol& one) { return std::to_string(one.station); }));
+      usual([](const Protocol& one) { return one.station ? std::to_string(*one.station) : std::string(); }));
   add_protocol_options(app);
   auto* interval = add_duration(app, "--every", every, "repeat all actions at this interval, in a table",
                                 {kMicrosecond, kLongestDuration});
@@ -138,6 +142,8 @@ void MasterOptions::refuse_what_does_not_fit(Kind kind) const {
     for (const Protocol* one : protocols())
       if (!has_option(*protocol, name) && has_option(*one, name))
         throw std::invalid_argument(fmt::format("{} needs --protocol {}", name, one->name));
+  if (station_ && !protocol->station)
+    throw std::invalid_argument(fmt::format("--station: messages of {} name no station", protocol->name));
   if (kind == Kind::ModbusTcp && !protocol->over_modbus_tcp)
     throw std::invalid_argument(fmt::format(
         "modbus-tcp:// carries nothing but Modbus; --protocol {} needs a PROGRAM, a serial device, or tcp://HOST:PORT",
@@ -169,7 +175,13 @@ std::vector<MasterAction> MasterOptions::actions(bool over_tcp) const {
   return protocol->actions(words, use(over_tcp));
 }
 
-ProtocolUse MasterOptions::use(bool over_tcp) const { return {station_.value_or(protocol->station), over_tcp, given_}; }
+std::string MasterOptions::doubt(const std::vector<MasterAction>& actions, bool over_tcp) const {
+  return protocol->doubt == nullptr ? std::string() : protocol->doubt(actions, use(over_tcp));
+}
+
+ProtocolUse MasterOptions::use(bool over_tcp) const {
+  return {station_.value_or(protocol->station.value_or(1)), over_tcp, given_};
+}
 
 bool MasterOptions::wants_menu() const {
   if (std::ranges::find(words, "menu") == words.end()) return false;
@@ -198,6 +210,8 @@ SessionSettings MasterOptions::session(bool broadcasts_are_silent) const {
           protocol->patience};
 }
 
-MasterOutputSettings MasterOptions::output() const { return {json, verbose, continuous, every, rounds()}; }
+MasterOutputSettings MasterOptions::output() const {
+  return {json, verbose, continuous, every, rounds(), protocol->refusal};
+}
 
 }  // namespace s7200::tools

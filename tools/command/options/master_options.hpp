@@ -44,6 +44,9 @@ struct MasterOptions {
   /// Throws std::invalid_argument if an action is wrong. `over_tcp`: stations are units of Modbus TCP.
   std::vector<MasterAction> actions(bool over_tcp) const;
 
+  /// Of those actions, what is probably meant otherwise; empty if all is well.
+  std::string doubt(const std::vector<MasterAction>& actions, bool over_tcp) const;
+
   /// How the protocol is used, until an action says otherwise.
   ProtocolUse use(bool over_tcp) const;
 

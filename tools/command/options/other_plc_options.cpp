@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/choices.hpp"
 #include "tools/rig/other_plc.hpp"
+#include "tools/slave/slave_target.hpp"
 
 namespace s7200::tools {
 
@@ -45,7 +46,37 @@ CLI::Option* OtherPlcOptions::add_to(CLI::App& app) {
       ->allow_extra_args(false);
 }
 
+void offer_other_plcs(CLI::Option* target) {
+  std::vector<std::string> models;
+  for (const Protocol* one : protocols_of_other_plcs())
+    for (const std::string_view model : one->plcs->models) {
+      std::string name = std::string(kOtherPlc).append(model);
+      if (std::ranges::find(models, name) == models.end()) models.push_back(std::move(name));
+    }
+  offer_beside_files(target, models);
+}
+
+namespace {
+
+/// Throws std::invalid_argument for a model that does not speak the protocol.
+void check_model(const Protocol& protocol, std::string_view model) {
+  const auto speaks = [&](const Protocol* one) {
+    return std::ranges::find(one->plcs->models, model) != one->plcs->models.end();
+  };
+  if (speaks(&protocol)) return;
+  std::string others;
+  for (const Protocol* one : protocols_of_other_plcs())
+    if (speaks(one)) others.append(others.empty() ? "" : ", ").append(one->name);
+  const auto& models = protocol.plcs->models;
+  throw std::invalid_argument(fmt::format("no '{}' speaks {} in simulation: {} do{}{}", stl::shortened(model), protocol.name,
+                                          fmt::join(models, ", "), models.size() == 1 ? "es" : "",
+                                          others.empty() ? "" : fmt::format("; it speaks {}", others)));
+}
+
+}  // namespace
+
 std::unique_ptr<westinghouse::Plc> OtherPlcOptions::make(const Protocol& protocol, std::string_view model) const {
+  check_model(protocol, model);
   return make_other_plc(*protocol.plcs, model, settings_);
 }
 

@@ -22,6 +22,9 @@ CLI::Option* add_protocol_option(CLI::App& app, const Protocol*& protocol, std::
 /// The protocols that PLCs of another make speak.
 std::vector<const Protocol*> protocols_of_other_plcs();
 
+/// westinghouse:MODEL for completion, of an option that takes a PROGRAM too.
+void offer_other_plcs(CLI::Option* target);
+
 class OtherPlcOptions {
  public:
   /// --plc.

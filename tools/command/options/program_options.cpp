@@ -7,6 +7,7 @@
 #include <span>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load_times.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/choices.hpp"
@@ -65,13 +66,20 @@ bool repair(SourceText& text, const Repairs& repairs) {
   return unknown.empty();
 }
 
-void CpuOptions::add_to(CLI::App& app) {
-  add_cpu_option(app, cpu, "CPU to run on");
-  app.add_option("--times", times_table,
-                 "execution times: the name of a table, or a CSV file; both as `s7200 times` has them")
+void CpuOptions::add_cpu_and_times_to(CLI::App& app, const std::string& meaning) {
+  add_cpu_option(app, cpu, meaning);
+  std::vector<std::string> tables;
+  for (const NamedTimes& times : named_times()) tables.emplace_back(times.name);
+  offer_beside_files(app.add_option("--times", times_table,
+                                    "execution times: the name of a table, or a CSV file; both as `s7200 times` has them"),
+                     tables)
       ->type_name("FILE");
+}
+
+void CpuOptions::add_to(CLI::App& app) {
+  add_cpu_and_times_to(app, "CPU to run on");
   app.add_option("--ppi-baud", ppi_baud,
-                 fmt::format("rate of PPI: 9600, 19200 or, on CPU 22x, 187500; 9600,187500: port 0 and port 1 [{}]",
+                 fmt::format("rate of PPI: {}; 9600,187500: port 0 and port 1 [{}]", ppi_rates_text(),
                              s7200::to_text(SystemBlock{}.ppi_rates)))
       ->type_name("BAUD[,BAUD]");
   app.add_option("--ppi-station", ppi_station,

@@ -38,6 +38,9 @@ struct CpuOptions {
 
   void add_to(CLI::App& app);
 
+  /// --cpu and --times alone, for verbs that run nothing; `meaning` of the CPU.
+  void add_cpu_and_times_to(CLI::App& app, const std::string& meaning);
+
   /// The model and its times; nothing after a message. Ends in kUnusable. A model can have the system block that was asked
   /// for.
   const CpuModel* model() const;

@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <ranges>
 #include <stdexcept>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/options/line_options.hpp"
@@ -21,8 +21,8 @@ void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
   verb.add_option("FILE", file,
-                  fmt::format("a recording: {}; - is standard input; or a line: a serial device, tcp://HOST:PORT",
-                              fmt::join(recording_forms() | std::views::transform(&RecordingForm::name), ", ")))
+                  fmt::format("a recording: {}; - is standard input; or a line: a device, tcp://HOST:PORT",
+                              stl::joined(recording_forms(), &RecordingForm::name)))
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
@@ -136,11 +136,19 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   if (!recording) return print_error(fmt::format("{}: {}", read.name, why)), std::nullopt;
   print_notes(recording->notes);
   read.recording = std::move(*recording);
-  const bool over_tcp =
-      std::ranges::any_of(read.recording.frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
+  const bool over_tcp = read.recording.over_tcp;
   read.stamps =
       options.complete({.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"});
+  const bool faster = is_faster_than_said(read.recording, read.stamps);
+  read.stamps.exact = !read.recording.is_log && !over_tcp && !faster;
+  if (faster)
+    print_note(
+        fmt::format("most frames begin before the one before can be over at {} baud: name the rate of the line with "
+                    "--baud, or silences are wrong",
+                    options.format().baud));
   read.frames = conversation(read.recording, options.spoken(), read.stamps);
+  if (const RecordedProtocol* other = likelier_protocol(read.recording, options.spoken(), read.stamps))
+    print_note(fmt::format("hardly a frame is right; it looks like {0}: --protocol {0}", other->name));
   return read;
 }
 

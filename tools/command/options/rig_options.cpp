@@ -16,6 +16,7 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_reader.hpp"
+#include "tools/slave/slave_target.hpp"
 #include "tools/slave/system_slave.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/memory.hpp"
@@ -66,17 +67,18 @@ void RigOptions::add_to(CLI::App& app) {
                                "write interrupts, characters, attachments, errors and the main program's way to FILE; - is "
                                "standard output")
                     ->type_name("FILE");
-  auto* all = app.add_flag_callback(
-                     "--trace-instructions", [this] { settings_.trace_detail = TraceDetail::Instructions; },
-                     "trace every instruction too, with its operand values")
-                  ->needs(trace);
+  auto* all =
+      app.add_flag_callback(
+             "--trace-instructions", [this] { settings_.trace_detail = TraceDetail::Instructions; },
+             "trace every instruction too, with its operand values: its line has the time of its begin, below what it did")
+          ->needs(trace);
   app.add_flag_callback(
          "--trace-events", [this] { settings_.trace_detail = TraceDetail::Events; },
          "leave out the way of the main program and why a frame got no answer: faster")
       ->needs(trace)
       ->excludes(all);
   app.add_option("--capture", settings_.captures,
-                 "write the line to FILE.vcd (levels of rx and tx, for sigrok) or FILE.pcap (frames, for Wireshark); "
+                 "write the line to FILE.vcd (levels, for sigrok) or FILE.pcap (frames, for Wireshark); "
                  "repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
@@ -163,6 +165,13 @@ std::vector<RigOptions::Station> RigOptions::named_stations(const serial::Master
 
 bool RigOptions::load_one(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   path_ = program.path;
+  if (is_other_plc(program.path)) {
+    exit_code = kUnusable;
+    print_error(
+        fmt::format("{}: 's7200 {}' is about an S7-200; 's7200 master' asks this PLC, 's7200 run' serves it to others",
+                    stl::printable(program.path), verb.get_name()));
+    return false;
+  }
   if (is_system_file(program.path)) return load_system(verb, program, exit_code);
   if (!at_.empty()) {
     exit_code = kUnusable;
@@ -179,6 +188,12 @@ bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program
   plan_ = tools::load_system(program.path, exit_code);
   if (!plan_) return false;
   exit_code = kUnusable;
+  if (plan_->plcs.empty())
+    return print_error(
+               fmt::format("{0}: no S7-200 is in it, and 's7200 {1}' is about one. 's7200 test' asks its other PLCs: "
+                           "with --target {0}, or in a scenario with system: {0} and on: LINE",
+                           program.path, verb.get_name())),
+           false;
   std::string why;
   const auto spot = find_spot(*plan_, at_, why);
   if (!spot) return print_error(fmt::format("{}: {} (--at NAME)", program.path, why)), false;

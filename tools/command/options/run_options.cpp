@@ -11,6 +11,7 @@ namespace s7200::tools {
 
 void RunOptions::add_to(CLI::App& app) {
   program.add_files_to(app);
+  offer_other_plcs(app.get_option("PROGRAM"));
   program.CpuOptions::add_to(app);
   add_duration(app, "--for", duration, "how long, in simulated time [1s; with a bridge until Ctrl-C]");
   add_whole_number(app, "--scans", scans, {1, UINT64_MAX}, "how many scans; with --for whichever comes first ends the run");

@@ -42,6 +42,20 @@ bool is_about_one_plc(const std::string& option) {
   return of_one_plc.get_option_no_throw(option) != nullptr;
 }
 
+namespace {
+
+/// Whether a system file can say it of a PLC. How often and with which tables the whole is run, it cannot.
+bool has_a_key(const std::string& option) {
+  CLI::App without_key;
+  bool every_scan = false;
+  BandOptions bands;
+  add_no_skip_option(without_key, every_scan);
+  bands.add_to(without_key);
+  return without_key.get_option_no_throw(option) == nullptr;
+}
+
+}  // namespace
+
 bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program,
                                std::initializer_list<std::string_view> more) {
   const auto refused = [&](const CLI::Option& option) {
@@ -51,8 +65,14 @@ bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& progr
   };
   for (const CLI::Option* option : verb.get_options()) {
     if (option->count() == 0 || option->get_positional() || !refused(*option)) continue;
-    print_error(
-        fmt::format("{} is about one PLC: a system file says that of each, see 's7200 run --keys'", option->get_name()));
+    const std::string& name = option->get_name();
+    if (is_about_the_line(name))
+      print_error(fmt::format("{} is about one line: the system file says it of each, with the key {} of the line", name,
+                              name == "--capture" ? "'capture: [FILE.pcap]'" : "'faults: [FAULT]'"));
+    else
+      print_error(fmt::format("{} is about one PLC: {}", name,
+                              has_a_key(name) ? "a system file says that of each, see 's7200 run --keys'"
+                                              : "name a PROGRAM instead of a system file"));
     return false;
   }
   if (program.parts.empty()) return true;

@@ -38,6 +38,7 @@ void TestOptions::add_to(CLI::App& app) {
          "--at", suite.at,
          "where the master joins a target that is a system: a line or a PLC on it, gateway.1 for port 1 [the only line]")
       ->type_name("NAME");
+  of_protocol_ = add_protocol_option(app, protocol, protocols_of_other_plcs(), "what westinghouse:MODEL speaks");
   other.add_to(app);
   app.add_flag("--ignore-timing", ignore_timing, "with --against: only answers count");
   add_duration(
@@ -80,6 +81,8 @@ void TestOptions::check() const {
             "--at names a place in a system file: give one to --target or --against");
   refuse_if(!other.settings().empty() && !any_is(SlaveTarget::Kind::Peer),
             "--plc needs westinghouse:MODEL as --target or --against");
+  refuse_if(of_protocol_->count() > 0 && !any_is(SlaveTarget::Kind::Peer),
+            "--protocol needs westinghouse:MODEL as --target or --against");
   refuse_if(ignore_timing && !compared, "--ignore-timing goes with --against");
   refuse_if(tolerance != kNever && !compared && record.empty(),
             "--tolerance goes with --against or --record; a scenario has 'tolerance:'");
@@ -99,7 +102,7 @@ TestOptions::Destinations TestOptions::claim_files() const {
     return place;
   };
   to.record = claim("--record", record, {"a transcript", std::string(kTranscriptBeginning)});
-  if (to.record && to.record->replaced && !force)
+  if (to.record && to.record->replaces_content() && !force)
     throw std::invalid_argument(fmt::format("{} exists; --force overwrites it", record));
   to.junit = claim("--junit", junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)});
   return to;

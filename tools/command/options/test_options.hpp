@@ -11,13 +11,15 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace s7200::tools {
 
 struct TestOptions {
   SuiteSettings suite;
   OtherPlcOptions other;
+  const Protocol* protocol = nullptr;  ///< of other
   std::string against, record, junit;
   BandOptions band;
   unsigned jobs = 0;        ///< 0: not given
@@ -39,6 +41,9 @@ struct TestOptions {
 
   /// Throws std::invalid_argument if one cannot write there.
   Destinations claim_files() const;
+
+ private:
+  CLI::Option* of_protocol_ = nullptr;
 };
 
 }  // namespace s7200::tools

@@ -1,0 +1,66 @@
+#include "tools/command/bench_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/load.hpp"
+#include "tools/command/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// A rate is above 0.
+bool is_rate(const nlohmann::json& figure) {
+  return figure.is_object() && figure.value("name", nlohmann::json()).is_string() &&
+         figure.value("per_second", nlohmann::json()).is_number() && figure["per_second"] > 0;
+}
+
+}  // namespace
+
+nlohmann::ordered_json measured_with(const ProgramOptions& options, const Program& program, Time each) {
+  return {{"program", program.source.name},
+          {"cpu", program.model->name},
+          {"times", options.times_table},
+          {"no_skip", options.every_scan},
+          {"each_ms", static_cast<double>(each) / kMillisecond},
+          {"build", S7200_BUILD_TYPE}};
+}
+
+std::optional<EarlierBench> read_earlier_bench(const std::string& path) {
+  std::string why;
+  const auto text = read_text(path, why);
+  const auto json = nlohmann::json::parse(text.value_or(""), nullptr, false);
+  const bool printed =
+      json.is_object() && json.contains("figures") && json["figures"].is_array() && !json["figures"].empty();
+  if (!text || !printed) {
+    print_error(fmt::format("cannot read {}: {}", path, text ? "it is not what `s7200 bench --json` printed" : why));
+    return {};
+  }
+  EarlierBench before{{}, json};
+  for (const auto& figure : json["figures"]) {
+    if (!is_rate(figure)) {
+      print_error(fmt::format("cannot read {}: '{}' is not a figure with a name and a rate above 0", path,
+                              stl::shortened(figure.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))));
+      return {};
+    }
+    before.rates[figure["name"]] = figure["per_second"];
+  }
+  return before;
+}
+
+void warn_of_differences(const nlohmann::ordered_json& now, const EarlierBench& before, const std::string& path) {
+  for (const auto& [key, value] : now.items()) {
+    const nlohmann::json then = before.measured.value(key, nlohmann::json());
+    if (then.is_null())
+      print_note(fmt::format("{} does not say with which {} it was measured", path, key));
+    else if (then != nlohmann::json(value))
+      print_note(fmt::format("{} was measured with {} {}, this with {}", path, key, then.dump(), value.dump()));
+  }
+}
+
+std::optional<double> ratio_of(const Figure& figure, const EarlierBench& before) {
+  const auto found = before.rates.find(std::string(figure.name));
+  return found == before.rates.end() ? std::nullopt : std::optional(figure.per_second / found->second);
+}
+
+}  // namespace s7200::tools
