@@ -144,6 +144,11 @@ class Sigrok(Case):
         self.assertEqual(lines.count("Function 6: Write Single Register"), 2)
         self.assertIn("0x1234 / 4660", lines)
 
+    def test_a_fault_that_strikes_an_answer_is_on_the_line(self):
+        exchange, = self.send(SLAVE, "--fault", "flip:character=3,bit=5,of=answer", with_crc("0103000a0001"))
+        done = run("sigrok-cli", "-I", "vcd:downsample=1000", "-i", self.vcd, "-P", "uart:rx=line:baudrate=9600:parity=even", "-B", "uart=rx")
+        self.assertEqual(done.stdout.hex(), exchange["request"] + exchange["response"])
+
     def test_a_quiet_line(self):
         self.silent()
         self.assertEqual(self.decode("-A", "uart"), b"")
