@@ -1008,7 +1008,7 @@ class Json(Case):
         received, transmit, sent = exchange["timeline"]
         self.assertEqual((received["kind"], received["characters"]), ("received", "ab"))
         self.assertEqual((received["routine"], received["served"]), (0, 1))
-        self.assertEqual((transmit["kind"], transmit["place"]), ("transmit", "INT 0"))
+        self.assertEqual((transmit["kind"], transmit["place"], transmit["why"]), ("transmit", "INT 0", "line 10: XMT     VB0, 0"))
         self.assertEqual((sent["kind"], sent["characters"]), ("sent", "ab"))
         self.assertTrue(received["at_us"] < transmit["at_us"] < sent["at_us"])
 

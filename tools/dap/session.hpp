@@ -160,7 +160,6 @@ class Session {
   Stop searched_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer);
   bool send_what_is_due();
   void report(const Stop& stop, const std::string& reason);
-  bool has_asked_last(const Hit& hit) const;
   void report_failure(const Stop& stop, const std::string& failure);
   void report_error(std::size_t station, const TraceRecord& error);
   void report_stopped(Json body);

@@ -322,14 +322,6 @@ Json Session::body_of_hit(const Hit& hit) {
   return {{"reason", kReasons[static_cast<std::size_t>(kind)]}, {"description", hit.stop.name}, {"text", text_of(hit)}};
 }
 
-/// Whether the request of a hit is that of the simulated master, which is over now.
-bool Session::has_asked_last(const Hit& hit) const {
-  const serial::Simulation& there = debuggee_->history().station(hit.stop.station);
-  if (!there.has_master() || there.master().busy()) return false;
-  const serial::Exchange& last = there.master().exchange();
-  return !last.request.empty() && (hit.stop.on == StopPoint::On::WrongAnswer ? !hit.answer.empty() : last.timed_out);
-}
-
 /// `breakpoint 2, unanswered, hit 3 times: …`
 std::string Session::text_of(const Hit& hit) const {
   const Program& program = *debuggee_->program(hit.stop.station);
@@ -337,11 +329,11 @@ std::string Session::text_of(const Hit& hit) const {
   std::string text = said_of(hit.stop.station);
   text += fmt::format("{} {}: {}", hit.stop.is_watch() ? "watch" : "breakpoint", hit.stop.number, hit.stop.name);
   if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
-  if (!hit.frame.empty())
-    text += ", " + serial::to_hex(hit.frame);
-  else if (hit.stop.is_of_requests() && !hit.asker && has_asked_last(hit))
-    text +=
-        ", " + serial::to_hex(serial::bytes_of(debuggee_->history().station(hit.stop.station).master().exchange().request));
+  if (!hit.frame.empty()) text += ", " + serial::to_hex(hit.frame);
+  if (hit.asker && hit.asker->kind == Asker::Kind::Send) {
+    const serial::Exchange& exchange = debuggee_->history().station(hit.asker->number).master().exchange();
+    text += ", " + serial::to_hex(serial::bytes_of(exchange.request));
+  }
   if (hit.asker) {
     const bool is_named = stations() > 1 && hit.asker->kind == Asker::Kind::Plc;
     const std::string by =

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/trace/text_trace.hpp"
@@ -106,7 +107,8 @@ class Timeline::Reader {
         return end_service(r);
       case TraceKind::Transmit:
         add(r, Kind::Transmit, r.count ? fmt::format("XMT {} characters", r.count) : "XMT break");
-        rows_.back().place = place_of(r) + why;
+        rows_.back().place = place_of(r);
+        rows_.back().why = stl::trim(why);
         return;
       case TraceKind::Attach:
       case TraceKind::Detach:
@@ -281,7 +283,7 @@ std::string remark(const TimelineRow& row) {
   if (row.kind == Kind::Ignored || row.kind == Kind::Unanswered) return row.why;
   if (row.kind == Kind::Dropped) return "RCV waits for the start of a message";
   if (row.kind == Kind::Lost) return fmt::format("the queue before INT {} was full", row.routine);
-  if (row.served == 0) return row.place;
+  if (row.served == 0) return row.why.empty() ? row.place : row.place + "  " + row.why;
   std::string took = format_duration(row.longest);
   if (row.served > 1) {
     const std::string from = row.shortest == row.longest ? "" : format_duration(row.shortest) + " to ";

@@ -45,7 +45,7 @@ struct TimelineRow {
   /// Services by the interrupt routine.
   std::size_t served = 0;
   Time shortest = kNever, longest = 0, in_all = 0, longest_wait = 0;
-  std::string why{};  ///< of the longest wait: DISI, or other routines; of Ignored and Unanswered
+  std::string why{};  ///< of the longest wait: DISI, or other routines; of Ignored and Unanswered; Transmit: its line
 };
 
 struct TimelineReport {
