@@ -44,7 +44,7 @@ TEST_F(TimelineOf, TheLineOfTheProgramStandsBesideXmtAndSmb30) {
   timeline_.record({.at = 2, .kind = TraceKind::PortControl, .byte = 9, .op = 0});
   const TimelineReport report = timeline_.report();
   ASSERT_EQ(report.rows.size(), 2U);
-  EXPECT_TRUE(report.rows[0].place.ends_with("  line 1: MEND")) << report.rows[0].place;
+  EXPECT_EQ(report.rows[0].why, "line 1: MEND");
   EXPECT_TRUE(report.rows[1].text.ends_with("  line 1: MEND")) << report.rows[1].text;
 }
 
