@@ -30,6 +30,7 @@ struct Place {
   ReturnCode code = kDone;
   Area area{};
   std::uint32_t at = 0, bytes = 0;  ///< in the image, or in the identification
+  std::uint32_t in_data = 0;        ///< bytes of T, C and HC in an answer or a request
   std::optional<std::uint8_t> bit{};
   bool identification = false;
 };
@@ -44,7 +45,10 @@ std::uint32_t bytes_of_type(std::uint8_t type) {
 Place find_element(const Core& core, const Variable& variable, const AreaInfo& area) {
   if (variable.type != variable.area) return {.code = kWrongType};
   if (variable.count == 0 || variable.address + variable.count > core.model().size_of(area.area)) return {.code = kOutside};
-  return {.area = area.area, .at = area.base + variable.address * area.element, .bytes = variable.count * area.element};
+  return {.area = area.area,
+          .at = area.base + variable.address * area.element,
+          .bytes = variable.count * area.element,
+          .in_data = variable.count * bytes_of_element(area.area)};
 }
 
 /// All others go by bits.
@@ -198,7 +202,7 @@ class Request {
     Reply reply{.parameters = {kRead, parameters_[1]}};
     for (const Variable& variable : wanted) {
       const Place place = find(core_, variable);
-      if (reply.data.size() + place.bytes > kLongestPdu) return refused(Refusal::TooLong);
+      if (reply.data.size() + std::max(place.bytes, place.in_data) > kLongestPdu) return refused(Refusal::TooLong);
       if (reply.data.size() % 2 != 0) reply.data.push_back(0);
       append_value(reply.data, place);
       trace(variable, place);
@@ -218,11 +222,23 @@ class Request {
       data.push_back(kInBitsOfBytes);
       append16(data, place.bytes * 8);
       append(data, Span(identification_of(core_.model())).subspan(place.at, place.bytes));
+    } else if (place.in_data != 0) {
+      append_elements(data, place);
     } else {
-      const bool element = info(place.area).element != 0;
-      data.push_back(element ? kInBytes : kInBitsOfBytes);
-      append16(data, element ? place.bytes : place.bytes * 8);
+      data.push_back(kInBitsOfBytes);
+      append16(data, place.bytes * 8);
       append(data, Span(core_.s.image).subspan(place.at, place.bytes));
+    }
+  }
+
+  void append_elements(Bytes& data, const Place& place) const {
+    const AreaInfo& area = info(place.area);
+    data.push_back(kInBytes);
+    append16(data, place.in_data);
+    for (std::uint32_t at = place.at; at < place.at + place.bytes; at += area.element) {
+      const std::uint32_t number = (at - area.base) / area.element;
+      const bool is_on = area.bits != kNoBits && (core_.s.image[area.bits + number / 8] >> number % 8 & 1) != 0;
+      append_element(data, place.area, Span(core_.s.image).subspan(at, area.element), is_on);
     }
   }
 
@@ -266,12 +282,14 @@ class Request {
     const bool read_only = place.identification || place.area == Area::AI || place.area == Area::HC ||
                            (place.area == Area::SM && place.at < sm::byte(kReadOnlySpecialMemory));
     if (read_only) return kNotAllowed;
-    if (value.size() != place.bytes) return kWrongType;
+    if (value.size() != (place.in_data != 0 ? place.in_data : place.bytes)) return kWrongType;
     core_.touched = true;
-    if (place.bit)
+    if (place.bit) {
       core_.put_bit(place.at, *place.bit, (value[0] & 1) != 0);
-    else
-      std::copy(value.begin(), value.end(), core_.s.image.begin() + place.at);
+      return kDone;
+    }
+    const Bytes values = place.in_data != 0 ? element_values(place.area, value) : Bytes(value.begin(), value.end());
+    std::ranges::copy(values, core_.s.image.begin() + place.at);
     return kDone;
   }
 

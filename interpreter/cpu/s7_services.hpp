@@ -6,8 +6,6 @@
 // 06 a type that does not go with it, 0A no such area.
 //
 // Not documented, modelled so:
-// - A timer or counter is read and written as its current value, two bytes.
-//   [S7Services.TimersAndCountersAreTheirCurrentValues]
 // - SMB0 to SMB29, analog inputs and high-speed counters cannot be written. [S7Services.WhatIsReadOnlyIsNotWritten]
 // - An answer that would be longer than 240 bytes is refused as a whole, with error 85 00.
 //   [S7Services.AnAnswerThatIsTooLongIsRefused]

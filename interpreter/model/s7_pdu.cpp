@@ -22,6 +22,36 @@ std::uint8_t code_of(Area area) {
   return found == kWireAreas.end() ? std::uint8_t{0} : found->code;
 }
 
+std::uint32_t bytes_of_element(Area area) {
+  switch (area) {
+    case Area::T:
+      return 5;
+    case Area::C:
+      return 3;
+    default:
+      return info(area).element;
+  }
+}
+
+void append_element(Bytes& to, Area area, std::span<const std::uint8_t> value, bool is_on) {
+  const std::size_t before = bytes_of_element(area) - value.size();
+  if (before != 0) {
+    to.push_back(is_on ? kElementIsOn : std::uint8_t{0});
+    to.insert(to.end(), before - 1, 0);
+  }
+  to.insert(to.end(), value.begin(), value.end());
+}
+
+Bytes element_values(Area area, std::span<const std::uint8_t> data) {
+  const std::size_t size = bytes_of_element(area), value = info(area).element;
+  Bytes values;
+  for (; data.size() >= size; data = data.subspan(size)) {
+    const auto last = data.subspan(size - value, value);
+    values.insert(values.end(), last.begin(), last.end());
+  }
+  return values;
+}
+
 std::optional<Width> width_of(std::uint8_t type) {
   switch (type) {
     case kBit:

@@ -5,7 +5,14 @@
 //   variable in the parameters of a read or write: 12 0A 10 type count(2) block(2) area address(3); V memory is block 1
 //   value in the data of an answer to a read: return code, data type, length(2), bytes; each begins at an even place
 //
+// An element of T stands in data as a status byte and four bytes of value, one of C as a status byte and two: so in
+// published recordings of an S7-200 (iottree, of T32…T34 and T40…T43) and in the client library libnodave (five and three
+// bytes each).
+//
 // Not documented, modelled so:
+// - The status is 02 while the bit of the timer or counter is 1, as in a recording of a timer at 32767, otherwise 00, as of
+//   one that runs. What is written has the same form; its status is not looked at.
+//   [S7Services.TimersAndCountersHaveAStatusAndTheirCurrentValue]
 // - High-speed counters have area and type 20. [S7Services.HighSpeedCountersAreReadAsDoubleWords]
 // - S is area 04, as the client library HslCommunication has it for the S7-200; python-snap7, and facts 10.9
 //   after it, have 03 for it, which libnodave and Wireshark call the system information of this family.
@@ -19,6 +26,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "interpreter/base/bytes.hpp"
@@ -58,6 +66,16 @@ inline constexpr std::array kWireAreas{WireArea{0x04, Area::S},  WireArea{0x05, 
                                        WireArea{0x07, Area::AQ}, WireArea{0x1E, Area::C},  WireArea{0x1F, Area::T},
                                        WireArea{0x20, Area::HC}, WireArea{0x81, Area::I},  WireArea{0x82, Area::Q},
                                        WireArea{0x83, Area::M},  WireArea{0x84, Area::V}};
+
+/// Elements of T, C and HC in data: their values stand at the end of each.
+std::uint32_t bytes_of_element(Area area);
+inline constexpr std::uint8_t kElementIsOn = 0x02;  ///< status, the first byte of T and C
+
+/// `value`: that of the image, of one element.
+void append_element(Bytes& to, Area area, std::span<const std::uint8_t> value, bool is_on);
+
+/// The values alone, as the image has them; a part of an element at the end is left out.
+Bytes element_values(Area area, std::span<const std::uint8_t> data);
 
 /// V memory as a data block.
 inline constexpr std::uint16_t kBlockOfV = 1;

@@ -54,7 +54,11 @@ struct Wanted {
   bool identification = false;  ///< is read
 
   bool has_value() const { return range.has_value() || identification; }
-  std::size_t bytes() const { return range ? range->bytes() : s7::kIdentificationBytes; }
+  /// In the answer.
+  std::size_t bytes() const {
+    if (!range) return s7::kIdentificationBytes;
+    return is_element(*range) ? range->count * s7::bytes_of_element(range->area) : range->bytes();
+  }
 };
 
 class PpiRequest final : public ProtocolRequest {
@@ -175,6 +179,7 @@ void PpiRequest::take_value(Data data, serial::Answer& answer) const {
   } else if (reads()) {
     answer.bytes.assign(data.begin() + kValueHead, data.end());
     if (!wanted_.range) return;
+    if (is_element(*wanted_.range)) answer.bytes = s7::element_values(wanted_.range->area, answer.bytes);
     const bool words = wanted_.range->width == Width::Word || wanted_.range->width == Width::Double;
     for (std::size_t i = 0; i < answer.bytes.size(); i += words ? 2 : 1)
       answer.values.push_back(words ? load16(&answer.bytes[i]) : answer.bytes[i]);
@@ -363,6 +368,14 @@ Bytes value_bytes(MemoryRange& range, const std::string& values, const std::stri
   return bytes;
 }
 
+/// As they stand in data.
+Bytes elements_of(Area area, Data values) {
+  Bytes elements;
+  for (std::size_t at = 0; at < values.size(); at += info(area).element)
+    s7::append_element(elements, area, values.subspan(at, info(area).element), false);
+  return elements;
+}
+
 void Parser::write(const Words& operands) {
   constexpr std::size_t kMost = s7::kLongestPdu - s7::kRequestHead - 2 - s7::kVariableBytes - 4;
   for (const std::string& operand : operands) {
@@ -370,7 +383,8 @@ void Parser::write(const Words& operands) {
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example VB100=65", stl::shortened(operand)));
     text_ = "write " + operand;
     MemoryRange range = range_of(parts->first);
-    const Bytes value = value_bytes(range, parts->second, text_);
+    Bytes value = value_bytes(range, parts->second, text_);
+    if (is_element(range)) value = elements_of(range.area, value);
     if (range.width == Width::Bit && range.count != 1) refuse(fmt::format("{}: one bit at a time", text_));
     if (value.size() > kMost) refuse(fmt::format("{}: {} bytes; a request writes {} at most", text_, value.size(), kMost));
     range_of(range.name_of(range.count - 1));

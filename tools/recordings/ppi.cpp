@@ -102,6 +102,9 @@ std::string element_text(const MemoryRange& range, const std::uint8_t* at) {
 std::string value_text(const Variable& variable, Data bytes) {
   if (variable.identification) return fmt::format("{} = {}", variable.name, s7_identification_text(bytes));
   if (!variable.range) return fmt::format("{} = {}", variable.name, serial::to_hex(bytes));
+  const Area area = variable.range->area;
+  const Bytes elements = info(area).element != 0 ? s7::element_values(area, bytes) : Bytes{};
+  if (info(area).element != 0) bytes = elements;
   std::string text = variable.name + " =";
   const std::size_t step = bytes_of(variable.range->width);
   for (std::size_t at = 0; at + step <= bytes.size(); at += step) text += " " + element_text(*variable.range, &bytes[at]);

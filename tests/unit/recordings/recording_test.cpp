@@ -718,7 +718,7 @@ TEST(Conversation, AVariableOfPpiHasTheWidthOfItsTypeAndItsAnswerItsValues) {
                        {wanted({{s7::kDouble, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0, 1, 0, 2})},
                        {wanted({{s7::kReal, 1, Area::V, 800}}), found({0xFF, 4, 0, 32, 0x3F, 0xC0, 0, 0})},
                        {wanted({{s7::kBit, 1, Area::M, 255}}), found({0xFF, 3, 0, 1, 1})},
-                       {wanted({{0x1F, 1, Area::T, 37}}), found({0xFF, 9, 0, 2, 0x12, 0x34})},
+                       {wanted({{0x1F, 1, Area::T, 37}}), found({0xFF, 9, 0, 5, 2, 0, 0, 0x12, 0x34})},
                        {wanted({{s7::kByte, 1, Area::Q, 0}, {s7::kWord, 1, Area::V, 80'000}}),
                         found({0xFF, 4, 0, 8, 7, 0, 5, 0, 0, 0})},
                        {wanted({{0x1D, 1, Area::V, 800}}), ppi_answer({s7::kRead, 1}, {}, 0x8104)}}),
