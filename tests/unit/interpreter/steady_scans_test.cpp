@@ -209,6 +209,13 @@ TEST(SteadyScans, ATimerExecutedTwiceInAScanCountsTwice) {
   for (int i = 1; i <= 60; ++i) both.run_until(i * 1'234 * ms);
 }
 
+TEST(SteadyScans, ATimerInALoopOfABackwardJumpCountsInEachRound) {
+  Both both(
+      "LD SM0.0\nMOVW 0, VW0\nLBL 1\nLD SM0.0\nTON T37, 300\nLD SM0.0\nINCW VW0\nLDW<= VW0, 2\nJMP 1\nLD T37\n= Q0.0\n"
+      "MEND\n");
+  for (int i = 1; i <= 40; ++i) both.run_until(i * 999 * ms);
+}
+
 TEST(SteadyScans, ATimerInASubroutineCountsWhenItIsCalled) {
   Both both("LD M0.0\nCALL 0\nLD T37\n= Q0.0\nMEND\nSBR 0\nLD SM0.0\nTON T37, 200\nRET\n");
   both.each([](Plc& plc) { plc.set("M0.0", 1); });
@@ -288,7 +295,7 @@ std::string about_time(std::mt19937& draw) {
       static constexpr std::string_view kBits[] = {"I0.0", "I0.1", "M0.0", "SM0.0", "SM0.5", "M1.0", "I0.2"};
       return below(3) ? std::string(kBits[below(7)]) : timer();
     };
-    switch (below(10)) {
+    switch (below(11)) {
       case 0:
       case 1:
       case 2:
@@ -313,6 +320,11 @@ std::string about_time(std::mt19937& draw) {
         break;
       case 8:
         to += fmt::format("LD {}\nLD {}\nCTU C{}, 3\n", source(), source(), below(4));
+        break;
+      case 9:
+        to += fmt::format("LD SM0.0\nMOVW 0, VW10\nLBL {}\nLD {}\nTON T4{}, {}\n", networks, source(), below(4),
+                          1 + below(300));
+        to += fmt::format("LD SM0.0\nINCW VW10\nLDW<= VW10, {}\nA {}\nJMP {}\n", 1 + below(3), source(), networks);
         break;
       default:
         text += fmt::format("LD {}\nCALL 0\n", source());
