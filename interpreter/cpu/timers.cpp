@@ -145,10 +145,10 @@ void handle(Core& core, std::uint8_t, Time at) {
     if (!s.timer[timer].enabled) continue;
     any = true;
     if (s.timer[timer].since >= at) continue;
+    const bool reaches = value_of(s, timer) == s.timer[timer].preset - 1;
     add_ticks(s, timer, 1);
-    const bool reached = value_of(s, timer) == s.timer[timer].preset;
-    if (reached && timer == 32) interrupts::occurred(core, event::kT32Reached, at);
-    if (reached && timer == 96) interrupts::occurred(core, event::kT96Reached, at);
+    if (reaches && timer == 32) interrupts::occurred(core, event::kT32Reached, at);
+    if (reaches && timer == 96) interrupts::occurred(core, event::kT96Reached, at);
   }
   if (any) await_tick_1ms(core, at);
 }
