@@ -165,11 +165,12 @@ class Given {
   std::map<std::string, Areas> areas_;
 };
 
-/// `# CPU 224`, and the commas that spreadsheets add.
+/// `# CPU 224`, and the commas that spreadsheets add. With more words it is a comment like any other.
 std::string cpu_of(std::string_view comment) {
   if (!comment.starts_with(kCpu)) return {};
   comment.remove_prefix(kCpu.size());
-  return std::string(stl::trim(comment.substr(0, comment.find(','))));
+  const auto words = stl::split_words(comment.substr(0, comment.find(',')));
+  return words.size() == 1 ? words.front() : std::string();
 }
 
 std::string quoted(const std::string& field) {

@@ -100,7 +100,8 @@ TEST(Times, CommentsAreLeftOutAndOneSaysWhoseTimesTheyAre) {
   EXPECT_EQ(file.cpu, "224");
   ASSERT_EQ(file.lines.size(), 1U);
   EXPECT_EQ(file.lines[0].number, 4U);
-  EXPECT_EQ(read_times(kHeader + "MOVB,,60,,,manual\n", "times.csv", errors).cpu, "");
+  for (const char* before : {"", "# CPU times measured by me\n", "# CPU\n", "# CPU ,,\n"})
+    EXPECT_EQ(read_times(before + kHeader + "MOVB,,60,,,manual\n", "times.csv", errors).cpu, "") << before;
 }
 
 TEST(Times, OnlyLinesThatGiveATimeAreInUse) {
