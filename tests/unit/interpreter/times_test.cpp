@@ -213,6 +213,14 @@ TEST(LoadTimes, ANameFormOrUnitThatTheCpusTablesDoNotHaveIsASlip) {
   EXPECT_EQ(slips_in("INCB,,60,,,manual\nR,T,19,16,bit,manual\nJMP,taken,1,,,manual\n", cpu214()), Errors{});
 }
 
+TEST(LoadTimes, AreasOfWhatHasNoOperandInMemoryAreASlip) {
+  for (const std::string name : {"(scan overhead)", "(no power flow)", "(interrupt entry)", "(indirect operand)",
+                                 "(EEPROM save)", "JMP", "ALD", "CALL"})
+    EXPECT_EQ(slips_in(name + ",I Q,5000,,,manual\n", cpu214()),
+              Errors{":2: " + name + " has no first operand in memory, so no line of it is for I Q; leave column 2 empty"});
+  EXPECT_EQ(slips_in("(operand area adds),V,5,,,manual\nLD,V,1,,,manual\n", cpu214()), Errors{});
+}
+
 TEST(LoadTimes, ALineThatAnEarlierOneHidesIsASlip) {
   EXPECT_EQ(slips_in("MOVB,,60,,,manual\nMOVW MOVB,,70,,,manual\n", cpu214()),
             Errors{":3: an earlier line has the time of MOVB already; delete one of them"});
