@@ -2642,6 +2642,15 @@ class Times(Case):
         self.assertEqual(fitted("cpu22x_release1", "--cpu", "224r1"), [True] * 4, "its figures are the page's")
         wrong = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\n(EEPROM save),,9000,,,measured\n", "mine.csv")
         self.assertIn("FAILS        saving a value to EEPROM", self.ends(FAILED, "times", "--check", wrong).stdout)
+
+        def changed(cpu, line, other):
+            copy = self.ends(FINE, "times", "--cpu", cpu, "--csv").stdout
+            self.assertIn(line, copy)
+            return fitted(self.program(copy.replace(line, other), "mine.csv"), "--cpu", cpu)
+
+        self.assertEqual(changed("214", "\nNEXT,", "\nNEXT,"), [True, False, False, False], "a copy is as good as the table")
+        self.assertEqual(changed("214", "\nNEXT,each repetition,150,", "\nNEXT,each repetition,149,"), [False] * 4)
+        self.assertEqual(changed("224r1", "\nRCV,,80,,,manual,", "\nRCV,,80,,,measured,"), [False, True, True, True])
         self.assertIn("is not Application Tip 41", self.ends(UNUSABLE, "times", "--check", "cpu214", "--tip41", SLAVE).stderr)
         for cpu in ("224", "224r1"):
             self.assertIn(" 0 fail", self.ends(FINE, "times", "--cpu", cpu, "--check", {"224": "cpu22x", "224r1": "cpu22x_release1"}[cpu]).stdout)
