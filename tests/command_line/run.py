@@ -2688,6 +2688,17 @@ class Times(Case):
         self.assertNotEqual(self.ends(FINE, *arguments, "--band-seed", "2").stdout, done.stdout)
         self.assertIn("--trace is about one run", self.ends(UNUSABLE, *arguments, "--trace", "-").stderr)
 
+    def test_a_table_from_a_pipe_is_read_once(self):
+        csv = self.ends(FINE, "times", "--csv").stdout
+        piped = lambda *arguments: self.ends(FINE, *arguments, "--times", "/dev/stdin", stdin=None, input=csv).stdout
+        self.assertEqual(piped("times", "--band-table", "1"), self.ends(FINE, "times", "--times", "cpu214", "--band-table", "1").stdout)
+        for verb in (["send", SLAVE, "--crc", "0103000a0002"], ["master", SLAVE, "read", "40011"]):
+            self.assertIn("of 4 tables", piped(*verb, "--times-band", "3"))
+
+    def test_a_band_around_a_table_that_cannot_be_read_is_refused(self):
+        for verb in (["times", "--band-table", "1"], ["send", SLAVE, "01", "--times-band", "3"]):
+            self.assertIn("cannot read missing.csv", self.ends(UNUSABLE, *verb, "--times", "missing.csv").stderr)
+
     def test_a_figure_at_the_limit_is_not_drawn_beyond_it(self):
         header = "mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent\n"
         path = self.program("LD SM0.1\nMOVB 9, SMB30\nLD SM0.0\nMOVB 1, VB0\nMEND\n")
