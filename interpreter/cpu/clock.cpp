@@ -1,6 +1,7 @@
 #include "interpreter/cpu/clock.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace s7200::clock {
 namespace {
@@ -24,9 +25,28 @@ void next_day(ClockTime& t) {
   t.year = static_cast<std::uint8_t>((t.year + 1) % 100);
 }
 
+std::chrono::year_month_day date_of(const ClockTime& t) {
+  return {std::chrono::year(2000 + t.year), std::chrono::month(t.month), std::chrono::day(t.day)};
+}
+
+/// From a date of the calendar on. A century of the clock is always that from 2000 to 2099, in which each fourth year leaps.
+void add_days(ClockTime& t, std::int64_t count) {
+  using namespace std::chrono;
+  constexpr sys_days kBegin = 2000y / January / 1, kEnd = 2100y / January / 1;
+  const year_month_day date = kBegin + (sys_days(date_of(t)) - kBegin + days(count)) % (kEnd - kBegin);
+  if (t.weekday != 0) t.weekday = static_cast<std::uint8_t>((t.weekday - 1 + count) % 7 + 1);
+  t.day = static_cast<std::uint8_t>(static_cast<unsigned>(date.day()));
+  t.month = static_cast<std::uint8_t>(static_cast<unsigned>(date.month()));
+  t.year = static_cast<std::uint8_t>(static_cast<int>(date.year()) - 2000);
+}
+
+/// A date that is not in the calendar goes on day by day to one that is.
 ClockTime advanced(ClockTime t, std::int64_t seconds) {
-  std::int64_t of_day = (t.hour * 60 + t.minute) * 60 + t.second + seconds;
-  for (; of_day >= 86'400; of_day -= 86'400) next_day(t);
+  constexpr std::int64_t kDay = 86'400;
+  const std::int64_t in_all = (t.hour * 60 + t.minute) * 60 + t.second + seconds, of_day = in_all % kDay;
+  std::int64_t days = in_all / kDay;
+  for (; days > 0 && !date_of(t).ok(); --days) next_day(t);
+  if (days > 0) add_days(t, days);
   t.hour = static_cast<std::uint8_t>(of_day / 3600);
   t.minute = static_cast<std::uint8_t>(of_day / 60 % 60);
   t.second = static_cast<std::uint8_t>(of_day % 60);

@@ -65,8 +65,9 @@ void end(Core& core, std::uint8_t output) {
 
 /// The profile of SMW168 or SMW178. False, with an error, if there is none.
 bool take_profile(Core& core, std::uint8_t output, PulseTrain& train) {
-  const std::uint32_t table = image::kV + load16(&core.s.image[kProfileTable[output]]);
-  if (!core.in_area(table, 1) || !core.in_area(table, 1 + kSegmentSize * core.s.image[table])) {
+  const std::uint32_t offset = load16(&core.s.image[kProfileTable[output]]), table = image::kV + offset;
+  const auto fits = [&](std::uint32_t bytes) { return offset + bytes <= core.model().size_of(Area::V); };
+  if (!fits(1) || !fits(1 + kSegmentSize * core.s.image[table])) {
     core.run_error(RunError::OperandRange);
     return false;
   }

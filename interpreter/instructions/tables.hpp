@@ -28,7 +28,8 @@ struct TableView {
 inline std::optional<TableView> table_at(Core& core, std::uint32_t at) {
   if (core.in_area(at, 4)) {
     const TableView table{load16(&core.s.image[at]), load16(&core.s.image[at + 2]), at + 2, at + 4};
-    if (table.length >= 1 && table.length <= kLongestTable && core.in_area(at, 4 + 2 * table.length)) return table;
+    const bool fits = table.length >= 1 && table.length <= kLongestTable && core.in_area(at, 4 + 2 * table.length);
+    if (fits && table.count <= table.length) return table;
   }
   core.run_error(RunError::OperandRange);
   return {};
@@ -39,7 +40,7 @@ inline void add_to_table(Core& core, const Op& op) {
   const auto table = table_at(core, op[1].at);
   if (!table) return;
   core.spend(op, table->count);
-  if (table->count >= table->length) return core.set_flags(kTableFull, kTableFull);
+  if (table->count == table->length) return core.set_flags(kTableFull, kTableFull);
   store16(table->entry(core, table->count), core.get<std::uint16_t>(op[0]));
   store16(&core.s.image[table->count_at], static_cast<std::uint16_t>(table->count + 1));
   core.set_flags(kTableFull, 0);
@@ -50,7 +51,6 @@ template <bool first>
 void take_from_table(Core& core, const Op& op) {
   const auto table = table_at(core, op[0].at);
   if (!table) return;
-  if (table->count > table->length) return core.run_error(RunError::OperandRange);
   core.spend(op, table->count);
   if (table->count == 0) return core.set_flags(kTableEmpty, kTableEmpty);
   const std::uint32_t last = table->count - 1;

@@ -1,7 +1,7 @@
 // CPU 215 and CPU 216. Ranges: facts 1.1. Queues: S7-200 manual C230-02, 10-120. Baud rates: facts 2.1.
 // Retentive: as on the CPU 214.
 // Execution times: those of the CPU 214, since no others are known, and estimates for instructions that the CPU 214 lacks.
-// Not modelled: the DP port of the CPU 215, PID.
+// Not modelled: the DP port of the CPU 215.
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"
 

@@ -46,7 +46,11 @@ constexpr Between<double> kFigures{0.001, static_cast<double>(kLongestFigure) / 
 
 std::string header(std::size_t columns) { return fmt::format("{}", fmt::join(std::span(kColumns).first(columns), ",")); }
 
-std::string needed_header() { return header(kNeededColumns) + "[,source[,uncertainty_percent]]"; }
+/// With brackets around what may be left out: `…,marker[,source[,uncertainty_percent]]`
+std::string needed_header() {
+  const auto optional = std::span(kColumns).subspan(kNeededColumns);
+  return fmt::format("{}[,{}{}", header(kNeededColumns), fmt::join(optional, "[,"), std::string(optional.size(), ']'));
+}
 
 bool is_header(std::string_view line) {
   for (std::size_t columns = kNeededColumns; columns <= kColumns.size(); ++columns)
@@ -165,11 +169,12 @@ class Given {
   std::map<std::string, Areas> areas_;
 };
 
-/// `# CPU 224`, and the commas that spreadsheets add.
+/// `# CPU 224`, and the commas that spreadsheets add. With more words it is a comment like any other.
 std::string cpu_of(std::string_view comment) {
   if (!comment.starts_with(kCpu)) return {};
   comment.remove_prefix(kCpu.size());
-  return std::string(stl::trim(comment.substr(0, comment.find(','))));
+  const auto words = stl::split_words(comment.substr(0, comment.find(',')));
+  return words.size() == 1 ? words.front() : std::string();
 }
 
 std::string quoted(const std::string& field) {
@@ -179,12 +184,23 @@ std::string quoted(const std::string& field) {
   return text + '"';
 }
 
+std::string line_of(const TimeRow& row) {
+  std::array<std::string, kColumns.size()> field;
+  field[kMnemonic] = fmt::format("{}", fmt::join(row.mnemonics, " "));
+  field[kForm] = row.form;
+  field[kBase] = in_microseconds(row.base);
+  if (row.per_unit) field[kPerUnit] = in_microseconds(row.per_unit);
+  field[kUnit] = row.unit;
+  field[kMarker] = row.marker;
+  field[kSource] = row.source;
+  field[kUncertainty] = fmt::format("{}", row.uncertainty);
+  std::ranges::transform(field, field.begin(), quoted);
+  return fmt::format("{}\n", fmt::join(field, ","));
+}
+
 std::string text_of(const std::vector<TimeRow>& rows) {
   std::string text = header(kColumns.size()) + '\n';
-  for (const TimeRow& row : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", fmt::join(row.mnemonics, " "), quoted(row.form),
-                        in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", quoted(row.unit),
-                        row.marker, quoted(row.source), row.uncertainty);
+  for (const TimeRow& row : rows) text += line_of(row);
   return text;
 }
 

@@ -45,6 +45,13 @@ std::string unknown_name(const std::string& name) {
   return fmt::format("'{}' is not an instruction; {}", stl::shortened(name), hint);
 }
 
+/// Whether a line of it can be for some areas only.
+bool has_areas(const std::string& name) {
+  const Instruction* const instruction = find_instruction(name);
+  if (instruction == nullptr) return name == name_of(SystemTime::OperandArea);
+  return !instruction->rules().empty() && instruction->rules().front().kind == OperandKind::Memory;
+}
+
 /// Whether it has a memory operand in front that is in none of these areas on any CPU.
 bool is_never_in(const std::string& name, Areas areas) {
   const Instruction* const instruction = find_instruction(name);
@@ -61,6 +68,9 @@ std::string slip_in(const TimeRow& row, const std::string& name, const CpuModel&
   if (row.areas == 0 && !row.form.empty() && std::ranges::none_of(known, [&](auto* k) { return k->form == row.form; }))
     return fmt::format("'{}' is not a form of {}; write the areas of its first operand (I Q M SM V …), or nothing",
                        stl::shortened(row.form), name);
+  if (row.areas != 0 && !has_areas(name))
+    return fmt::format("{} has no first operand in memory, so no line of it is for {}; leave column 2 empty", name,
+                       names_of(row.areas));
   if (is_never_in(name, row.areas))
     return fmt::format("the first operand of {} is never in {}; delete the line", name, names_of(row.areas));
   const auto has_unit = [](const TimeRow* k) { return k->per_unit > 0; };

@@ -51,6 +51,7 @@ class Finder {
   static bool branches(const Instruction& instruction) {
     switch (instruction.structure) {
       case Structure::Jump:
+      case Structure::Label:  // a jump back to it may follow
       case Structure::For:
       case Structure::SegmentExit:
       case Structure::MainEnd:

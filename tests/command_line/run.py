@@ -2642,6 +2642,15 @@ class Times(Case):
         self.assertEqual(fitted("cpu22x_release1", "--cpu", "224r1"), [True] * 4, "its figures are the page's")
         wrong = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\n(EEPROM save),,9000,,,measured\n", "mine.csv")
         self.assertIn("FAILS        saving a value to EEPROM", self.ends(FAILED, "times", "--check", wrong).stdout)
+
+        def changed(cpu, line, other):
+            copy = self.ends(FINE, "times", "--cpu", cpu, "--csv").stdout
+            self.assertIn(line, copy)
+            return fitted(self.program(copy.replace(line, other), "mine.csv"), "--cpu", cpu)
+
+        self.assertEqual(changed("214", "\nNEXT,", "\nNEXT,"), [True, False, False, False], "a copy is as good as the table")
+        self.assertEqual(changed("214", "\nNEXT,each repetition,150,", "\nNEXT,each repetition,149,"), [False] * 4)
+        self.assertEqual(changed("224r1", "\nRCV,,80,,,manual,", "\nRCV,,80,,,measured,"), [False, True, True, True])
         self.assertIn("is not Application Tip 41", self.ends(UNUSABLE, "times", "--check", "cpu214", "--tip41", SLAVE).stderr)
         for cpu in ("224", "224r1"):
             self.assertIn(" 0 fail", self.ends(FINE, "times", "--cpu", cpu, "--check", {"224": "cpu22x", "224r1": "cpu22x_release1"}[cpu]).stdout)
@@ -2678,6 +2687,17 @@ class Times(Case):
         self.assertEqual(self.ends(FINE, *arguments, "--jobs", "1").stdout, done.stdout, "the same with one job")
         self.assertNotEqual(self.ends(FINE, *arguments, "--band-seed", "2").stdout, done.stdout)
         self.assertIn("--trace is about one run", self.ends(UNUSABLE, *arguments, "--trace", "-").stderr)
+
+    def test_a_table_from_a_pipe_is_read_once(self):
+        csv = self.ends(FINE, "times", "--csv").stdout
+        piped = lambda *arguments: self.ends(FINE, *arguments, "--times", "/dev/stdin", stdin=None, input=csv).stdout
+        self.assertEqual(piped("times", "--band-table", "1"), self.ends(FINE, "times", "--times", "cpu214", "--band-table", "1").stdout)
+        for verb in (["send", SLAVE, "--crc", "0103000a0002"], ["master", SLAVE, "read", "40011"]):
+            self.assertIn("of 4 tables", piped(*verb, "--times-band", "3"))
+
+    def test_a_band_around_a_table_that_cannot_be_read_is_refused(self):
+        for verb in (["times", "--band-table", "1"], ["send", SLAVE, "01", "--times-band", "3"]):
+            self.assertIn("cannot read missing.csv", self.ends(UNUSABLE, *verb, "--times", "missing.csv").stderr)
 
     def test_a_figure_at_the_limit_is_not_drawn_beyond_it(self):
         header = "mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent\n"

@@ -15,6 +15,7 @@ Table table_at(const Place& place) {
   if (!holds(place, 4)) throw RunTimeError{0x91};
   const std::size_t length = read(place, 2);
   if (length < 1 || length > 100 || !holds(place, 4 + 2 * length)) throw RunTimeError{0x91};
+  if (read(Place{place.bytes, place.at + 2}, 2) > length) throw RunTimeError{0x91};
   return {place, {place.bytes, place.at + 2}, {place.bytes, place.at + 4}};
 }
 
@@ -22,7 +23,7 @@ void add_to_table(Machine& m) {
   const std::uint32_t data = m.in(0, 2);
   const Table table = table_at(m.place(1, 2));
   const std::uint32_t length = read(table.length, 2), count = read(table.count, 2);
-  const bool full = count >= length;
+  const bool full = count == length;
   if (!full) {
     write(table.entry(count), 2, data);
     write(table.count, 2, count + 1);
@@ -34,7 +35,6 @@ void add_to_table(Machine& m) {
 /// The number of entries of a table to take one from; 0 sets the flag.
 std::uint32_t count_to_take_from(Machine& m, const Table& table) {
   const std::uint32_t count = read(table.count, 2);
-  if (count > read(table.length, 2)) throw RunTimeError{0x91};
   set_flag(m, kTableEmpty, count == 0);
   m.spend_units(count);
   return count;

@@ -9,7 +9,6 @@
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/statements_output.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/measuring/band.hpp"
 #include "tools/views/results_json.hpp"
 #include "tools/views/times_text.hpp"
 
@@ -41,11 +40,9 @@ int show_side_by_side(const TimesOptions& options, const CpuModel& model) {
 
 /// The table in use, or a random one around those of the CPU. Nothing after messages.
 std::optional<TimeTable> table_to_show(const TimesOptions& options, const CpuModel& model) {
-  auto times = options.cpu.times(model);
-  if (!times || options.band_table == 0) return times;
-  std::vector<std::string> errors;
-  const auto band = load_band(model, options.cpu.times_table, {options.band_table, options.band_seed}, errors);
-  return (*band)[band->size() - 1];
+  if (options.band_table == 0) return options.cpu.times(model);
+  const auto band = options.cpu.band(model, {options.band_table, options.band_seed});
+  return band ? std::optional((*band)[band->size() - 1]) : std::nullopt;
 }
 
 int show_table(const TimesOptions& options, const CpuModel& model) {

@@ -17,6 +17,14 @@
 namespace s7200::tools {
 namespace {
 
+/// By Verdict.
+struct VerdictName {
+  const char *text, *key;
+};
+constexpr VerdictName kVerdictNames[] = {{"holds", "holds"}, {"FAILS", "fails"}, {"not checked", "not_checked"}};
+
+const VerdictName& name_of(Statement::Verdict verdict) { return kVerdictNames[static_cast<std::size_t>(verdict)]; }
+
 std::size_t count(const std::vector<Statement>& statements, Statement::Verdict verdict) {
   return static_cast<std::size_t>(std::ranges::count(statements, verdict, &Statement::verdict));
 }
@@ -26,9 +34,8 @@ bool any_fails(const std::vector<Statement>& statements) { return count(statemen
 std::string statements_text(const CpuModel& model, const std::string& table, const std::vector<Statement>& statements) {
   std::string text = fmt::format("What is known of the times of CPU {}, with {}:\n", model.name, stl::printable(table));
   for (const Statement& each : statements) {
-    static constexpr const char* kVerdicts[] = {"holds", "FAILS", "not checked"};
-    text += fmt::format("  {:<11}  {}: {}   ({}{})\n", kVerdicts[static_cast<std::size_t>(each.verdict)], each.says,
-                        each.found, each.source, each.fitted ? "; the table was fitted to it" : "");
+    text += fmt::format("  {:<11}  {}: {}   ({}{})\n", name_of(each.verdict).text, each.says, each.found, each.source,
+                        each.fitted ? "; the table was fitted to it" : "");
   }
   text += fmt::format("{} hold, {} fail", count(statements, Statement::Verdict::Holds),
                       count(statements, Statement::Verdict::Fails));
@@ -39,11 +46,10 @@ std::string statements_text(const CpuModel& model, const std::string& table, con
 nlohmann::ordered_json statements_json(const std::vector<Statement>& statements) {
   auto json = nlohmann::ordered_json::array();
   for (const Statement& each : statements) {
-    static constexpr const char* kVerdicts[] = {"holds", "fails", "not_checked"};
     json.push_back({{"statement", each.says},
                     {"source", each.source},
                     {"found", each.found},
-                    {"verdict", kVerdicts[static_cast<std::size_t>(each.verdict)]},
+                    {"verdict", name_of(each.verdict).key},
                     {"fitted", each.fitted}});
   }
   return json;

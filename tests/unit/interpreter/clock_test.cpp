@@ -41,13 +41,32 @@ TEST(Clock, AWeekdaySwitchedOffStaysOffAndAnImpossibleDateIsAccepted) {
   EXPECT_EQ(after({26, 2, 30, 23, 59, 59, 2}), (ClockTime{26, 3, 1, 0, 0, 0, 3}));
 }
 
+ClockTime days_after(Plc& plc, const ClockTime& t, Time days) {
+  plc.cpu.set_clock(t);
+  State later = plc.cpu.state();
+  later.time = later.clock_set_at + days * 86'400 * kSecond;
+  plc.cpu.restore(later);
+  return plc.cpu.clock();
+}
+
 TEST(Clock, ThirtyDaysLater) {
   Plc plc("LD SM0.0\nMEND\n");
-  plc.cpu.set_clock({26, 11, 21, 10, 0, 0, 7});
-  State later = plc.cpu.state();
-  later.time += 30 * 86'400 * kSecond;
-  plc.cpu.restore(later);
-  EXPECT_EQ(plc.cpu.clock(), (ClockTime{26, 12, 21, 10, 0, 0, 2}));
+  EXPECT_EQ(days_after(plc, {26, 11, 21, 10, 0, 0, 7}, 30), (ClockTime{26, 12, 21, 10, 0, 0, 2}));
+}
+
+TEST(Clock, ManyDaysAtOnceLeadWhereOneAfterTheOtherDo) {
+  for (const ClockTime& from :
+       {ClockTime{0, 2, 28, 0, 0, 0, 1}, ClockTime{99, 12, 31, 23, 0, 0, 7}, ClockTime{25, 2, 31, 0, 0, 0, 0},
+        ClockTime{26, 13, 5, 99, 99, 99, 9}, ClockTime{26, 0, 0, 0, 0, 0, 14}}) {
+    Plc plc("LD SM0.0\nMEND\n");
+    ClockTime step = from;
+    for (int days = 1; days < 37'000; ++days) {
+      step = days_after(plc, step, 1);
+      if (days < 100 || days % 97 == 0 || days > 36'500) {
+        ASSERT_EQ(days_after(plc, from, days), step) << days << " days after " << from;
+      }
+    }
+  }
 }
 
 TEST(Clock, StartsOnASundayIn1990) {

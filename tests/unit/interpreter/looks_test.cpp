@@ -35,6 +35,8 @@ TEST(Looks, ATimerThatIsExecutedOnceInEachScanMattersOnlyAtItsPreset) {
   EXPECT_TRUE(looks("LD I0.0\nTON T37, 100\nLDW>= T37, 5\n= Q0.0\n").every_tick.test(37));
   EXPECT_TRUE(looks("LD I0.0\nTON T37, 100\nLD I0.1\nR T37, 1\n").every_tick.test(37));
   EXPECT_TRUE(looks("LD I0.0\nJMP 1\nLBL 1\nLD I0.0\nTON T37, 100\n").every_tick.test(37));
+  EXPECT_TRUE(looks("LBL 1\nLD I0.0\nTON T37, 100\nLD I0.1\nJMP 1\n").every_tick.test(37)) << "a jump back may do it again";
+  EXPECT_TRUE(looks("LD I0.0\nTON T37, 100\nLBL 1\nLD I0.1\nJMP 1\n").every_tick.none()) << "nothing jumps back to it";
 }
 
 TEST(Looks, AtTheTimeAreTodrAndTheMillisecondsOfTheCpu) {

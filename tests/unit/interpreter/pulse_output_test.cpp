@@ -231,10 +231,13 @@ TEST(PulseOutput, AProfileWithoutSegmentsIs000E) {
 }
 
 TEST(PulseOutput, AProfileOutsideVIs0091) {
-  ProfilePlc plc({{500, 0, 2}}, cpu224(), 8192);
-  plc.run_until(10 * ms);
-  EXPECT_EQ(plc.records.errors(), Ints{0x91});
-  EXPECT_TRUE(edges(plc).empty());
+  constexpr int kLocalMemory = image::kL - image::kV;
+  for (const int offset : {8192, kLocalMemory, 0xFFFF}) {
+    ProfilePlc plc({{500, 0, 2}}, cpu224(), offset);
+    plc.run_until(10 * ms);
+    EXPECT_EQ(plc.records.errors(), Ints{0x91}) << offset;
+    EXPECT_TRUE(edges(plc).empty());
+  }
 }
 
 TEST(PulseOutput, PlsWithoutEnableAbortsAProfileAndSaysSo) {

@@ -164,6 +164,20 @@ TEST(SteadyScans, ATimerReachesItsPresetOnTime) {
   }
 }
 
+TEST(SteadyScans, ATimerThatIsOffDoesNotKeepScansFromBeingAlike) {
+  struct Off {
+    std::string_view timer;
+    bool input;
+  };
+  for (const auto& [timer, input] : {Off{"TON T32", false}, Off{"TON T33", false}, Off{"TON T37", false}, Off{"TONR T0", false},
+                                     Off{"TONR T5", false}, Off{"TOF T32", false}, Off{"TOF T37", false}, Off{"TOF T37", true}}) {
+    Both both(fmt::format("LD I0.0\n{}, 100\nMEND\n", timer), *find_cpu("224"));
+    both.each([level = input](Plc& plc) { plc.input("I0.0", level); });
+    both.run_until(60 * kSecond);
+    EXPECT_GT(both.passed(), 59 * kSecond) << timer;
+  }
+}
+
 TEST(SteadyScans, AnOffDelayEndsOnTime) {
   Both both("LD I0.0\nTOF T37, 100\nLD T37\n= Q0.0\nMEND\n", *find_cpu("224"));
   both.each([](Plc& plc) {
@@ -207,6 +221,13 @@ TEST(SteadyScans, ATimerThatIsResetAgainAndAgainStaysAtZero) {
 TEST(SteadyScans, ATimerExecutedTwiceInAScanCountsTwice) {
   Both both("LD SM0.0\nTON T37, 1000\nLD SM0.0\nTON T37, 1000\nLD T37\n= Q0.0\nMEND\n");
   for (int i = 1; i <= 60; ++i) both.run_until(i * 1'234 * ms);
+}
+
+TEST(SteadyScans, ATimerInALoopOfABackwardJumpCountsInEachRound) {
+  Both both(
+      "LD SM0.0\nMOVW 0, VW0\nLBL 1\nLD SM0.0\nTON T37, 300\nLD SM0.0\nINCW VW0\nLDW<= VW0, 2\nJMP 1\nLD T37\n= Q0.0\n"
+      "MEND\n");
+  for (int i = 1; i <= 40; ++i) both.run_until(i * 999 * ms);
 }
 
 TEST(SteadyScans, ATimerInASubroutineCountsWhenItIsCalled) {
@@ -288,7 +309,7 @@ std::string about_time(std::mt19937& draw) {
       static constexpr std::string_view kBits[] = {"I0.0", "I0.1", "M0.0", "SM0.0", "SM0.5", "M1.0", "I0.2"};
       return below(3) ? std::string(kBits[below(7)]) : timer();
     };
-    switch (below(10)) {
+    switch (below(11)) {
       case 0:
       case 1:
       case 2:
@@ -313,6 +334,11 @@ std::string about_time(std::mt19937& draw) {
         break;
       case 8:
         to += fmt::format("LD {}\nLD {}\nCTU C{}, 3\n", source(), source(), below(4));
+        break;
+      case 9:
+        to += fmt::format("LD SM0.0\nMOVW 0, VW10\nLBL {}\nLD {}\nTON T4{}, {}\n", networks, source(), below(4),
+                          1 + below(300));
+        to += fmt::format("LD SM0.0\nINCW VW10\nLDW<= VW10, {}\nA {}\nJMP {}\n", 1 + below(3), source(), networks);
         break;
       default:
         text += fmt::format("LD {}\nCALL 0\n", source());

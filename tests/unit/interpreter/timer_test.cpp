@@ -183,6 +183,14 @@ TEST(Timer, TimersCountBeyondTheirPresetUpTo32767) {
   EXPECT_EQ(plc.value("T32"), 32'767);
 }
 
+TEST(Timer, ATimerThatStaysAtItsPresetOf32767HasReachedItOnce) {
+  Plc plc("LD SM0.0\nTON T32, 32767\nLD SM0.1\nATCH 0, 21\nENI\nMEND\nINT 0\nINCW VW0\nRETI\n", cpu215());
+  plc.run_until(1 * ms);
+  plc.set("T32", 32'765);
+  plc.run_until(20 * ms);
+  EXPECT_EQ(plc.value("VW0"), 1);
+}
+
 TEST(Timer, InStopTimersDoNotCount) {
   Plc plc("LD SM0.0\nTON T32, 5\nTON T33, 5\nLD I0.0\nSTOP\nMEND\n");
   plc.input_at(50 * ms, "I0.0", true);

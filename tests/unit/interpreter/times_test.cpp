@@ -100,7 +100,8 @@ TEST(Times, CommentsAreLeftOutAndOneSaysWhoseTimesTheyAre) {
   EXPECT_EQ(file.cpu, "224");
   ASSERT_EQ(file.lines.size(), 1U);
   EXPECT_EQ(file.lines[0].number, 4U);
-  EXPECT_EQ(read_times(kHeader + "MOVB,,60,,,manual\n", "times.csv", errors).cpu, "");
+  for (const char* before : {"", "# CPU times measured by me\n", "# CPU\n", "# CPU ,,\n"})
+    EXPECT_EQ(read_times(before + kHeader + "MOVB,,60,,,manual\n", "times.csv", errors).cpu, "") << before;
 }
 
 TEST(Times, OnlyLinesThatGiveATimeAreInUse) {
@@ -210,6 +211,14 @@ TEST(LoadTimes, ANameFormOrUnitThatTheCpusTablesDoNotHaveIsASlip) {
   EXPECT_EQ(slips_in("MOVB,,60,,,manual\nSLW,,60,,,manual\n", cpu214()),
             Errors{":3: SLW takes longer for each bit; write by how much into column 4"});
   EXPECT_EQ(slips_in("INCB,,60,,,manual\nR,T,19,16,bit,manual\nJMP,taken,1,,,manual\n", cpu214()), Errors{});
+}
+
+TEST(LoadTimes, AreasOfWhatHasNoOperandInMemoryAreASlip) {
+  for (const std::string name : {"(scan overhead)", "(no power flow)", "(interrupt entry)", "(indirect operand)",
+                                 "(EEPROM save)", "JMP", "ALD", "CALL"})
+    EXPECT_EQ(slips_in(name + ",I Q,5000,,,manual\n", cpu214()),
+              Errors{":2: " + name + " has no first operand in memory, so no line of it is for I Q; leave column 2 empty"});
+  EXPECT_EQ(slips_in("(operand area adds),V,5,,,manual\nLD,V,1,,,manual\n", cpu214()), Errors{});
 }
 
 TEST(LoadTimes, ALineThatAnEarlierOneHidesIsASlip) {

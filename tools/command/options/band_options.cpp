@@ -34,11 +34,10 @@ std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, in
   exit_code = kUnusable;
   const CpuModel* model = program.model();
   auto text = model ? read_project(program.path, program.parts) : std::nullopt;
-  const auto checked = text ? program.load(*text, exit_code) : nullptr;
+  auto tables = text ? program.band(*model, settings_) : std::nullopt;
+  const auto checked = tables ? program.load(*text, (*tables)[0], exit_code) : nullptr;
   if (!checked) return nullptr;
-  std::vector<std::string> errors, unknown;
-  auto tables = load_band(*model, program.times_table, settings_, errors);
-  if (!tables) return nullptr;  // load() has said why
+  std::vector<std::string> unknown;
   repair(text->parsed.source, program.repairs, unknown);
   return std::make_unique<ProgramBand>(std::move(text->parsed), *model, std::move(*tables), checked->system_block);
 }

@@ -13,6 +13,7 @@
 #include "tools/command/options/choices.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/measuring/band.hpp"
 #include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
@@ -103,6 +104,13 @@ std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
   return times;
 }
 
+std::optional<TimesBand> CpuOptions::band(const CpuModel& model, const BandSettings& settings) const {
+  std::vector<std::string> errors;
+  auto tables = load_band(model, times_table, settings, errors);
+  for (const std::string& error : errors) print_error(error);
+  return tables;
+}
+
 std::optional<SystemBlock> CpuOptions::system_block(const CpuModel& model) const {
   const SystemBlock usual;
   std::string why;
@@ -146,12 +154,16 @@ std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
 std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_code) const {
   exit_code = kUnusable;
   const CpuModel* cpu_model = model();
-  if (!cpu_model) return nullptr;
-  const auto table = times(*cpu_model);
-  if (!table) return nullptr;
-  if (!repair(text, repairs)) return nullptr;
+  const auto table = cpu_model ? times(*cpu_model) : std::nullopt;
+  return table ? load(std::move(text), *table, exit_code) : nullptr;
+}
+
+std::shared_ptr<const Program> ProgramOptions::load(SourceText text, const TimeTable& table, int& exit_code) const {
+  exit_code = kUnusable;
+  const CpuModel* cpu_model = model();
+  if (!cpu_model || !repair(text, repairs)) return nullptr;
   print_note_if_any(left_out_note(text));
-  CheckResult result = check(text.parsed, *cpu_model, *table);
+  CheckResult result = check(text.parsed, *cpu_model, table);
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
   print_diagnostics(result.diagnostics, result.source);
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));

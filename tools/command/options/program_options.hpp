@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/model/times_band.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/slips.hpp"
 #include "tools/views/times_text.hpp"
@@ -45,6 +46,8 @@ struct CpuOptions {
   /// for.
   const CpuModel* model() const;
   std::optional<TimeTable> times(const CpuModel& model) const;
+  /// The table and others around it, in place of times(): a table from a pipe can be read once only.
+  std::optional<TimesBand> band(const CpuModel& model, const BandSettings& settings) const;
   std::optional<SystemBlock> system_block(const CpuModel& model) const;
 };
 
@@ -66,6 +69,9 @@ struct ProgramOptions : CpuOptions {
 
   /// The same of a text that has been read.
   std::shared_ptr<const Program> load(SourceText text, int& exit_code) const;
+
+  /// And with a table that has been read.
+  std::shared_ptr<const Program> load(SourceText text, const TimeTable& table, int& exit_code) const;
 };
 
 /// Tables of execution times, by their names or files; nothing after messages.
