@@ -12,6 +12,7 @@
 #include "serial_sim/modbus/request.hpp"
 #include "tools/dap/exception_filters.hpp"
 #include "tools/debugger/goals.hpp"
+#include "tools/debugger/line_words.hpp"
 #include "tools/debugger/two_masters.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
@@ -305,6 +306,8 @@ void Session::read_wishes(const Json& arguments) {
 }
 
 void Session::begin(std::shared_ptr<Debuggee> debuggee) {
+  if (!frames_.empty() && !debuggee->history().station(debuggee->first_station()).has_master())
+    throw Refused(fmt::format("send: {}", kNoRoomForMaster));
   debuggee_ = std::move(debuggee);
   stepper_ = std::make_unique<Stepper>(debuggee_->history(), settings_.stop_request);
   stepper_->look_at(debuggee_->first_station());

@@ -21,8 +21,7 @@ constexpr Time kTurnaround = 200 * kMillisecond;
 
 std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation& simulation,
                                  const serial::MasterSettings& master, std::string& why) {
-  if (!simulation.has_master())
-    return why = "this line has as many stations already as it takes: there is no place for one more master", std::nullopt;
+  if (!simulation.has_master()) return why = kNoRoomForMaster, std::nullopt;
   const SerialFormat format = master.over(simulation.port_format());
   if (serial::has_wrong_parity(frame) && format.parity == Parity::None)
     return why = "a byte with wrong parity (p) needs a format with parity", std::nullopt;

@@ -3,11 +3,15 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "serial_sim/peers/requester.hpp"
 #include "tools/debugger/action.hpp"
 
 namespace s7200::tools {
+
+inline constexpr std::string_view kNoRoomForMaster =
+    "this line has as many stations already as it takes: there is no place for one more master";
 
 /// A frame as the master on the line of a station sends it, now. Returns nothing and sets `why` if that cannot be.
 std::optional<SendFrame> send_of(const serial::Frame& frame, serial::Simulation& simulation,

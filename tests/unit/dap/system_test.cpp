@@ -217,6 +217,18 @@ TEST(DapSystem, AnUnansweredRequestIsToldOnceThoughAnotherPlcHearsTwoLines) {
   EXPECT_EQ(said, 1);
 }
 
+TEST(DapSystem, ALaunchThatSendsIsRefusedOnALineThatHasNoPlaceForAMaster) {
+  const auto full = std::make_shared<SystemDebuggee>(
+      "plcs: {master: {program: ../modbus_master.stl, cpu: 224}, slave: {program: ../modbus_slave.stl, copies: 31, station: "
+      "1}}\nlines: {bus: {stations: [master, slave]}}\n");
+  Json response;
+  Session session({.launch = [&](const Json&) { return full; }}, [&](const Json& message) { response = message; });
+  session.handle({{"seq", 1}, {"type", "request"}, {"command", "launch"}, {"arguments", {{"send", "01 03 crc"}}}});
+  EXPECT_EQ(response["success"], false);
+  EXPECT_EQ(response["message"],
+            "send: this line has as many stations already as it takes: there is no place for one more master");
+}
+
 TEST(DapSystem, MemoryOfAPlcWithoutPowerIsNotChanged) {
   SystemEditor editor;
   editor("goToMoment", {{"time", "end"}});
