@@ -321,7 +321,8 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
              standing_at(at.state()));
   };
   stepper_->on_answer = [this](std::size_t station, const serial::Exchange& exchange) {
-    print(exchange_text(exchange, master().timeout) + not_an_answer_text(debuggee_->history(), station, exchange));
+    print(exchange_text(exchange, debuggee_->master(station).timeout) +
+          not_an_answer_text(debuggee_->history(), station, exchange));
   };
   stepper_->on_unasked = [this](const SentByPlc& sent) {
     print(unasked_text(sent.bytes) + fmt::format("from {} to {}", moment_text(sent.from), moment_text(sent.to)));

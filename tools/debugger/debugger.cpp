@@ -223,13 +223,12 @@ void Debugger::remember() {
 void Debugger::go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
   remember();
   first_error_.reset();
-  const std::size_t asker = focus();
   const Stop stop = at_length([&] { return stepper_.run_back(goal, count, stop_at_answer); });
   look_at(stop.station);
   note_going_elsewhere();
   report_hits(stop);
   report_reason(stop, {});
-  if (stop.reason == StopReason::Answer) print_answer(asker, stations_[asker].simulation->master().exchange());
+  for (const std::size_t asker : stop.answered) print_answer(asker, stations_[asker].simulation->master().exchange());
   show_place();
   note_the_past();
 }
@@ -323,8 +322,9 @@ std::string Debugger::routine_text(std::uint32_t op) const {
 
 void Debugger::print_answer(std::size_t station, const serial::Exchange& exchange) {
   hide_progress();
-  out_ << exchange_text(exchange, master().timeout) << not_an_answer_text(history_, station, exchange);
-  if (exchange.timed_out && simulation().plc().powered() && !simulation().plc().executes())
+  out_ << exchange_text(exchange, master(station).timeout) << not_an_answer_text(history_, station, exchange);
+  const serial::Plc& plc = stations_[station].simulation->plc();
+  if (exchange.timed_out && plc.powered() && !plc.executes())
     out_ << "         the CPU is in STOP, where no program answers\n";
 }
 

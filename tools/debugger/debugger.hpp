@@ -341,7 +341,9 @@ class Debugger {
   const serial::Simulation& simulation() const { return *stations_[focus()].simulation; }
   const Listing& listing() const { return stations_[focus()].listing; }
   bool is_system() const { return !options_.stations.empty(); }
-  const serial::MasterSettings& master() const { return is_system() ? options_.stations[focus()].master : options_.master; }
+  const serial::MasterSettings& master(std::size_t station) const {
+    return is_system() ? options_.stations[station].master : options_.master;
+  }
   std::string name_of(std::size_t station) const;
   std::string said_of(std::size_t station) const;  ///< `slave: `; nothing if there is but one PLC
   std::string place_line(std::size_t station) const;

@@ -542,7 +542,7 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   std::string why;
   const auto frame = parse_frame(joined(arguments), kStation, why);
   if (!frame) return fmt::format("send {}: {}", joined(arguments), why);
-  const auto send = send_of(*frame, simulation(), master(), why);
+  const auto send = send_of(*frame, simulation(), master(focus()), why);
   if (!send) return "send: " + why;
   act(*send);
   out_ << sent_text(*send, simulation()) << other_master_text(history_, focus());

@@ -40,7 +40,7 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   next_.reset();
   if (const auto at = history_.next_station())
     if (const auto op = standing_at(station(*at).cpu().state())) next_ = instruction_of(*at, *op);
-  executing_start_ = answered_ = false;
+  executing_start_ = false;
   cpu_stopped_.reset();
   begin_watching();
   const serial::Halt halt = history_.run(*this);
@@ -59,15 +59,14 @@ Time Stepper::idles_until(Time now) {
     note_found_here();
     return timeout > now ? timeout : kNever;
   }
-  answered_ |= answer_complete() && stop_at_answer_;
-  const bool ends = answered_ || !stop_.hits.empty() || cpu_stopped_;
+  const bool ends = answer_complete() || !stop_.hits.empty() || cpu_stopped_;
   return ends ? now : std::max(now, timeout > now ? std::min(limit_, timeout) : limit_);
 }
 
 void Stepper::end_idle() {
   stop_.reason = asked_to_stop() ? StopReason::Request : StopReason::Limit;
   if (const auto reason = reason_to_stop_here()) stop_.reason = *reason;
-  if (answered_ && !cpu_stopped_) stop_.reason = StopReason::Answer;
+  if (!stop_.answered.empty() && !cpu_stopped_) stop_.reason = StopReason::Answer;
 }
 
 Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
@@ -262,7 +261,7 @@ std::optional<StopReason> Stepper::reason_to_stop_here() {
     stop_.station = *cpu_stopped_;
     return StopReason::CpuStopped;
   }
-  if (answer_complete() && stop_at_answer_) return stop_with_answer();
+  if (answer_complete()) return stop_with_answer();
   if (stop_.hits.empty()) return {};
   stop_.station = stop_.hits.front().stop.station;
   return StopReason::StopPoint;
@@ -373,7 +372,7 @@ std::optional<StopReason> Stepper::reason_to_stop(std::uint32_t op, bool looks_f
     stop_.station = *cpu_stopped_;
     return StopReason::CpuStopped;
   }
-  if (answer_complete() && stop_at_answer_) return stop_with_answer();
+  if (answer_complete()) return stop_with_answer();
   if (looks_for_places) hit_places(op);
   if (has_due_hit()) return StopReason::StopPoint;
   if (number == focus_ && goal_ && goal_(station(number).cpu().state(), op, progress_)) return StopReason::Goal;
@@ -596,7 +595,8 @@ bool Stepper::answer_complete() {
   const std::vector<std::size_t> finished = requests_.take_finished();
   for (const std::size_t number : finished)
     if (!backwards_) on_answer(number, station(number).master().exchange());
-  return !finished.empty();
+  if (stop_at_answer_) stop_.answered.insert(stop_.answered.end(), finished.begin(), finished.end());
+  return !stop_.answered.empty();
 }
 
 /// By an instruction of a station; or between two, also of those that execute none.

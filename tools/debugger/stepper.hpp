@@ -25,8 +25,9 @@ enum class StopReason : std::uint8_t { Goal, StopPoint, Answer, Limit, Request, 
 
 struct Stop {
   StopReason reason{};
-  std::size_t station = 0;  ///< that stopped it; the one looked at if none did
-  std::vector<Hit> hits{};  ///< whatever the reason
+  std::size_t station = 0;              ///< that stopped it; the one looked at if none did
+  std::vector<Hit> hits{};              ///< whatever the reason
+  std::vector<std::size_t> answered{};  ///< Answer: the stations at whose masters of `send` an exchange is over
 };
 
 class Stepper final : public Observer {
@@ -180,7 +181,6 @@ class Stepper final : public Observer {
   std::optional<Instruction> next_;         ///< of any station, that the run started in front of
   std::optional<Looked> looked_;            ///< the last one
   std::optional<std::size_t> cpu_stopped_;  ///< one of several, in this run
-  bool answered_ = false;                   ///< the master has its answer
   bool executing_start_ = false;            ///< the instruction being executed is the one it started at
   bool backwards_ = false;
   std::vector<std::size_t> accessed_;  ///< stops on memory that the instruction being executed reads or writes

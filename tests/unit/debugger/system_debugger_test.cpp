@@ -63,6 +63,31 @@ TEST(SystemDebugger, AStopAtAnotherStationGoesOverToItAndAStepBackIsOfTheStation
   EXPECT_EQ(session.system().time(), at_slave);
 }
 
+constexpr std::string_view kTwoLines =
+    "plcs:\n"
+    "  gateway: {program: ../modbus_slave.stl, cpu: 226, station: 7}\n"
+    "  pump: {program: ../modbus_slave.stl, station: 5}\n"
+    "lines:\n"
+    "  office: {stations: [gateway]}\n"
+    "  field: {stations: [gateway.1, pump]}\n";
+
+TEST(SystemDebugger, BackToAnAnswerShowsTheExchangeOfTheStationThatWasAsked) {
+  SystemSession session(kTwoLines, 0);
+  const std::string answered = session("continue 500ms; station pump; send 05 03 00 00 00 01 crc; continue");
+  ASSERT_TRUE(has(answered, "request  05 03 00 00 00 01 85 8e"));
+  const std::string back = session("continue 5ms; station gateway; rcontinue");
+  EXPECT_TRUE(has(back, "request  05 03 00 00 00 01 85 8e")) << answered;
+  EXPECT_FALSE(has(back, "after 1 s"));
+}
+
+TEST(SystemDebugger, OfAnUnansweredRequestItSaysWhetherThePlcThatWasAskedIsInStop) {
+  constexpr std::string_view kInStop = "the CPU is in STOP, where no program answers";
+  SystemSession session(kTwoLines, 0);
+  session("continue 500ms; mode stop; station pump; send 09 03 00 00 00 01 crc; station gateway");
+  EXPECT_FALSE(has(session("continue 3s"), kInStop)) << "only the gateway is";
+  EXPECT_TRUE(has(session("station pump; mode stop; send 05 03 00 00 00 01 crc; continue 3s"), kInStop));
+}
+
 TEST(SystemDebugger, AStopAtAnotherStationGoesOverToItThoughTheRequestOfSendIsOverToo) {
   SystemSession session(
       "plcs: {slave: {program: ../modbus_slave.stl, copies: 2, station: 1}}\nlines: {bus: {stations: [slave]}}\n", 0);
