@@ -12,6 +12,11 @@ bool is_interrupt_head(const Program& program, std::uint32_t op) {
   return program.ops[op].instruction->structure == Structure::InterruptHead;
 }
 
+/// In the interrupt that has been served since then, or in none.
+bool is_same_level(const State& state, bool in_interrupt, Time since) {
+  return state.in_interrupt == in_interrupt && (!in_interrupt || state.serving_since == since);
+}
+
 }  // namespace
 
 Stepper::Goal none() { return {}; }
@@ -24,16 +29,18 @@ Stepper::Goal over(const State& now) {
   return [in_interrupt = now.in_interrupt, since = now.serving_since, depth = now.call_depth](
              const State& state, std::uint32_t, const Progress& progress) {
     if (!progress.left || progress.executed == 0) return false;
-    if (in_interrupt) return !state.in_interrupt || state.serving_since == since;
-    return !state.in_interrupt && state.call_depth <= depth;
+    if (in_interrupt && !state.in_interrupt) return true;
+    return is_same_level(state, in_interrupt, since) && state.call_depth <= depth;
   };
 }
 
 bool is_in_routine(const State& now) { return now.in_interrupt || now.call_depth > 0; }
 
 Stepper::Goal out(const State& now) {
-  return [in_interrupt = now.in_interrupt, depth = now.call_depth](const State& state, std::uint32_t, const Progress&) {
-    return !state.in_interrupt && (in_interrupt || state.call_depth < depth);
+  return [in_interrupt = now.in_interrupt, since = now.serving_since, depth = now.call_depth](
+             const State& state, std::uint32_t, const Progress&) {
+    if (in_interrupt && !state.in_interrupt) return true;
+    return is_same_level(state, in_interrupt, since) && state.call_depth < depth;
   };
 }
 
@@ -91,7 +98,7 @@ Stepper::Goal back_out(const State& now) {
   return [in_interrupt = now.in_interrupt && !in_subroutine, since = now.serving_since, in_any = now.in_interrupt,
           depth = now.call_depth](const State& state, std::uint32_t, const Progress&) {
     if (in_interrupt) return !state.in_interrupt;
-    return state.in_interrupt == in_any && (!in_any || state.serving_since == since) && state.call_depth < depth;
+    return is_same_level(state, in_any, since) && state.call_depth < depth;
   };
 }
 

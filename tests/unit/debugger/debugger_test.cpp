@@ -56,6 +56,24 @@ TEST(Debugger, OutOfAnInterruptRoutineGoesBackToWhatWasInterrupted) {
   EXPECT_EQ(session.vw(30), 1U);
 }
 
+TEST(Debugger, AStepOverACallInAnInterruptRoutineStaysInTheRoutineAndOutLeavesWhatItCalls) {
+  constexpr std::string_view kCalls =
+      "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nCALL 2\nMEND\n"  // 1
+      "SBR 1\nLD SM0.0\nINCW VW20\nRET\n"                                   // 8
+      "SBR 2\nLD SM0.0\nINCW VW30\nRET\n"                                   // 12
+      "INT 0\nLD SM0.0\nCALL 1\nINCW VW10\nRETI\n";                         // 16
+  Session session(check_text(kCalls, "test.stl", cpu224(), default_times(cpu224())).program);
+  session("break 18; continue; over");
+  EXPECT_EQ(session.line(), 19U);
+  session("continue; step");
+  EXPECT_EQ(session.line(), 8U);
+  session("out");
+  EXPECT_EQ(session.line(), 19U);
+  EXPECT_TRUE(session.state().in_interrupt);
+  session("out");
+  EXPECT_FALSE(session.state().in_interrupt);
+}
+
 TEST(Debugger, OutOfTheMainProgramRunsNothing) {
   Session session(kNested);
   session("step");
