@@ -143,7 +143,7 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   if (place.empty()) return expects("break", "a place or what happens first, for example: break 40 if VW2 > 8");
   auto stop = stop_of(place, why);
   if (!stop || !read_options(words, simulation().cpu().program(), *stop, why)) return why;
-  std::vector<StopPoint>& all = stepper_.stops;
+  const std::vector<SetStop>& all = stepper_.stops;
   const auto same = std::ranges::find_if(
       all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op && s.station == focus(); });
   if (stop->on == On::Place && same != all.end() && words.empty()) {
@@ -322,7 +322,7 @@ void Debugger::report_hits(const Stop& stop) {
 
 /// At the oldest moment: what waits for a number of hits has none before it was set.
 void Debugger::report_uncounted() {
-  for (const StopPoint& s : stepper_.stops)
+  for (const SetStop& s : stepper_.stops)
     if (s.from_hit > 1)
       out_ << fmt::format("{} {} counts its hits from {} on, where it was set\n", s.is_watch() ? "watch" : "breakpoint",
                           s.number, moment_text(stepper_.counts_since(s)));

@@ -404,18 +404,19 @@ void Stepper::instruction(const InstructionRecord& record) {
 }
 
 void Stepper::add(StopPoint stop) {
-  stops.push_back(std::move(stop));
+  stops.push_back({std::move(stop), {}});
   count_hits();
 }
 
 void Stepper::count_hits() {
   const History::Place here = history_.here();
-  const StopPoint::Instant now{here.moment.instructions, here.moment.time};
+  const SetStop::Instant now{here.moment.instructions, here.moment.time};
   const bool same_beginning =
       counted_on_ && counted_on_->checkpoints.front() == here.branch->checkpoints.front();  // it has forked
-  for (StopPoint& stop : stops) {
+  for (SetStop& stop : stops) {
+    std::erase_if(stop.counted, [](const auto& entry) { return entry.first.expired(); });
     const auto before = stop.counted.find(counted_on_);
-    const auto [counted, is_new] = stop.counted.try_emplace(here.branch, StopPoint::Counted{.since = now});
+    const auto [counted, is_new] = stop.counted.try_emplace(here.branch, SetStop::Counted{.since = now});
     auto& [since, at] = counted->second;
     if (is_new && same_beginning && before != stop.counted.end()) {
       since = std::min(since, before->second.since);
@@ -426,7 +427,7 @@ void Stepper::count_hits() {
   counted_on_ = here.branch;
 }
 
-Time Stepper::counts_since(const StopPoint& stop) const {
+Time Stepper::counts_since(const SetStop& stop) const {
   const auto counted = stop.counted.find(history_.here().branch);
   return counted == stop.counted.end() ? history_.now().time : counted->second.since.second;
 }
@@ -441,9 +442,9 @@ Time Stepper::time_of(const Hit& hit) const {
 
 /// The number of the hit that is now; 0 of one from before the stop was set. What is played again was counted the first
 /// time; backwards nothing is new.
-std::uint64_t Stepper::count(StopPoint& stop, Time when) {
+std::uint64_t Stepper::count(SetStop& stop, Time when) {
   const std::uint64_t instructions = history_.in_front().instructions;
-  const StopPoint::Instant now{instructions, when};
+  const SetStop::Instant now{instructions, when};
   auto& [since, at] = stop.counted[counted_on_];
   if (backwards_) return static_cast<std::uint64_t>(std::ranges::upper_bound(at, now) - at.begin());
   if (now <= since) return 0;
@@ -463,7 +464,7 @@ bool Stepper::holds(StopPoint& stop) {
 
 /// Counts, and stops unless there is a reason not to. It also stops at hits from before the stop was set, unless it waits
 /// for a number.
-void Stepper::hit(StopPoint& stop, Hit with) {
+void Stepper::hit(SetStop& stop, Hit with) {
   if (!holds(stop)) return;
   const std::uint64_t number = count(stop, time_of(with));
   if (stop.from_hit > 1 && number < stop.from_hit) return;
@@ -478,7 +479,7 @@ void Stepper::hit(StopPoint& stop, Hit with) {
 
 void Stepper::hit_places(std::uint32_t op) {
   const Cpu& cpu = station(history_.told_of()).cpu();
-  for (StopPoint& stop : stops) {
+  for (SetStop& stop : stops) {
     if (stop.station != history_.told_of() || stop.on != On::Place || stop.op != op) continue;
     const bool idle = stop.needs_power && depends_on_power_flow(cpu.program().ops[op]) && !cpu.state().stack.top();
     if (!idle)
@@ -489,7 +490,7 @@ void Stepper::hit_places(std::uint32_t op) {
 }
 
 /// Backwards it counts only from where it comes to a stop.
-void Stepper::note_skipped(StopPoint& stop) {
+void Stepper::note_skipped(SetStop& stop) {
   if (backwards_)
     search_.skipped.push_back(static_cast<std::size_t>(&stop - stops.data()));
   else
@@ -541,7 +542,7 @@ void Stepper::note_record(const TraceRecord& record) {
   requests_.note_record(number, record);
   const std::vector<std::uint8_t> frame = note_sent(number, record);
   frames_.note(number, record);
-  for (StopPoint& stop : stops)
+  for (SetStop& stop : stops)
     if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record, .frame = frame});
 }
 
@@ -567,7 +568,7 @@ bool Stepper::is_unasked(std::size_t number) const {
 /// Backwards its beginning may lie in a part that was not played yet.
 void Stepper::note_frame(HeardFrames::Frame frame) {
   if (backwards_) frame.bytes.clear();
-  for (StopPoint& stop : stops)
+  for (SetStop& stop : stops)
     if (stop.station == frame.station && stop.on == On::FrameReceived && station(frame.station).plc().powered())
       hit(stop, {.frame = frame.bytes});
   requests_.note_frame(frame);
@@ -581,7 +582,7 @@ void Stepper::look_at_lines(std::size_t number, Time now) {
 
 void Stepper::note_ended(const EndedRequest& request) {
   const On on = request.wrong.empty() ? On::Unanswered : On::WrongAnswer;
-  for (StopPoint& stop : stops)
+  for (SetStop& stop : stops)
     if (stop.on == on && hears(stop, request.line))
       hit(stop, {.frame = request.frame, .asker = request.asker, .wrong = request.wrong, .answer = request.answer});
 }
@@ -591,6 +592,7 @@ bool Stepper::hears(const StopPoint& stop, std::size_t line) const {
   return history_.requests().port_on(line, stop.station).has_value();
 }
 
+/// Whether that is a reason to stop.
 bool Stepper::answer_complete() {
   const std::vector<std::size_t> finished = requests_.take_finished();
   for (const std::size_t number : finished)
@@ -602,7 +604,7 @@ bool Stepper::answer_complete() {
 /// By an instruction of a station; or between two, also of those that execute none.
 void Stepper::note_changes(std::size_t number, const InstructionRecord* by) {
   for (std::size_t i = 0; i < stops.size(); ++i) {
-    StopPoint& stop = stops[i];
+    SetStop& stop = stops[i];
     const bool is_turn = stop.station == number || (!by && !station(stop.station).plc().executes());
     if (!stop.range || !is_turn) continue;
     std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);

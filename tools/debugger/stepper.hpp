@@ -61,9 +61,9 @@ class Stepper final : public Observer {
   void count_hits();
 
   /// From when on hits count on the branch where it stands.
-  Time counts_since(const StopPoint& stop) const;
+  Time counts_since(const SetStop& stop) const;
 
-  std::vector<StopPoint> stops;
+  std::vector<SetStop> stops;
 
   /// How long a master on a bridge and a program wait for an answer.
   Time host_timeout() const { return requests_.host_timeout(); }
@@ -151,10 +151,10 @@ class Stepper final : public Observer {
   Moment place_of_first_hit(const Moment& earliest);
   bool holds(StopPoint& stop);
   void hit_places(std::uint32_t op);
-  void hit(StopPoint& stop, Hit with);
+  void hit(SetStop& stop, Hit with);
   Time time_of(const Hit& hit) const;
-  std::uint64_t count(StopPoint& stop, Time at);
-  void note_skipped(StopPoint& stop);
+  std::uint64_t count(SetStop& stop, Time at);
+  void note_skipped(SetStop& stop);
   void note_accesses(std::uint32_t op);
   void note_record(const TraceRecord& record);
   std::vector<std::uint8_t> note_sent(std::size_t station, const TraceRecord& record);

@@ -51,15 +51,7 @@ struct StopPoint {
   std::uint64_t from_hit = 1;  ///< the first that stops
   std::string log{};           ///< a line to print instead of stopping
 
-  /// Instructions before it, and its time.
-  using Instant = std::pair<std::uint64_t, Time>;
-  /// The hits on a branch of the past: all after the moment where it was set, or where the branch began if that is later.
-  struct Counted {
-    Instant since{};
-    std::vector<Instant> at{};  ///< in order
-  };
-  std::map<std::weak_ptr<const void>, Counted, std::owner_less<>> counted{};  ///< by branch
-  std::uint64_t hits = 0;                                                     ///< of them, up to where it stands
+  std::uint64_t hits = 0;  ///< up to where it stands
 
   // In the last run forwards.
   std::uint64_t skipped = 0;             ///< times that it had no power flow
@@ -70,6 +62,18 @@ struct StopPoint {
 
   bool is_watch() const { return range.has_value(); }
   bool is_of_requests() const { return on == On::Unanswered || on == On::WrongAnswer; }
+};
+
+/// One that is set, and all its hits.
+struct SetStop : StopPoint {
+  /// Instructions before it, and its time.
+  using Instant = std::pair<std::uint64_t, Time>;
+  /// The hits on a branch of the past: all after the moment where it was set, or where the branch began if that is later.
+  struct Counted {
+    Instant since{};
+    std::vector<Instant> at{};  ///< in order
+  };
+  std::map<std::weak_ptr<const void>, Counted, std::owner_less<>> counted{};  ///< by branch
 };
 
 /// One that a run has come to.

@@ -415,7 +415,7 @@ TEST(Debugger, OnlyARunThatMayStopWithinAScanLooksAtEachOfThem) {
     simulation.power_up();
     History history(simulation, {});
     Stepper stepper(history, nullptr);
-    stepper.stops.push_back(stop);
+    stepper.add(stop);
     std::size_t instructions = 0, wanted = 0;
     stepper.on_instruction = [&](std::size_t, const InstructionRecord&, bool) {
       ++instructions;

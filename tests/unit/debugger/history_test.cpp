@@ -493,6 +493,20 @@ class PlainUntil final : public Observer {
   Time stop_at_ = 0;
 };
 
+TEST(History, AStopForgetsItsHitsOfBranchesThatNobodyCanReturnTo) {
+  Recorded session(test::compile("LD SM0.0\nINCW VW2\nMEND\n"));
+  Stepper stepper(*session.history, nullptr);
+  stepper.add({.on = StopPoint::On::Place, .op = 1, .from_hit = kNever});
+  for (int i = 0; i < 20; ++i) {
+    stepper.run(goal::instructions(9), kNever, false);
+    stepper.run_back(goal::back_instruction(), 3, false);
+    session.history->act(assignment("VW4=7"));
+    stepper.count_hits();
+  }
+  EXPECT_GT(stepper.stops[0].hits, 20U);
+  EXPECT_LE(stepper.stops[0].counted.size(), 2U);
+}
+
 TEST(History, ScansThatAreAllAlikeTakeNoCheckpointsAndAreReachedAgainBitByBit) {
   constexpr Time kLimit = 100 * kSecond;
   const auto program = test::compile("LD SM0.0\nMOVW 1, VW2\nMEND\n");
@@ -507,7 +521,7 @@ TEST(History, ScansThatAreAllAlikeTakeNoCheckpointsAndAreReachedAgainBitByBit) {
   const Snapshot after = session.simulation.snapshot();
 
   session.history->act(assignment("VW4=7"));
-  stepper.stops.push_back({.on = StopPoint::On::Change, .range = assignment("VW6=1").assignments[0].place});
+  stepper.add({.on = StopPoint::On::Change, .range = assignment("VW6=1").assignments[0].place});
   EXPECT_EQ(stepper.run(goal::none(), kLimit + 5 * kSecond, false).reason, StopReason::Limit);
   EXPECT_GT(session.history->usage().checkpoints, 10U) << "where every scan is executed";
 
