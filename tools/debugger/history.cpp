@@ -24,6 +24,12 @@ std::size_t bytes_of(const Action& action) {
   return call ? bytes_of(*call) : 0;
 }
 
+std::size_t bytes_of(const std::vector<Action>& actions) {
+  std::size_t bytes = 0;
+  for (const Action& action : actions) bytes += bytes_of(action);
+  return bytes;
+}
+
 /// About what a snapshot takes; the CPUs are nearly all of it.
 std::size_t bytes_of(const serial::Simulation::Snapshot& state) {
   std::size_t bytes = sizeof state + state.plcs.size() * sizeof state.plcs[0];
@@ -526,6 +532,7 @@ void History::fork() {
   branch->actions.resize(actions_ - branch->forgotten);
   branch->stations.resize(actions_ - branch->forgotten);
   branch->moments.resize(actions_ - branch->forgotten);
+  branch->log_bytes = bytes_of(branch->actions);
   branch->end = here;
   branches_.push_back(branch);
   branch_ = std::move(branch);
@@ -599,6 +606,7 @@ bool History::replay(Recording recording) {
   }
   go_to(recording.end);
   if (now() != recording.end) return false;
+  branch_->log_bytes = bytes_of(branch_->actions);  // not before: where it stood must not be forgotten on the way
   go_to(recording.now);
   return now() == recording.now;
 }

@@ -376,10 +376,15 @@ TEST(History, WhatCameOverTheHostPortComesAgainWhenItIsPlayed) {
   }
 }
 
-TEST(History, WhatCameOverTheHostPortIsForgottenFromItsBeginningWhenItTakesTooMuch) {
-  Recorded* running = nullptr;
-  const auto drive = [&](Time end) {
-    serial::Simulation& simulation = running->simulation;
+/// A character comes over a bridge every 10 ms, and no more than 20 of them are kept.
+struct Flooded {
+  Flooded()
+      : session(slave(), {.drive = [this](Time end) { return drive(end); },
+                          .log_bound = 20 * (sizeof(Action) + sizeof(Moment)),
+                          .interval = 20 * kMillisecond}) {}
+
+  serial::Halt drive(Time end) {
+    serial::Simulation& simulation = session.simulation;
     const serial::HostCharacter character{.byte = 0x55, .format = {9600, 8, Parity::Even, 1}};
     serial::Halt halt = serial::Halt::Time;
     if (!simulation.host_port().state().attached) simulation.host_port().attach(character.format, simulation.time());
@@ -388,10 +393,14 @@ TEST(History, WhatCameOverTheHostPortIsForgottenFromItsBeginningWhenItTakesTooMu
       if (halt == serial::Halt::Time) simulation.host_port().send({&character, 1}, simulation.time());
     }
     return halt;
-  };
-  Recorded session(slave(),
-                   {.drive = drive, .log_bound = 20 * (sizeof(Action) + sizeof(Moment)), .interval = 20 * kMillisecond});
-  running = &session;
+  }
+
+  Recorded session;
+};
+
+TEST(History, WhatCameOverTheHostPortIsForgottenFromItsBeginningWhenItTakesTooMuch) {
+  Flooded flooded;
+  Recorded& session = flooded.session;
   session.run_to(30'000);
   const Snapshot end = session.simulation.snapshot();
   const Moment newest = session.history->newest();
@@ -412,6 +421,31 @@ TEST(History, WhatCameOverTheHostPortIsForgottenFromItsBeginningWhenItTakesTooMu
   EXPECT_EQ(session.history->now(), usage.oldest);
   session.history->go_to(newest);
   EXPECT_TRUE(session.simulation.snapshot() == end);
+}
+
+TEST(History, ABranchCountsOnlyWhatCameOverTheHostPortUpToItsBeginning) {
+  Flooded flooded;
+  Recorded& session = flooded.session;
+  session.run_to(30'000);
+  const History::Usage usage = session.history->usage();
+  session.history->go_to(usage.oldest);
+  session.history->act(assignment("VW4=7"));
+  ASSERT_EQ(session.history->actions().size(), 1U);
+  session.run_to(session.simulation.cpu().state().instructions + 1'000);
+  EXPECT_EQ(session.history->usage().forgotten, usage.forgotten) << session.history->actions().size();
+}
+
+TEST(History, OfARecordingThatWasReplayedWhatCameOverTheHostPortIsForgottenToo) {
+  Flooded flooded;
+  Recorded& session = flooded.session;
+  session.run_to(1'000);
+  ASSERT_EQ(session.history->usage().forgotten, 0U);
+  ASSERT_GT(session.history->actions().size(), 8U);
+  ASSERT_TRUE(session.history->replay(session.history->recording()));
+  session.run_to(30'000);
+  EXPECT_GT(session.history->usage().forgotten, 0U);
+  EXPECT_LT(session.history->actions().size(), 25U);
+  EXPECT_GT(session.history->actions().size(), 8U) << "the newer half stays";
 }
 
 TEST(History, ATimeIsNotReachedAfterAStopRequest) {
