@@ -124,20 +124,20 @@ void Session::run() {
 
 Json Session::step_back(const Json& arguments) {
   if (by_networks(arguments))
-    run_back(goal::back_network_into(listing()), count_in(arguments), false);
+    run_back(goal::back_network_into(listing()), count_in(arguments));
   else
-    run_back(goal::back_instruction(), count_in(arguments), false);
+    run_back(goal::back_instruction(), count_in(arguments));
   return {};
 }
 
 Json Session::reverse_continue(const Json&) {
-  run_back(goal::none(), 1, false);
+  run_back(goal::none(), 1);
   return {{"allThreadsContinued", true}};
 }
 
 Json Session::reverse_step_over(const Json& arguments) {
   const State& now = cpu().state();
-  run_back(by_networks(arguments) ? goal::back_network_over(now, listing()) : goal::back_over(now), 1, false);
+  run_back(by_networks(arguments) ? goal::back_network_over(now, listing()) : goal::back_over(now), 1);
   return {};
 }
 
@@ -146,33 +146,32 @@ Json Session::reverse_step_out(const Json&) {
     throw Refused(
         "this is the main program, in no subroutine and no interrupt routine; reverseStepScan goes back to the "
         "start of its scan");
-  run_back(goal::back_out(cpu().state()), 1, false);
+  run_back(goal::back_out(cpu().state()), 1);
   return {};
 }
 
 Json Session::reverse_step_scan(const Json& arguments) {
-  run_back(goal::back_scan(), count_in(arguments), false);
+  run_back(goal::back_scan(), count_in(arguments));
   return {};
 }
 
 Json Session::reverse_step_interrupt(const Json& arguments) {
   const Program& program = cpu().program();
-  run_back(arguments.value("end", false) ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1,
-           false);
+  run_back(arguments.value("end", false) ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1);
   return {};
 }
 
-void Session::run_back(Stepper::Goal goal, std::uint64_t count, bool stop_at_answer) {
-  after_response([this, goal = std::move(goal), count, stop_at_answer] {
+void Session::run_back(Stepper::Goal goal, std::uint64_t count) {
+  after_response([this, goal = std::move(goal), count] {
     first_error_.reset();
     exceptions_.clear();
-    const Stop stop = searched_back(goal, count, stop_at_answer);
+    const Stop stop = searched_back(goal, count);
     report(stop, stop.reason == StopReason::Request ? "pause" : "step");
   });
 }
 
 /// With progress, if it takes long.
-Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
+Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point since = Clock::now();
   const Time start = simulation().time();
@@ -187,7 +186,7 @@ Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count, bool
     send_event(shown ? "progressUpdate" : "progressStart", std::move(body));
     shown = true;
   };
-  const Stop stop = stepper_->run_back(goal, count, stop_at_answer);
+  const Stop stop = stepper_->run_back(goal, count, false);
   stepper_->on_search = [](Time) {};
   if (shown) send_event("progressEnd", {{"progressId", id}});
   return stop;
@@ -290,29 +289,43 @@ void Session::show_the_past() {
                       moment_text(history.newest().time)));
 }
 
+/// A fatal error comes before whatever else has come up with it.
 Json Session::body_of(const Stop& stop, const std::string& reason) {
-  if (!stop.hits.empty()) {
-    const auto own = std::ranges::find(stop.hits, stop.station, [](const Hit& hit) { return hit.stop.station; });
-    Json body = body_of_hit(own == stop.hits.end() ? stop.hits.front() : *own);
-    Json ids = Json::array();
-    for (const Hit& hit : stop.hits) {
-      print(text_of(hit));
-      if (placed_[hit.stop.number].kind != StopKind::Exception)
-        ids.push_back(hit.stop.number);
-      else
-        exceptions_.try_emplace(
-            hit.stop.station, Json{{"exceptionId", hit.stop.name}, {"description", text_of(hit)}, {"breakMode", "always"}});
-    }
-    if (!ids.empty()) body["hitBreakpointIds"] = ids;
-    return body;
-  }
-  if (stop.reason == StopReason::CpuStopped) return body_of_cpu_stop();
+  Json body = stop.hits.empty() ? Json::object() : body_of_hits(stop);
+  const bool stopped = stop.reason == StopReason::CpuStopped;
+  if (stopped && cpu().state().fatal_code != 0) body.update(body_of_fatal_error());
+  if (!body.empty()) return body;
+  if (stopped) return {{"reason", "pause"}, {"description", said_of(looks_at()) + "the CPU is in STOP"}};
   if (stop.reason == StopReason::Oldest) {
     const std::string text = at_oldest_text(debuggee_->history());
     print(text);
     return {{"reason", "entry"}, {"description", text}};
   }
   return {{"reason", reason}, {"description", reason == "pause" ? "paused" : reason}};
+}
+
+/// Past all that it would stop for on the way. False after a stop request.
+bool Session::has_gone_back_to(std::uint32_t op) {
+  auto stops = std::exchange(stepper_->stops, {});
+  const Stop stop = stepper_->run_back(goal::place(op), 1, false);
+  stepper_->stops = std::move(stops);
+  return stop.reason == StopReason::Goal;
+}
+
+Json Session::body_of_hits(const Stop& stop) {
+  const auto own = std::ranges::find(stop.hits, stop.station, [](const Hit& hit) { return hit.stop.station; });
+  Json body = body_of_hit(own == stop.hits.end() ? stop.hits.front() : *own);
+  Json ids = Json::array();
+  for (const Hit& hit : stop.hits) {
+    print(text_of(hit));
+    if (placed_[hit.stop.number].kind != StopKind::Exception)
+      ids.push_back(hit.stop.number);
+    else
+      exceptions_.try_emplace(hit.stop.station,
+                              Json{{"exceptionId", hit.stop.name}, {"description", text_of(hit)}, {"breakMode", "always"}});
+  }
+  if (!ids.empty()) body["hitBreakpointIds"] = ids;
+  return body;
 }
 
 Json Session::body_of_hit(const Hit& hit) {
@@ -352,10 +365,9 @@ std::string Session::text_of(const Hit& hit) const {
   return text;
 }
 
-/// With the filter it stands in front of the instruction that made the CPU stop.
-Json Session::body_of_cpu_stop() {
+/// With the filter it goes back to stand in front of the instruction that made the CPU stop.
+Json Session::body_of_fatal_error() {
   const State& state = cpu().state();
-  if (state.fatal_code == 0) return {{"reason", "pause"}, {"description", said_of(looks_at()) + "the CPU is in STOP"}};
   const auto code = state.fatal_code;
   const std::uint32_t op = state.fatal_op;
   const bool between = op == kNoRoutine;
@@ -368,9 +380,9 @@ Json Session::body_of_cpu_stop() {
   const bool wanted = std::ranges::any_of(placed_, [](const auto& entry) {
     return entry.second.kind == StopKind::Exception && entry.second.wanted["filterId"] == "watchdog";
   });
-  if (!wanted || between) return {{"reason", "exception"}, {"description", text}, {"text", text}};
-  stepper_->run_back(goal::place(op), 1, false);
-  return {{"reason", "exception"}, {"description", text}, {"text", text + "; it stands in front of it"}};
+  const bool stands_there = wanted && !between && has_gone_back_to(op);
+  return {
+      {"reason", "exception"}, {"description", text}, {"text", stands_there ? text + "; it stands in front of it" : text}};
 }
 
 }  // namespace s7200::tools::dap

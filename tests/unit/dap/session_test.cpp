@@ -1006,5 +1006,34 @@ TEST(DapSession, AnInputThatIsSetAsAVariableSaysWhenTheProgramFindsIt) {
   EXPECT_TRUE(has(editor.printed(), "the program finds them in I when the next scan reads its inputs"));
 }
 
+// --- what comes up together, and what is written beside it ---
+
+constexpr std::string_view kWatchdog = "LD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nJMP 1\nMEND\n";
+
+TEST(DapSession, AFatalErrorIsToldThoughABreakpointIsHitWithIt) {
+  Editor editor(kWatchdog);
+  editor.begin();
+  const Json mode = editor("setFunctionBreakpoints", {{"breakpoints", Json::array({{{"name", "mode"}}})}})["breakpoints"][0];
+  editor("continue", {{"threadId", 1}});
+  const Json stopped = editor.last("stopped");
+  EXPECT_EQ(stopped["reason"], "exception");
+  EXPECT_TRUE(has(stopped["text"].get<std::string>(), "fatal error"));
+  EXPECT_FALSE(has(stopped["text"].get<std::string>(), "stands in front of it"));
+  EXPECT_EQ(stopped["hitBreakpointIds"], Json::array({mode["id"]}));
+  EXPECT_TRUE(has(editor("exceptionInfo", {{"threadId", 1}})["exceptionId"].get<std::string>(), "fatal"));
+}
+
+TEST(DapSession, WithTheFilterItStandsInFrontOfTheFatalInstructionPastAllThatItWouldStopForOnTheWay) {
+  Editor editor(kWatchdog);
+  editor.begin();
+  editor("setExceptionBreakpoints", {{"filters", {"watchdog"}}});
+  editor("setFunctionBreakpoints", {{"breakpoints", Json::array({{{"name", "mode"}}})}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor.last("stopped")["text"].get<std::string>(), "it stands in front of it"));
+  EXPECT_EQ(editor.state().mode, Mode::Run);
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.last("stopped")["hitBreakpointIds"].size(), 1U) << "the breakpoint is still set";
+}
+
 }  // namespace
 }  // namespace s7200::tools::dap
