@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -46,6 +47,8 @@ SerialFormat format_from(const Json& json) {
   for (std::size_t parity = 0; parity < kParityWords.size(); ++parity)
     if (kParityWords[parity] == word) format.parity = static_cast<Parity>(parity);
   format.stop_bits = json.at(3).get<std::uint8_t>();
+  if (format.baud == 0 || format.data_bits < 7 || format.data_bits > 8 || format.stop_bits < 1 || format.stop_bits > 2)
+    throw std::runtime_error("a format of characters that there is not");
   return format;
 }
 
@@ -190,6 +193,7 @@ Action action_from(const Json& json, const CpuModel& model) {
       if (!forcing::possible(assignment.place)) throw std::runtime_error("something that cannot be forced");
     return force;
   }
+  if (!json.contains("unforce")) throw std::runtime_error("an unknown action");
   Unforce unforce;
   for (const Json& place : json.at("unforce")) unforce.places.push_back(place_from(place.get<std::string>(), model));
   return unforce;
@@ -230,6 +234,8 @@ Recording recording_from(const Json& json, Models models) {
   }
   recording.end = moment_from(json.at("end"));
   recording.now = moment_from(json.at("now"));
+  for (const Moment& moment : {recording.end, recording.now})
+    if (moment.actions > recording.actions.size()) throw std::runtime_error("more was done than it has");
   return recording;
 }
 
@@ -253,6 +259,9 @@ SessionFile::SavedStop stop_from(const Json& json, std::size_t stations) {
                               .from_hit = json.value("hits", std::uint64_t{1}),
                               .log = json.value("log", "")};
   if (stop.station >= stations) throw std::runtime_error("a breakpoint of a station that it has not");
+  if (stop.number < 1 || stop.number == std::numeric_limits<int>::max())
+    throw std::runtime_error("a breakpoint with a number that it cannot have");
+  if (stl::trim(stop.on).empty()) throw std::runtime_error("a breakpoint at nothing");
   return stop;
 }
 

@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "tests/unit/debugger/session.hpp"
+#include "tools/debugger/digest.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -172,6 +175,38 @@ TEST_F(SavedSession, DamagedIsRefusedWhereverTheDamageIs) {
   }
   EXPECT_EQ(session.simulation.snapshot(), here);
   EXPECT_TRUE(has(session.error_of("load " + file("none.json")), "cannot read"));
+}
+
+/// Someone has changed it, and its check sum with it.
+TEST_F(SavedSession, ThatIsAsNoneIsWrittenIsRefusedThoughItsCheckSumIsRight) {
+  using Json = nlohmann::ordered_json;
+  const Json action{{"send", "01"},  {"format", {9600, 8, "even", 1}}, {"timeout", 5}, {"gap", 0},
+                    {"sync", false}, {"at", {0, 0, false, false, 0}}};
+  struct Case {
+    std::string_view why;
+    std::function<void(Json& json)> change;
+  };
+  const Case cases[] = {
+      {"a breakpoint at nothing", [](Json& json) { json["stops"][0]["break"] = ""; }},
+      {"a breakpoint at nothing", [](Json& json) { json["stops"][0]["break"] = "  "; }},
+      {"a number that it cannot have", [](Json& json) { json["stops"][0]["number"] = 2147483647; }},
+      {"more was done than it has", [](Json& json) { json["end"][1] = 5; }},
+      {"more was done than it has", [](Json& json) { json["now"][1] = 5; }},
+      {"an unknown action", [](Json& json) { json["actions"][0].erase("send"); }},
+      {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][0] = 0; }},
+      {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][1] = 77; }},
+      {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][3] = 0; }}};
+  Session session(kEcho);
+  session("break 9; save " + file("a.json"));
+  for (const Case& one : cases) {
+    Json json = Json::parse(read("a.json"));
+    json.erase("sum");
+    json["actions"].push_back(action);
+    one.change(json);
+    json["sum"] = digest_of(std::string_view(json.dump()));
+    write("b.json", json.dump(2) + "\n");
+    EXPECT_TRUE(has(session.error_of("load " + file("b.json")), one.why)) << json.dump();
+  }
 }
 
 TEST_F(SavedSession, ReplacesItsOwnKindOfFileAndOthersOnlyWhenToldTo) {

@@ -1,0 +1,59 @@
+// Saved sessions of the debugger: any JSON, with the check sum that it needs to get any further.
+//
+// Promises: it is read, or refused with a reason. What is read is run, if that is for a short time, and can be written and
+// read again.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "interpreter/program/load.hpp"
+#include "tools/debugger/digest.hpp"
+#include "tools/debugger/history.hpp"
+#include "tools/debugger/session_file.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace {
+
+using namespace s7200;
+using namespace s7200::tools;
+
+void must(bool promise, const char* what, const std::string& text) {
+  if (promise) return;
+  std::fprintf(stderr, "%s:\n%s\n", what, text.c_str());
+  std::abort();
+}
+
+std::optional<SessionFile> read(const std::string& text) {
+  const CpuModel* const models[] = {&cpu214()};
+  std::string why;
+  const auto file = session_from_text(text, models, {}, why);
+  must(file.has_value() == why.empty(), "refused without a reason, or read with one", why);
+  return file;
+}
+
+void run(const Recording& recording) {
+  constexpr Time kMost = 50 * kMillisecond;
+  static const auto kProgram =
+      check_text("LD SM0.0\nINCW VW0\nMEND\n", "counts.stl", cpu214(), default_times(cpu214())).program;
+  serial::Simulation simulation(kProgram);
+  simulation.power_up();
+  History history(simulation, {});
+  if (recording.end.time <= kMost && history.has_hosts_of(recording)) history.replay(recording);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  auto json = nlohmann::ordered_json::parse(data, data + size, nullptr, false);
+  if (!json.is_object()) return 0;
+  json.erase("sum");
+  json["version"] = version();
+  json["sum"] = digest_of(std::string_view(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
+  const auto file = read(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  if (!file) return 0;
+  run(file->recording);
+  const auto again = read(to_text(*file));
+  must(again && to_text(*again) == to_text(*file), "what is written is not what was read", to_text(*file));
+  return 0;
+}
