@@ -23,6 +23,21 @@ MemoryPlace memory_at(const Json& arguments, const Program& program) {
   return *place;
 }
 
+/// Timers, counters and accumulators are set as a whole: bytes that are not written stay as they are.
+std::vector<Assignment> assignments_of(const AreaInfo& area, std::uint32_t first, const std::vector<std::uint8_t>& bytes,
+                                       const State& state) {
+  const std::uint32_t step = area.step(), end = first + static_cast<std::uint32_t>(bytes.size());
+  const Width width = step == 4 ? Width::Double : step == 2 ? Width::Word : Width::Byte;
+  std::vector<Assignment> all;
+  for (std::uint32_t at = first - (first - area.base) % step; at < end; at += step) {
+    std::uint32_t value = 0;
+    for (std::uint32_t i = at; i < at + step; ++i)
+      value = value << 8 | (i >= first && i < end ? bytes[i - first] : state.image[i]);
+    all.push_back({{.area = area.area, .width = width, .number = (at - area.base) / step, .at = at}, value});
+  }
+  return all;
+}
+
 }  // namespace
 
 Json Session::read_memory(const Json& arguments) {
@@ -46,10 +61,7 @@ Json Session::read_memory(const Json& arguments) {
 
 void Session::write_image(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes) {
   const auto area = std::ranges::find(all_areas(), place.begin, &AreaInfo::base);
-  SetMemory set;
-  for (std::uint32_t i = 0; i < bytes.size(); ++i)
-    set.assignments.push_back(
-        {{.area = area->area, .width = Width::Byte, .number = first + i - area->base, .at = first + i}, bytes[i]});
+  SetMemory set{assignments_of(*area, first, bytes, cpu().state())};
   for (const Assignment& assignment : set.assignments)
     if (const std::string refused = not_settable(assignment.place); !refused.empty()) throw Refused(refused);
   act(std::move(set));

@@ -1035,5 +1035,20 @@ TEST(DapSession, WithTheFilterItStandsInFrontOfTheFatalInstructionPastAllThatItW
   EXPECT_EQ(editor.last("stopped")["hitBreakpointIds"].size(), 1U) << "the breakpoint is still set";
 }
 
+TEST(DapSession, WhatIsWrittenIntoATimerOrAnAccumulatorIsNamedAsAWhole) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto deed_of = [&](const char* reference, const char* data) {
+    editor("writeMemory", {{"memoryReference", reference}, {"data", data}});
+    return describe(editor.debuggee->history().actions().back());
+  };
+  EXPECT_EQ(deed_of("T3", "EjQ="), "set T3");
+  EXPECT_EQ(editor.value("T3"), "16#1234 (4660)");
+  EXPECT_EQ(deed_of("AC1", "EjRWeAE="), "set AC1 AC2");
+  EXPECT_EQ(editor.value("AC1"), "16#12345678 (305419896)");
+  EXPECT_EQ(editor.value("AC2"), "16#01000000 (16777216)");
+  EXPECT_EQ(deed_of("VB20", "AQI="), "set VB20 VB21");
+}
+
 }  // namespace
 }  // namespace s7200::tools::dap
