@@ -37,6 +37,25 @@ std::string hex_of(const std::string& value) { return value.substr(0, value.find
 
 bool wants_hex(const Json& arguments) { return arguments.contains("format") && arguments["format"].value("hex", false); }
 
+/// What a byte of UTF-8 counts in UTF-16, in which the protocol counts: the first one of each character stands for it all.
+std::size_t units_of(char byte) {
+  const auto bits = static_cast<std::uint8_t>(byte);
+  return (bits & 0xC0) == 0x80 ? 0 : bits >= 0xF0 ? 2 : 1;
+}
+
+std::size_t units_of(std::string_view text) {
+  std::size_t units = 0;
+  for (const char byte : text) units += units_of(byte);
+  return units;
+}
+
+/// The beginning of a text that is so long.
+std::string first_units(const std::string& text, std::size_t units) {
+  std::size_t end = 0;
+  for (; end < text.size() && units_of(text[end]) <= units; ++end) units -= units_of(text[end]);
+  return text.substr(0, end);
+}
+
 constexpr std::string_view kCommands[] = {"set", "mode", "send",    "fault",    "force", "unforce",
                                           "who", "why",  "history", "timeline", "help"};
 constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
@@ -167,8 +186,9 @@ Json Session::evaluate(const Json& arguments) {
 Json Session::completions(const Json& arguments) {
   const auto text = arguments.at("text").get<std::string>();
   const auto column = arguments.at("column").get<std::size_t>();
-  const std::string before = text.substr(0, column - std::min<std::size_t>(column, column_base_));
+  const std::string before = first_units(text, column - std::min<std::size_t>(column, column_base_));
   const std::size_t begin = before.find_last_of(" (*=<>+-/") + 1;
+  const std::size_t start = units_of(before.substr(0, begin)) + column_base_;
   const std::string word = stl::upper_case(before.substr(begin));
   std::set<std::string> found;
   const auto offer = [&](std::string_view label) {
@@ -179,8 +199,7 @@ Json Session::completions(const Json& arguments) {
   for (const std::string& address : addresses_in(cpu().program())) offer(address.substr(0, address.find(':')));
   for (const stl::Symbol& symbol : cpu().program().source.symbols) offer(symbol.name);
   Json targets = Json::array();
-  for (const std::string& label : found)
-    targets.push_back({{"label", label}, {"start", begin + column_base_}, {"length", before.size() - begin}});
+  for (const std::string& label : found) targets.push_back({{"label", label}, {"start", start}, {"length", units_of(word)}});
   return {{"targets", targets}};
 }
 

@@ -1050,5 +1050,18 @@ TEST(DapSession, WhatIsWrittenIntoATimerOrAnAccumulatorIsNamedAsAWhole) {
   EXPECT_EQ(deed_of("VB20", "AQI="), "set VB20 VB21");
 }
 
+TEST(DapSession, CompletionsCountAsTheProtocolDoesInUtf16) {
+  Editor editor(kNested);
+  editor.begin();
+  const std::string text = "\xC3\x96\xF0\x9F\x98\x80 VW1";  // one unit, and two
+  const Json targets = editor("completions", {{"text", text}, {"column", 8}})["targets"];
+  ASSERT_FALSE(targets.empty());
+  for (const Json& target : targets) {
+    EXPECT_TRUE(target["label"].get<std::string>().starts_with("VW1")) << target.dump();
+    EXPECT_EQ(target["start"], 5);
+    EXPECT_EQ(target["length"], 3);
+  }
+}
+
 }  // namespace
 }  // namespace s7200::tools::dap
