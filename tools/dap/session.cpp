@@ -160,9 +160,13 @@ Json Session::dispatch(const Request& request, const Json& arguments) {
   if (!debuggee_) return (this->*request.handler)(arguments);
   Json of_station = arguments;
   const auto station = take_station(of_station);
-  if (station && request.needs_standstill) stepper_->look_at(*station);  // and there it runs
-  const LookAt look(*this, station.value_or(looks_at()));
-  return (this->*request.handler)(of_station);
+  Json body;
+  {
+    const LookAt look(*this, station.value_or(looks_at()));
+    body = (this->*request.handler)(of_station);
+  }
+  if (station && request.needs_standstill) stepper_->look_at(*station);  // there it runs, unless it was refused
+  return body;
 }
 
 /// The station that a request names, which does not stand in its references then; nothing if it names none.

@@ -229,6 +229,13 @@ TEST(DapSystem, ALaunchThatSendsIsRefusedOnALineThatHasNoPlaceForAMaster) {
             "send: this line has as many stations already as it takes: there is no place for one more master");
 }
 
+TEST(DapSystem, ARefusedStepLeavesThePlcThatIsLookedAt) {
+  SystemEditor editor;
+  editor("setExpression", {{"expression", "VW20"}, {"value", "7"}});
+  EXPECT_FALSE(editor.ask("stepOut", {{"threadId", kSlave2Thread}})["success"]);
+  EXPECT_EQ(editor("evaluate", {{"expression", "VW20"}})["result"], "16#0007 (7)");
+}
+
 TEST(DapSystem, MemoryOfAPlcWithoutPowerIsNotChanged) {
   SystemEditor editor;
   editor("goToMoment", {{"time", "end"}});
