@@ -387,7 +387,7 @@ std::string Expression::places_text(const Cpu& cpu) const {
 
 std::optional<std::uint32_t> double_word_of(const Value& value) {
   constexpr double kLeast = -2147483648.0, kMost = 4294967295.0;
-  if (value.real || value.number < kLeast || value.number > kMost) return {};
+  if (value.real || !(value.number >= kLeast && value.number <= kMost)) return {};  // nor what is not a number
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(value.number));
 }
 

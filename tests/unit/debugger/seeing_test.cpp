@@ -126,6 +126,9 @@ TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
   EXPECT_TRUE(has(session("print 1/VW600"), "1/VW600 cannot be computed: a division by 0\n"));
   EXPECT_EQ(session.error_of("print 1/0"), "'1/0', column 3: a division by 0");
   EXPECT_TRUE(has(session("print 16#FFFFFFFF + 1"), "16#FFFFFFFF + 1 = 4294967296 (more than a double word)\n"));
+  std::string infinite = "16#FFFFFFFF";
+  for (int i = 0; i < 40; ++i) infinite += " * 16#FFFFFFFF";
+  EXPECT_TRUE(has(session("print " + infinite + " - " + infinite), "nan (more than a double word)\n"));
   EXPECT_TRUE(has(session("print 16#FFFFFFFF"), "= 4294967295 (16#FFFFFFFF)\n"));
   session("set VW600=16#4849 VW602=16#FFFF");
   EXPECT_EQ(session("print /c VB600:4"), "VB600    'HI\\xff\\xff'\n");
