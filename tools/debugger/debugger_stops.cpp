@@ -77,8 +77,8 @@ bool read_options(Words words, const Program& program, StopPoint& stop, std::str
       if (!hits || *hits == 0) return why = expects(option, "a number above 0, for example: hits 4"), false;
       stop.from_hit = *hits;
     } else if (option == "log") {
-      if (given.empty()) return why = expects(option, "a text, for example: log '{VW100} at {time}'"), false;
       stop.log = without_quotes(joined(given));
+      if (stop.log.empty()) return why = expects(option, "a text, for example: log '{VW100} at {time}'"), false;
       if (!check_message(stop.log, program, why)) return false;
     } else {
       why = "after what it stops at come: always, if CONDITION, hits N, log 'TEXT'";

@@ -109,6 +109,7 @@ TEST(Stops, EachOptionSaysWhatItExpects) {
   EXPECT_EQ(session.error_of("watch VW100 hits 0"), "hits expects a number above 0, for example: hits 4");
   EXPECT_EQ(session.error_of("watch VW100 if"), "if expects a condition, for example: if VW100 > 8");
   EXPECT_EQ(session.error_of("break 4 log"), "log expects a text, for example: log '{VW100} at {time}'");
+  EXPECT_EQ(session.error_of("break 4 log ''"), session.error_of("break 4 log")) << "it would stop instead of logging";
 }
 
 TEST(Stops, AWatchForReadsAndWritesIsOneWithOneCount) {
