@@ -95,6 +95,9 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
     }
     const int number = next_number_++;
     Json answer{{"id", number}, {"verified", true}};
+    const auto refuse = [&answer](const std::string& why) {
+      answer.update({{"verified", false}, {"message", why}, {"reason", "failed"}});
+    };
     try {
       for (StopPoint& stop : make(one, answer)) {
         stop.number = number;
@@ -102,9 +105,9 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
         if (!no_debug_) stepper_->add(std::move(stop));
       }
     } catch (const Refused& refused) {
-      answer["verified"] = false;
-      answer["message"] = refused.what();
-      answer["reason"] = "failed";
+      refuse(refused.what());
+    } catch (const Json::exception&) {
+      refuse("it is not as the protocol says: something is missing, or of another type");
     }
     placed_[number] = {kind, group, one, answer};
     answers.push_back(std::move(answer));

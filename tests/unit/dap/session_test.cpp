@@ -1063,5 +1063,19 @@ TEST(DapSession, CompletionsCountAsTheProtocolDoesInUtf16) {
   }
 }
 
+TEST(DapSession, ABreakpointThatIsNotAsTheProtocolSaysIsRefusedAloneAndTheOthersAreSet) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json answers =
+      editor("setFunctionBreakpoints",
+             {{"breakpoints", Json::array({{{"name", "INT 0"}}, {{"name", 5}}, Json::object()})}})["breakpoints"];
+  ASSERT_EQ(answers.size(), 3U);
+  EXPECT_EQ(answers[0]["verified"], true);
+  for (const std::size_t wrong : {1U, 2U}) {
+    EXPECT_EQ(answers[wrong]["verified"], false);
+    EXPECT_TRUE(has(answers[wrong]["message"].get<std::string>(), "not as the protocol says"));
+  }
+}
+
 }  // namespace
 }  // namespace s7200::tools::dap
