@@ -25,9 +25,10 @@ std::uint64_t first_hit(const std::string& text) {
   const bool above = number.starts_with('>') && !number.starts_with(">=");
   number.remove_prefix(number.starts_with(">=") ? 2 : above ? 1 : 0);
   const auto hits = parse_decimal<std::uint64_t>(stl::trim(number));
-  if (!hits || (*hits == 0 && !above))
+  const std::uint64_t first = hits ? *hits + (above ? 1 : 0) : 0;
+  if (first == 0)
     throw Refused(fmt::format("'{}' is not a number of hits; write for example 5 or > 4", stl::shortened(text)));
-  return *hits + (above ? 1 : 0);
+  return first;
 }
 
 /// `always`, `always if VW2 > 8`: with or without power flow. What is left of the condition.

@@ -1077,5 +1077,13 @@ TEST(DapSession, ABreakpointThatIsNotAsTheProtocolSaysIsRefusedAloneAndTheOthers
   }
 }
 
+TEST(DapSession, AHitConditionThatNoNumberCanMeetIsRefused) {
+  Editor editor(kNested);
+  editor.begin();
+  const Json refused = editor.breakpoint({{"line", 6}, {"hitCondition", "> 18446744073709551615"}});
+  EXPECT_EQ(refused["verified"], false);
+  EXPECT_TRUE(has(refused["message"].get<std::string>(), "is not a number of hits"));
+}
+
 }  // namespace
 }  // namespace s7200::tools::dap
