@@ -299,8 +299,13 @@ class Session {
   std::optional<std::pair<std::size_t, TraceRecord>> first_error_;  ///< run-time error of the run under way, and its station
   std::map<std::size_t, Json> exceptions_;                          ///< of the last stop, by station
   std::map<std::int64_t, std::pair<std::size_t, std::uint32_t>> goto_targets_;  ///< station and instruction
-  std::map<std::string, std::vector<std::uint8_t>> read_;  ///< memory that the client has read: area and its bytes then
-  std::int64_t handling_ = 0;                              ///< number of the request
+  /// An area that the client has read.
+  struct ReadArea {
+    std::vector<std::uint8_t> bytes{};   ///< as the client knows them
+    std::set<std::string> references{};  ///< by which the client has asked for it
+  };
+  std::map<std::pair<std::size_t, std::uint32_t>, ReadArea> read_;  ///< by station and the beginning of the area
+  std::int64_t handling_ = 0;                                       ///< number of the request
 };
 
 }  // namespace s7200::tools::dap

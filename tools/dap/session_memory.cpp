@@ -54,8 +54,9 @@ Json Session::read_memory(const Json& arguments) {
   if (begin == end) return body;
   body["data"] = to_base64(
       std::span(all).subspan(static_cast<std::size_t>(begin - place.begin), static_cast<std::size_t>(end - begin)));
-  read_[at_station(arguments["memoryReference"].get<std::string>(), looks_at())] =
-      all;  // to tell when it changes, an area is looked at as a whole
+  // to tell when it changes, an area is looked at as a whole
+  ReadArea& area = read_.try_emplace({looks_at(), place.begin}, ReadArea{.bytes = all}).first->second;
+  area.references.insert(at_station(arguments["memoryReference"].get<std::string>(), looks_at()));
   return body;
 }
 
@@ -184,23 +185,24 @@ void Session::note_new_branch() {
 /// Of what the client has read: the bytes from the first to the last that is different now.
 void Session::report_memory_changes() {
   if (!client_takes_memory_events_) return;
-  for (auto& [reference, before] : read_) {
-    const auto of = find_station(reference, stations());
-    const LookAt look(*this, of->station);
-    const auto place = find_memory(of->reference, cpu().program());
-    auto now = bytes_of(*place, cpu().state());
-    const std::size_t size = std::max(before.size(), now.size());  // one of them is none: the routine is not open
-    const auto same = [&before = before, &now](std::size_t i) {
-      return i < before.size() && i < now.size() && before[i] == now[i];
+  for (auto& [key, area] : read_) {
+    const LookAt look(*this, key.first);
+    const auto place_of = [this](const std::string& reference) {
+      return *find_memory(find_station(reference, stations())->reference, cpu().program());
     };
+    auto now = bytes_of(place_of(*area.references.begin()), cpu().state());
+    const auto& before = area.bytes;
+    const std::size_t size = std::max(before.size(), now.size());  // one of them is none: the routine is not open
+    const auto same = [&](std::size_t i) { return i < before.size() && i < now.size() && before[i] == now[i]; };
     std::size_t first = 0, last = size;
     while (first < size && same(first)) ++first;
     if (first == size) continue;
     while (same(last - 1)) --last;
-    send_event("memory", {{"memoryReference", reference},
-                          {"offset", std::int64_t{place->begin} + static_cast<std::int64_t>(first) - place->at},
-                          {"count", last - first}});
-    before = std::move(now);
+    for (const std::string& reference : area.references)
+      send_event("memory", {{"memoryReference", reference},
+                            {"offset", std::int64_t{key.second} + static_cast<std::int64_t>(first) - place_of(reference).at},
+                            {"count", last - first}});
+    area.bytes = std::move(now);
   }
 }
 

@@ -1085,5 +1085,18 @@ TEST(DapSession, AHitConditionThatNoNumberCanMeetIsRefused) {
   EXPECT_TRUE(has(refused["message"].get<std::string>(), "is not a number of hits"));
 }
 
+TEST(DapSession, AnAreaThatWasReadUnderTwoNamesIsToldOfUnderBoth) {
+  Editor editor(kNested);
+  editor.begin();
+  for (const char* const reference : {"VB20", "VB30"}) editor("readMemory", {{"memoryReference", reference}, {"count", 1}});
+  editor.messages.clear();
+  editor("writeMemory", {{"memoryReference", "VB40"}, {"data", "AQ=="}});
+  std::set<std::pair<std::string, int>> told;
+  for (const Json& message : editor.messages)
+    if (message.value("event", "") == "memory")
+      told.emplace(message["body"]["memoryReference"].get<std::string>(), message["body"]["offset"].get<int>());
+  EXPECT_EQ(told, (std::set<std::pair<std::string, int>>{{"VB20", 20}, {"VB30", 10}}));
+}
+
 }  // namespace
 }  // namespace s7200::tools::dap
