@@ -14,12 +14,12 @@ struct ExceptionFilter {
   const char* description;
   std::optional<StopPoint::On> on;  ///< nothing: it ends every run by itself
   const char* name = "";            ///< of its stops
-  bool conditional = false;         ///< it takes codes
+  std::string_view codes = "";      ///< that its condition is a list of, for people; empty: it has no condition
 };
 
 inline constexpr ExceptionFilter kExceptionFilters[] = {
     {"error", "Run-time errors", "Stops after the instruction that causes a run-time error", StopPoint::On::RuntimeError,
-     "run-time error", true},
+     "run-time error", "codes in hex: 0006, 0091"},
     {"overflow", "Queue overflow", "An interrupt is lost because its queue is full", StopPoint::On::QueueOverflow,
      "queue overflow"},
     {"lost", "Lost characters", "A character that the program does not get", StopPoint::On::LostCharacter, "lost character"},

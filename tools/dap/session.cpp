@@ -30,8 +30,8 @@ Json capabilities() {
                        {"label", filter.label},
                        {"description", filter.description},
                        {"default", filter.id == "watchdog"},
-                       {"supportsCondition", filter.conditional},
-                       {"conditionDescription", filter.conditional ? "codes in hex: 0006, 0091" : ""}});
+                       {"supportsCondition", !filter.codes.empty()},
+                       {"conditionDescription", filter.codes}});
   Json body{{"exceptionBreakpointFilters", filters}, {"completionTriggerCharacters", Json::array({"*", "B", "W", "D"})}};
   for (const char* offered : {"supportsConfigurationDoneRequest",
                               "supportsFunctionBreakpoints",

@@ -279,7 +279,7 @@ std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
   if (filter == std::end(kExceptionFilters))
     throw Refused(fmt::format("there is no exception filter '{}'", stl::shortened(id)));
   if (!filter->on) return {};
-  std::string codes = filter->conditional ? wanted.value("condition", "") : "";
+  std::string codes = filter->codes.empty() ? "" : wanted.value("condition", "");
   std::ranges::replace(codes, ',', ' ');
   std::vector<StopPoint> stops;
   for (const std::string& text : stl::split_words(codes)) {
