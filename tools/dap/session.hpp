@@ -295,7 +295,7 @@ class Session {
 
   // The run under way, and the last stop.
   std::optional<Run> running_;
-  bool configured_ = false, begun_ = false, pause_asked_ = false, over_ = false, terminated_ = false;
+  bool pause_asked_ = false, over_ = false, terminated_ = false;
   std::optional<std::pair<std::size_t, TraceRecord>> first_error_;  ///< run-time error of the run under way, and its station
   std::map<std::size_t, Json> exceptions_;                          ///< of the last stop, by station
   std::map<std::int64_t, std::pair<std::size_t, std::uint32_t>> goto_targets_;  ///< station and instruction

@@ -335,7 +335,7 @@ Json Session::body_of_hit(const Hit& hit) {
   return {{"reason", kReasons[static_cast<std::size_t>(kind)]}, {"description", hit.stop.name}, {"text", text_of(hit)}};
 }
 
-/// `breakpoint 2, unanswered, hit 3 times: …`
+/// `slave: breakpoint 2: unanswered, 01 03 …, asked by pump`, `watch 3: VW20 was …, is …, by …`
 std::string Session::text_of(const Hit& hit) const {
   const Program& program = *debuggee_->program(hit.stop.station);
   const Listing& listing = stations_[hit.stop.station].listing;
