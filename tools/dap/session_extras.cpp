@@ -195,8 +195,7 @@ Session::Written Session::find_decision() {
   for (const TraceLine& line : search.unanswered) say(line.at, line.text);
   if (search.decision)
     say(search.decision->by.at, (search.unanswered.empty() ? "" : "what led here: ") + search.decision->text);
-  if (text.empty())
-    text = "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far";
+  if (text.empty()) text = kNothingDecided;
   if (!search.origin()) return {std::nullopt, {{"text", text}}};
   const LastDecision& found = *search.origin();
   Json body{{"text", text}};

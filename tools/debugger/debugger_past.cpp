@@ -184,7 +184,7 @@ std::optional<LastDecision> Debugger::find_decision() {
                         search.unanswered.empty() ? "" : "what led here: ", routine_text(search.decision->by.op),
                         search.decision->text);
   else if (search.unanswered.empty())
-    out_ << "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far\n";
+    out_ << kNothingDecided << '\n';
   return search.origin();
 }
 

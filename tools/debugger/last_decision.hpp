@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/trace/trace_lines.hpp"
@@ -32,6 +33,9 @@ struct DecisionSearch {
   /// Where to go back to: in the main program to what left a frame, if one was.
   const std::optional<LastDecision>& origin() const { return left ? left : decision; }
 };
+
+inline constexpr std::string_view kNothingDecided =
+    "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far";
 
 /// Of a station: the contacts of the rung so far, or the last jump, conditional end or conditional call before it. The
 /// simulation stands where it stood. `host_timeout`: as of OpenRequests.
