@@ -97,6 +97,19 @@ std::optional<StopPoint> happening_stop(const Happening& happening, const std::v
   return code ? std::optional(StopPoint{.on = happening.on, .code = code}) : std::nullopt;
 }
 
+/// Or a beginning of one: `sbr`, `int5`, `40`.
+bool is_word_of_place(std::string_view lower) {
+  const std::string word = stl::upper_case(lower);
+  const auto begins = [&](std::string_view name) { return word.starts_with(name); };
+  return begins("NETWORK") || std::ranges::any_of(kMarks, begins, &Mark::word) || parse_decimal<std::uint32_t>(word);
+}
+
+std::string happenings_text() {
+  std::string text = "event n";
+  for (const Happening& happening : kHappenings) text += fmt::format(", {}", happening.word);
+  return text;
+}
+
 /// Those that are not among the words; none where an option has not got what it needs.
 std::vector<std::string> options_after(const std::vector<std::string>& words) {
   std::vector<std::string> options;
@@ -148,6 +161,7 @@ std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const 
     if (first == happening.word) return named(happening_stop(happening, words, *program.model, why));
   if (first == "event") return named(event_stop(words, *program.model, why));
   const auto place = find_place(words, program, listing, "break", why);
+  if (!place && !is_word_of_place(first)) why += fmt::format("; or what happens: {}", happenings_text());
   if (!place) return {};
   note = place->note;
   return named(StopPoint{.on = On::Place, .op = place->op, .needs_power = true});

@@ -1289,7 +1289,9 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"continue 5", "continue expects a duration"},
       {"continue 0s", "continue expects a duration"},
       {"until", "until expects a line number, SBR n, INT n, LBL n or NETWORK n"},
-      {"break main", "break expects a line number, SBR n, INT n, LBL n or NETWORK n"},
+      {"break main",
+       "break expects a line number, SBR n, INT n, LBL n or NETWORK n; or what happens: event n, received, sent, xmt, rcv, "
+       "error, overflow, lost, mode, unanswered, wrong"},
       {"break SBR", "break expects a line number, SBR n, INT n, LBL n or NETWORK n"},
       {"break INT x", "break expects a line number, SBR n, INT n, LBL n or NETWORK n"},
       {"break SBR 9", "the program has no SBR 9"},
