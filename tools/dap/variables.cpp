@@ -14,7 +14,7 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/dap/addresses.hpp"
 #include "tools/debugger/call_stack.hpp"
-#include "tools/debugger/counter_preset.hpp"
+#include "tools/debugger/element_text.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 
@@ -101,20 +101,6 @@ std::vector<Variable> bytes_of(const Cpu& cpu, Area area) {
   return bytes;
 }
 
-/// What belongs to a timer or counter besides its current value.
-std::string element_text(const Cpu& cpu, Area area, std::uint32_t number) {
-  const State& state = cpu.state();
-  const auto bit = [&](std::uint32_t bits) { return state.image[bits + number / 8] >> number % 8 & 1; };
-  if (area == Area::T)
-    return fmt::format(", bit {}, preset {}, counts {}", bit(image::kTBits), state.timer[number].preset,
-                       format_duration(timer_base(number).base));
-  if (area == Area::C) return fmt::format(", bit {}{}", bit(image::kCBits), counter_preset_text(cpu, number));
-  if (area != Area::HC) return {};
-  const HighSpeedCounter& counter = state.counter[number];
-  return counter.defined ? fmt::format(", mode {}, preset {}, {}", counter.mode, counter.preset, counter.up ? "up" : "down")
-                         : ", not defined";
-}
-
 std::vector<Variable> elements_of(const Cpu& cpu, Area area) {
   std::vector<Variable> elements;
   const bool words = area == Area::AI || area == Area::AQ;
@@ -122,7 +108,7 @@ std::vector<Variable> elements_of(const Cpu& cpu, Area area) {
     const std::string name = fmt::format("{}{}{}", info(area).name, words ? "W" : "", i);
     if (const auto range = range_of(name, cpu.program())) {
       elements.push_back(variable_of(cpu, *range, name));
-      if (!words) elements.back().value += element_text(cpu, area, i);
+      if (!words) elements.back().value += ", " + element_text(cpu, area, i);
     }
   }
   return elements;

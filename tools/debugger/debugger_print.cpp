@@ -8,8 +8,8 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/ports.hpp"
 #include "tools/debugger/bad_pointers.hpp"
-#include "tools/debugger/counter_preset.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/debugger/element_text.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 
@@ -76,27 +76,13 @@ std::string range_text(const Cpu& cpu, const MemoryRange& range, char form) {
   return text;
 }
 
-bool bit_of(const State& state, std::uint32_t bits, std::uint32_t number) {
-  return state.image[bits + number / 8] >> number % 8 & 1;
-}
-
-/// What belongs to a timer or counter besides its current value.
-std::string element_text(const Cpu& cpu, const MemoryRange& range) {
-  const State& state = cpu.state();
+/// A line for each timer or counter.
+std::string elements_text(const Cpu& cpu, const MemoryRange& range) {
+  const std::string_view name = range.area == Area::HC ? "HSC" : info(range.area).name;
   std::string text;
-  for (std::uint32_t n = range.number; n < range.number + range.count; ++n) {
-    if (range.area == Area::T)
-      text += fmt::format("         T{}: bit {}, preset {}, counts {}\n", n, bit_of(state, image::kTBits, n) ? 1 : 0,
-                          state.timer[n].preset, format_duration(timer_base(n).base));
-    if (range.area == Area::C)
-      text +=
-          fmt::format("         C{}: bit {}{}\n", n, bit_of(state, image::kCBits, n) ? 1 : 0, counter_preset_text(cpu, n));
-    if (range.area != Area::HC) continue;
-    const HighSpeedCounter& counter = state.counter[n];
-    text += counter.defined ? fmt::format("         HSC{}: mode {}, preset {}, {}{}\n", n, counter.mode, counter.preset,
-                                          counter.up ? "up" : "down", counter.enabled ? "" : ", not enabled")
-                            : fmt::format("         HSC{} is not defined\n", n);
-  }
+  for (std::uint32_t n = range.number; n < range.number + range.count; ++n)
+    if (const std::string element = element_text(cpu, range.area, n); !element.empty())
+      text += fmt::format("         {}{}: {}\n", name, n, element);
   return text;
 }
 
@@ -145,7 +131,7 @@ void Debugger::print_place(const Place& place, const std::string& name, char for
   if (const std::string forced = forced_text(simulation().cpu(), {bits_of(*range)}); !forced.empty())
     out_ << "       " << forced << '\n';
   if (const std::string symbol = symbol_text(cpu.program(), *range); !symbol.empty()) out_ << "         " << symbol << '\n';
-  out_ << element_text(cpu, *range) << special_text(cpu, *range);
+  out_ << elements_text(cpu, *range) << special_text(cpu, *range);
 }
 
 Debugger::Error Debugger::print(const Arguments& arguments) {

@@ -1050,6 +1050,13 @@ TEST(DapSession, WhatIsWrittenIntoATimerOrAnAccumulatorIsNamedAsAWhole) {
   EXPECT_EQ(deed_of("VB20", "AQI="), "set VB20 VB21");
 }
 
+TEST(DapSession, OfAHighSpeedCounterItIsShownThatItIsNotEnabled) {
+  Editor editor("LD SM0.1\nHDEF 0, 0\nMEND\n");
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}});
+  EXPECT_TRUE(has(variable(editor, "HC", "HC0")["value"].get<std::string>(), "mode 0, preset 0, up, not enabled"));
+}
+
 TEST(DapSession, CompletionsCountAsTheProtocolDoesInUtf16) {
   Editor editor(kNested);
   editor.begin();

@@ -40,7 +40,7 @@ TEST(Seeing, PrintTakesPointersFormsAndExpressions) {
   EXPECT_TRUE(has(session("print SMB30"), "         PPI slave\n"));
   EXPECT_FALSE(has(session("print /x SMB30"), "16#00 =")) << "the byte once";
   EXPECT_TRUE(has(session("print SMW30"), "         SMB30: PPI slave\n"));
-  EXPECT_TRUE(has(session("print HC0"), "HSC0 is not defined"));
+  EXPECT_TRUE(has(session("print HC0"), "HSC0: not defined"));
   EXPECT_TRUE(has(session("print C1"), "C1: bit 0"));
 }
 
