@@ -96,6 +96,27 @@ TEST(Recordings, ATextLogHasAFrameInEachLine) {
   EXPECT_EQ(log.notes, std::vector<std::string>{"line 1: left out: no bytes in it"});
 }
 
+TEST(Recordings, TheLengthBelowADumpWhoseRowsAreAllLeftOutIsOfNoFrame) {
+  const std::string full = "00000000  01 03 00 00 00 01 84 0a 01 03 00 00 00 01 84 0a\n";
+  for (const std::string& rows :
+       {std::string("00000000  01 03 0? 00\n"), full + "00000030  01 03\n", full + "00000010  01 0?\n00000020  01 03\n"})
+    EXPECT_TRUE(refusal_of(rows + "00000004\n").starts_with("no frame in it")) << rows;
+}
+
+TEST(Recordings, WhatALineRepeatsManyTimesIsReadAllTheSame) {
+  const std::string blanks(100'000, ' '), dashes(100'000, '-'), digits(100'000, '7');
+  for (const std::string& line :
+       {blanks + "01 03", "a" + dashes + "> b", "a" + blanks + "-> b", "> 0x01 (" + dashes + ")", "> 0x01" + blanks,
+        "1.0" + blanks + "01 03", "Tx:" + digits + "-01", "00000000  " + blanks + "01 03"}) {
+    const LineRecording log = recording_of(line + "\n0.5 TX 01 03 00 00 00 01 84 0A\n");
+    ASSERT_FALSE(log.frames.empty()) << line.substr(0, 30);
+    EXPECT_EQ(log.frames.back().bytes, kRequest) << line.substr(0, 30);
+  }
+  std::string received = "recv:", again = "recv: 0x1 old_data:";
+  for (int i = 0; i < 30'000; ++i) received += " 0x1", again += " 0x1";
+  EXPECT_EQ(recording_of(again + "\n" + received + "\n").frames.at(1).bytes.size(), 30'000U);
+}
+
 TEST(Recordings, TheMarkThatSomeEditorsPutBeforeATextIsNoPartOfIt) {
   for (const char* const text :
        {"2026-11-22 10:00:00.5 TX 01 03 00 00 00 01 84 0A\n2026-11-22 10:00:01 RX 01 03 02 12 34 B5 33\n",
