@@ -526,6 +526,37 @@ std::string ethernet_pcap(const std::vector<Bytes>& packets) {
   return bytes;
 }
 
+TEST(Recordings, ATimeOfNoAgeIsRefused) {
+  const Bytes section{0x0A, 0x0D, 0x0D, 0x0A, 28,   0,    0,    0,    0x4D, 0x3C, 0x2B, 0x1A, 1, 0,
+                      0,    0,    0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 28,   0,    0, 0};
+  const Bytes in_seconds{1, 0, 0, 0, 32, 0, 0, 0, 147, 0, 0, 0, 0xFF, 0xFF, 0, 0,
+                         9, 0, 1, 0, 0,  0, 0, 0, 0,   0, 0, 0, 32,   0,    0, 0};
+  const auto read_at = [&](std::uint8_t high) {
+    const Bytes packet{6, 0, 0, 0, 36, 0, 0, 0, 0, 0, 0, 0, high, 0, 0,  0, 0, 0,
+                       0, 0, 4, 0, 0,  0, 4, 0, 0, 0, 1, 3, 0,    0, 36, 0, 0, 0};
+    std::string bytes, why;
+    for (const Bytes* block : {&section, &in_seconds, &packet}) bytes.append(block->begin(), block->end());
+    return read_recording(bytes, {}, why) ? "read" : why;
+  };
+  EXPECT_EQ(read_at(0), "read");
+  EXPECT_EQ(read_at(1), "packet 1: 4294967296 s since 1970 is not a time of a recording");
+}
+
+TEST(Recordings, OfEveryConnectionOfACutOffFileTheLastFrameIsMarked) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  std::vector<Bytes> packets;
+  for (const std::uint16_t port : std::initializer_list<std::uint16_t>{50'000, 50'001, 50'000})
+    packets.push_back(segment(true, 100, request, 0x18, port));
+  store32(&packets[2][14 + 20 + 4], 100 + static_cast<std::uint32_t>(request.size()));
+  packets.push_back(packets[0]);
+  std::string bytes = ethernet_pcap(packets);
+  bytes.pop_back();
+  const LineRecording recording = recording_of(bytes);
+  ASSERT_EQ(recording.frames.size(), 3U);
+  for (const auto& [frame, last] : {std::pair{0, false}, {1, true}, {2, true}})
+    EXPECT_EQ(recording.frames[static_cast<std::size_t>(frame)].more_was_lost, last) << frame;
+}
+
 TEST(Recordings, ModbusTcpIsReadAsOnASerialLine) {
   const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
   const Bytes answer = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 2, 0x12, 0x34}});
