@@ -1078,6 +1078,65 @@ TEST(Conversation, AFrameIsCountedOnce) {
       << summary.text();
 }
 
+TEST(Conversation, AFrameThatIsSentWithoutTheLengthOfARequestIsNone) {
+  const auto frames = read(recording_of("TX 01 03 04 12 34 56 78 81 07\n"));
+  EXPECT_EQ(texts(frames), std::vector<std::string>{"> no request: it does not have the length of its function"});
+  EXPECT_FALSE(frames[0].right);
+}
+
+/// What a log says after its directions are settled, and the last note.
+std::pair<std::vector<std::string>, std::string> settled(const std::string& log) {
+  LineRecording recording = recording_of(log);
+  settle_directions(recording, *find_recorded_protocol("modbus"));
+  return {texts(read(recording)), recording.notes.empty() ? "" : recording.notes.back()};
+}
+
+TEST(Conversation, DirectionsThatAreAllTheSameAreLeftOpenWhereFramesSayOtherwise) {
+  const auto [said, note] = settled(
+      "0.000 RX 01 03 00 0a 00 02 e4 09\n0.030 RX 01 03 04 12 34 56 78 81 07\n"
+      "0.060 RX 01 03 00 0a 00 02 e4 09\n0.090 RX 01 83 02 c0 f1\n");
+  EXPECT_EQ(said, (std::vector<std::string>{
+                      "> station 1, read holding registers 40011, 2 of them", "< 2 registers: 16#1234 16#5678",
+                      "> station 1, read holding registers 40011, 2 of them", "< exception 2: illegal data address"}));
+  EXPECT_EQ(note, "the file marks all frames alike: what they say tells requests and answers apart");
+  EXPECT_EQ(settled("0.000 TX 01 03 00 0a 00 02 e4 09\n0.030 TX 01 03 00 0a 00 02 e4 09\n").second, "");
+}
+
+TEST(Conversation, ASlavesLogIsReadWithTheDirectionsTheOtherWayRound) {
+  const auto [said, note] = settled("0.000 RX 01 03 00 0a 00 02 e4 09\n0.030 TX 01 03 04 12 34 56 78 81 07\n");
+  EXPECT_EQ(said, (std::vector<std::string>{"> station 1, read holding registers 40011, 2 of them",
+                                            "< 2 registers: 16#1234 16#5678"}));
+  EXPECT_EQ(note, "what the file marks as sent are the answers, and what it marks as received the requests");
+  EXPECT_EQ(settled("0.000 TX 01 03 00 0a 00 02 e4 09\n0.030 RX 01 03 04 12 34 56 78 81 07\n").second, "");
+}
+
+TEST(Conversation, AFrameThatALogHasInSeveralRowsIsOne) {
+  const Stamps stamps{.character = 1'145'833};
+  const auto said = [&](const std::string& rows) {
+    return texts(read(recording_of("0.000 TX 01 03 00 0a 00 02 e4 09\n" + rows), "modbus", stamps));
+  };
+  const std::vector<std::string> one{"> station 1, read holding registers 40011, 2 of them",
+                                     "< 2 registers: 16#1234 16#5678"};
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.0335 RX 12 34 56 78 81 07\n"), one);
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.030 RX 12 34 56 78 81 07\n"), one) << "noted at once";
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 RX 12 34\n0.036 RX 56 78 81 07\n"), one);
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.040 RX 12 34 56 78 81 07\n").size(), 3U) << "after a silence";
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 RX 12 34 56 78 81 08\n").size(), 3U) << "a wrong CRC";
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 TX 12 34 56 78 81 07\n").size(), 3U) << "of the other";
+}
+
+TEST(Conversation, AFrameOfManyMessagesIsReadInOneGo) {
+  constexpr std::size_t kPairs = 50'000;
+  LineRecording recording{.frames = {{.at = 0}}, .is_log = true};
+  Bytes& all = recording.frames[0].bytes;
+  for (std::size_t i = 0; i < kPairs; ++i)
+    for (const Bytes* message : {&kRequest, &kAnswer}) all.insert(all.end(), message->begin(), message->end());
+  const auto frames = read(recording);
+  ASSERT_EQ(frames.size(), 2 * kPairs);
+  EXPECT_EQ(frames.back().frame.bytes, kAnswer);
+  EXPECT_TRUE(frames.back().right);
+}
+
 TEST(Conversation, ARecordingThatLooksLikeAnotherProtocolIsSeen) {
   const LineRecording ppi = recording_of("10 02 00 49 4B 16\n10 00 02 00 02 16\n10 02 00 5C 5E 16\nE5\n");
   const LineRecording modbus = recording_of("TX 01 03 00 00 00 01 84 0A\nRX 01 03 02 12 34 B5 33\n");
