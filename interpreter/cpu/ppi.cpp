@@ -1,6 +1,7 @@
 #include "interpreter/cpu/ppi.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
 #include "interpreter/base/ppi_frame.hpp"
@@ -118,6 +119,7 @@ void carry_out(Core& core, std::uint8_t number) {
   const Bytes request(port.message.begin(), port.message.begin() + port.length);
   const Bytes answer = s7_services::carry_out(core, number, port.master, request);
   port.job = answer.empty() ? Job::None : Job::Ready;
+  assert(answer.size() <= port.message.size());
   port.length = static_cast<std::uint8_t>(answer.size());
   std::copy(answer.begin(), answer.end(), port.message.begin());
 }

@@ -134,11 +134,14 @@ class Request {
  private:
   static constexpr std::size_t kUserDataHead = 8;  ///< 00 01 12 length kind group service number
 
-  std::uint8_t group() const { return parameters_[5] & 0x0F; }
-  std::uint8_t service() const { return parameters_[6]; }
+  /// Of user data; 0 where there is none.
+  std::uint8_t parameter(std::size_t at) const { return at < parameters_.size() ? parameters_[at] : std::uint8_t{0}; }
+  std::uint8_t group() const { return parameter(5) & 0x0F; }
+  std::uint8_t service() const { return parameter(6); }
+  std::uint8_t number() const { return parameter(7); }
 
   Reply user_data() {
-    if (parameters_.size() < kUserDataHead) return refused(Refusal::Malformed);
+    if (parameters_.size() < kUserDataHead) return user_data_reply(refused(Refusal::Malformed));
     if (group() == kClockGroup && service() == kReadClock) return read_clock();
     if (group() == kClockGroup && service() == kSetClock) return set_clock();
     return user_data_reply(refused(Refusal::Unknown));
@@ -330,7 +333,7 @@ class Request {
   /// 00 01 12 08 12 group service number 00 00 error(2)
   Reply user_data_reply(Reply reply) {
     const auto error = static_cast<std::uint16_t>(reply.refusal);
-    reply.parameters = {0, 1, 0x12, 8, 0x12, static_cast<std::uint8_t>(group() | 0x80), service(), parameters_[7], 0, 0};
+    reply.parameters = {0, 1, 0x12, 8, 0x12, static_cast<std::uint8_t>(group() | 0x80), service(), number(), 0, 0};
     append16(reply.parameters, error);
     if (reply.data.empty()) reply.data = {kNotStored, 0, 0, 0};
     return reply;
@@ -359,13 +362,12 @@ Bytes carry_out(Core& core, std::uint8_t port, std::uint8_t source, Span request
     return {};
   const std::size_t parameters = load16(&request[6]), data = load16(&request[8]);
   if (request.size() != kRequestHead + parameters + data) return {};
-  const auto kind = static_cast<Kind>(request[1]);
+  const auto kind = static_cast<Kind>(request[1]), kind_of_answer = kind == kUserData ? kUserData : kAnswer;
   const Reply reply = Request(core, port, source, kind, request.subspan(kRequestHead, parameters),
                               request.subspan(kRequestHead + parameters))
                           .carry_out();
-  if (kind == kUserData) return pdu(kUserData, request, reply);
-  Bytes answer = pdu(kAnswer, request, reply);
-  if (answer.size() > kLongestPdu) answer = pdu(kAnswer, request, {.refusal = Refusal::TooLong});
+  Bytes answer = pdu(kind_of_answer, request, reply);
+  if (answer.size() > kLongestPdu) answer = pdu(kind_of_answer, request, {.refusal = Refusal::TooLong});
   return answer;
 }
 

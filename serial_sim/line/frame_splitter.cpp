@@ -30,6 +30,8 @@ void FrameSplitter::settled(Time until, const SerialFormat& port) {
   if (port != uart_.state().format) uart_.configure(port, until);
   while (queue_.next() < until)
     if (const auto received = uart_.handle(queue_.pop()).received) take(*received, port);
+  // Before any character still to come: on a line that is cut none may come for ever.
+  std::erase_if(driving_, [&](const Speaker& each) { return each.since < until - port.character_time(); });
   // A character that began within the silence would be complete by then.
   if (until > open_.end + port.silence() + port.character_time()) close();
 }

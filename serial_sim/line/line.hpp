@@ -69,7 +69,7 @@ class Line {
   /// that ends as it begins is none.
   void disturb(const Disturbance& disturbance);
 
-  /// Every disturbance ends at `at`, those to come do not come.
+  /// Every disturbance ends at `at`, whoever made it; those to come do not come.
   void heal(Time at);
 
   /// What disturbs stations and their characters, or null. Like listeners it is wiring, not state, and is not owned.

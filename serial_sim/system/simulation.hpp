@@ -53,7 +53,7 @@ class Simulation {
 
   /// From now on. Several may be at work at once.
   void inject(const Fault& fault) { line_->faults().inject(fault, time()); }
-  void clear_faults() { line_->faults().clear(time()); }
+  void clear_faults() { line_->faults().clear(time()); }  ///< and every disturbance of the line, whoever made it
   const Faults& faults() const { return line_->faults(); }
 
   System& system() { return *system_; }

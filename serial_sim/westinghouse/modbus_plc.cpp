@@ -148,6 +148,11 @@ Bytes ModbusPlc::read_bits(Data pdu) {
   return reply;
 }
 
+/// [M11] Those that the memory ends before are not there.
+unsigned ModbusPlc::holding_registers() const {
+  return std::min<unsigned>(settings_.holding_registers, kWords - settings_.holding_word);
+}
+
 std::uint16_t ModbusPlc::register_at(unsigned address) const {
   return words_.read(settings_.holding_word + address - settings_.first_address);
 }
@@ -156,7 +161,7 @@ Bytes ModbusPlc::read_registers(Data pdu) {
   if (pdu.size() != 5) return {};
   const bool holding = pdu[0] == static_cast<std::uint8_t>(Function::ReadHoldingRegisters);
   const unsigned address = load16(&pdu[1]), count = load16(&pdu[3]);
-  const unsigned size = holding ? settings_.holding_registers : settings_.input_registers;
+  const unsigned size = holding ? holding_registers() : settings_.input_registers;
   if (const auto code = fault_of_range(count >= 1 && count <= settings_.most_registers, address, count, size))
     return exception(pdu, code);
   Bytes reply{pdu[0], low_byte(2 * count)};
@@ -181,7 +186,7 @@ Bytes ModbusPlc::write_register(Data pdu) {
   if (pdu.size() != 5) return {};
   const bool anywhere = settings_.plc == Model::Ncmz && settings_.ncmz_preset == ModbusSettings::NcmzPreset::Memory;
   const unsigned address = load16(&pdu[1]);
-  const unsigned size = anywhere ? kWords - settings_.holding_word : settings_.holding_registers;
+  const unsigned size = anywhere ? kWords - settings_.holding_word : holding_registers();
   if (const auto code = fault_of_range(true, address, 1, size)) return exception(pdu, code);
   words_.write(settings_.holding_word + address - settings_.first_address, load16(&pdu[3]));
   return begin_of(pdu, pdu.size());
@@ -219,7 +224,7 @@ Bytes ModbusPlc::write_registers(Data pdu) {
   const unsigned address = load16(&pdu[1]), count = load16(&pdu[3]);
   const bool fits = pdu[5] == 2 * count && pdu.size() == 6U + pdu[5];
   const bool right = fits && count >= 1 && count <= settings_.most_registers;
-  if (const auto code = fault_of_range(right, address, count, settings_.holding_registers)) return exception(pdu, code);
+  if (const auto code = fault_of_range(right, address, count, holding_registers())) return exception(pdu, code);
   const unsigned first = settings_.holding_word + address - settings_.first_address;
   for (unsigned i = 0; i < count; ++i) words_.write(first + i, load16(&pdu[6 + 2 * i]));
   return begin_of(pdu, 5);
@@ -346,7 +351,7 @@ const std::vector<Cells<ModbusPlc>>& ModbusPlc::cells() {
        [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) {
          plc.words_.write(plc.settings_.holding_word + n - 1, static_cast<std::uint16_t>(value));
        },
-       [](const ModbusPlc& plc) -> std::uint32_t { return plc.settings_.holding_registers; }, "holding_registers"},
+       [](const ModbusPlc& plc) -> std::uint32_t { return plc.holding_registers(); }, "holding_registers"},
       {"IR", false, 1, UINT16_MAX, UINT16_MAX, "input registers",
        [](const ModbusPlc& plc, std::uint32_t n) { return plc.input_registers_.read(n); },
        [](ModbusPlc& plc, std::uint32_t n, std::uint32_t value) {

@@ -87,6 +87,7 @@ class ModbusPlc final : public PlcOf<ModbusPlc> {
   /// Nothing, or the exception that a quantity or an address earns.
   std::uint8_t fault_of_range(bool quantity_right, unsigned address, unsigned count, unsigned size) const;
 
+  unsigned holding_registers() const;
   std::uint16_t register_at(unsigned address) const;
   std::uint8_t memory_byte(std::uint32_t address) const;
   void set_memory_byte(std::uint32_t address, std::uint8_t value);

@@ -564,6 +564,20 @@ class Verbs(Case):
             self.assertRegex(done.stdout, r"(?s)VW10 .* 500\nrun .*  done\n.*VW10 +16#[0-9A-F]{4} +\d{4,}\n.*a slave, ready")
             self.assertIn("the CPU went to STOP before the first request", self.ends(FAILED, "master", *target, "--after", "2s", "read", "40001").stderr)
 
+    def test_in_stop_requests_are_sent_if_somebody_on_the_line_may_answer(self):
+        stops = self.program("LD SM0.0\nTON T37, +10\nLD T37\nSTOP\nMEND\n")
+        self.assertIn("10 00 02 00 02 16", self.ends(FINE, "send", stops, "--after", "3s", "100200494b16").stdout, "its port speaks PPI")
+        system = self.program(f"plcs: {{a: {{program: {stops}}}}}\npeers: {{p: {{westinghouse: modbus, settings: [slave=05, parity=even]}}}}\n"
+                              "lines: {l: {stations: [p, a], parity: even, baud: 9600}}\n", "beside.yaml")
+        self.ends(FINE, "master", system, "--at", "l", "--after", "2s", "--station", "5", "read", "40001")
+
+    def test_a_master_is_told_of_another_that_has_asked_on_its_line(self):
+        for protocol in ("modbus", "lan"):
+            gateway = [SOURCE / f"stl_programs/systems/gateway_pc1200_{protocol}.yaml", "--at", "office", "read", "40001:2"]
+            self.assertEqual(self.ends(FINE, "master", *gateway).stderr, "")
+            done = s7200("master", *gateway, "--every", "300ms", "--count", "8")
+            self.assertIn("panel is a master on line office, too: what both ask at the same time collides", done.stderr)
+
     def test_a_ppi_master_at_the_station_that_it_asks_is_doubted(self):
         ask = ["master", "--protocol", "ppi", self.program("LD SM0.0\nMOVW VW0, VW2\nMEND\n"), "read", "VW0"]
         said = "note: station 2 is the master's own, too, and on a line each station has another: --own-station NUMBER"

@@ -40,6 +40,8 @@ def cases(seconds):
              name="run LONG_SCAN with everything that it writes"),
         Case("run BEACON --for HOURS --output output.csv --capture line.vcd --capture line.pcap",
              name="run, an answer every 50 ms, a tenth of the time, with its captures"),
+        Case("run BEACON --for TENFOLD --capture line.pcap --fault cut",
+             name="run, an answer every 50 ms on a line that is cut, ten times as long, with its capture"),
         Case("send SLAVE --crc 020300000001 --timeout TIME --timeline", 1),
         Case("send SLAVE --crc 020300000001 --timeout TIME --timeline --json", 1),
         Case("send FLICKER 01 --timeout HOURS --timeline --json", 1,
@@ -70,7 +72,7 @@ def peak(case, seconds, folder):
     (folder / "beacon.stl").write_text(BEACON, encoding="utf-8")
     (folder / "flicker.stl").write_text(BEACON.replace("XMT VB0, 0\n", ""), encoding="utf-8")
     words = {"SLAVE": SLAVE, "LONG_SCAN": LONG_SCAN, "BEACON": "beacon.stl", "FLICKER": "flicker.stl", "TIME": f"{seconds}s",
-             "HOURS": f"{seconds // 10}s"}
+             "HOURS": f"{seconds // 10}s", "TENFOLD": f"{seconds * 10}s"}
     command = re.sub("|".join(words), lambda word: str(words[word.group()]), case.command)
     arguments = [word.strip("'") for word in re.findall(r"'[^']*'|\S+", command)]
     with open(folder / "errors", "w+", encoding="utf-8") as errors:

@@ -37,7 +37,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   Timelines timelines(*rig);
 
   StreamedResults results(results_of("send"), "exchanges");
-  SimulatedSlave slave(simulation, options.master, options.rig.target());
+  SimulatedSlave slave(simulation, options.master, options.rig.target(), true);  // in STOP its port speaks PPI
   if (options.after == kNever) run_first_scans(*rig, kReadyWithin);
   const bool ready = slave.wait_until_ready(options.after, why);
   if (ready) print_note_if_any(slave.note_on_port());

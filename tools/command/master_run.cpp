@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "interpreter/model/special_memory.hpp"
@@ -38,6 +39,25 @@ std::string why_no_other_ppi_master(const Rig& rig, std::size_t line) {
 /// The same for whoever speaks `protocol`.
 std::string why_no_other_master(const Rig& rig, std::size_t line, const Protocol& protocol) {
   return protocol.wants_freeport ? std::string() : why_no_other_ppi_master(rig, line);
+}
+
+/// Who else asks there: masters that a system file names. Empty if none has yet.
+std::vector<std::string> notes_on_other_masters(const Rig& rig, std::size_t line) {
+  std::vector<std::string> notes;
+  for (const StationPlan& station : rig.plan().lines[line].stations) {
+    const serial::Poller* const poller = station.kind == StationPlan::Kind::Peer ? rig.poller(station.number) : nullptr;
+    if (poller == nullptr || poller->state().asked == 0) continue;
+    notes.push_back(fmt::format("{} is a master on line {}, too: what both ask at the same time collides",
+                                rig.plan().peers[station.number].name, rig.plan().lines[line].name));
+  }
+  return notes;
+}
+
+/// Whether there is an answer on the line when its S7-200 is in STOP: its own in PPI, or that of another PLC.
+bool somebody_answers_in_stop(const Rig& rig, std::size_t line, const Protocol& protocol) {
+  return !protocol.wants_freeport || std::ranges::any_of(rig.plan().lines[line].stations, [&](const StationPlan& station) {
+    return station.kind == StationPlan::Kind::Peer && rig.plan().peers[station.number].automaton != nullptr;
+  });
 }
 
 }  // namespace
@@ -96,7 +116,8 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
   const auto plant = [&] { return rig_json(*rig); };
-  SimulatedSlave slave(rig->simulation(), options.master, options.rig.target(), !options.protocol->wants_freeport);
+  SimulatedSlave slave(rig->simulation(), options.master, options.rig.target(),
+                       somebody_answers_in_stop(*rig, options.rig.line(), *options.protocol));
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
   std::string why;
@@ -131,6 +152,7 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   const bool fatal = exit_code_of(*rig) == kCpuFatal, stopped = rig->cpu().state().mode == Mode::Stop;
   if (!ready && stopped && !fatal) print_error("the CPU went to STOP before the first request");
   if (!ready) print_interruption();
+  if (ready) print_notes(notes_on_other_masters(*rig, options.rig.line()));
   if (ready) print_notes(line_notes(*rig));
   if (ready) print_notes(stop_notes(*rig));
   if (!all_written) return kUnusable;

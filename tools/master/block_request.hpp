@@ -62,11 +62,10 @@ class BlockParser : public WordParser {
   bool sync_;
 };
 
-/// The rows of those verbs, for a parser derived from it.
+/// The rows of those verbs, for a parser derived from it. `reads`: what stands beside `read`.
 template <class Parser>
-constexpr std::array<Verb<Parser>, 7> block_verbs() {
-  return {Verb<Parser>{"read", "ADDRESS[:COUNT]…", "words of the PLC's memory, up to 128 at once: read 16#1234:2", 1, kMany,
-                       &Parser::read},
+constexpr std::array<Verb<Parser>, 7> block_verbs(std::string_view reads) {
+  return {Verb<Parser>{"read", "ADDRESS[:COUNT]…", reads, 1, kMany, &Parser::read},
           Verb<Parser>{"write", "ADDRESS=VALUE,…", "words: 1234, -5, 16#04D2, 2#1010", 1, kMany, &Parser::write},
           Verb<Parser>{"set", "ADDRESS.BIT…", "one bit of a word, from 0 to 15", 1, kMany, &Parser::set},
           Verb<Parser>{"reset", "ADDRESS.BIT…", "the same", 1, kMany, &Parser::reset},

@@ -33,7 +33,8 @@ constexpr std::array kOwnVerbs{
     LanVerb{"station", "NUMBER", "the unit that `unit` addresses if it names none", 1, 1, &Parser::station},
     LanVerb{"erase", "", "ladder, output and holding registers; only in stop, and not on a PC1100", 0, 0, &Parser::erase},
 };
-constexpr auto kVerbs = joined(kOwnVerbs, block_verbs<Parser>());
+constexpr auto kVerbs =
+    joined(kOwnVerbs, block_verbs<Parser>("words of the PLC's memory, up to 128 at once: read 16#1234:2"));
 
 std::vector<MasterAction> Parser::parse(const Words& words) {
   return parse_with(*this, std::span<const LanVerb>(kVerbs), words, "unit 5 read 16#1234:2");

@@ -27,6 +27,9 @@ constexpr std::array kAreas{Area{"IB", 0xEF00, 0x80}, Area{"QB", 0xEF80, 0x80}, 
 constexpr std::array<std::string_view, 8> kPointers{"PII",      "PIQ",         "flags",   "timers",
                                                     "counters", "system data", "release", "program end"};
 
+/// Of a block: places of its number and its length, and words of its header, which the length counts.
+constexpr std::size_t kBlockNumber = 6, kBlockLength = 11, kBlockHeader = 5;
+
 class LoaderRequest final : public ProtocolRequest {
  public:
   struct About {
@@ -89,6 +92,12 @@ class RawStep final : public ProtocolRequest {
 serial::Answer LoaderRequest::judge(Data, Data response) const {
   serial::Answer answer = steps_.judge(response);
   if (answer.verdict != serial::Verdict::Right) return answer;
+  if (opcode() == LoaderOpcode::Block && load16(&answer.bytes[kBlockLength]) < kBlockHeader) {
+    answer.verdict = serial::Verdict::Wrong;
+    answer.fault =
+        fmt::format("a block of {} words: its header alone has {}", load16(&answer.bytes[kBlockLength]), kBlockHeader);
+    return answer;
+  }
   if (opcode() == LoaderOpcode::Read) {
     answer.bytes.erase(answer.bytes.begin(), answer.bytes.begin() + westinghouse::kReadHead);
     answer.values.assign(answer.bytes.begin(), answer.bytes.end());
@@ -110,11 +119,9 @@ std::vector<std::string> LoaderRequest::texts(const serial::Answer& answer) cons
       for (std::size_t i = 0; i < kPointers.size(); ++i)
         texts.push_back(fmt::format("{:<12} 16#{:04X}", kPointers[i], load16(&bytes[westinghouse::kReadHead + 2 * i])));
       return texts;
-    case LoaderOpcode::Block: {
-      constexpr std::size_t kNumber = 6, kLength = 11, kHeaderWords = 5;
-      return {fmt::format("DB{:03} at 16#{:04X}, {} data words", bytes[kNumber], load16(&bytes[1]),
-                          load16(&bytes[kLength]) - kHeaderWords)};
-    }
+    case LoaderOpcode::Block:
+      return {fmt::format("DB{:03} at 16#{:04X}, {} data words", bytes[kBlockNumber], load16(&bytes[1]),
+                          load16(&bytes[kBlockLength]) - kBlockHeader)};
     case LoaderOpcode::Directory:
       for (std::size_t block = 0; 2 * block + 2 < bytes.size(); ++block)
         if (const std::uint16_t address = load16(&bytes[1 + 2 * block]); address != 0)

@@ -48,12 +48,13 @@ s7::Variable variable(const MemoryRange& range) {
 
 /// A request, and what its answer is to be read as.
 struct Wanted {
+  enum class Kind : std::uint8_t { Status, Variable, Identification, Clock, Command };
+
+  Kind kind;
   Bytes pdu{};  ///< empty: the status of the station
   std::optional<MemoryRange> range{};
-  std::string what{};           ///< of a request without variable: `stop`
-  bool identification = false;  ///< is read
 
-  bool has_value() const { return range.has_value() || identification; }
+  bool has_value() const { return kind == Kind::Variable || kind == Kind::Identification; }
   /// In the answer.
   std::size_t bytes() const {
     if (!range) return s7::kIdentificationBytes;
@@ -92,12 +93,13 @@ class PpiRequest final : public ProtocolRequest {
  private:
   bool reads() const { return wanted_.pdu.size() > s7::kRequestHead && wanted_.pdu[s7::kRequestHead] == s7::kRead; }
   void take(Data pdu, serial::Answer& answer) const;
+  bool is_to_this(Data parameters) const;
   void take_value(Data data, serial::Answer& answer) const;
   std::string value_text(const serial::Answer& answer, std::uint32_t i) const;
 
   serial::Frame raw_{};
   std::uint8_t station_ = 0, own_ = 0;
-  Wanted wanted_{};
+  Wanted wanted_{Wanted::Kind::Status};
   int polls_ = 0;
 };
 
@@ -125,7 +127,8 @@ serial::Answer PpiRequest::judge(Data, Data response) const {
   if (response.empty()) return answer;
   answer.verdict = serial::Verdict::Right;
   const Data frame = after_acceptances(response);
-  if (!raw_.empty() || (frame.empty() && wanted_.pdu.empty())) return answer;
+  if (!raw_.empty()) return answer;
+  if (frame.empty() && wanted_.pdu.empty()) return wrong("accepted, but no status");
   if (frame.empty())
     return wrong(polls_ == kMostPolls ? fmt::format("accepted, but no answer after {} polls", kMostPolls)
                                       : "accepted, but no reply to a poll");
@@ -144,6 +147,16 @@ serial::Answer PpiRequest::judge(Data, Data response) const {
   return answer;
 }
 
+constexpr std::size_t kUserDataParameters = 12;  ///< of an answer: 00 01 12 08 12 group service number 00 00 error(2)
+
+/// The same group and service as in the request.
+bool PpiRequest::is_to_this(Data parameters) const {
+  constexpr std::size_t kGroup = 5, kService = 6;
+  const Data asked = Data(wanted_.pdu).subspan(s7::kRequestHead);
+  return parameters.size() >= kUserDataParameters && (parameters[kGroup] & 0x0F) == (asked[kGroup] & 0x0F) &&
+         parameters[kService] == asked[kService];
+}
+
 void PpiRequest::take(Data pdu, serial::Answer& answer) const {
   const bool user_data = wanted_.pdu[1] == s7::kUserData;
   const std::size_t head = user_data ? s7::kRequestHead : s7::kAnswerHead;
@@ -154,14 +167,18 @@ void PpiRequest::take(Data pdu, serial::Answer& answer) const {
     return;
   }
   const Data parameters = pdu.subspan(head, load16(&pdu[6])), data = pdu.subspan(head + parameters.size());
-  const std::uint16_t error = !user_data               ? load16(&pdu[10])
-                              : parameters.size() < 12 ? std::uint16_t{0}
-                                                       : load16(&parameters[10]);
+  if (user_data && !is_to_this(parameters)) {
+    answer = wrong("not the answer to this request: another group or service");
+    return;
+  }
+  const std::uint16_t error = user_data ? load16(&parameters[kUserDataParameters - 2]) : load16(&pdu[10]);
   if (error != 0) {
     answer.verdict = serial::Verdict::Exception;
     answer.exception = error;
   } else if (wanted_.has_value()) {
     take_value(data, answer);
+  } else if (wanted_.kind == Wanted::Kind::Clock && s7_clock_text(data).empty()) {
+    answer = wrong(fmt::format("no time in it: {} bytes of data", data.size()));
   } else {
     answer.bytes.assign(data.begin(), data.end());
   }
@@ -214,11 +231,18 @@ std::string PpiRequest::value_text(const serial::Answer& answer, std::uint32_t i
 
 std::string PpiRequest::in_short(const serial::Answer& answer, Data, Data response) const {
   if (!raw_.empty()) return serial::to_hex(response);
-  if (wanted_.pdu.empty())
-    return answer.bytes == Bytes{ppi::kSlave} ? "a slave, ready" : fmt::format("16#{:02X}", answer.bytes[0]);
-  if (const std::string clock = s7_clock_text(answer.bytes); wanted_.what == "clock" && !clock.empty()) return clock;
-  if (wanted_.identification) return s7_identification_text(answer.bytes);
-  if (!wanted_.range) return "done";
+  switch (wanted_.kind) {
+    case Wanted::Kind::Status:
+      return answer.bytes == Bytes{ppi::kSlave} ? "a slave, ready" : fmt::format("16#{:02X}", answer.bytes[0]);
+    case Wanted::Kind::Identification:
+      return s7_identification_text(answer.bytes);
+    case Wanted::Kind::Clock:
+      return s7_clock_text(answer.bytes);
+    case Wanted::Kind::Command:
+      return "done";
+    case Wanted::Kind::Variable:
+      break;
+  }
   if (!reads()) return range_text(*wanted_.range) + " written";
   std::string text;
   for (std::uint32_t i = 0; i < wanted_.range->count; ++i) text += (i == 0 ? "" : "  ") + value_text(answer, i);
@@ -277,7 +301,7 @@ class Parser final : public WordParser {
   void stop(const Words&) { change_mode(s7::kStop, {0, 0, 0, 0, 0}); }
   void clock(const Words&);
   void set_clock(const Words& operands);
-  void status(const Words&) { add({.what = "status"}); }
+  void status(const Words&) { add({Wanted::Kind::Status}); }
   void identification(const Words&);
   void raw(const Words& operands);
 
@@ -338,14 +362,14 @@ void Parser::read(const Words& operands) {
     if (range.bytes() > kMost) refuse(fmt::format("{}: {} bytes; a request reads {} at most", text_, range.bytes(), kMost));
     Bytes parameters{s7::kRead, 1};
     append(parameters, variable(range));
-    add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, {}), .range = range});
+    add({Wanted::Kind::Variable, s7::pdu(s7::kRequest, kOnlyRequest, parameters, {}), range});
   }
 }
 
 void Parser::identification(const Words&) {
   Bytes parameters{s7::kRead, 1};
   s7::append_identification(parameters);
-  add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, {}), .identification = true});
+  add({Wanted::Kind::Identification, s7::pdu(s7::kRequest, kOnlyRequest, parameters, {})});
 }
 
 /// The bytes of `values`, which are to begin at `range`; its count becomes theirs.
@@ -394,7 +418,7 @@ void Parser::write(const Words& operands) {
     Bytes data{0, type};
     s7::append16(data, type == s7::kInBitsOfBytes ? value.size() * 8 : value.size());
     data.insert(data.end(), value.begin(), value.end());
-    add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, data), .range = range});
+    add({Wanted::Kind::Variable, s7::pdu(s7::kRequest, kOnlyRequest, parameters, data), range});
   }
 }
 
@@ -402,13 +426,13 @@ void Parser::change_mode(s7::Function function, Bytes parameters) {
   parameters.insert(parameters.begin(), function);
   parameters.push_back(static_cast<std::uint8_t>(s7::kProgram.size()));
   parameters.insert(parameters.end(), s7::kProgram.begin(), s7::kProgram.end());
-  add({.pdu = s7::pdu(s7::kRequest, kOnlyRequest, parameters, {}), .what = function == s7::kRun ? "run" : "stop"});
+  add({Wanted::Kind::Command, s7::pdu(s7::kRequest, kOnlyRequest, parameters, {})});
 }
 
 void Parser::add_clock(std::uint8_t service, const Bytes& data) {
-  add({.pdu = s7::pdu(s7::kUserData, kOnlyRequest,
-                      {0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(0x40 | s7::kClockGroup), service, 0}, data),
-       .what = service == s7::kReadClock ? "clock" : "set-clock"});
+  add({service == s7::kReadClock ? Wanted::Kind::Clock : Wanted::Kind::Command,
+       s7::pdu(s7::kUserData, kOnlyRequest,
+               {0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(0x40 | s7::kClockGroup), service, 0}, data)});
 }
 
 void Parser::clock(const Words&) { add_clock(s7::kReadClock, {0x0A, 0, 0, 0}); }

@@ -36,7 +36,8 @@ constexpr std::array kOwnVerbs{
     WestnetVerb{"remote", "", "drop that is addressed", 0, 0, &Parser::remote},
     WestnetVerb{"local", "", "drop of this computer", 0, 0, &Parser::local},
 };
-constexpr auto kVerbs = joined(kOwnVerbs, block_verbs<Parser>());
+constexpr auto kVerbs =
+    joined(kOwnVerbs, block_verbs<Parser>("words of the PLC's memory, up to 32 at once: read 16#1234:2"));
 
 std::vector<MasterAction> Parser::parse(const Words& words) {
   return parse_with(*this, std::span<const WestnetVerb>(kVerbs), words, "address 17 read 16#1234:2");

@@ -32,17 +32,32 @@ class ParallelRun {
   }
 
   /// Hands over each result, in their order and in this thread. `finished` returns false to end it there. `waiting` hears
-  /// every 200 ms how many are done; it may be left out. Throws what the work threw.
+  /// every 200 ms, however fast they come, how many are done; it may be left out. Throws what the work threw.
   void each(const std::function<bool(std::size_t, Result)>& finished, const std::function<void(std::size_t)>& waiting) {
-    for (std::size_t i = 0; i < results_.size(); ++i)
-      if (!finished(i, take(i, waiting))) return;
+    auto next = Clock::now() + kBetween;
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+      while (!is_there(i, next)) next = tell(waiting, i);
+      if (!finished(i, take(i))) return;
+      if (Clock::now() >= next) next = tell(waiting, i + 1);
+    }
   }
 
  private:
-  Result take(std::size_t i, const std::function<void(std::size_t)>& waiting) {
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kBetween{200};
+
+  static Clock::time_point tell(const std::function<void(std::size_t)>& waiting, std::size_t done) {
+    if (waiting) waiting(done);
+    return Clock::now() + kBetween;
+  }
+
+  bool is_there(std::size_t i, Clock::time_point until) {
     std::unique_lock lock(mutex_);
-    while (!ready_.wait_for(lock, std::chrono::milliseconds(200), [&] { return results_[i] || failed_; }))
-      if (waiting) waiting(i);
+    return ready_.wait_until(lock, until, [&] { return results_[i] || failed_; });
+  }
+
+  Result take(std::size_t i) {
+    const std::lock_guard lock(mutex_);
     if (!results_[i]) std::rethrow_exception(failed_);
     return std::move(*results_[i]);
   }

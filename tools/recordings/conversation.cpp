@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <utility>
 
 #include "tools/recordings/readers.hpp"
@@ -11,6 +12,8 @@
 
 namespace s7200::tools {
 namespace {
+
+using Data = std::span<const std::uint8_t>;
 
 constexpr std::array kProtocols{
     RecordedProtocol{"modbus", modbus_reader},
@@ -22,26 +25,55 @@ constexpr std::array kProtocols{
     RecordedProtocol{"hppc", hppc_reader},
 };
 
-/// The first characters of a frame, which is left with the others.
-RecordedFrame take_first(RecordedFrame& frame, std::size_t count, const Stamps& stamps) {
-  const auto at = static_cast<std::ptrdiff_t>(count);
-  RecordedFrame first = frame;
-  first.more_was_lost = frame.more_was_lost && count == frame.bytes.size();
-  first.bytes.resize(count);
-  std::erase_if(first.damaged, [&](std::size_t place) { return place >= count; });
-  frame.bytes.erase(frame.bytes.begin(), frame.bytes.begin() + at);
-  std::erase_if(frame.damaged, [&](std::size_t place) { return place < count; });
-  for (std::size_t& place : frame.damaged) place -= count;
+/// The characters [begin, end) of a frame.
+RecordedFrame part_of(const RecordedFrame& frame, std::size_t begin, std::size_t end, const Stamps& stamps) {
+  const auto cut = [&](const auto& list) {
+    return std::remove_cvref_t<decltype(list)>(list.begin() + static_cast<std::ptrdiff_t>(begin),
+                                               list.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  RecordedFrame part{.at = frame.at,
+                     .direction = frame.direction,
+                     .bytes = cut(frame.bytes),
+                     .place = frame.place,
+                     .stream = frame.stream,
+                     .exchange = frame.exchange,
+                     .more_was_lost = frame.more_was_lost && end == frame.bytes.size()};
+  const auto damaged = std::ranges::lower_bound(frame.damaged, begin);
+  for (auto each = damaged; each != frame.damaged.end() && *each < end; ++each) part.damaged.push_back(*each - begin);
   if (!frame.times.empty()) {
-    first.times.resize(count);
-    frame.times.erase(frame.times.begin(), frame.times.begin() + at);
-    frame.at = frame.times.empty() ? std::nullopt : std::optional(frame.times.front());
+    part.times = cut(frame.times);
+    part.at = part.times.empty() ? std::nullopt : std::optional(part.times.front());
   } else if (frame.at && stamps.at_end) {
-    *first.at -= static_cast<Time>(frame.bytes.size()) * stamps.character;
+    *part.at -= static_cast<Time>(frame.bytes.size() - end) * stamps.character;
   } else if (frame.at) {
-    *frame.at += static_cast<Time>(count) * stamps.character;
+    *part.at += static_cast<Time>(begin) * stamps.character;
   }
-  return first;
+  return part;
+}
+
+/// So that a log may have divided a frame there: programs are told late of what has come, and in pieces.
+bool follows_closely(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps) {
+  const auto between = silence(before, after, stamps);
+  return before.direction == after.direction && before.stream == after.stream && between && *between <= kCharacterGap;
+}
+
+void append(RecordedFrame& frame, const RecordedFrame& row) {
+  for (const std::size_t place : row.damaged) frame.damaged.push_back(frame.bytes.size() + place);
+  frame.bytes.insert(frame.bytes.end(), row.bytes.begin(), row.bytes.end());
+  frame.times.insert(frame.times.end(), row.times.begin(), row.times.end());
+  frame.more_was_lost = row.more_was_lost;
+}
+
+/// Frames that are right, and a request or an answer to one.
+std::size_t fitting(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
+  const auto frames = conversation(recording, protocol, stamps);
+  return static_cast<std::size_t>(std::ranges::count_if(
+      frames, [](const ReadFrame& each) { return each.right && each.direction != Direction::Unknown; }));
+}
+
+Direction other_way_round(Direction direction) {
+  if (direction == Direction::Unknown) return direction;
+  return direction == Direction::Request ? Direction::Answer : Direction::Request;
 }
 
 }  // namespace
@@ -104,24 +136,28 @@ ReadFrame Conversation::read(Stream& stream, RecordedFrame frame) {
 std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) {
   Stream& stream = stream_of(frame);
   std::vector<ReadFrame> all;
-  while (!frame.bytes.empty()) {
+  std::size_t begin = 0;
+  while (begin < frame.bytes.size()) {
     const OpenRequest* open = stream.request_of(frame);
-    const std::size_t length = stream.reader->first_message(frame.bytes, open != nullptr ? &open->frame : nullptr);
+    const Data rest = Data(frame.bytes).subspan(begin);
+    const std::size_t length = stream.reader->first_message(rest, open != nullptr ? &open->frame : nullptr);
     if (length == 0) break;
-    all.push_back(read(stream, take_first(frame, length, stamps_)));
+    all.push_back(read(stream, part_of(frame, begin, begin + length, stamps_)));
+    begin += length;
   }
+  if (begin > 0) frame = part_of(frame, begin, frame.bytes.size(), stamps_);
   return all;
 }
 
-bool Conversation::is_several(Stream& stream, RecordedFrame frame) const {
+bool Conversation::is_several(Stream& stream, const RecordedFrame& frame) const {
   const OpenRequest* const waiting = stream.request_of(frame);
   const bool said_so = stamps_.exact || !frame.damaged.empty();
   std::optional<RecordedFrame> open = waiting != nullptr ? std::optional(waiting->frame) : std::nullopt;
   if (said_so || stream.reader->read(frame, open ? &*open : nullptr).right) return false;
-  while (!frame.bytes.empty()) {
-    const std::size_t length = stream.reader->first_message(frame.bytes, open ? &*open : nullptr);
+  for (std::size_t begin = 0, length = 0; begin < frame.bytes.size(); begin += length) {
+    length = stream.reader->first_message(Data(frame.bytes).subspan(begin), open ? &*open : nullptr);
     if (length == 0) return false;
-    const RecordedFrame message = take_first(frame, length, stamps_);
+    const RecordedFrame message = part_of(frame, begin, begin + length, stamps_);
     const ReadFrame read = stream.reader->read(message, open ? &*open : nullptr);
     if (!read.right) return false;
     open = read.direction == Direction::Request && !read.needs_no_answer ? std::optional(message) : std::nullopt;
@@ -138,15 +174,54 @@ std::vector<ReadFrame> Conversation::add(RecordedFrame frame) {
   return all;
 }
 
+RecordedFrame Conversation::take_frame(std::span<const RecordedFrame>& rows) {
+  RecordedFrame first = rows.front();
+  rows = rows.subspan(1);
+  Stream& stream = stream_of(first);
+  const bool may_be_divided = !stamps_.exact && !stream.reader->messages_share_frames();
+  if (!may_be_divided || rows.empty() || !follows_closely(first, rows.front(), stamps_)) return first;
+  const OpenRequest* const open = stream.request_of(first);
+  const auto is_right = [&](const RecordedFrame& frame) {
+    return stream.reader->read(frame, open != nullptr ? &open->frame : nullptr).right;
+  };
+  constexpr std::size_t kMostRows = 8;
+  RecordedFrame whole = first;
+  for (std::size_t count = 0; !is_right(whole); ++count) {
+    const RecordedFrame& before = count == 0 ? first : rows[count - 1];
+    if (count == std::min(rows.size(), kMostRows) || !follows_closely(before, rows[count], stamps_)) return first;
+    append(whole, rows[count]);
+    if (is_right(whole)) return rows = rows.subspan(count + 1), whole;
+  }
+  return first;
+}
+
 std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
   Conversation reading(protocol, stamps);
   std::vector<ReadFrame> all;
-  for (const RecordedFrame& frame : recording.frames)
-    for (ReadFrame& read : reading.add(frame)) {
+  for (std::span<const RecordedFrame> rows = recording.frames; !rows.empty();)
+    for (ReadFrame& read : reading.add(reading.take_frame(rows))) {
       if (read.other) all[*read.other].other = all.size();
       all.push_back(std::move(read));
     }
   return all;
+}
+
+void settle_directions(LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
+  const auto has = [&](Direction direction) {
+    return std::ranges::find(recording.frames, direction, &RecordedFrame::direction) != recording.frames.end();
+  };
+  const bool requests = has(Direction::Request), answers = has(Direction::Answer), both = requests && answers;
+  if (!recording.is_log || (!requests && !answers)) return;
+  const std::size_t as_said = fitting(recording, protocol, stamps);
+  if (as_said == recording.frames.size()) return;
+  LineRecording otherwise = recording;
+  for (RecordedFrame& frame : otherwise.frames)
+    frame.direction = both ? other_way_round(frame.direction) : Direction::Unknown;
+  if (fitting(otherwise, protocol, stamps) <= as_said) return;
+  recording.frames = std::move(otherwise.frames);
+  recording.notes.emplace_back(
+      both ? "what the file marks as sent are the answers, and what it marks as received the requests"
+           : "the file marks all frames alike: what they say tells requests and answers apart");
 }
 
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,

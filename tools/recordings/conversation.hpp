@@ -70,6 +70,10 @@ class Conversation {
   /// The messages that characters begin with, as far as they are all there; they are taken off the frame.
   std::vector<ReadFrame> take_complete(RecordedFrame& frame);
 
+  /// The first of the rows, which a log may have divided: those behind it that follow closely belong to it if only together
+  /// they are right. `rows` is left with the others.
+  RecordedFrame take_frame(std::span<const RecordedFrame>& rows);
+
  private:
   struct OpenRequest {
     RecordedFrame frame;
@@ -84,7 +88,7 @@ class Conversation {
   };
 
   Stream& stream_of(const RecordedFrame& frame);
-  bool is_several(Stream& stream, RecordedFrame frame) const;
+  bool is_several(Stream& stream, const RecordedFrame& frame) const;
   ReadFrame read(Stream& stream, RecordedFrame frame);
   /// As an answer to the request that is open, or as a request.
   ReadFrame what_it_says(Stream& stream, const RecordedFrame& frame) const;
@@ -103,5 +107,10 @@ const RecordedProtocol* likelier_protocol(const LineRecording& recording, const 
 /// A whole recording, each request with its answer.
 std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol,
                                     const Stamps& stamps = {});
+
+/// A log says what a program has sent and received, and that may have been the slave, or one that only listened. Where more
+/// frames fit that way, directions are taken the other way round, or left open if they are all the same; then a note says
+/// so.
+void settle_directions(LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps = {});
 
 }  // namespace s7200::tools

@@ -5,20 +5,13 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
-#include <regex>
 
 #include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
 namespace {
 
-using Match = std::match_results<std::string_view::const_iterator>;
-
 constexpr Time kDay = 86'400 * kSecond, kFarthest = 36'525 * kDay;
-
-bool search(std::string_view text, Match& match, const std::regex& pattern) {
-  return std::regex_search(text.begin(), text.end(), match, pattern);
-}
 
 /// `5` of a fraction is 500 ms.
 Time fraction(std::string digits) {
@@ -51,9 +44,9 @@ ReadDate date_of(const std::string& text) {
 
 std::optional<LeadingTime> time_of_day(std::string_view text) {
   static const std::regex kPattern(
-      R"(^[\s\[\(]*(?:(\d{4}[-/]\d\d[-/]\d\d|\d\d?[./]\d\d?[./]\d{2,4})[T ])?(\d{1,2}):(\d\d):(\d\d)(?:[.,:](\d{1,9}))?(?:\s?([AP])M)?[\s\]\):,;|]*)");
-  Match match;
-  if (!search(text, match, kPattern)) return {};
+      R"([\s\[\(]*(?:(\d{4}[-/]\d\d[-/]\d\d|\d\d?[./]\d\d?[./]\d{2,4})[T ])?(\d{1,2}):(\d\d):(\d\d)(?:[.,:](\d{1,9}))?(?:\s?([AP])M)?[\s\]\):,;|]*)");
+  TextMatch match;
+  if (!begins_with(text, match, kPattern)) return {};
   const auto number = [&](int i) { return std::stoll(match.str(static_cast<std::size_t>(i))); };
   const Time written = number(2), hour = !match[6].matched ? written : written % 12 + (match.str(6) == "P" ? 12 : 0);
   const Time time = ((hour * 60 + number(3)) * 60 + number(4)) * kSecond + (match[5].matched ? fraction(match.str(5)) : 0);
@@ -65,9 +58,9 @@ std::optional<LeadingTime> time_of_day(std::string_view text) {
 
 std::optional<LeadingTime> time_since(std::string_view text) {
   static const std::regex kPattern(
-      R"(^[\s\[\(+]*(-?)(\d{1,10})(?:[.,](\d{1,9}))?\s*(s|ms|us)?(?![0-9A-Za-z.])[\s\]\):,;|]*)");
-  Match match;
-  if (!search(text, match, kPattern) || !(match[3].matched || match[4].matched)) return {};
+      R"([\s\[\(+]*(-?)(\d{1,10})(?:[.,](\d{1,9}))?\s*(s|ms|us)?(?![0-9A-Za-z.])[\s\]\):,;|]*)");
+  TextMatch match;
+  if (!begins_with(text, match, kPattern) || !(match[3].matched || match[4].matched)) return {};
   const Time unit = match.str(4) == "ms" ? kMillisecond : match.str(4) == "us" ? kMicrosecond : kSecond;
   const Time part = match[3].matched ? fraction(match.str(3)) / (kSecond / unit) : 0;
   const Time whole = std::stoll(match.str(2));
@@ -98,11 +91,17 @@ std::vector<Word> words_of(std::string_view text) {
   return words;
 }
 
+/// `2026-11-22`. Few words are long enough to be searched for one.
+bool has_date(std::string_view word) {
+  constexpr std::size_t kDateLength = 10;
+  static const std::regex kDate(R"((19|20)\d\d-[01]\d-[0-3]\d)");
+  return word.size() >= kDateLength && std::regex_search(word.begin(), word.end(), kDate);
+}
+
 /// `01`, `0103`, `0x1`, `01-03`, `[01][03]`, `0x01,`; a date is none.
 std::optional<Bytes> bytes_of_word(std::string_view word) {
   constexpr std::string_view kOpening = "[<(\"", kBetween = ",;-[]<>()\"";
-  static const std::regex kDate(R"((19|20)\d\d-[01]\d-[0-3]\d)");
-  if (std::regex_search(word.begin(), word.end(), kDate)) return {};
+  if (has_date(word)) return {};
   Bytes bytes;
   std::size_t at = std::min(word.find_first_not_of(kOpening), word.size());
   while (at < word.size()) {
@@ -124,11 +123,13 @@ std::optional<Bytes> bytes_of_word(std::string_view word) {
 /// A comment stands behind `;`, `//` or `#` after a blank, or behind a `;` that closes the bytes. Where `;` divides the
 /// bytes, there is one behind the first.
 std::string_view without_comment(std::string_view line) {
-  static const std::regex kMark(R"(\s(;|//|#))");
-  Match match;
-  if (search(line, match, kMark)) line = line.substr(0, static_cast<std::size_t>(match.position()));
-  static const std::regex kClosing(R"([0-9A-Fa-f]\s(0x)?[0-9A-Fa-f]{1,4};(\s|$))");
-  if (search(line, match, kClosing)) line = line.substr(0, static_cast<std::size_t>(match.position() + match.length()) - 1);
+  if (line.find_first_of(";/#") == std::string_view::npos) return line;
+  static const std::regex kMark(R"(\s(;|//|#))"), kClosing(R"([0-9A-Fa-f]\s(0x)?[0-9A-Fa-f]{1,4};(\s|$))");
+  TextMatch match;
+  if (std::regex_search(line.begin(), line.end(), match, kMark))
+    line = line.substr(0, static_cast<std::size_t>(match.position()));
+  if (std::regex_search(line.begin(), line.end(), match, kClosing))
+    line = line.substr(0, static_cast<std::size_t>(match.position() + match.length()) - 1);
   return line;
 }
 

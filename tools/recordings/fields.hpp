@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <regex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,18 @@ namespace s7200::tools {
 
 /// 126 years: seconds since 1970 are within it, and the difference of two still fits a Time.
 inline constexpr Time kFurthestTime = 4'000'000'000 * kSecond;
+
+using TextMatch = std::match_results<std::string_view::const_iterator>;
+
+/// What stands before the bytes of a line is no longer. A pattern that repeats without end gets no more to look at:
+/// std::regex takes a piece of the stack for each character, and a line may have any number.
+inline constexpr std::size_t kLongestHead = 256;
+
+/// As far as the head goes. Not by a `^` in the pattern: std::regex then still tries at every character.
+inline bool begins_with(std::string_view text, TextMatch& match, const std::regex& pattern) {
+  const std::string_view head = text.substr(0, kLongestHead);
+  return std::regex_search(head.begin(), head.end(), match, pattern, std::regex_constants::match_continuous);
+}
 
 /// Days since 1970 of a date, with the day first and with the month first. They differ only in dates with slashes, of which
 /// tools write both; nothing for one that does not exist.

@@ -65,8 +65,10 @@ ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   read.direction = Direction::Request;
   read.station = bytes[0];
   read.needs_no_answer = crc && bytes[0] == modbus::kBroadcast;
-  read.right = crc;
-  read.text = crc ? modbus_request_text(bytes) : "wrong CRC, or not a whole frame";
+  read.right = whole;
+  read.text = !crc    ? "wrong CRC, or not a whole frame"
+              : whole ? modbus_request_text(bytes)
+                      : "no request: it does not have the length of its function";
   return read;
 }
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <pcap/pcap.h>
 
-#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -103,8 +103,7 @@ class Reader {
   void take(std::size_t number, Time at, Data packet) {
     const std::string place = fmt::format("packet {}", number);
     if (link_type_ == kSerial) {
-      if (!packet.empty())
-        recording_.frames.push_back({.at = at, .bytes = Bytes(packet.begin(), packet.end()), .place = place});
+      if (!packet.empty()) add({.at = at, .bytes = Bytes(packet.begin(), packet.end()), .place = place});
       return;
     }
     const auto segment = tcp_of(ip_of(packet, link_type_));
@@ -118,7 +117,7 @@ class Reader {
 
   /// What comes after the last frame of every connection is missing.
   void cut_off() {
-    for (std::uint32_t connection = 0; connection <= connections_; ++connection) mark_last(connection);
+    for (const auto& [connection, frame] : last_) recording_.frames[frame].more_was_lost = true;
   }
 
   LineRecording finish() {
@@ -129,6 +128,11 @@ class Reader {
   }
 
  private:
+  void add(RecordedFrame frame) {
+    last_[frame.stream] = recording_.frames.size();
+    recording_.frames.push_back(std::move(frame));
+  }
+
   void take(const Segment& segment, Time at, const std::string& place) {
     const bool asks = segment.destination_port == choices_.tcp_port;
     Stream& stream = streams_[{segment.from, segment.to}];
@@ -151,12 +155,12 @@ class Reader {
     stream.next = segment.sequence + static_cast<std::uint32_t>(segment.data.size());
     stream.reader.take(segment.data.subspan(sent_again));
     while (const auto message = stream.reader.next())
-      recording_.frames.push_back({.at = at,
-                                   .direction = asks ? Direction::Request : Direction::Answer,
-                                   .bytes = modbus::rtu_frame(message->unit, message->pdu),
-                                   .place = place,
-                                   .stream = stream.connection,
-                                   .exchange = modbus::exchange_of(*message)});
+      add({.at = at,
+           .direction = asks ? Direction::Request : Direction::Answer,
+           .bytes = modbus::rtu_frame(message->unit, message->pdu),
+           .place = place,
+           .stream = stream.connection,
+           .exchange = modbus::exchange_of(*message)});
     if (!stream.reader.error().empty()) lose(segment, place, stream.reader.error());
   }
 
@@ -170,20 +174,16 @@ class Reader {
   void lose(const Segment& segment, const std::string& place, std::string_view why) {
     for (const auto& ends : {std::pair(segment.from, segment.to), std::pair(segment.to, segment.from)})
       streams_[ends].lost = true;
-    mark_last(streams_[{segment.from, segment.to}].connection);
+    const auto last = last_.find(streams_[{segment.from, segment.to}].connection);
+    if (last != last_.end()) recording_.frames[last->second].more_was_lost = true;
     recording_.notes.push_back(fmt::format("{}: the rest of this connection was left out: {}", place, why));
-  }
-
-  void mark_last(std::uint32_t connection) {
-    const auto last = std::find_if(recording_.frames.rbegin(), recording_.frames.rend(),
-                                   [&](const RecordedFrame& frame) { return frame.stream == connection; });
-    if (last != recording_.frames.rend()) last->more_was_lost = true;
   }
 
   const ReadingChoices& choices_;
   int link_type_;
   LineRecording recording_;
   std::map<std::pair<Bytes, Bytes>, Stream> streams_;
+  std::map<std::uint32_t, std::size_t> last_;  // frame of each connection
   std::uint32_t connections_ = 0;
   std::size_t others_ = 0, broken_ = 0;
 };
@@ -222,8 +222,14 @@ std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingCh
   const u_char* data = nullptr;
   int result = 0;
   std::size_t number = 0;
-  while ((result = pcap_next_ex(capture.get(), &head, &data)) == 1)
-    reader.take(++number, head->ts.tv_sec * kSecond + head->ts.tv_usec, {data, head->caplen});
+  while ((result = pcap_next_ex(capture.get(), &head, &data)) == 1) {
+    ++number;
+    if (std::abs(head->ts.tv_sec) >= kFurthestTime / kSecond) {
+      why = fmt::format("packet {}: {} s since 1970 is not a time of a recording", number, head->ts.tv_sec);
+      return {};
+    }
+    reader.take(number, head->ts.tv_sec * kSecond + head->ts.tv_usec, {data, head->caplen});
+  }
   if (result == PCAP_ERROR) reader.cut_off();
   LineRecording recording = reader.finish();
   if (result == PCAP_ERROR)

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
 
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
@@ -16,32 +16,51 @@
 namespace s7200::tools {
 namespace {
 
-using Match = std::match_results<std::string_view::const_iterator>;
-
 struct Moved {
   bool sent = false;
   Bytes bytes{}, waiting{};  ///< and what was there of the frame before
 };
 
-bool search(std::string_view line, Match& match, const std::regex& pattern) {
-  return std::regex_search(line.begin(), line.end(), match, pattern);
+/// The bytes that a text begins with, `0x1 0x3 …`; they are taken off it.
+Bytes take_bytes(std::string_view& text) {
+  constexpr std::string_view kBlanks = " \t";
+  std::size_t end = 0, next = 0;
+  while (text.substr(next, 2) == "0x" || text.substr(next, 2) == "0X") {
+    end = std::min(text.find_first_of(kBlanks, next), text.size());
+    next = std::min(text.find_first_not_of(kBlanks, end), text.size());
+  }
+  const auto bytes = bytes_of_text(text.substr(0, end));
+  text.remove_prefix(next);
+  return bytes.value_or(Bytes{});
+}
+
+/// What stands behind a word, if that is not the end of another.
+std::optional<std::string_view> what_follows(std::string_view line, std::string_view word) {
+  const std::size_t at = line.find(word);
+  if (at == std::string_view::npos || (at > 0 && std::isalnum(static_cast<unsigned char>(line[at - 1])) != 0)) return {};
+  return line.substr(at + word.size());
 }
 
 std::optional<Moved> moved_in(std::string_view line) {
-  static const std::regex kMoved(
-      R"(\b(send|recv|SEND|RECV): ((?:0[xX][0-9a-fA-F]{1,2}\s*)+)(?:(?:old_data|extra data): *(.*))?)");
-  Match match;
-  if (!search(line, match, kMoved)) return {};
-  const std::string rest = match.str(3);
-  return Moved{.sent = match.str(1) == "send" || match.str(1) == "SEND",
-               .bytes = bytes_of_text(match.str(2)).value_or(Bytes{}),
-               .waiting = bytes_of_text(rest.substr(0, rest.find(" addr="))).value_or(Bytes{})};
+  for (const std::string_view word : {"send: ", "SEND: ", "recv: ", "RECV: "}) {
+    auto rest = what_follows(line, word);
+    if (!rest) continue;
+    Moved moved{.sent = word.front() == 's' || word.front() == 'S', .bytes = take_bytes(*rest)};
+    if (moved.bytes.empty()) continue;
+    for (const std::string_view waiting : {"old_data:", "extra data:"})
+      if (rest->starts_with(waiting)) {
+        std::string_view there = stl::trim(rest->substr(waiting.size()));
+        moved.waiting = take_bytes(there);
+      }
+    return moved;
+  }
+  return {};
 }
 
 bool says_it_again(std::string_view line) {
-  static const std::regex kAgain(R"(\bProcessing: 0x|\brecv: 0x.*\b(old_data|extra data):)");
-  Match match;
-  return search(line, match, kAgain);
+  const std::size_t received = std::min(line.find("recv: 0x"), line.size());
+  const auto follows = [&](std::string_view waiting) { return line.find(waiting, received) != std::string_view::npos; };
+  return line.find("Processing: 0x") != std::string_view::npos || follows(" old_data:") || follows(" extra data:");
 }
 
 /// The frame that has come so far goes on with these bytes.

@@ -20,14 +20,15 @@ Direction direction_of_brackets(std::string_view bytes) {
 /// An arrow between two names says who talks to whom, not which of them is the master.
 Direction direction_of_heading(std::string_view text) {
   static const std::regex kArrow(R"(\w\s*(-+>|<-+)\s*\w)");
-  return std::regex_search(text.begin(), text.end(), kArrow) ? Direction::Unknown : direction_of(text);
+  const std::string_view head = text.substr(0, kLongestHead);
+  return std::regex_search(head.begin(), head.end(), kArrow) ? Direction::Unknown : direction_of(head);
 }
 
 /// `Tx:000001-` of Modbus Poll: its number is no byte.
 std::size_t length_of_counter(std::string_view line) {
-  static const std::regex kCounter(R"(^\s*[TR]x:\d+-)");
-  std::match_results<std::string_view::const_iterator> match;
-  return std::regex_search(line.begin(), line.end(), match, kCounter) ? static_cast<std::size_t>(match.length()) : 0;
+  static const std::regex kCounter(R"(\s*[TR]x:\d+-)");
+  TextMatch match;
+  return begins_with(line, match, kCounter) ? static_cast<std::size_t>(match.length()) : 0;
 }
 
 /// `> 2026/11/22 10:00:00.5  length=8` of socat: the direction stands before the time.
@@ -41,7 +42,7 @@ bool has_clock(std::string_view text) {
   return std::regex_search(text.begin(), text.end(), kClock);
 }
 
-constexpr std::size_t kFullRow = 16, kLongestWithCharacters = 1000;
+constexpr std::size_t kFullRow = 16, kShortestFullRow = 2 * kFullRow, kLongestWithCharacters = 1000;
 
 /// `|....4...|` of hexdump -C.
 std::string_view without_bars(std::string_view text) {
@@ -63,8 +64,10 @@ std::string_view without_characters(std::string_view line) {
   if (line.size() > kLongestWithCharacters) return line;
   for (std::size_t gap = line.find(' '); gap != std::string_view::npos; gap = line.find(' ', gap + 1)) {
     const std::size_t last = line.find_first_not_of(' ', gap);
+    if (last == std::string_view::npos) return line;
+    if (last - gap == 1 && gap < kShortestFullRow) continue;
     const auto bytes = bytes_in_line(line.substr(0, gap));
-    if (!bytes || bytes->end != gap || last == std::string_view::npos) continue;
+    if (!bytes || bytes->end != gap) continue;
     for (std::size_t column = gap + (bytes->bytes.size() < kFullRow ? 2 : 1); column <= last; ++column)
       if (is_column_of_characters(in_single_bytes(without_bars(line.substr(column))), bytes->bytes))
         return line.substr(0, gap);
@@ -79,9 +82,9 @@ struct RecordedCharacter {
 
 /// `> 	0x01 (^A)`: a character in each line, with its name.
 std::optional<RecordedCharacter> character_of_interceptty(std::string_view line) {
-  static const std::regex kCharacter(R"(^([<>])\s+0x([0-9A-Fa-f]{2})(\s+\(.*\))?\s*$)");
-  std::match_results<std::string_view::const_iterator> match;
-  if (!std::regex_search(line.begin(), line.end(), match, kCharacter)) return {};
+  static const std::regex kCharacter(R"(([<>])\s+0x([0-9A-Fa-f]{2})(\s+\(.*\))?\s*$)");
+  TextMatch match;
+  if (line.size() > kLongestHead || !begins_with(line, match, kCharacter)) return {};
   return RecordedCharacter{match.str(1) == ">" ? Direction::Request : Direction::Answer,
                            static_cast<std::uint8_t>(std::stoul(match.str(2), nullptr, 16))};
 }
@@ -99,8 +102,10 @@ class LogReader {
     if (time) line.remove_prefix(arrow + time->length);
     const std::optional<Time> at = time ? std::optional(days_.since_first_midnight(*time)) : std::nullopt;
     const std::string_view whole = line;
-    if (!at && offset_is_wrong(line))
+    if (!at && offset_is_wrong(line)) {
+      in_dump_ = true;
       return leave_out({.not_understood = std::string(line.substr(0, line.find(' ')))}, true);
+    }
     if (!at) line.remove_prefix(length_of_offset(line));
     const std::size_t counter = length_of_counter(line);
     in_characters_ = false;
@@ -153,9 +158,9 @@ class LogReader {
 
   /// `0010  ` before a row: how many bytes of the frame stand above it.
   std::size_t length_of_offset(std::string_view line) const {
-    static const std::regex kOffset(R"(^\s{0,9}([0-9A-Fa-f]{8}|[0-9A-Fa-f]{4})(:\s|\s\s))");
-    std::match_results<std::string_view::const_iterator> match;
-    if (!std::regex_search(line.begin(), line.end(), match, kOffset)) return 0;
+    static const std::regex kOffset(R"(\s{0,9}([0-9A-Fa-f]{8}|[0-9A-Fa-f]{4})(:\s|\s\s))");
+    TextMatch match;
+    if (!begins_with(line, match, kOffset)) return 0;
     if (!heading_ && !goes_on_ && !is_dump(line)) return 0;
     return std::stoul(match.str(1), nullptr, 16) == bytes_above() ? static_cast<std::size_t>(match.length()) : 0;
   }
@@ -164,15 +169,16 @@ class LogReader {
 
   /// `00000010  01 03 …` of hexdump: eight digits, two blanks, and pairs of digits.
   static bool is_dump(std::string_view line) {
-    static const std::regex kDump(R"(^[0-9A-Fa-f]{8}\s\s+[0-9A-Fa-f]{2}(\s|$))");
-    return std::regex_search(line.begin(), line.end(), kDump);
+    static const std::regex kDump(R"([0-9A-Fa-f]{8}\s\s+[0-9A-Fa-f]{2}(\s|$))");
+    TextMatch match;
+    return begins_with(line, match, kDump);
   }
 
-  /// `00000008` below the last row: how many bytes there were.
+  /// `00000008` below the last row: how many bytes there were, with those of rows that were left out.
   bool ends_dump(std::string_view line) const {
     const std::string_view digits = stl::trim(line);
     return in_dump_ && digits.size() == 8 && digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos &&
-           std::stoul(std::string(digits), nullptr, 16) == recording_.frames.back().bytes.size();
+           (row_left_out_ || std::stoul(std::string(digits), nullptr, 16) == recording_.frames.back().bytes.size());
   }
 
   /// A character without a time: a frame lasts until the other end speaks.
@@ -194,6 +200,7 @@ class LogReader {
   void take(const BytesInLine& found, std::string_view line, Direction direction, std::optional<Time> at) {
     const bool is_row = !at && line.substr(0, found.begin).find_first_not_of(" \t") == std::string_view::npos;
     lost_row_ = lost_row_ && is_row;
+    row_left_out_ = lost_row_;
     if (lost_row_) return;
     if (is_row && goes_on_) {
       Bytes& bytes = recording_.frames.back().bytes;
@@ -225,6 +232,7 @@ class LogReader {
     lost_row_ = may_be_row && (goes_on_ || heading_ || lost_row_);
     heading_.reset();
     goes_on_ = false;
+    row_left_out_ = true;
     if (++in_doubt_ <= kMostNamed)
       recording_.notes.push_back(fmt::format("line {}: left out: '{}' beside its bytes is not understood", number_,
                                              stl::shortened(found.not_understood)));
@@ -254,6 +262,7 @@ class LogReader {
   bool characters_ = true;
   std::optional<Heading> heading_;
   bool in_dump_ = false;        // the line before was a row of one
+  bool row_left_out_ = false;   // and is not in the last frame
   bool in_characters_ = false;  // it was one character, as interceptty has it
   bool lost_row_ = false;       // a row of the frame was left out, and so are those below it
   bool goes_on_ = false;        // the row before was full, and has a heading

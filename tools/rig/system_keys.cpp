@@ -5,12 +5,23 @@
 #include <array>
 #include <utility>
 
+#include "interpreter/base/joined.hpp"
+#include "serial_sim/westinghouse/plcs.hpp"
 #include "tools/rig/system_block_reader.hpp"
 
 namespace s7200::tools {
 namespace {
 
 using Where = SystemKey::Where;
+
+/// `modbus, pc1000-lan … or hppc`
+std::string_view meaning_of_other_plc() {
+  const auto rows = westinghouse::plcs();
+  static const std::string kMeaning =
+      fmt::format("as `s7200 master --protocol` names it: {} or {}",
+                  stl::joined(rows.first(rows.size() - 1), &westinghouse::PlcRow::name), rows.back().name);
+  return kMeaning;
+}
 
 // clang-format off
 const std::array kKeys{
@@ -64,7 +75,7 @@ const std::array kKeys{
     SystemKey{Where::Poll, "count", "NUMBER", "how many to read, up to 2000 coils or inputs or 125 registers; 1 if left out"},
     SystemKey{Where::Poll, "value", "NUMBER", "the one to write"},
 
-    SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", "as `s7200 master --protocol` names it: modbus, pc1000-lan, westnet, pc500-loader or hppc"},
+    SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", meaning_of_other_plc()},
     SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
     SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[slave=05, HR1=1234]` of modbus, `[unit=05, sync=ignored]` of pc1000-lan"},
     SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT, master", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`, or the master that joins its line, `s7200 master --protocol pc1000-lan` or that of a scenario; without it the PLC needs the setting `sync=ignored`"},

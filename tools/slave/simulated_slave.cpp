@@ -16,24 +16,29 @@ SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const serial::Mas
   simulation_.let_master_follow([line = serial::LineSettings(master)](const SerialFormat& port) { return line.over(port); });
 }
 
-bool SimulatedSlave::answers_in_stop() const {
+bool SimulatedSlave::goes_on_in_stop() const {
   const State& state = simulation_.cpu().state();
-  return in_stop_too_ && state.mode == Mode::Stop && state.fatal_code == 0 && !interrupted();
+  return state.mode == Mode::Stop && state.fatal_code == 0 && !interrupted();
 }
 
-/// False when the CPU is in STOP, where no program runs on and it does not answer, or after Ctrl-C.
+/// False after a fatal error and after Ctrl-C.
 bool SimulatedSlave::run_until(Time end) {
   if (simulation_.run_until(end) == serial::Halt::Time) return true;
-  return answers_in_stop() && simulation_.system().run_until(end) == serial::Halt::Time;
+  return goes_on_in_stop() && simulation_.system().run_until(end) == serial::Halt::Time;
+}
+
+/// The same, and false as soon as the CPU is in STOP if nobody answers there.
+bool SimulatedSlave::run_ready_until(Time end) {
+  return in_stop_too_ ? run_until(end) : simulation_.run_until(end) == serial::Halt::Time;
 }
 
 bool SimulatedSlave::get_ready(Time limit) {
   if (simulation_.run_until_ready([this] { return pause(); }, limit)) return true;
-  return answers_in_stop() && run_until(simulation_.time() + pause());
+  return in_stop_too_ && goes_on_in_stop() && run_until(simulation_.time() + pause());
 }
 
 bool SimulatedSlave::wait_until_ready(Time after, std::string& why) {
-  const bool ready = after == kNever ? get_ready(kReadyWithin) : run_until(after);
+  const bool ready = after == kNever ? get_ready(kReadyWithin) : run_ready_until(after);
   if (!ready && after == kNever && simulation_.cpu().state().mode == Mode::Run && !interrupted())
     why = fmt::format(
         "the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "

@@ -16,7 +16,7 @@ inline constexpr Time kReadyWithin = 60 * kSecond;
 class SimulatedSlave final : public SlaveInSimulation {
  public:
   /// The simulation is not owned and has been powered up. `name` is its program's.
-  /// `in_stop_too`: a CPU in STOP answers as well, as it does in PPI.
+  /// `in_stop_too`: somebody answers when the CPU is in STOP as well: it does so itself in PPI.
   SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name,
                  bool in_stop_too = false);
 
@@ -25,7 +25,7 @@ class SimulatedSlave final : public SlaveInSimulation {
   bool get_ready(Time limit);
 
   /// Runs until the first scan has ended and the line has been quiet for as long as a master leaves it, or until `after` if
-  /// that is not kNever. False when the CPU stopped and does not answer
+  /// that is not kNever. False when the CPU stopped and nobody answers
   /// there, after Ctrl-C, and, with `why`, when the moment never comes.
   bool wait_until_ready(Time after, std::string& why);
 
@@ -36,6 +36,7 @@ class SimulatedSlave final : public SlaveInSimulation {
   /// std::invalid_argument for a byte with wrong parity in a format without.
   serial::Exchange exchange(const serial::Request& request) override;
   serial::Exchange receive(const serial::Listening& listening) override;
+  /// In STOP too, but for a fatal error: the others on the line go on.
   void wait(Time duration) override;
   Time now() const override { return simulation_.time(); }
   std::string name() const override { return name_; }
@@ -47,7 +48,8 @@ class SimulatedSlave final : public SlaveInSimulation {
 
  private:
   bool run_until(Time end);
-  bool answers_in_stop() const;
+  bool run_ready_until(Time end);
+  bool goes_on_in_stop() const;
 
   serial::Simulation& simulation_;
   serial::MasterSettings master_;

@@ -559,6 +559,13 @@ TEST(S7Services, TheClockIsReadAndSet) {
   EXPECT_EQ(load16(&bad[20]), 0x8704) << "not BCD";
 }
 
+TEST(S7Services, UserDataThatNameNoServiceGetTheirError) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(master.ask({0x32, 7, 0, 0, 0, 1, 0, 3, 0, 0, 0, 1, 0x12}),
+            (Bytes{0x32, 7, 0, 0, 0, 1, 0, 12, 0, 4, 0, 1, 0x12, 8, 0x12, 0x80, 0, 0, 0, 0, 0x87, 0x04, 0x0A, 0, 0, 0}));
+}
+
 TEST(S7Services, ATimeThatDoesNotExistIsRefused) {
   Plc plc(kQuiet);
   Master master(plc);

@@ -3,6 +3,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/master/protocol.hpp"
 #include "tools/master/statistics.hpp"
@@ -236,6 +239,46 @@ TEST(FreeportPcAction, AnAnswerIsJudgedWithTheEndCharacterThatWasAgreed) {
   EXPECT_EQ(right.verdict, serial::Verdict::Right);
   EXPECT_EQ(right.values, (std::vector<std::uint16_t>{0x01, 0x23}));
   EXPECT_EQ(judged({.station = 2, .given = {{"--end-character", "16#1A"}}}).verdict, serial::Verdict::Right);
+}
+
+/// What a station answers to a PDU, after it has accepted the request; the PDU stands between an answer's delimiters.
+serial::Answer judged_ppi(const std::string& action, const Bytes& pdu) {
+  const auto request = parsed(action, {.station = 2}, ppi_protocol()).at(0).request;
+  const Bytes sent = serial::bytes_of(request->frame());
+  Bytes response{ppi::kAccepted};
+  if (!pdu.empty()) {
+    const Bytes reply = ppi::to_frame({0, 2, ppi::kData, pdu});
+    response.insert(response.end(), reply.begin(), reply.end());
+  }
+  return request->judge(sent, response);
+}
+
+TEST(PpiAction, AnAcceptanceAloneIsNoStatus) {
+  const serial::Answer answer = judged_ppi("status", {});
+  EXPECT_EQ(answer.verdict, serial::Verdict::Wrong);
+  EXPECT_EQ(answer.fault, "accepted, but no status");
+}
+
+TEST(PpiAction, AnAnswerOfUserDataIsOfTheGroupAndServiceThatWereAskedFor) {
+  const auto answered = [](const std::string& action, std::uint8_t group, std::uint8_t service, const Bytes& data,
+                           std::uint8_t error = 0) {
+    Bytes pdu{0x32, 7, 0, 0, 0, 1, 0, 12, 0, low_byte(data.size())};
+    const Bytes parameters{0, 1, 0x12, 8, 0x12, group, service, 0, 0, 0, error, 4};
+    pdu.insert(pdu.end(), parameters.begin(), parameters.end());
+    if (error == 0) pdu[21] = 0;
+    pdu.insert(pdu.end(), data.begin(), data.end());
+    return judged_ppi(action, pdu);
+  };
+  const Bytes time{0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0, 1}, none{0x0A, 0, 0, 0};
+  const std::string set = "set-clock 2026-11-22T15:45:30",
+                    other = "not the answer to this request: another group or service";
+  EXPECT_EQ(answered("clock", 0x87, 1, time).verdict, serial::Verdict::Right);
+  EXPECT_EQ(answered(set, 0x87, 2, none).verdict, serial::Verdict::Right);
+  EXPECT_EQ(answered("clock", 0x84, 1, time).fault, other);
+  EXPECT_EQ(answered(set, 0x87, 1, none).fault, other);
+  EXPECT_EQ(answered("clock", 0x87, 1, none).fault, "no time in it: 4 bytes of data");
+  EXPECT_EQ(answered("clock", 0x87, 1, none, 0x87).exception, 0x8704);
+  EXPECT_EQ(judged_ppi("clock", {0x32, 7, 0, 0, 0, 1, 0, 0, 0, 0}).fault, other) << "no parameters";
 }
 
 TEST(Protocols, EachHasANameOfItsOwnAndHelp) {

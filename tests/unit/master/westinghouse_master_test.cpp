@@ -113,6 +113,17 @@ TEST(WestinghouseMaster, ALoaderSessionIsSentStepByStep) {
   EXPECT_EQ(next("10 15"), "none");
 }
 
+TEST(WestinghouseMaster, ABlockThatIsShorterThanItsHeaderIsWrong) {
+  const auto judged = [](const std::string& length) {
+    const auto request = parsed(pc500_loader_protocol(), "block 1")[0].request;
+    const Bytes response =
+        bytes("10 06 02 16 10 03 10 06 02 00 40 00 70 70 01 01 00 00 00 00 " + length + " 10 03 02 12 10 03");
+    return request->judge({}, response);
+  };
+  EXPECT_EQ(judged("00 07").fault, "");
+  EXPECT_EQ(judged("00 00").fault, "a block of 0 words: its header alone has 5");
+}
+
 TEST(WestinghouseMaster, RegistersOfAnHppcAreWhereItsParameterTableSays) {
   const auto request = parsed(hppc_protocol(), "read-register 2")[0].request;
   EXPECT_EQ(serial::to_hex(request->frame()), "09 00 20 40 00 0d 34 bc a1");

@@ -96,6 +96,27 @@ TEST(Recordings, ATextLogHasAFrameInEachLine) {
   EXPECT_EQ(log.notes, std::vector<std::string>{"line 1: left out: no bytes in it"});
 }
 
+TEST(Recordings, TheLengthBelowADumpWhoseRowsAreAllLeftOutIsOfNoFrame) {
+  const std::string full = "00000000  01 03 00 00 00 01 84 0a 01 03 00 00 00 01 84 0a\n";
+  for (const std::string& rows :
+       {std::string("00000000  01 03 0? 00\n"), full + "00000030  01 03\n", full + "00000010  01 0?\n00000020  01 03\n"})
+    EXPECT_TRUE(refusal_of(rows + "00000004\n").starts_with("no frame in it")) << rows;
+}
+
+TEST(Recordings, WhatALineRepeatsManyTimesIsReadAllTheSame) {
+  const std::string blanks(100'000, ' '), dashes(100'000, '-'), digits(100'000, '7');
+  for (const std::string& line :
+       {blanks + "01 03", "a" + dashes + "> b", "a" + blanks + "-> b", "> 0x01 (" + dashes + ")", "> 0x01" + blanks,
+        "1.0" + blanks + "01 03", "Tx:" + digits + "-01", "00000000  " + blanks + "01 03"}) {
+    const LineRecording log = recording_of(line + "\n0.5 TX 01 03 00 00 00 01 84 0A\n");
+    ASSERT_FALSE(log.frames.empty()) << line.substr(0, 30);
+    EXPECT_EQ(log.frames.back().bytes, kRequest) << line.substr(0, 30);
+  }
+  std::string received = "recv:", again = "recv: 0x1 old_data:";
+  for (int i = 0; i < 30'000; ++i) received += " 0x1", again += " 0x1";
+  EXPECT_EQ(recording_of(again + "\n" + received + "\n").frames.at(1).bytes.size(), 30'000U);
+}
+
 TEST(Recordings, TheMarkThatSomeEditorsPutBeforeATextIsNoPartOfIt) {
   for (const char* const text :
        {"2026-11-22 10:00:00.5 TX 01 03 00 00 00 01 84 0A\n2026-11-22 10:00:01 RX 01 03 02 12 34 B5 33\n",
@@ -503,6 +524,37 @@ std::string ethernet_pcap(const std::vector<Bytes>& packets) {
   std::string bytes = file.str();
   bytes[20] = 1;  // the link type: Ethernet
   return bytes;
+}
+
+TEST(Recordings, ATimeOfNoAgeIsRefused) {
+  const Bytes section{0x0A, 0x0D, 0x0D, 0x0A, 28,   0,    0,    0,    0x4D, 0x3C, 0x2B, 0x1A, 1, 0,
+                      0,    0,    0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 28,   0,    0, 0};
+  const Bytes in_seconds{1, 0, 0, 0, 32, 0, 0, 0, 147, 0, 0, 0, 0xFF, 0xFF, 0, 0,
+                         9, 0, 1, 0, 0,  0, 0, 0, 0,   0, 0, 0, 32,   0,    0, 0};
+  const auto read_at = [&](std::uint8_t high) {
+    const Bytes packet{6, 0, 0, 0, 36, 0, 0, 0, 0, 0, 0, 0, high, 0, 0,  0, 0, 0,
+                       0, 0, 4, 0, 0,  0, 4, 0, 0, 0, 1, 3, 0,    0, 36, 0, 0, 0};
+    std::string bytes, why;
+    for (const Bytes* block : {&section, &in_seconds, &packet}) bytes.append(block->begin(), block->end());
+    return read_recording(bytes, {}, why) ? "read" : why;
+  };
+  EXPECT_EQ(read_at(0), "read");
+  EXPECT_EQ(read_at(1), "packet 1: 4294967296 s since 1970 is not a time of a recording");
+}
+
+TEST(Recordings, OfEveryConnectionOfACutOffFileTheLastFrameIsMarked) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  std::vector<Bytes> packets;
+  for (const std::uint16_t port : std::initializer_list<std::uint16_t>{50'000, 50'001, 50'000})
+    packets.push_back(segment(true, 100, request, 0x18, port));
+  store32(&packets[2][14 + 20 + 4], 100 + static_cast<std::uint32_t>(request.size()));
+  packets.push_back(packets[0]);
+  std::string bytes = ethernet_pcap(packets);
+  bytes.pop_back();
+  const LineRecording recording = recording_of(bytes);
+  ASSERT_EQ(recording.frames.size(), 3U);
+  for (const auto& [frame, last] : {std::pair{0, false}, {1, true}, {2, true}})
+    EXPECT_EQ(recording.frames[static_cast<std::size_t>(frame)].more_was_lost, last) << frame;
 }
 
 TEST(Recordings, ModbusTcpIsReadAsOnASerialLine) {
@@ -1024,6 +1076,65 @@ TEST(Conversation, AFrameIsCountedOnce) {
   EXPECT_EQ(summary.json()["wrong"].get<int>() + summary.json()["strays"].get<int>() + summary.json()["answered"].get<int>(),
             3)
       << summary.text();
+}
+
+TEST(Conversation, AFrameThatIsSentWithoutTheLengthOfARequestIsNone) {
+  const auto frames = read(recording_of("TX 01 03 04 12 34 56 78 81 07\n"));
+  EXPECT_EQ(texts(frames), std::vector<std::string>{"> no request: it does not have the length of its function"});
+  EXPECT_FALSE(frames[0].right);
+}
+
+/// What a log says after its directions are settled, and the last note.
+std::pair<std::vector<std::string>, std::string> settled(const std::string& log) {
+  LineRecording recording = recording_of(log);
+  settle_directions(recording, *find_recorded_protocol("modbus"));
+  return {texts(read(recording)), recording.notes.empty() ? "" : recording.notes.back()};
+}
+
+TEST(Conversation, DirectionsThatAreAllTheSameAreLeftOpenWhereFramesSayOtherwise) {
+  const auto [said, note] = settled(
+      "0.000 RX 01 03 00 0a 00 02 e4 09\n0.030 RX 01 03 04 12 34 56 78 81 07\n"
+      "0.060 RX 01 03 00 0a 00 02 e4 09\n0.090 RX 01 83 02 c0 f1\n");
+  EXPECT_EQ(said, (std::vector<std::string>{
+                      "> station 1, read holding registers 40011, 2 of them", "< 2 registers: 16#1234 16#5678",
+                      "> station 1, read holding registers 40011, 2 of them", "< exception 2: illegal data address"}));
+  EXPECT_EQ(note, "the file marks all frames alike: what they say tells requests and answers apart");
+  EXPECT_EQ(settled("0.000 TX 01 03 00 0a 00 02 e4 09\n0.030 TX 01 03 00 0a 00 02 e4 09\n").second, "");
+}
+
+TEST(Conversation, ASlavesLogIsReadWithTheDirectionsTheOtherWayRound) {
+  const auto [said, note] = settled("0.000 RX 01 03 00 0a 00 02 e4 09\n0.030 TX 01 03 04 12 34 56 78 81 07\n");
+  EXPECT_EQ(said, (std::vector<std::string>{"> station 1, read holding registers 40011, 2 of them",
+                                            "< 2 registers: 16#1234 16#5678"}));
+  EXPECT_EQ(note, "what the file marks as sent are the answers, and what it marks as received the requests");
+  EXPECT_EQ(settled("0.000 TX 01 03 00 0a 00 02 e4 09\n0.030 RX 01 03 04 12 34 56 78 81 07\n").second, "");
+}
+
+TEST(Conversation, AFrameThatALogHasInSeveralRowsIsOne) {
+  const Stamps stamps{.character = 1'145'833};
+  const auto said = [&](const std::string& rows) {
+    return texts(read(recording_of("0.000 TX 01 03 00 0a 00 02 e4 09\n" + rows), "modbus", stamps));
+  };
+  const std::vector<std::string> one{"> station 1, read holding registers 40011, 2 of them",
+                                     "< 2 registers: 16#1234 16#5678"};
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.0335 RX 12 34 56 78 81 07\n"), one);
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.030 RX 12 34 56 78 81 07\n"), one) << "noted at once";
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 RX 12 34\n0.036 RX 56 78 81 07\n"), one);
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.040 RX 12 34 56 78 81 07\n").size(), 3U) << "after a silence";
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 RX 12 34 56 78 81 08\n").size(), 3U) << "a wrong CRC";
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 TX 12 34 56 78 81 07\n").size(), 3U) << "of the other";
+}
+
+TEST(Conversation, AFrameOfManyMessagesIsReadInOneGo) {
+  constexpr std::size_t kPairs = 50'000;
+  LineRecording recording{.frames = {{.at = 0}}, .is_log = true};
+  Bytes& all = recording.frames[0].bytes;
+  for (std::size_t i = 0; i < kPairs; ++i)
+    for (const Bytes* message : {&kRequest, &kAnswer}) all.insert(all.end(), message->begin(), message->end());
+  const auto frames = read(recording);
+  ASSERT_EQ(frames.size(), 2 * kPairs);
+  EXPECT_EQ(frames.back().frame.bytes, kAnswer);
+  EXPECT_TRUE(frames.back().right);
 }
 
 TEST(Conversation, ARecordingThatLooksLikeAnotherProtocolIsSeen) {

@@ -172,6 +172,10 @@ TEST(WestinghouseModbus, M10TheTablesHave1024And1024And256And2048Entries) {
 TEST(WestinghouseModbus, M11HoldingRegister1IsWord0OfTheMemory) {
   EXPECT_EQ(asked("W[0000]=1234", "03 00 00 00 01"), "03 02 12 34");
   EXPECT_EQ(asked("holding_word=0100 W[0100]=1234", "03 00 00 00 01"), "03 02 12 34");
+  const std::string at_the_end = "holding_word=fffe W[ffff]=1234";
+  EXPECT_EQ(asked(at_the_end, "03 00 01 00 01"), "03 02 12 34");
+  for (const char* const beyond : {"03 00 01 00 02", "06 00 02 12 34", "10 00 01 00 02 04 00 01 00 02"})
+    EXPECT_EQ(asked(at_the_end, beyond).substr(3), "02") << beyond;
 }
 
 TEST(WestinghouseModbus, M12TheSlaveIdHasEightBytesWithoutPadding) {

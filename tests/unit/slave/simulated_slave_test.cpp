@@ -42,5 +42,27 @@ TEST(SimulatedSlave, IsReadyAfterTheSilenceOfTheRateThatIsSetByThen) {
   EXPECT_GE(simulation.time(), slave.pause());
 }
 
+TEST(SimulatedSlave, TimePassesInStopButForAFatalError) {
+  const auto waited = [](const char* program) {
+    serial::Simulation simulation(test::compile(program));
+    simulation.power_up();
+    SimulatedSlave(simulation, {}, "slave").wait(10 * kSecond);
+    return simulation.time() >= 10 * kSecond;
+  };
+  EXPECT_TRUE(waited("LD SM0.0\nSTOP\nMEND\n"));
+  EXPECT_FALSE(waited("LD SM0.0\nLBL 1\nJMP 1\nMEND\n"));
+}
+
+TEST(SimulatedSlave, IsReadyInStopOnlyIfSomebodyAnswersThere) {
+  for (const bool in_stop_too : {false, true}) {
+    serial::Simulation simulation(test::compile("LD SM0.0\nSTOP\nMEND\n"));
+    simulation.power_up();
+    SimulatedSlave slave(simulation, {}, "slave", in_stop_too);
+    std::string why;
+    EXPECT_EQ(slave.wait_until_ready(3 * kSecond, why), in_stop_too);
+    EXPECT_EQ(simulation.time() >= 3 * kSecond, in_stop_too);
+  }
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -134,13 +134,14 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   std::string why;
   auto recording = read_recording(*bytes, options.reading, why);
   if (!recording) return print_error(fmt::format("{}: {}", read.name, why)), std::nullopt;
-  print_notes(recording->notes);
   read.recording = std::move(*recording);
   const bool over_tcp = read.recording.over_tcp;
   read.stamps =
       options.complete({.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"});
   const bool faster = is_faster_than_said(read.recording, read.stamps);
   read.stamps.exact = !read.recording.is_log && !over_tcp && !faster;
+  settle_directions(read.recording, options.spoken(), read.stamps);
+  print_notes(read.recording.notes);
   if (faster)
     print_note(
         fmt::format("most frames begin before the one before can be over at {} baud: name the rate of the line with "
