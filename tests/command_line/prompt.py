@@ -245,6 +245,19 @@ class Prompt(unittest.TestCase):
         terminal.until("interrupted by Ctrl-C", PROMPT)
         self.quit(terminal)
 
+    def test_the_layout_lives_at_the_pace_of_the_clock_where_scans_are_passed_over(self):
+        for pace in (("--realtime",), ("--speed", "20")):
+            terminal = self.session(SLAVE, *pace, size=(80, 24))
+            terminal.command("layout on")
+            terminal.type("continue 1000h\n")
+            terminal.until("\n")
+            shown = terminal.until(*["\x1b[1;1H", "scan "] * 5, "\x1b[2;1H")
+            self.assertNotIn(PROMPT, shown, "while it runs")
+            self.assertGreater(len(set(re.findall(r"scan (\d+)", shown))), 3, "it is another scan each time")
+            terminal.signal(signal.SIGINT)
+            terminal.until("interrupted by Ctrl-C", PROMPT)
+            self.quit(terminal)
+
     def test_the_layout_after_ctrl_c_shows_what_was_executed(self):
         terminal = self.session()
         terminal.command("layout on")

@@ -66,7 +66,7 @@ class Told final : public Observer {
 History::Settings settings_of(const DebuggerOptions& options, std::function<void()> progress) {
   History::Settings settings = options.history;
   settings.stop_request = options.stop_request;
-  if (options.progress) settings.progress = std::move(progress);
+  settings.progress = std::move(progress);
   return settings;
 }
 
@@ -136,6 +136,7 @@ Debugger::Error Debugger::execute_one(std::string_view text) {
 
 /// Once a second.
 void Debugger::show_progress() {
+  if (live_status_ && layout_.refresh) layout_.refresh();
   if (host_time() < progress_at_ || is_in_view()) return;
   progress_at_ = host_time() + std::min(options_.patience, kSecond);
   progress_shown_ = true;

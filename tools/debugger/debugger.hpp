@@ -103,7 +103,7 @@ class Debugger {
   struct Layout {
     std::function<Error(bool on)> turn{};  ///< switches it on or off, and returns why that cannot be
     std::function<bool()> shown{};
-    std::function<void()> refresh{};  ///< called now and then while a run goes on
+    std::function<void()> refresh{};  ///< called often while a run goes on
   };
   void set_layout(Layout layout) { layout_ = std::move(layout); }
 
@@ -380,7 +380,6 @@ class Debugger {
   struct LiveStatus {
     std::uint32_t first = 0, end = 0;
     LastExecutions last{};
-    std::uint64_t executed = 0;
   };
   std::optional<LiveStatus> live_status_;
 };

@@ -71,9 +71,7 @@ void Debugger::begin_live_status() {
 }
 
 void Debugger::note_live_status(const InstructionRecord& record) {
-  constexpr std::uint64_t kLookEvery = 4096;  // instructions
   if (record.op >= live_status_->first && record.op < live_status_->end) live_status_->last.of[record.op] = record;
-  if (++live_status_->executed % kLookEvery == 0 && layout_.refresh) layout_.refresh();
 }
 
 std::vector<std::string> Debugger::view(std::size_t rows) {

@@ -453,7 +453,7 @@ struct Bridged {
       : simulation(program_of(text)), asks(std::move(times)), asked_for(std::move(request)) {
     simulation.power_up();
     DebuggerOptions options{};
-    options.history.drive = [this](Time end) { return drive(end); };
+    options.history.drive = [this](Time end, const auto&) { return drive(end); };
     debugger = std::make_unique<Debugger>(simulation, out, options);
   }
   serial::Halt drive(Time end) {
@@ -1458,7 +1458,7 @@ TEST(Debugger, ATimeFromThePastOnEndsWhereItEndsWhereverScansArePassedOver) {
   simulation.power_up();
   std::ostringstream out;
   DebuggerOptions options{};
-  options.history.drive = [&](Time end) {  // Ctrl-C between two scans
+  options.history.drive = [&](Time end, const auto&) {  // Ctrl-C between two scans
     const serial::Halt halt = simulation.run_until(std::min<Time>(end, 700 * kMillisecond));
     return simulation.time() < end ? serial::Halt::Request : halt;
   };
@@ -1474,7 +1474,7 @@ TEST(Debugger, APeerThatIsLostIsSaidOnceAndTheSessionGoesOn) {
   std::ostringstream out;
   DebuggerOptions options{};
   std::string failure = "the device is gone";
-  options.history.drive = [&](Time end) {
+  options.history.drive = [&](Time end, const auto&) {
     const serial::Halt halt = simulation.run_until(failure.empty() ? end : std::min<Time>(end, 5 * kMillisecond));
     return failure.empty() ? halt : serial::Halt::Request;
   };

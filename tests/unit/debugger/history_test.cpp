@@ -347,7 +347,7 @@ TEST(History, WhatCameOverTheHostPortComesAgainWhenItIsPlayed) {
   Recorded* running = nullptr;
   int turn = 0;
   // A bridge: it looks every millisecond, and something comes in now and then.
-  const auto drive = [&](Time end) {
+  const auto drive = [&](Time end, const auto&) {
     serial::Simulation& simulation = running->simulation;
     while (simulation.time() < end) {
       const serial::Halt halt = simulation.run_until(std::min(end, simulation.time() + kMillisecond));
@@ -378,7 +378,7 @@ TEST(History, WhatCameOverTheHostPortComesAgainWhenItIsPlayed) {
 
 TEST(History, WhatCameOverTheHostPortIsForgottenFromItsBeginningWhenItTakesTooMuch) {
   Recorded* running = nullptr;
-  const auto drive = [&](Time end) {
+  const auto drive = [&](Time end, const auto&) {
     serial::Simulation& simulation = running->simulation;
     const serial::HostCharacter character{.byte = 0x55, .format = {9600, 8, Parity::Even, 1}};
     serial::Halt halt = serial::Halt::Time;
