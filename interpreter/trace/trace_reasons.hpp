@@ -160,6 +160,8 @@ class TraceReasons {
   static void return_to_caller(Flow& flow);
   Cause cause_of(const Decision& decision) const;
   std::optional<Cause> cause_of(const Frame& frame) const;
+  std::optional<Cause> cause_of_leaving(const Reception& reception, const TraceRecord& record) const;
+  Cause received_again(const Reception& reception, const TraceRecord& record) const;
   void note_transmit_passed(const Flow& flow, const InstructionRecord& by);
   bool serves_character() const { return in_interrupt_ && is_receive_event(serving_); }
   bool goes_on(const Frame& frame, const TraceRecord& record) const;
