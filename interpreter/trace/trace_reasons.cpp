@@ -345,7 +345,7 @@ std::optional<TraceReasons::Unanswered> TraceReasons::taken(const Reception& rec
       fmt::format("{} took {}{}, and nothing was sent since{}", all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV",
                   all.characters == 1 ? "it" : "them", reception.message_open ? ", its message has not ended" : "",
                   cause ? ": " + cause->text : " (no XMT was executed)");
-  return Unanswered{all.characters, all.since, text, cause};
+  return Unanswered{all.characters, all.since, text, cause, !frame.attached_anew};
 }
 
 std::vector<TraceReasons::Unanswered> TraceReasons::taken(Time since) const {

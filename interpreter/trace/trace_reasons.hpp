@@ -61,6 +61,7 @@ class TraceReasons {
     std::string decided_by;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`, `INT 121 took them without reading
                              ///< SMB2 …`; nothing if it is not known
     std::optional<Cause> cause{};  ///< that; of characters that no routine has read the last ATCH of theirs, if there is one
+    bool open = false;  ///< of taken(): what comes next goes the same way, nothing has been changed about that since
   };
   /// In the order in which they came.
   std::vector<Unanswered> unanswered(const TraceRecord& record) const;
