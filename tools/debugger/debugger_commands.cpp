@@ -150,7 +150,7 @@ hits N stops from the Nth time on since it was set: moments before that do not c
 log prints a line and goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.)",
        &Debugger::set_break, Takes::Break},
       {"watch", "w", "watch ADDRESS[:COUNT]… [read | write | read write | change] [if …] [hits N] [log …]",
-       "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it",
+       "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it; alone: list",
        R"(Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'read' and
 'write' are for instructions alone, and 'write' stops also if the value stays the same. Entries of tables, strings and messages count only if they change. watch
 *VD3570 takes the address that the pointer holds now, and stays there.)",

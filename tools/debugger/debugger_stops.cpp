@@ -159,6 +159,10 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
 }
 
 Debugger::Error Debugger::watch(const Arguments& arguments) {
+  if (arguments.empty()) {
+    list_stops();
+    return {};
+  }
   Words words = arguments;
   Words addresses = take_words(words);
   if (addresses.empty()) return expects("watch", "an address, for example: watch VW100");

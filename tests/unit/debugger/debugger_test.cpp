@@ -1289,7 +1289,7 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"break network", "break expects a line number"},
       {"break 99", "the last instruction is in line 22"},
       {"list 99", "the last instruction is in line 22"},
-      {"watch", "watch expects an address"},
+      {"watch if VW2 > 8", "watch expects an address"},
       {"watch X1", "is not an address"},
       {"delete", "delete expects numbers"},
       {"delete x", "delete expects numbers"},
