@@ -2469,7 +2469,7 @@ class Files(Case):
         good = self.program("continue 100ms\nsend 01 03 00 0a 00 01 crc\ncontinue\nexpect VW3300 = 7\n", "good")
         self.ends(FINE, "debug", SLAVE, "--commands", good)
         bad = self.program("continue 100ms\nexpect VW3290 = 66\n", "bad")
-        self.assertIn("bad:2: expected VW3290 = 66, which does not hold here: VW3290 is ", self.ends(UNUSABLE, "debug", SLAVE, "--commands", bad).stderr)
+        self.assertIn("bad:2: expected VW3290 = 66, which does not hold here: VW3290 is ", self.ends(FAILED, "debug", SLAVE, "--commands", bad).stderr)
 
     def test_captures_overwrite_only_captures_of_their_kind(self):
         path = self.program(Json.ECHO)

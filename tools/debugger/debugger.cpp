@@ -125,6 +125,7 @@ void Debugger::report_undone() {
 Debugger::Error Debugger::execute_one(std::string_view text) {
   Arguments arguments = split(text, kBlanks);
   if (echoing_) out_ << kPrompt << stl::printable(joined(arguments)) << '\n';
+  expectation_failed_ = false;
   std::string why;
   const Command* command = find_command(arguments.front(), why);
   if (!command) return why;

@@ -113,6 +113,9 @@ class Debugger {
 
   bool quit_asked() const { return quit_asked_; }
 
+  /// Whether the last command was an 'expect' that did not hold: it was no wrong one.
+  bool expectation_failed() const { return expectation_failed_; }
+
   /// Where it stands, things have happened after that.
   bool in_the_past() const { return history_.in_the_past(); }
 
@@ -368,6 +371,7 @@ class Debugger {
   int next_number_ = 1;      ///< of a breakpoint or watch
   bool tracing_ = false;
   bool quit_asked_ = false;
+  bool expectation_failed_ = false;
   std::size_t undone_ = 0;  ///< commands, after a stop request
   bool echoing_ = false;    ///< commands are printed after the prompt
   std::string command_;     ///< being executed, as written

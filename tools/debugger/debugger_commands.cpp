@@ -182,8 +182,8 @@ is shown in words, timers with bit, preset and base. A double word that the prog
 In expressions words and double words have a sign, and beside them a constant above 32767 or 2147483647 stands for its
 bits: VW20 = 16#FFFF is VW20 = -1.)",
        &Debugger::print, Takes::Addresses},
-      {"expect", "", "expect EXPRESSION", "a wrong command unless it holds: a script with such lines is a test",
-       "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 2.", &Debugger::expect,
+      {"expect", "", "expect EXPRESSION", "a failure unless it holds: a script with such lines is a test",
+       "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 1.", &Debugger::expect,
        Takes::Addresses},
       {"display", "", "display [ADDRESS[:COUNT]… | off]", "print memory after each stop",
        R"(Further ones are added. Alone: print them now. display *VD3570 takes the address that the pointer holds now, and

@@ -114,6 +114,7 @@ Debugger::Error Debugger::expect(const Arguments& arguments) {
   if (!expression) return why;
   const auto value = expression->value(simulation().cpu(), why);
   if (value && value->truth()) return {};
+  expectation_failed_ = true;
   std::string found = expression->places_text(simulation().cpu());
   if (!value && found.find(why) == std::string::npos) found += fmt::format("{}{}", found.empty() ? "" : "; ", why);
   return fmt::format("expected {}, which does not hold here{}{}", expression->text(), found.empty() ? "" : ": ", found);

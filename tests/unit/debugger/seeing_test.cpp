@@ -118,7 +118,11 @@ TEST(Seeing, LabelsArePlacesAndAreCompleted) {
 TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
   Session session(kNested);
   session("scan 3; expect VW10 = 3 and SM0.0");
+  EXPECT_FALSE(session.debugger->expectation_failed());
   EXPECT_EQ(session.error_of("expect VW10 = 4"), "expected VW10 = 4, which does not hold here: VW10 is 3");
+  EXPECT_TRUE(session.debugger->expectation_failed());
+  session.error_of("expect VW10 +");
+  EXPECT_FALSE(session.debugger->expectation_failed()) << "this one cannot be understood";
   session("set VD500=16#FF000000");
   EXPECT_EQ(session.error_of("expect VW10 = 4 and (M0.1 or VW10 > 8) or *VD500 = 1"),
             "expected VW10 = 4 and (M0.1 or VW10 > 8) or *VD500 = 1, which does not hold here: VW10 is 3, M0.1 is 0, *VD500 "
