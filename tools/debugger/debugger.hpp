@@ -49,7 +49,7 @@ struct DebuggerOptions {
   /// Why a run has ended by itself, such as a bridge that has failed: said once, empty otherwise. The next one goes on.
   std::function<std::string()> take_failure = [] { return std::string(); };
   std::string files{};  ///< that the records and captures write: "the trace"; "" for none
-  bool colour = false;  ///< what is forced is shown in red
+  bool colour = false;  ///< what is forced, and errors, are shown in red, stops in bold, trouble of a trace in yellow
   /// Shows how far a long command has come, in place of what it showed before; "" takes that away. None: nothing is shown.
   std::function<void(std::string_view text)> progress{};
   Time patience = 2 * kSecond;              ///< of the host: how long a command runs before it is shown
@@ -110,6 +110,9 @@ class Debugger {
   /// Where it stands, the instructions around with power flow and operands, and the memory that is displayed: up to `rows`
   /// lines. While a run goes on they are the instructions around the place where it began, as they were executed last.
   std::vector<std::string> view(std::size_t rows);
+
+  /// As what is wrong is shown on a terminal that is to have colours.
+  std::string red(std::string text) const { return painted(std::move(text), Paint::Red); }
 
   bool quit_asked() const { return quit_asked_; }
 
@@ -287,7 +290,9 @@ class Debugger {
   std::size_t add_loaded(std::vector<StopPoint> stops);
   static std::string value_of(const Cpu& cpu, const MemoryRange& range);
   std::vector<Bits> operands_of(std::uint32_t op) const;
-  std::string red(std::string text) const;  ///< on a terminal
+  enum class Paint : std::uint8_t { Red, Yellow, Bold };
+  std::string painted(std::string text, Paint paint) const;  ///< on a terminal that is to have colours
+  std::string bold(std::string text) const { return painted(std::move(text), Paint::Bold); }
   std::vector<SessionOption> session_conditions() const;
   std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
                                          std::string& why) const;
@@ -355,6 +360,7 @@ class Debugger {
   std::string requests_under_way();
   SessionRecord::Station record_of(std::size_t station) const;
   void write_trace(Time until);
+  void write_trace_line(const TraceLine& line);
 
   std::ostream& out_;
   DebuggerOptions options_;

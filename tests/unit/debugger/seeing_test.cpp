@@ -255,5 +255,23 @@ TEST(Seeing, ACounterHasThePresetOfItsInstruction) {
   EXPECT_TRUE(has(session("print C2"), "C2: bit 0\n"));
 }
 
+TEST(Seeing, AColourMarksTheCurrentLineStopsErrorsAndTroubleInATrace) {
+  serial::Simulation simulation(program_of("LD SM0.0\nMOVD 16#7F000000, VD0\nMOVB 1, *VD0\nMEND\n"));
+  simulation.power_up();
+  std::ostringstream out;
+  DebuggerOptions options{};
+  options.colour = true;
+  Debugger debugger(simulation, out, options);
+  EXPECT_FALSE(debugger.execute("break 3; trace on; continue; step"));
+  EXPECT_TRUE(has(out.str(), "\x1b[1mbreakpoint 1, hit for the first time\x1b[0m\n"));
+  EXPECT_TRUE(has(out.str(), " \x1b[1m>\x1b[0m     3  MOVB")) << "where it stands";
+  EXPECT_TRUE(has(out.str(), "\x1b[31mrun-time error 0006")) << "as it is reported";
+  EXPECT_TRUE(has(out.str(), "\x1b[33m  ")) << "in the trace";
+  out.str("");
+  EXPECT_FALSE(debugger.execute("list"));
+  EXPECT_TRUE(has(out.str(), "*      3  MOVB"));
+  EXPECT_TRUE(has(out.str(), " \x1b[1m>\x1b[0m     4  MEND"));
+}
+
 }  // namespace
 }  // namespace s7200::tools
