@@ -213,6 +213,7 @@ class Debugger {
   Error list_faults();
   const LineStation* without_program(std::string_view name) const;
   Error history(const Arguments& arguments);
+  Error timeline(const Arguments& arguments);
   Error branch(const Arguments& arguments);
   Error past(const Arguments& arguments);
   Error save(const Arguments& arguments);

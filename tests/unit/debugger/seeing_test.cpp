@@ -115,6 +115,18 @@ TEST(Seeing, LabelsArePlacesAndAreCompleted) {
   EXPECT_EQ(session.error_of("until LBL 8"), "the program has no LBL 8");
 }
 
+TEST(Seeing, ATimelineShowsWhatTheCpuDidSinceTheLastSendOrForSoLong) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session.error_of("timeline"), "timeline expects a duration before the first 'send'"));
+  EXPECT_TRUE(has(session.error_of("timeline 0ms"), "timeline expects a duration above 0"));
+  const std::string text = session("continue 50ms; send 41; continue; timeline");
+  EXPECT_TRUE(has(text, "received  41"));
+  EXPECT_TRUE(has(text, "INT 1"));
+  EXPECT_TRUE(has(text, "line 11: XMT     VB0, 0"));
+  EXPECT_FALSE(has(session("continue 50ms; timeline 20ms"), "received"));
+  EXPECT_TRUE(has(session("timeline"), "received  41")) << "it only looks, and shows the last frame again";
+}
+
 TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
   Session session(kNested);
   session("scan 3; expect VW10 = 3 and SM0.0");
