@@ -923,7 +923,7 @@ class Options(Case):
         for value in ("VW0=nan", "VW0=-32769", "VW0=65536", "VB0=99999999999999999999999", "VD0=1e999", "VW0=", "VW0=1=1",
                       "VB5000=1", "M0.8=1", "VD0:real=nan", "VW0:real=1"):
             self.refused("run", "--set", value)
-        for value in ("VB0:-1", "VB0:0", "VB0:99999999999999999999", "VB0:4097", "VB0:nan", "VW0:real", "VD0:real:2", "M0.0:2"):
+        for value in ("VB0:-1", "VB0:0", "VB0:99999999999999999999", "VB0:4097", "VB0:nan", "VW0:real", "VD0:real:0", "M0.0:2"):
             self.refused("run", "--dump", value)
         for bridge in ("--tcp", "--rtu-over-tcp", "--modbus-tcp"):
             for value in ("65536", "127.0.0.1:99999", "localhost:502", "::1:502", "127.0.0.1:", "1.2.3.400:1"):
