@@ -2329,6 +2329,22 @@ class Files(Case):
         self.assertIn("fault: flip:character=3,bit=5", recorded.read_text(encoding="utf-8"))
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
 
+    def test_a_session_whose_line_has_faults_from_the_start_is_recorded_as_a_scenario(self):
+        recorded = self.folder / "from_the_start.yaml"
+        self.ends(FINE, "debug", SLAVE, "--fault", "flip:character=3,bit=5", "--fault", "missing:of=answer,character=2", "-x",
+                  f"continue 100ms; send 01 03 00 0a 00 01 crc; continue; record {recorded}")
+        text = recorded.read_text(encoding="utf-8")
+        self.assertIn("fault: flip:character=3,bit=5", text)
+        self.assertIn("fault: missing:", text)
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
+    def test_a_session_at_port_1_is_recorded_as_a_scenario(self):
+        recorded = self.folder / "port1.yaml"
+        program = self.program("LD SM0.1\nMOVB 16#09, SMB130\nATCH 1, 25\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nMOVB 1, VB0\nXMT VB0, 1\nRETI\n", "port1.stl")
+        self.ends(FINE, "debug", program, "--cpu", "226", "--port", "1", "-x", f"continue 100ms; send 41; continue; record {recorded}")
+        self.assertIn("port: 1", recorded.read_text(encoding="utf-8"))
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
     def test_a_place_that_is_set_or_displayed_twice_stands_once_in_a_recorded_scenario(self):
         recorded = self.folder / "twice.yaml"
         self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; set VB2000=5 VW2000=1 VB2000=7; continue 100ms; display VB2000:2; "

@@ -177,7 +177,7 @@ they were set at. What stops at another station goes over to it.)",
        R"(Frames, memory and inputs that were set, faults of the line and power cycles, each at its time, and the answers
 that came. Displayed memory is expected to have its values at the end. What no scenario can do is refused: force,
 mode, a bridge, 'power all' of a system, something set or sent while a frame or its answer was under way, a request
-given up within its answer, and a session with --fault, --memory or --port 1.)",
+given up within its answer, and a session with --memory, or of a system with --fault.)",
        &Debugger::record, Takes::Files},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
       {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",
