@@ -106,6 +106,14 @@ TEST(Seeing, CompletionOffersCommandsAddressesPlacesAndFiles) {
   EXPECT_EQ(offered("step 1"), Words{});
 }
 
+TEST(Seeing, CompletionOffersTheNumbersOfEventsWhoseRoutineIsAskedFor) {
+  Session session(kNested);
+  const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
+  EXPECT_EQ(offered("who ev"), std::vector<std::string>{"event"});
+  EXPECT_EQ(offered("who event 1"), offered("break event 1"));
+  EXPECT_EQ(offered("rwho event 10"), std::vector<std::string>{"10"});
+}
+
 TEST(Seeing, LabelsArePlacesAndAreCompleted) {
   Session session("LD SM0.0\nJMP 7\nINCW VW0\nLBL 7\nLD SM0.0\nINCW VW2\nLBL 20\nMEND\n");
   const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
