@@ -56,17 +56,16 @@ bool is_integer(std::string_view text) {
   return operand && std::holds_alternative<stl::Integer>(operand->value);
 }
 
-/// What follows the first colon, in upper case: `4`, `REAL`, `4:REAL`.
+/// What follows the first colon, in upper case: `4`, `REAL`, `4:REAL`, `REAL:4`.
 bool read_suffix(std::string_view text, MemoryRange& range) {
-  constexpr std::string_view kReal = "REAL";
-  if (text.ends_with(kReal)) {
-    if (range.width != Width::Double) return false;
-    range.real = true;
-    if (text == kReal) return true;
-    text.remove_suffix(kReal.size());
-    if (!text.ends_with(':')) return false;
-    text.remove_suffix(1);
-  }
+  constexpr std::string_view kReal = "REAL", kRealFirst = "REAL:", kRealLast = ":REAL";
+  range.real = text == kReal || text.starts_with(kRealFirst) || text.ends_with(kRealLast);
+  if (range.real && range.width != Width::Double) return false;
+  if (text == kReal) return true;
+  if (text.starts_with(kRealFirst))
+    text.remove_prefix(kRealFirst.size());
+  else if (range.real)
+    text.remove_suffix(kRealLast.size());
   range.count = parse_decimal<std::uint32_t>(text).value_or(0);
   return range.count != 0 && range.width != Width::Bit;
 }

@@ -1,5 +1,6 @@
 #include "interpreter/trace/instruction_lines.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "interpreter/stl/printer.hpp"
@@ -58,8 +59,9 @@ InstructionLines::OpText InstructionLines::make(const Program& program, std::uin
               .head = fmt::format("line {:<5} {:<28} S0=", statement.position.line, stl::to_text(statement)),
               .values = {},
               .duration = {}};
-  for (std::size_t i = 0; i < statement.operands.size(); ++i) {
-    const OperandRule& rule = op.instruction->operand[i];
+  const auto rules = op.instruction->rules();  // parameters of a CALL have none: their values are not recorded
+  for (std::size_t i = 0; i < std::min(statement.operands.size(), rules.size()); ++i) {
+    const OperandRule& rule = rules[i];
     if (rule.kind != OperandKind::Memory || is_constant(statement.operands[i])) continue;
     const bool real = rule.real || (rule.width == Width::Double && !op[i].pointer && program.is_real(op[i].at));
     text.values.push_back({i, fmt::format(" {}=", stl::to_text(statement.operands[i])), rule.width, real});

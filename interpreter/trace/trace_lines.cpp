@@ -3,6 +3,14 @@
 #include <fmt/format.h>
 
 namespace s7200 {
+namespace {
+
+bool is_trouble(TraceKind kind) {
+  return kind == TraceKind::RuntimeError || kind == TraceKind::EventLost || kind == TraceKind::CharacterIgnored ||
+         kind == TraceKind::CharacterDropped;
+}
+
+}  // namespace
 
 std::string characters_text(std::size_t count) { return count == 1 ? "a character" : fmt::format("{} characters", count); }
 
@@ -14,8 +22,8 @@ std::string unanswered_text(const TraceReasons::Unanswered& frame) {
 std::vector<TraceLine> TraceLines::of(const TraceRecord& record) {
   fmt::memory_buffer text;
   text_.append_to(text, record);
-  std::vector<TraceLine> lines{{record.at, fmt::to_string(text) + reasons_.of(record)}};
-  for (const auto& unanswered : reasons_.unanswered(record)) lines.push_back({record.at, unanswered_text(unanswered)});
+  std::vector<TraceLine> lines{{record.at, fmt::to_string(text) + reasons_.of(record), is_trouble(record.kind)}};
+  for (const auto& unanswered : reasons_.unanswered(record)) lines.push_back({record.at, unanswered_text(unanswered), true});
   if (std::string way = path_.of(record); !way.empty()) lines.push_back({record.at, std::move(way)});
   reasons_.note(record);
   return lines;

@@ -21,7 +21,8 @@ std::string unanswered_text(const TraceReasons::Unanswered& frame);
 
 struct TraceLine {
   Time at = 0;
-  std::string text;  ///< without the time
+  std::string text;      ///< without the time
+  bool trouble = false;  ///< an error, what was lost or not wanted, a frame without an answer
 };
 
 /// It must be told every record and every instruction, in their order.

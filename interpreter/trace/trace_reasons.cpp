@@ -291,13 +291,31 @@ TraceReasons::Unanswered TraceReasons::unanswered(const Frame& frame, const std:
 std::vector<TraceReasons::Unanswered> TraceReasons::unanswered(const TraceRecord& record) const {
   std::vector<Unanswered> all;
   if (!is_about_reception(record) || is_attached_already(record)) return all;
-  const auto add = [&](const Frame& frame, const std::optional<Cause>& own) {
-    if (is_left(frame, record)) all.push_back(unanswered(frame, own ? own : frame.cause));
-  };
   const Reception& reception = reception_[port_of(record)];
-  for (const Frame& frame : reception.earlier) add(frame, {});
-  add(reception.frame, cause());
+  for (const Frame& frame : reception.earlier)
+    if (is_left(frame, record)) all.push_back(unanswered(frame, frame.cause));
+  if (is_left(reception.frame, record)) all.push_back(unanswered(reception.frame, cause_of_leaving(reception, record)));
   return all;
+}
+
+std::optional<TraceReasons::Cause> TraceReasons::cause_of_leaving(const Reception& reception,
+                                                                  const TraceRecord& record) const {
+  if (const auto own = cause()) return own;
+  const bool known = reception.frame.cause || record.kind != TraceKind::Receive || record.op == kNoRoutine;
+  return known ? reception.frame.cause : received_again(reception, record);
+}
+
+/// Nothing has decided that RCV is executed again: what has kept the program from an XMT before is the reason.
+/// `INT 0 took the message, and RCV in line 25 waits for the next one: XMT VB200, 0 in line 19, without power flow (…)`
+TraceReasons::Cause TraceReasons::received_again(const Reception& reception, const TraceRecord& record) const {
+  const InstructionRecord rcv{.at = record.at - program_.ops[record.op].cost, .end = record.at, .op = record.op};
+  const std::optional<Cause> kept = cause_of(reception.frame);
+  Cause cause = kept.value_or(Cause{.text = {}, .by = rcv, .first = rcv, .in_interrupt = in_interrupt_});
+  cause.text = fmt::format("{} {}, and RCV in {} waits for the next one{}",
+                           in_interrupt_ ? fmt::format("INT {}", begun_.routine) : "the main program",
+                           reception.message_open ? "broke the message off" : "took the message", line_of(record.op),
+                           kept ? ": " + kept->text : " (no XMT was executed)");
+  return cause;
 }
 
 std::vector<TraceReasons::Unanswered> TraceReasons::unread() const {
@@ -327,7 +345,7 @@ std::optional<TraceReasons::Unanswered> TraceReasons::taken(const Reception& rec
       fmt::format("{} took {}{}, and nothing was sent since{}", all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV",
                   all.characters == 1 ? "it" : "them", reception.message_open ? ", its message has not ended" : "",
                   cause ? ": " + cause->text : " (no XMT was executed)");
-  return Unanswered{all.characters, all.since, text, cause};
+  return Unanswered{all.characters, all.since, text, cause, !frame.attached_anew};
 }
 
 std::vector<TraceReasons::Unanswered> TraceReasons::taken(Time since) const {

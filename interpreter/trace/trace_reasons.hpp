@@ -61,6 +61,7 @@ class TraceReasons {
     std::string decided_by;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`, `INT 121 took them without reading
                              ///< SMB2 …`; nothing if it is not known
     std::optional<Cause> cause{};  ///< that; of characters that no routine has read the last ATCH of theirs, if there is one
+    bool open = false;  ///< of taken(): what comes next goes the same way, nothing has been changed about that since
   };
   /// In the order in which they came.
   std::vector<Unanswered> unanswered(const TraceRecord& record) const;
@@ -160,6 +161,8 @@ class TraceReasons {
   static void return_to_caller(Flow& flow);
   Cause cause_of(const Decision& decision) const;
   std::optional<Cause> cause_of(const Frame& frame) const;
+  std::optional<Cause> cause_of_leaving(const Reception& reception, const TraceRecord& record) const;
+  Cause received_again(const Reception& reception, const TraceRecord& record) const;
   void note_transmit_passed(const Flow& flow, const InstructionRecord& by);
   bool serves_character() const { return in_interrupt_ && is_receive_event(serving_); }
   bool goes_on(const Frame& frame, const TraceRecord& record) const;

@@ -245,6 +245,19 @@ class Prompt(unittest.TestCase):
         terminal.until("interrupted by Ctrl-C", PROMPT)
         self.quit(terminal)
 
+    def test_the_layout_lives_at_the_pace_of_the_clock_where_scans_are_passed_over(self):
+        for pace in (("--realtime",), ("--speed", "20")):
+            terminal = self.session(SLAVE, *pace, size=(80, 24))
+            terminal.command("layout on")
+            terminal.type("continue 1000h\n")
+            terminal.until("\n")
+            shown = terminal.until(*["\x1b[1;1H", "scan "] * 5, "\x1b[2;1H")
+            self.assertNotIn(PROMPT, shown, "while it runs")
+            self.assertGreater(len(set(re.findall(r"scan (\d+)", shown))), 3, "it is another scan each time")
+            terminal.signal(signal.SIGINT)
+            terminal.until("interrupted by Ctrl-C", PROMPT)
+            self.quit(terminal)
+
     def test_the_layout_after_ctrl_c_shows_what_was_executed(self):
         terminal = self.session()
         terminal.command("layout on")
@@ -273,13 +286,16 @@ class Prompt(unittest.TestCase):
             self.assertEqual(terminal.end(), code)
             self.assertIn("\x1b[1;40r", terminal.text)
 
-    def test_what_is_forced_is_red_unless_no_colour_is_wanted(self):
+    def test_what_is_forced_or_wrong_is_red_and_stops_are_bold_unless_no_colour_is_wanted(self):
         terminal = self.session()
         self.assertIn("\x1b[31m  forced: Q0.0=1", terminal.command("force Q0.0=1; print Q0.0"))
+        self.assertIn("\x1b[31munknown command 'frob'; 'help' lists them\x1b[0m", terminal.command("frob"))
+        self.assertIn("\x1b[1mbreakpoint 1, hit for the first time\x1b[0m", terminal.command("break 82; continue"))
+        self.assertIn(" \x1b[1m>\x1b[0m    82  ", terminal.command("step; rs"))
         self.quit(terminal)
         os.environ["NO_COLOR"] = "1"
         try:
-            plain = subprocess.run([S7200, "debug", SLAVE, "-x", "force Q0.0=1; print Q0.0"], capture_output=True, text=True)
+            plain = subprocess.run([S7200, "debug", SLAVE, "-x", "break 82; force Q0.0=1; continue; print Q0.0"], capture_output=True, text=True)
         finally:
             del os.environ["NO_COLOR"]
         self.assertIn("  forced: Q0.0=1", plain.stdout)

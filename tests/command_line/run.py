@@ -937,7 +937,7 @@ class Options(Case):
         for value in ("VW0=nan", "VW0=-32769", "VW0=65536", "VB0=99999999999999999999999", "VD0=1e999", "VW0=", "VW0=1=1",
                       "VB5000=1", "M0.8=1", "VD0:real=nan", "VW0:real=1"):
             self.refused("run", "--set", value)
-        for value in ("VB0:-1", "VB0:0", "VB0:99999999999999999999", "VB0:4097", "VB0:nan", "VW0:real", "VD0:real:2", "M0.0:2"):
+        for value in ("VB0:-1", "VB0:0", "VB0:99999999999999999999", "VB0:4097", "VB0:nan", "VW0:real", "VD0:real:0", "M0.0:2"):
             self.refused("run", "--dump", value)
         for bridge in ("--tcp", "--rtu-over-tcp", "--modbus-tcp"):
             for value in ("65536", "127.0.0.1:99999", "localhost:502", "::1:502", "127.0.0.1:", "1.2.3.400:1"):
@@ -2343,6 +2343,22 @@ class Files(Case):
         self.assertIn("fault: flip:character=3,bit=5", recorded.read_text(encoding="utf-8"))
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
 
+    def test_a_session_whose_line_has_faults_from_the_start_is_recorded_as_a_scenario(self):
+        recorded = self.folder / "from_the_start.yaml"
+        self.ends(FINE, "debug", SLAVE, "--fault", "flip:character=3,bit=5", "--fault", "missing:of=answer,character=2", "-x",
+                  f"continue 100ms; send 01 03 00 0a 00 01 crc; continue; record {recorded}")
+        text = recorded.read_text(encoding="utf-8")
+        self.assertIn("fault: flip:character=3,bit=5", text)
+        self.assertIn("fault: missing:", text)
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
+    def test_a_session_at_port_1_is_recorded_as_a_scenario(self):
+        recorded = self.folder / "port1.yaml"
+        program = self.program("LD SM0.1\nMOVB 16#09, SMB130\nATCH 1, 25\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nMOVB 1, VB0\nXMT VB0, 1\nRETI\n", "port1.stl")
+        self.ends(FINE, "debug", program, "--cpu", "226", "--port", "1", "-x", f"continue 100ms; send 41; continue; record {recorded}")
+        self.assertIn("port: 1", recorded.read_text(encoding="utf-8"))
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
     def test_a_place_that_is_set_or_displayed_twice_stands_once_in_a_recorded_scenario(self):
         recorded = self.folder / "twice.yaml"
         self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; set VB2000=5 VW2000=1 VB2000=7; continue 100ms; display VB2000:2; "
@@ -2483,7 +2499,7 @@ class Files(Case):
         good = self.program("continue 100ms\nsend 01 03 00 0a 00 01 crc\ncontinue\nexpect VW3300 = 7\n", "good")
         self.ends(FINE, "debug", SLAVE, "--commands", good)
         bad = self.program("continue 100ms\nexpect VW3290 = 66\n", "bad")
-        self.assertIn("bad:2: expected VW3290 = 66, which does not hold here: VW3290 is ", self.ends(UNUSABLE, "debug", SLAVE, "--commands", bad).stderr)
+        self.assertIn("bad:2: expected VW3290 = 66, which does not hold here: VW3290 is ", self.ends(FAILED, "debug", SLAVE, "--commands", bad).stderr)
 
     def test_captures_overwrite_only_captures_of_their_kind(self):
         path = self.program(Json.ECHO)

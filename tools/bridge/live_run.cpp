@@ -74,7 +74,7 @@ class LiveRun::Engine {
     return std::ranges::all_of(lines_, [&](const auto& line) { return line->start(context_, why); });
   }
 
-  serial::Halt run_until(Time end, std::function<bool()> goes_on) {
+  serial::Halt run_until(Time end, std::function<bool()> goes_on, const std::function<void()>& meanwhile) {
     end_ = end;
     goes_on_ = std::move(goes_on);
     halt_.reset();
@@ -87,6 +87,7 @@ class LiveRun::Engine {
       for (const auto& line : lines_)
         if (!halt_ && line->has_failed()) fail(*line);
       if (halt_) return *halt_;
+      meanwhile();
       sleep();
     }
   }
@@ -233,8 +234,8 @@ LiveRun::~LiveRun() = default;
 
 bool LiveRun::start(std::string& why) { return engine_->start(why); }
 
-serial::Halt LiveRun::run_until(Time end, std::function<bool()> goes_on) {
-  return engine_->run_until(end, std::move(goes_on));
+serial::Halt LiveRun::run_until(Time end, std::function<bool()> goes_on, const std::function<void()>& meanwhile) {
+  return engine_->run_until(end, std::move(goes_on), meanwhile);
 }
 
 const std::string& LiveRun::failure() const { return engine_->failure(); }

@@ -66,8 +66,9 @@ class LiveRun {
 
   /// From now on in real time, until the simulation has come to `end`, the CPU stops, or pauses and `goes_on` says no, a
   /// stop is asked for (Halt::Request), or a bridge fails (Halt::Request, and failure()). The next run goes on without that.
+  /// `meanwhile` is told many times a second, whatever the simulation does.
   serial::Halt run_until(
-      Time end, std::function<bool()> goes_on = [] { return false; });
+      Time end, std::function<bool()> goes_on = [] { return false; }, const std::function<void()>& meanwhile = [] {});
 
   /// Why the first bridge that failed cannot go on; empty as long as all can.
   const std::string& failure() const;

@@ -71,13 +71,14 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
   rig->power_up();
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
 
-  bool good = false, in_the_past = false;
+  bool good = false, in_the_past = false, expectation_failed = false;
   {
     DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), nullptr);
     if (!live.start(why)) return print_error(why), kUnusable;
     if (live.has_bridges()) print_note(kMastersWait);
     Debugger debugger(options.rig.stations(*rig), std::cout, session_options(options, *rig, live));
     good = run_commands(debugger, *script, options);
+    expectation_failed = !good && debugger.expectation_failed();
     good &= live.failure().empty();
     in_the_past = debugger.in_the_past();
   }
@@ -88,7 +89,7 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
   if (!finish(*rig)) return kUnusable;
   if (std::ferror(stdin) != 0 && !interrupted()) return print_error("cannot read standard input"), kUnusable;
   print_interruption();
-  if (interrupted()) return kCheckFailed;
+  if (interrupted() || expectation_failed) return kCheckFailed;
   if (!good) return kUnusable;
   if (options.rig.failed_strictly(rig->cpu()) && !rig->cpu().state().fatal_code) return kCheckFailed;
   return exit_code_of(*rig);
@@ -104,7 +105,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->footer(
       fault_help() +
       R"(Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script
-with exit code 2; Ctrl-C ends it too, with exit code 1, or at the prompt with -i. A program from standard input, -, needs
+with exit code 2, an 'expect' that does not hold with 1; Ctrl-C ends it too, with exit code 1, or at the prompt with -i. A program from standard input, -, needs
 --commands or -x.
 With a bridge, --realtime or --speed it follows the clock, and masters outside wait while it stands still; their
 time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. A

@@ -90,7 +90,7 @@ void talk(Debugger& debugger) {
     view.draw();
     const auto line = read_line(editor, last);
     if (!line) break;
-    if (const auto error = debugger.execute(*line)) std::cout << stl::printable(*error) << '\n';
+    if (const auto error = debugger.execute(*line)) std::cout << debugger.red(stl::printable(*error)) << '\n';
     last = debugger.repeatable();
   }
   debugger.set_layout({});

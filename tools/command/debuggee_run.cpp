@@ -50,7 +50,11 @@ History::Settings DebuggeeRun::history() {
   settings.line_stations = line_stations(rig_);
   for (const PlcPlan& plc : rig_.plan().plcs) settings.plcs.push_back({plc.name, plc.address});
   settings.planned = event_texts(rig_.plan());
-  if (realtime_) settings.drive = [this](Time end) { return live_->run_until(end); };
+  if (realtime_)
+    settings.drive = [this](Time end, const std::function<void()>& meanwhile) {
+      return live_->run_until(
+          end, [] { return false; }, meanwhile);
+    };
   return settings;
 }
 

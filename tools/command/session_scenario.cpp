@@ -92,10 +92,17 @@ std::string end_text(const SessionSteps& session) {
 
 /// What options have asked for that a scenario has no word for.
 std::string_view without_a_key(const DebugOptions& options) {
-  if (options.rig.faulted()) return "the line has faults from the start";
+  if (options.rig.faulted() && is_system_file(options.program.path)) return "a line has faults from the start";
   if (!options.rig.settings().memory.path.empty()) return "it began with the memory of --memory";
-  if (options.rig.settings().port != 0) return "it is about port 1";
   return {};
+}
+
+/// What the line has from the start begins with the first step: nothing is sent before it.
+SessionSteps with_faults(SessionSteps session, const std::vector<serial::Fault>& faults) {
+  std::vector<SessionSteps::Step> first;
+  for (const serial::Fault& fault : faults) first.push_back({.fault = serial::to_text(fault)});
+  session.steps.insert(session.steps.begin(), first.begin(), first.end());
+  return session;
 }
 
 std::string input_text(const std::string& path) {
@@ -137,6 +144,7 @@ void take_options(const SessionSource& source, Scenario& scenario) {
   if (!is_system) scenario.system_block = program->system_block;
   scenario.line = options.master;
   if (!is_system) scenario.repair = repairs_text(options.program.repairs);
+  if (!is_system) scenario.port = static_cast<std::uint8_t>(rig.port);
   scenario.set = rig.set;
   scenario.clock = rig.clock;
 }
@@ -168,9 +176,10 @@ std::string difference(const SessionSteps& session, const ScenarioResult& result
 }  // namespace
 
 bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
-                            const SessionSteps& session, const Destination& to, std::string& why) {
+                            const SessionSteps& done, const Destination& to, std::string& why) {
   why = without_a_key(options);
   if (!why.empty()) return false;
+  const SessionSteps session = with_faults(done, options.rig.settings().faults);
   const SessionSource source{options, program, session};
   const std::optional<Scenario> scenario = scenario_of(source, to.path, why);
   if (!scenario) return false;

@@ -56,6 +56,14 @@ std::string first_units(const std::string& text, std::size_t units) {
   return text.substr(0, end);
 }
 
+/// `  Freeport, 9600 baud`: of special memory, as `print` says it.
+std::string words_of(const Cpu& cpu, const MemoryRange& range) {
+  std::string words;
+  for (const std::string& line : stl::split_lines(special_text(cpu, range)))
+    words += fmt::format("{}{}", words.empty() ? "  " : "; ", stl::trim(line));
+  return words;
+}
+
 constexpr std::string_view kCommands[] = {"set", "mode", "send",    "fault",    "force", "unforce",
                                           "who", "why",  "history", "timeline", "help"};
 constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
@@ -159,7 +167,7 @@ Json Session::evaluated(const std::string& expression, bool hex) {
     const auto range = range_now(*place, cpu());
     if (!range) throw Refused(text_of_bad_pointer(expression, place->range));
     const Variable variable = variable_of(cpu(), *range, expression);
-    return {{"result", hex ? hex_of(variable.value) : variable.value},
+    return {{"result", hex ? hex_of(variable.value) : variable.value + words_of(cpu(), *range)},
             {"type", variable.type},
             {"variablesReference", 0},
             {"memoryReference", at_station(variable.memory, looks_at())}};

@@ -10,6 +10,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
+#include "interpreter/model/special_bits.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/dap/addresses.hpp"
@@ -141,6 +142,12 @@ std::vector<Variable> block_of_v(const Cpu& cpu, std::uint32_t first) {
   return bytes;
 }
 
+/// ` first scan`; nothing for one that has none.
+std::string meaning_of_bit(std::uint32_t at, std::uint32_t bit) {
+  const std::string meaning = special_meanings_text(at, static_cast<std::uint8_t>(1u << bit));
+  return meaning.empty() ? "" : " " + meaning;
+}
+
 std::vector<Variable> bits_of_byte(const Cpu& cpu, std::uint32_t at) {
   std::vector<Variable> bits;
   for (const Area area : kShown) {
@@ -148,7 +155,8 @@ std::vector<Variable> bits_of_byte(const Cpu& cpu, std::uint32_t at) {
     if (of.element != 0 || at < of.base || at >= of.base + cpu.program().model->size_of(area)) continue;
     for (std::uint32_t bit = 0; bit < 8; ++bit) {
       const std::string name = fmt::format("{}{}.{}", of.name, at - of.base, bit);
-      if (const auto range = range_of(name, cpu.program())) bits.push_back(variable_of(cpu, *range, name));
+      const std::string meaning = area == Area::SM ? meaning_of_bit(at, bit) : "";
+      if (const auto range = range_of(name, cpu.program())) bits.push_back(variable_of(cpu, *range, name + meaning));
     }
   }
   return bits;

@@ -13,10 +13,12 @@
 namespace s7200::tools {
 namespace {
 
+/// While the request is being sent characters may wait, and none may be lost.
 std::vector<Witness::ForInterrupt> for_interrupts(const Inquiry& inquiry) {
-  const bool in_question = inquiry.is_by_others() && inquiry.request()->unanswered && inquiry.request()->end != 0;
-  if (!in_question) return {};
-  return inquiry.witness().for_interrupts_since(inquiry.port(), inquiry.request()->start);
+  if (!inquiry.is_by_others() || !inquiry.request()->unanswered) return {};
+  auto all = inquiry.witness().for_interrupts_since(inquiry.port(), inquiry.request()->start);
+  const bool in_question = inquiry.request()->end != 0 || std::ranges::any_of(all, &Witness::ForInterrupt::lost);
+  return in_question ? all : std::vector<Witness::ForInterrupt>{};
 }
 
 std::size_t lost_of(const std::vector<Witness::ForInterrupt>& all, Time since) {

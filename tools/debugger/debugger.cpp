@@ -66,7 +66,7 @@ class Told final : public Observer {
 History::Settings settings_of(const DebuggerOptions& options, std::function<void()> progress) {
   History::Settings settings = options.history;
   settings.stop_request = options.stop_request;
-  if (options.progress) settings.progress = std::move(progress);
+  settings.progress = std::move(progress);
   return settings;
 }
 
@@ -125,6 +125,7 @@ void Debugger::report_undone() {
 Debugger::Error Debugger::execute_one(std::string_view text) {
   Arguments arguments = split(text, kBlanks);
   if (echoing_) out_ << kPrompt << stl::printable(joined(arguments)) << '\n';
+  expectation_failed_ = false;
   std::string why;
   const Command* command = find_command(arguments.front(), why);
   if (!command) return why;
@@ -134,8 +135,9 @@ Debugger::Error Debugger::execute_one(std::string_view text) {
   return (this->*command->run)(arguments);
 }
 
-/// Once a second.
+/// Once a second; the view, which shows it too, while a run goes on.
 void Debugger::show_progress() {
+  if (live_status_ && layout_.refresh) layout_.refresh();
   if (host_time() < progress_at_ || is_in_view()) return;
   progress_at_ = host_time() + std::min(options_.patience, kSecond);
   progress_shown_ = true;
@@ -169,7 +171,9 @@ bool Debugger::stop_requested() const { return options_.stop_request && *options
 
 void Debugger::show_place() {
   if (is_system()) out_ << name_of(focus()) << "  ";
-  out_ << (simulation().plc().powered() ? place_text(simulation().cpu(), listing()) : place_line(focus()) + "\n");
+  std::string place = simulation().plc().powered() ? place_text(simulation().cpu(), listing()) : place_line(focus()) + "\n";
+  if (const std::size_t mark = place.find("\n > "); mark != std::string::npos) place.replace(mark + 2, 1, bold(">"));
+  out_ << place;
   if (is_in_view()) return;  // what is displayed too
   for (const auto& [station, range] : displayed_) out_ << said_of(station) << memory_text(station, range);
 }
@@ -265,7 +269,7 @@ void Debugger::note_new_branch() {
 void Debugger::report(const Stop& stop, const Run& run, std::uint64_t errors) {
   if (first_error_) {
     const auto& [station, error] = *first_error_;
-    out_ << said_of(station) << describe(error, stations_[station].simulation->cpu().program());
+    out_ << said_of(station) << red(describe(error, stations_[station].simulation->cpu().program()));
     out_ << (errors > 1 ? fmt::format(" and {} more; 'errors' lists them\n", errors - 1) : "\n");
     if (station == focus() && error.op != kNoRoutine) print_bad_pointers(error.op);
   }
@@ -304,8 +308,10 @@ void Debugger::report_cpu_stop() {
   const auto last_op = stations_[focus()].last_op;
   if (state.fatal_code != 0) {
     const std::string place = state.fatal_op == kNoRoutine ? "between two scans" : "in " + op_text(state.fatal_op);
-    out_ << fmt::format("{}the CPU went to STOP: fatal error {:04X}, {},\n  {}\n", said_of(focus()), state.fatal_code,
-                        meaning_of(FatalError{state.fatal_code}), place);
+    out_ << said_of(focus())
+         << red(fmt::format("the CPU went to STOP: fatal error {:04X}, {},", state.fatal_code,
+                            meaning_of(FatalError{state.fatal_code})))
+         << "\n  " << place << '\n';
   } else if (last_op) {
     out_ << fmt::format("{}the CPU went to STOP; the last instruction was in {}\n", said_of(focus()), op_text(*last_op));
   }
@@ -353,21 +359,25 @@ void Debugger::print_trace(std::size_t station, const TraceRecord& record) {
 void Debugger::print_trace_lines(std::size_t station, const std::vector<TraceLine>& lines) {
   if (!is_system()) {
     if (!lines.empty()) hide_progress();
-    for (const TraceLine& line : lines) out_ << fmt::format("  {}  {}\n", clock_text(line.at), line.text);
+    for (const TraceLine& line : lines) write_trace_line(line);
     return;
   }
   for (const TraceLine& line : lines)
-    trace_waiting_.push_back({line.at, fmt::format("{:<{}}  {}", name_of(station), name_width_, line.text)});
+    trace_waiting_.push_back({line.at, fmt::format("{:<{}}  {}", name_of(station), name_width_, line.text), line.trouble});
   constexpr std::size_t kMostWaiting = 10'000;
   if (trace_waiting_.size() >= kMostWaiting) write_trace(history_.now().time - std::min(history_.now().time, kTold));
+}
+
+void Debugger::write_trace_line(const TraceLine& line) {
+  const std::string text = fmt::format("  {}  {}", clock_text(line.at), line.text);
+  out_ << (line.trouble ? painted(text, Paint::Yellow) : text) << '\n';
 }
 
 void Debugger::write_trace(Time until) {
   std::ranges::stable_sort(trace_waiting_, {}, &TraceLine::at);
   if (!trace_waiting_.empty()) hide_progress();
   const auto rest = std::ranges::lower_bound(trace_waiting_, until, {}, &TraceLine::at);
-  for (auto line = trace_waiting_.begin(); line != rest; ++line)
-    out_ << fmt::format("  {}  {}\n", clock_text(line->at), line->text);
+  for (auto line = trace_waiting_.begin(); line != rest; ++line) write_trace_line(*line);
   trace_waiting_.erase(trace_waiting_.begin(), rest);
 }
 

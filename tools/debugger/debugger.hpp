@@ -49,7 +49,7 @@ struct DebuggerOptions {
   /// Why a run has ended by itself, such as a bridge that has failed: said once, empty otherwise. The next one goes on.
   std::function<std::string()> take_failure = [] { return std::string(); };
   std::string files{};  ///< that the records and captures write: "the trace"; "" for none
-  bool colour = false;  ///< what is forced is shown in red
+  bool colour = false;  ///< what is forced, and errors, are shown in red, stops in bold, trouble of a trace in yellow
   /// Shows how far a long command has come, in place of what it showed before; "" takes that away. None: nothing is shown.
   std::function<void(std::string_view text)> progress{};
   Time patience = 2 * kSecond;              ///< of the host: how long a command runs before it is shown
@@ -103,7 +103,7 @@ class Debugger {
   struct Layout {
     std::function<Error(bool on)> turn{};  ///< switches it on or off, and returns why that cannot be
     std::function<bool()> shown{};
-    std::function<void()> refresh{};  ///< called now and then while a run goes on
+    std::function<void()> refresh{};  ///< called often while a run goes on
   };
   void set_layout(Layout layout) { layout_ = std::move(layout); }
 
@@ -111,7 +111,13 @@ class Debugger {
   /// lines. While a run goes on they are the instructions around the place where it began, as they were executed last.
   std::vector<std::string> view(std::size_t rows);
 
+  /// As what is wrong is shown on a terminal that is to have colours.
+  std::string red(std::string text) const { return painted(std::move(text), Paint::Red); }
+
   bool quit_asked() const { return quit_asked_; }
+
+  /// Whether the last command was an 'expect' that did not hold: it was no wrong one.
+  bool expectation_failed() const { return expectation_failed_; }
 
   /// Where it stands, things have happened after that.
   bool in_the_past() const { return history_.in_the_past(); }
@@ -207,6 +213,7 @@ class Debugger {
   Error list_faults();
   const LineStation* without_program(std::string_view name) const;
   Error history(const Arguments& arguments);
+  Error timeline(const Arguments& arguments);
   Error branch(const Arguments& arguments);
   Error past(const Arguments& arguments);
   Error save(const Arguments& arguments);
@@ -284,7 +291,9 @@ class Debugger {
   std::size_t add_loaded(std::vector<StopPoint> stops);
   static std::string value_of(const Cpu& cpu, const MemoryRange& range);
   std::vector<Bits> operands_of(std::uint32_t op) const;
-  std::string red(std::string text) const;  ///< on a terminal
+  enum class Paint : std::uint8_t { Red, Yellow, Bold };
+  std::string painted(std::string text, Paint paint) const;  ///< on a terminal that is to have colours
+  std::string bold(std::string text) const { return painted(std::move(text), Paint::Bold); }
   std::vector<SessionOption> session_conditions() const;
   std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
                                          std::string& why) const;
@@ -354,6 +363,7 @@ class Debugger {
   std::string requests_under_way();
   SessionRecord::Station record_of(std::size_t station) const;
   void write_trace(Time until);
+  void write_trace_line(const TraceLine& line);
 
   std::ostream& out_;
   DebuggerOptions options_;
@@ -370,6 +380,7 @@ class Debugger {
   int next_number_ = 1;      ///< of a breakpoint or watch
   bool tracing_ = false;
   bool quit_asked_ = false;
+  bool expectation_failed_ = false;
   std::size_t undone_ = 0;  ///< commands, after a stop request
   bool echoing_ = false;    ///< commands are printed after the prompt
   std::string command_;     ///< being executed, as written
@@ -382,7 +393,6 @@ class Debugger {
   struct LiveStatus {
     std::uint32_t first = 0, end = 0;
     LastExecutions last{};
-    std::uint64_t executed = 0;
   };
   std::optional<LiveStatus> live_status_;
 };

@@ -116,6 +116,7 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
   Takes takes = words.size() == 1 ? Takes::Commands : command ? command->takes : Takes::Nothing;
   const Words given = words.size() > 1 ? Words(words.begin() + 1, words.end() - 1) : Words();
   const std::string before = given.empty() ? "" : stl::upper_case(given.back());
+  const bool asks_who = command && (command->name == "who" || command->name == "rwho");
   const bool stops = takes == Takes::Break || takes == Takes::Watch;
   if (stops && is_in_condition(before)) takes = Takes::Addresses;
   switch (takes) {
@@ -153,8 +154,12 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
           all.push_back("station=" + one.name);
       break;
     case Takes::Addresses:
+      if (asks_who && before == "EVENT") {
+        all = words_after_break(given, program);
+        break;
+      }
       all = addresses_of(program);
-      if (command->name == "who" || command->name == "rwho") all.emplace_back("event");
+      if (asks_who) all.emplace_back("event");
       break;
     case Takes::Forced:
       all = forceable(addresses_of(program), program);

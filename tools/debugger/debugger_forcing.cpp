@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <ostream>
 
 #include "tools/debugger/debugger.hpp"
@@ -12,7 +13,8 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::string_view kRed = "\x1b[31m", kPlain = "\x1b[0m";
+constexpr std::array<std::string_view, 3> kPaints{"\x1b[31m", "\x1b[33m", "\x1b[1m"};
+constexpr std::string_view kPlain = "\x1b[0m";
 
 }  // namespace
 
@@ -26,8 +28,9 @@ std::string Debugger::forced_text(const Cpu& cpu, const std::vector<Bits>& place
   return red(std::move(text));
 }
 
-std::string Debugger::red(std::string text) const {
-  return text.empty() || !options_.colour ? text : fmt::format("{}{}{}", kRed, text, kPlain);
+std::string Debugger::painted(std::string text, Paint paint) const {
+  if (text.empty() || !options_.colour) return text;
+  return fmt::format("{}{}{}", kPaints.at(static_cast<std::size_t>(paint)), text, kPlain);
 }
 
 std::string Debugger::memory_text(std::size_t station, const MemoryRange& range) const {

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <ostream>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/last_instructions.hpp"
 #include "tools/debugger/past_words.hpp"
+#include "tools/debugger/timeline_of_past.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/execution_text.hpp"
@@ -169,6 +171,24 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
   for (const InstructionRecord& record : *found)
     out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing().routine_of(record.op),
                         execution_text(record, simulation().cpu().program()));
+  return {};
+}
+
+Debugger::Error Debugger::timeline(const Arguments& arguments) {
+  serial::Exchange exchange = simulation().has_master() ? simulation().master().exchange() : serial::Exchange{};
+  if (arguments.empty() && exchange.request.empty())
+    return expects("timeline", "a duration before the first 'send', for example: timeline 50ms");
+  if (!arguments.empty()) {
+    const auto before = parse_duration(joined(arguments));
+    if (!before || *before == 0)
+      return expects("timeline", fmt::format("a duration above 0 in {}, for example: timeline 50ms", kTimeUnits));
+    const Time now = history_.now().time;
+    exchange.request_start = now - std::min(now, *before);
+  }
+  const std::shared_ptr<const Program> program(std::shared_ptr<void>(), &simulation().cpu().program());  // not owned
+  const auto report =
+      at_length([&] { return timeline_of_past(history_, focus(), program, exchange.request_start, options_.stop_request); });
+  out_ << (report ? to_text(*report, exchange, options_.colour) : fmt::format("{}\n", interruption_text()));
   return {};
 }
 

@@ -71,9 +71,7 @@ void Debugger::begin_live_status() {
 }
 
 void Debugger::note_live_status(const InstructionRecord& record) {
-  constexpr std::uint64_t kLookEvery = 4096;  // instructions
   if (record.op >= live_status_->first && record.op < live_status_->end) live_status_->last.of[record.op] = record;
-  if (++live_status_->executed % kLookEvery == 0 && layout_.refresh) layout_.refresh();
 }
 
 std::vector<std::string> Debugger::view(std::size_t rows) {
@@ -116,6 +114,7 @@ Debugger::Error Debugger::expect(const Arguments& arguments) {
   if (!expression) return why;
   const auto value = expression->value(simulation().cpu(), why);
   if (value && value->truth()) return {};
+  expectation_failed_ = true;
   std::string found = expression->places_text(simulation().cpu());
   if (!value && found.find(why) == std::string::npos) found += fmt::format("{}{}", found.empty() ? "" : "; ", why);
   return fmt::format("expected {}, which does not hold here{}{}", expression->text(), found.empty() ? "" : ": ", found);

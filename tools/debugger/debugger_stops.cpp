@@ -159,6 +159,10 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
 }
 
 Debugger::Error Debugger::watch(const Arguments& arguments) {
+  if (arguments.empty()) {
+    list_stops();
+    return {};
+  }
   Words words = arguments;
   Words addresses = take_words(words);
   if (addresses.empty()) return expects("watch", "an address, for example: watch VW100");
@@ -220,7 +224,7 @@ Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
 std::string Debugger::mark_of(std::uint32_t op) const {
   const bool breakpoint = std::ranges::any_of(
       stepper_.stops, [&](const StopPoint& s) { return s.on == On::Place && s.op == op && s.station == focus(); });
-  return std::string(breakpoint ? "*" : " ") + (op == current_op() ? ">" : " ");
+  return std::string(breakpoint ? "*" : " ") + (op == current_op() ? bold(">") : " ");
 }
 
 // --- in a saved session ---
@@ -332,7 +336,7 @@ void Debugger::report_breakpoint(const Hit& hit) {
   const Program& program = stations_[hit.stop.station].simulation->cpu().program();
   const std::string hits = hit.stop.hits == 0 ? "" : ", hit " + times_text(hit.stop.hits);
   const std::string name = hit.stop.on == On::Place ? "" : ", " + hit.stop.name;
-  out_ << fmt::format("{}breakpoint {}{}{}\n", said_of(hit.stop.station), hit.stop.number, name, hits);
+  out_ << said_of(hit.stop.station) << bold(fmt::format("breakpoint {}{}{}", hit.stop.number, name, hits)) << '\n';
   if (hit.record) out_ << fmt::format("  {}  {}\n", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) out_ << fmt::format("  {}{}\n", serial::to_hex(hit.frame), asked_by(hit));
   if (!hit.wrong.empty()) out_ << fmt::format("  {}\n", wrong_answer_text(hit));
@@ -353,8 +357,9 @@ void Debugger::report_access(const Hit& hit) {
   const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
   const std::string is = value_text(program, *hit.stop.range, hit.value);
   out_ << said_of(hit.stop.station);
-  out_ << (was == is ? fmt::format("watch {}: {} is {} as before\n", hit.stop.number, hit.stop.name, is)
-                     : fmt::format("watch {}: {} was {}, is {}\n", hit.stop.number, hit.stop.name, was, is));
+  out_ << bold(was == is ? fmt::format("watch {}: {} is {} as before", hit.stop.number, hit.stop.name, is)
+                         : fmt::format("watch {}: {} was {}, is {}", hit.stop.number, hit.stop.name, was, is))
+       << '\n';
   if (hit.by)
     out_ << fmt::format("  by {} {}\n", station.listing.routine_of(hit.by->op), execution_text(*hit.by, program));
   else

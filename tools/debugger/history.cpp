@@ -226,7 +226,7 @@ bool History::passes_over() const { return alone_ && !settings_.drive && wants_i
 serial::Halt History::drive(Time end) {
   if (!settings_.drive) return run_until(end);
   system().run_in_step(true);
-  return settings_.drive(end);
+  return settings_.drive(end, [this] { tell_progress(); });
 }
 
 /// A run that is observed ends early when the last CPU that executed a program does so no more, and all clocks are at the

@@ -106,8 +106,9 @@ struct NamedPlc {
 
 class History final {
  public:
-  /// Runs the simulation for real: Simulation::run_until(), or the same at the pace of a clock.
-  using Drive = std::function<serial::Halt(Time end)>;
+  /// Runs the simulation for real: Simulation::run_until(), or the same at the pace of a clock, which tells `meanwhile` now
+  /// and then.
+  using Drive = std::function<serial::Halt(Time end, const std::function<void()>& meanwhile)>;
 
   struct Settings {
     Drive drive{};                      ///< none: as fast as the computer can
@@ -121,7 +122,7 @@ class History final {
     std::size_t log_bound = 64 << 20;          ///< bytes for what came in over a bridge
     Time interval = 500 * kMillisecond;        ///< of checkpoints while it executes, until they have to be thinned
     const std::atomic<bool>* stop_request = nullptr;  ///< ends what plays for long: go_to() a time, replay()
-    std::function<void()> progress{};                 ///< told now and then while something runs or plays
+    std::function<void()> progress{};                 ///< told often while something runs or plays
   };
 
   /// The past begins now. The simulation must live as long as this.

@@ -10,22 +10,39 @@
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
+namespace {
+
+/// Null if the past does not begin with power coming back.
+const PowerCycle* power_cycle(const History& history) { return history.here().branch->power.get(); }
+
+std::string power_cycle_text(const PowerCycle& power) {
+  return fmt::format("power came back{}; 'back' leads to before that",
+                     power.off == 0 ? "" : " after " + format_duration(power.off));
+}
+
+}  // namespace
 
 std::string oldest_text(const History& history) {
   const History::Usage usage = history.usage();
-  if (usage.forgotten == 0) return "where this session powered the CPU up";
+  if (usage.forgotten == 0) {
+    const PowerCycle* const power = power_cycle(history);
+    return power ? "where " + power_cycle_text(*power) : "where this session powered the CPU up";
+  }
   return fmt::format("before which what came over the bridge is forgotten: {}, more than {} MB",
                      counted(usage.forgotten, "action"), usage.log_bound >> 20);
 }
 
 std::string since_oldest_text(const History& history) {
   const History::Usage usage = history.usage();
-  if (usage.forgotten == 0) return "since power-up";
+  if (usage.forgotten == 0) {
+    const PowerCycle* const power = power_cycle(history);
+    return power ? "since " + power_cycle_text(*power) : "since power-up";
+  }
   return fmt::format("since {}, where the past begins", moment_text(usage.oldest.time));
 }
 
 std::string at_oldest_text(const History& history) {
-  const bool whole = history.usage().forgotten == 0;
+  const bool whole = history.usage().forgotten == 0 && !power_cycle(history);
   return "this is the oldest moment: " + (whole ? "the session begins at power-up" : oldest_text(history));
 }
 

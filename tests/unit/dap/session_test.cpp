@@ -239,6 +239,16 @@ TEST(DapSession, ConditionsHitsAndMessagesAreAsInTheEditor) {
     EXPECT_FALSE(editor.breakpoint(wrong)["verified"]) << wrong;
 }
 
+TEST(DapSession, SpecialMemoryIsShownInWords) {
+  Editor editor("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n");
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}});
+  editor("stepScan", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor.value("SMB30"), "16#09 (9)  Freeport"));
+  EXPECT_TRUE(has(editor.value("SM0.0"), "1  SM0.0 "));
+  EXPECT_EQ(editor.value("VB0"), "16#00 (0)");
+}
+
 TEST(DapSession, BoxesWithoutPowerFlowAreSkippedUnlessAlways) {
   Editor editor("LDN SM0.0\nMOVB 1, VB0\nLD SM0.0\nINCW VW2\nMEND\n");
   editor.begin();

@@ -471,7 +471,7 @@ struct Bridged {
       : simulation(program_of(text)), asks(std::move(times)), asked_for(std::move(request)) {
     simulation.power_up();
     DebuggerOptions options{};
-    options.history.drive = [this](Time end) { return drive(end); };
+    options.history.drive = [this](Time end, const auto&) { return drive(end); };
     debugger = std::make_unique<Debugger>(simulation, out, options);
   }
   serial::Halt drive(Time end) {
@@ -1146,6 +1146,18 @@ TEST(Debugger, PastSaysHowFarBackItCanGoAndWhy) {
   EXPECT_TRUE(has(text, "of 256 MB; 0 actions from outside"));
 }
 
+TEST(Debugger, ThePastOfAPowerCycleBeginsWherePowerCameBackAndBackLeadsBeforeIt) {
+  Session session(kNested);
+  session("continue 50ms; power 1h; continue 20ms");
+  constexpr std::string_view kBegins = "power came back after 1 h; 'back' leads to before that";
+  EXPECT_TRUE(has(session("past"), std::string("from 0.000000 ms, where ") + std::string(kBegins)));
+  EXPECT_TRUE(has(session.error_of("at -150ms"), kBegins));
+  EXPECT_TRUE(has(session("who VW500"), std::string("since ") + std::string(kBegins)));
+  EXPECT_TRUE(has(session("rc"), kBegins));
+  session("back 3");
+  EXPECT_TRUE(has(session("past"), "where this session powered the CPU up"));
+}
+
 // --- observing changes nothing ---
 
 TEST(Debugger, OneOfAThingIsNotInThePlural) {
@@ -1309,7 +1321,7 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
       {"break network", "break expects a line number"},
       {"break 99", "the last instruction is in line 22"},
       {"list 99", "the last instruction is in line 22"},
-      {"watch", "watch expects an address"},
+      {"watch if VW2 > 8", "watch expects an address"},
       {"watch X1", "is not an address"},
       {"delete", "delete expects numbers"},
       {"delete x", "delete expects numbers"},
@@ -1478,7 +1490,7 @@ TEST(Debugger, ATimeFromThePastOnEndsWhereItEndsWhereverScansArePassedOver) {
   simulation.power_up();
   std::ostringstream out;
   DebuggerOptions options{};
-  options.history.drive = [&](Time end) {  // Ctrl-C between two scans
+  options.history.drive = [&](Time end, const auto&) {  // Ctrl-C between two scans
     const serial::Halt halt = simulation.run_until(std::min<Time>(end, 700 * kMillisecond));
     return simulation.time() < end ? serial::Halt::Request : halt;
   };
@@ -1494,7 +1506,7 @@ TEST(Debugger, APeerThatIsLostIsSaidOnceAndTheSessionGoesOn) {
   std::ostringstream out;
   DebuggerOptions options{};
   std::string failure = "the device is gone";
-  options.history.drive = [&](Time end) {
+  options.history.drive = [&](Time end, const auto&) {
     const serial::Halt halt = simulation.run_until(failure.empty() ? end : std::min<Time>(end, 5 * kMillisecond));
     return failure.empty() ? halt : serial::Halt::Request;
   };

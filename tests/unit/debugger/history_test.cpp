@@ -347,7 +347,7 @@ TEST(History, WhatCameOverTheHostPortComesAgainWhenItIsPlayed) {
   Recorded* running = nullptr;
   int turn = 0;
   // A bridge: it looks every millisecond, and something comes in now and then.
-  const auto drive = [&](Time end) {
+  const auto drive = [&](Time end, const auto&) {
     serial::Simulation& simulation = running->simulation;
     while (simulation.time() < end) {
       const serial::Halt halt = simulation.run_until(std::min(end, simulation.time() + kMillisecond));
@@ -379,7 +379,7 @@ TEST(History, WhatCameOverTheHostPortComesAgainWhenItIsPlayed) {
 /// A character comes over a bridge every 10 ms, and no more than 20 of them are kept.
 struct Flooded {
   Flooded()
-      : session(slave(), {.drive = [this](Time end) { return drive(end); },
+      : session(slave(), {.drive = [this](Time end, const auto&) { return drive(end); },
                           .log_bound = 20 * (sizeof(Action) + sizeof(Moment)),
                           .interval = 20 * kMillisecond}) {}
 

@@ -106,6 +106,14 @@ TEST(Seeing, CompletionOffersCommandsAddressesPlacesAndFiles) {
   EXPECT_EQ(offered("step 1"), Words{});
 }
 
+TEST(Seeing, CompletionOffersTheNumbersOfEventsWhoseRoutineIsAskedFor) {
+  Session session(kNested);
+  const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
+  EXPECT_EQ(offered("who ev"), std::vector<std::string>{"event"});
+  EXPECT_EQ(offered("who event 1"), offered("break event 1"));
+  EXPECT_EQ(offered("rwho event 10"), std::vector<std::string>{"10"});
+}
+
 TEST(Seeing, LabelsArePlacesAndAreCompleted) {
   Session session("LD SM0.0\nJMP 7\nINCW VW0\nLBL 7\nLD SM0.0\nINCW VW2\nLBL 20\nMEND\n");
   const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
@@ -115,10 +123,26 @@ TEST(Seeing, LabelsArePlacesAndAreCompleted) {
   EXPECT_EQ(session.error_of("until LBL 8"), "the program has no LBL 8");
 }
 
+TEST(Seeing, ATimelineShowsWhatTheCpuDidSinceTheLastSendOrForSoLong) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session.error_of("timeline"), "timeline expects a duration before the first 'send'"));
+  EXPECT_TRUE(has(session.error_of("timeline 0ms"), "timeline expects a duration above 0"));
+  const std::string text = session("continue 50ms; send 41; continue; timeline");
+  EXPECT_TRUE(has(text, "received  41"));
+  EXPECT_TRUE(has(text, "INT 1"));
+  EXPECT_TRUE(has(text, "line 11: XMT     VB0, 0"));
+  EXPECT_FALSE(has(session("continue 50ms; timeline 20ms"), "received"));
+  EXPECT_TRUE(has(session("timeline"), "received  41")) << "it only looks, and shows the last frame again";
+}
+
 TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
   Session session(kNested);
   session("scan 3; expect VW10 = 3 and SM0.0");
+  EXPECT_FALSE(session.debugger->expectation_failed());
   EXPECT_EQ(session.error_of("expect VW10 = 4"), "expected VW10 = 4, which does not hold here: VW10 is 3");
+  EXPECT_TRUE(session.debugger->expectation_failed());
+  session.error_of("expect VW10 +");
+  EXPECT_FALSE(session.debugger->expectation_failed()) << "this one cannot be understood";
   session("set VD500=16#FF000000");
   EXPECT_EQ(session.error_of("expect VW10 = 4 and (M0.1 or VW10 > 8) or *VD500 = 1"),
             "expected VW10 = 4 and (M0.1 or VW10 > 8) or *VD500 = 1, which does not hold here: VW10 is 3, M0.1 is 0, *VD500 "
@@ -252,6 +276,24 @@ TEST(Seeing, ACounterHasThePresetOfItsInstruction) {
   Session session("LD I0.0\nLD I0.1\nCTU C1, 3\nMEND\n");
   EXPECT_TRUE(has(session("print C1"), "C1: bit 0, preset 3\n"));
   EXPECT_TRUE(has(session("print C2"), "C2: bit 0\n"));
+}
+
+TEST(Seeing, AColourMarksTheCurrentLineStopsErrorsAndTroubleInATrace) {
+  serial::Simulation simulation(program_of("LD SM0.0\nMOVD 16#7F000000, VD0\nMOVB 1, *VD0\nMEND\n"));
+  simulation.power_up();
+  std::ostringstream out;
+  DebuggerOptions options{};
+  options.colour = true;
+  Debugger debugger(simulation, out, options);
+  EXPECT_FALSE(debugger.execute("break 3; trace on; continue; step"));
+  EXPECT_TRUE(has(out.str(), "\x1b[1mbreakpoint 1, hit for the first time\x1b[0m\n"));
+  EXPECT_TRUE(has(out.str(), " \x1b[1m>\x1b[0m     3  MOVB")) << "where it stands";
+  EXPECT_TRUE(has(out.str(), "\x1b[31mrun-time error 0006")) << "as it is reported";
+  EXPECT_TRUE(has(out.str(), "\x1b[33m  ")) << "in the trace";
+  out.str("");
+  EXPECT_FALSE(debugger.execute("list"));
+  EXPECT_TRUE(has(out.str(), "*      3  MOVB"));
+  EXPECT_TRUE(has(out.str(), " \x1b[1m>\x1b[0m     4  MEND"));
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST_F(SavedSession, ThatHadAMasterOnABridgeIsLoadedWithoutTheBridge) {
   port.attach(kFormat, simulation.time());
   bool asked = false;
   DebuggerOptions options{};
-  options.history.drive = [&](Time end) {
+  options.history.drive = [&](Time end, const auto&) {
     serial::Halt halt = simulation.run_until(std::min(end, simulation.time() + 300 * kMillisecond));
     if (halt != serial::Halt::Time) return halt;
     const serial::HostCharacter character{.byte = 0x41, .format = kFormat};

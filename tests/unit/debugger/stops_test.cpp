@@ -137,6 +137,14 @@ TEST(Stops, AnAnswerIsNotUnaskedUnlessTheMasterHasGivenUp) {
   EXPECT_TRUE(has(session("break sent; send 41; continue"), "\n  41\n"));
 }
 
+TEST(Stops, WatchAloneListsAsBreakAloneDoes) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("watch"), "no breakpoints and no watches\n"));
+  session("break 4; watch VW10");
+  EXPECT_TRUE(has(session("watch"), "2   watch    0 hits  VW10 is"));
+  EXPECT_EQ(session("watch"), session("break"));
+}
+
 TEST(Stops, CompletionOffersWhatMayComeNext) {
   using Words = std::vector<std::string>;
   Session session(kNested);

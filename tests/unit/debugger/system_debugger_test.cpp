@@ -140,7 +140,7 @@ struct BridgedSystem {
     if (named) options.history.line_stations = line_stations(*bench.rig);
     for (const PlcPlan& plc : bench.rig->plan().plcs) options.stations.push_back({.name = plc.name});
     options.history.hosts = {&bench.rig->host_port(0)};
-    options.history.drive = [this](Time end) { return drive(end); };
+    options.history.drive = [this](Time end, const auto&) { return drive(end); };
     debugger = std::make_unique<Debugger>(bench.stations, out, options);
   }
 

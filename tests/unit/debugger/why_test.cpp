@@ -244,10 +244,11 @@ constexpr std::string_view kLines =
     "S       M0.0, 1\n"
     "RETI\n";
 
+/// Without INCB, which it does not have.
+std::string lines_of_cpu_214() { return test::changed(std::string(kLines), "INCB    VB100\n", "INCW    VW90\n"); }
+
 TEST(Why, ATextThatAProgramSwallowsLeadsToTheXmtWithoutPowerFlow) {
-  std::string text(kLines);
-  text.replace(text.find("INCB    VB100\n"), 14, "INCW    VW90 \n");  // of CPU 214, which has no INCB
-  Session session(text);
+  Session session(lines_of_cpu_214());
   session("continue 50ms; break unanswered; send 'one'; continue; send 'two'; continue");
   const std::string why = session("why");
   EXPECT_TRUE(has(why, "no answer to 3 characters since "));
@@ -271,6 +272,36 @@ TEST(Why, ATextThatAProgramWithoutXmtSwallowsIsSaidToBeTaken) {
   Session session("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
   session("continue 50ms; break unanswered; send 41 42; continue");
   EXPECT_TRUE(has(session("why"), ": INT 1 took them, and nothing was sent since (no XMT was executed)\n"));
+}
+
+TEST(Why, ATextThatAProgramTakesIsNamedWhileTheMasterStillWaits) {
+  Session session(lines_of_cpu_214());
+  session("continue 50ms; send 'one'; continue 200ms");
+  EXPECT_TRUE(has(session("why"), "no answer to 3 characters since "));
+  EXPECT_TRUE(has(session.out.str(), ": INT 1 took them, and nothing was sent since: XMT VB100, 0 in line 8, without"));
+  session("rwhy");
+  EXPECT_EQ(session.line(), 8u);
+}
+
+TEST(Why, ATextIsNotSaidToBeTakenBeforeThePauseThatEndsIt) {
+  Session session(lines_of_cpu_214());
+  session("continue 50ms; send 'one'; continue 4ms");
+  EXPECT_FALSE(has(session("why"), "no answer"));
+}
+
+TEST(Why, AMessageThatRCVTookLeadsToTheXmtWithoutPowerFlow) {
+  constexpr std::string_view kReceiver =
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 5, SMW90\nMOVB 10, SMB94\n"
+      "ATCH 0, 23\nENI\nRCV VB100, 0\nLD M0.0\nXMT VB200, 0\nMEND\n"  // 7
+      "INT 0\nLD SM0.0\nINCW VW0\nRCV VB100, 0\nRETI\n";              // 13
+  Session session(check_text(kReceiver, "test.stl", cpu224(), default_times(cpu224())).program);
+  session("continue 50ms; break unanswered; send 41 0d; continue");
+  EXPECT_TRUE(has(session("why"), "no answer to 2 characters since 5"));
+  EXPECT_TRUE(has(session.out.str(),
+                  ": INT 0 took the message, and RCV in line 16 waits for the next one: XMT VB200, 0 in "
+                  "line 11, without power flow (LD M0.0: M0.0=0)\n"));
+  session("rwhy");
+  EXPECT_EQ(session.line(), 11u);
 }
 
 TEST(Why, TheAnswerComesBeforeWhatLedToWhereItStands) {
@@ -349,6 +380,14 @@ TEST(Why, CharactersLostBecauseTheirQueueWasFullAreNotTaken) {
   EXPECT_TRUE(has(session.out.str(), ", 2 were lost because the interrupt queue was full\n"));
   EXPECT_TRUE(has(session.out.str(), "no answer to 4 characters since 5"));
   EXPECT_TRUE(has(session.out.str(), ": INT 1 took them"));
+}
+
+TEST(Why, ACharacterThatIsLostIsNamedWhileTheRequestIsBeingSent) {
+  Session session("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI  // too long\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
+  session("continue 50ms; break lost; send 41 42 43 44 45 46 47 48; continue");
+  EXPECT_TRUE(
+      has(session("why"), ": interrupts are disabled; 4 characters wait in the queue, 1 was lost because it was full; "))
+      << session.out.str();
 }
 
 TEST(Why, CharactersLostBeforeInterruptsWereDisabledAreNotBlamedOnThat) {

@@ -33,19 +33,22 @@ TEST(Address, ACountFollowsAColon) {
 
 TEST(Address, ADoubleWordIsARealIfTheTextSaysSo) {
   std::string why;
-  for (const char* text : {"VD20:real", "VD20:4:real", "AC1:real", "vd20:REAL"}) {
+  for (const char* text : {"VD20:real", "VD20:4:real", "VD20:real:4", "AC1:real", "vd20:REAL"}) {
     const auto range = parse_range(text, cpu214(), why);
     ASSERT_TRUE(range) << why;
     EXPECT_TRUE(range->real) << text;
   }
   EXPECT_EQ(parse_range("VD20:4:real", cpu214(), why)->count, 4u);
+  EXPECT_EQ(parse_range("VD20:real:4", cpu214(), why)->count, 4u);
+  for (const char* text : {"VD20:real:0", "VD20:real:", "VD20:4:real:4", "VW20:real:4"})
+    EXPECT_FALSE(parse_range(text, cpu214(), why)) << text;
   EXPECT_FALSE(parse_range("VD20", cpu214(), why)->real);
 }
 
 TEST(Address, TextThatIsNotAnAddressOfTheCpuIsRefused) {
   EXPECT_EQ(refusal("hello"), "'hello' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
   EXPECT_EQ(refusal("V100"), "'V100' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
-  for (const char* text : {"VB0:0", "VB0:x", "VB0:", "VB0:2x", "VB0:99999999999", "M0.0:2", "VW0:real", "VD0:real:2",
+  for (const char* text : {"VB0:0", "VB0:x", "VB0:", "VB0:2x", "VB0:99999999999", "M0.0:2", "VW0:real", "VD0:real:0",
                            "VD0:2real", "VD0:0:real", "VD0::real"})
     EXPECT_EQ(refusal(text),
               std::string("'") + text +

@@ -1,6 +1,7 @@
 // Parameters of subroutines: what a CALL may pass, and what becomes of it. Times: plc.hpp.
 #include "interpreter/program/parameters.hpp"
 
+#include "interpreter/trace/instruction_lines.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -27,6 +28,15 @@ using Lines = std::vector<std::string>;
 constexpr const char* kAllKinds =
     "VAR_INPUT\n on : BOOL;\n small : BYTE;\n place : DWORD;\nEND_VAR\nVAR_IN_OUT\n sum : INT;\nEND_VAR\n"
     "VAR_OUTPUT\n done : BOOL;\n level : REAL;\nEND_VAR\n";
+
+TEST(Parameters, HaveNoValuesBesideTheCallInATrace) {
+  const auto called = program_of(
+      program("LD SM0.0\nCALL Work, &VB10, VW20\n", "VAR_INPUT\n a : DWORD;\n b : INT;\nEND_VAR\n", "LD SM0.0\n= M0.0\n"),
+      cpu224());
+  const InstructionRecord call{.at = 0, .end = 0, .op = 1, .powered = true, .top = true};
+  EXPECT_EQ(describe(call, *called).find('='), describe(call, *called).rfind('='))
+      << "S0 alone: " << describe(call, *called);
+}
 
 TEST(Parameters, AreInLocalMemoryAndTheOutputsComeBack) {
   Plc plc(

@@ -75,10 +75,11 @@ TEST(TraceReasons, AnEventThatWaitsForEniSaysSoWhenItOccurs) {
 }
 
 /// Characters, from 1 ms on; a frame is complete when I0.0 rises, at 10 ms.
-std::string trace_of_frame(std::string_view stl, std::initializer_list<std::uint8_t> bytes) {
-  Plc plc(stl);
+std::string trace_of_frame(std::string_view stl, std::initializer_list<std::uint8_t> bytes,
+                           const CpuModel& model = cpu214()) {
+  Plc plc(stl, model);
   std::ostringstream out;
-  TextTrace trace(out, program_of(stl), TraceDetail::Way);
+  TextTrace trace(out, program_of(stl, model), TraceDetail::Way);
   trace.record({.kind = TraceKind::ModeChange, .code = 1});
   plc.cpu.set_sink(&trace);
   Time at = 2 * ms;
@@ -126,6 +127,19 @@ TEST(TraceReasons, AFrameThatNoRoutineReadIsLeftWhenAnotherOneIsAttached) {
   std::string reads(kWait);
   reads.replace(reads.find("INCW VW0"), 8, "BMB SMB0, VB0, 4");
   EXPECT_FALSE(has(trace_of_frame(reads, {0x40, 0x42}), "no answer")) << "the program has them, and may answer";
+}
+
+TEST(TraceReasons, AMessageAfterWhichRCVIsExecutedAgainNamesTheTransmissionThatWasNotExecuted) {
+  std::string receiver =
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 0, SMW90\nMOVB 10, SMB94\n"
+      "ATCH 0, 23\nENI\nRCV VB100, 0\nLD I0.1\nXMT VB200, 0\nMEND\n"  // 7
+      "INT 0\nLD SM0.0\nINCW VW0\nRCV VB100, 0\nRETI\n";              // 13
+  EXPECT_TRUE(has(trace_of_frame(receiver, {0x41, 0x0D}, cpu224()),
+                  "no answer to 2 characters since 1.000000 ms: INT 0 took the message, and RCV in line 16 waits for the "
+                  "next one: XMT VB200, 0 in line 11, without power flow (LD I0.1: I0.1=0)\n"));
+  receiver.replace(receiver.find("XMT"), 3, "BMB");
+  receiver.replace(receiver.find("VB200, 0\n"), 9, "VB200, VB210, 1\n");
+  EXPECT_TRUE(has(trace_of_frame(receiver, {0x41, 0x0D}, cpu224()), "waits for the next one (no XMT was executed)\n"));
 }
 
 TEST(TraceReasons, AFrameWithAnAnswerIsNotSaidToHaveNone) {
