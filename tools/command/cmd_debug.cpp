@@ -105,8 +105,8 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->footer(
       fault_help() +
       R"(Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script
-with exit code 2, an 'expect' that does not hold with 1; Ctrl-C ends it too, with exit code 1, or at the prompt with -i. A program from standard input, -, needs
---commands or -x.
+with exit code 2, an 'expect' that does not hold with 1; Ctrl-C ends it too, with exit code 1, or at the prompt with -i.
+A program from standard input, -, needs --commands or -x.
 With a bridge, --realtime or --speed it follows the clock, and masters outside wait while it stands still; their
 time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. A
 new branch goes on in traces after what ran before, and ends captures.
