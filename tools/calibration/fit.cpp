@@ -1,13 +1,16 @@
 #include "tools/calibration/fit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/times_file.hpp"
+#include "tools/calibration/measure_protocol.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -33,6 +36,12 @@ void divide(Equation& equation, double by) {
   for (double& loop : equation.of) loop /= by;
 }
 
+/// Percent, the most that a table may have.
+constexpr double kMostUncertain = 1000;
+
+/// By how much less is known how long a run took in which interrupts came: half a millisecond more, to one and a half.
+constexpr double kWithInterrupts = 4.0 / 3;
+
 LoopTime time_of(const Equation& equation, const std::vector<LoopTime>& times) {
   LoopTime sum;
   for (std::size_t i = 0; i < equation.of.size(); ++i) {
@@ -42,16 +51,22 @@ LoopTime time_of(const Equation& equation, const std::vector<LoopTime>& times) {
   return sum;
 }
 
-}  // namespace
+/// Loops with interrupts: so many came in a repetition, and one more or less at both ends of the run.
+Equation equation_of(const Loops& loops, std::size_t loop, std::vector<LoopTime>& times) {
+  Equation equation{loops.loops[loop], std::vector<double>(times.size(), 0)};
+  equation.of[loop] = 1;
+  const auto found = loops.interrupts.find(loop);
+  if (found == loops.interrupts.end()) return equation;
+  const double came = times[loop].run / static_cast<double>(measuring::kInterruptEvery);
+  for (std::size_t form = 0; form < equation.counts.size(); ++form) equation.counts[form] += came * found->second[form];
+  times[loop].within *= kWithInterrupts;
+  return equation;
+}
 
-Fit fit(const Loops& loops, const std::vector<LoopTime>& times) {
-  std::vector<Equation> equations;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    equations.push_back({loops.loops[i], std::vector<double>(times.size(), 0)});
-    equations.back().of[i] = 1;
-  }
+/// Takes an equation for each form as far as it goes, and that form out of all others.
+void eliminate(std::vector<Equation>& equations, std::size_t forms, const std::vector<LoopTime>& times) {
   std::size_t solved = 0;
-  for (std::size_t form = 0; form < loops.forms.size(); ++form) {
+  for (std::size_t form = 0; form < forms; ++form) {
     // Of those that have the form the one that is surest of it.
     std::size_t best = equations.size();
     double best_within = 0;
@@ -71,17 +86,98 @@ Fit fit(const Loops& loops, const std::vector<LoopTime>& times) {
         subtract(equations[i], equations[solved], equations[i].counts[form]);
     ++solved;
   }
+}
+
+double known_figure(const Form& form) { return static_cast<double>(form.per_unit ? form.row->per_unit : form.row->base); }
+
+/// Sums of forms, divided.
+class Division {
+ public:
+  Division(Fit& fit, const std::vector<LoopTime>& times) : fit_(fit), times_(times) {}
+
+  /// Of an equation that has no form that was found.
+  void add(Equation equation) {
+    const auto first = std::ranges::find_if(equation.counts, [](double count) { return count != 0; });
+    if (first == equation.counts.end()) return;
+    divide(equation, *first);
+    const LoopTime whole = time_of(equation, times_);
+    double least = whole.ns - whole.within, most = whole.ns + whole.within, middle = whole.ns;
+    std::vector<std::size_t> parts;
+    std::vector<std::string> names;
+    for (std::size_t form = 0; form < equation.counts.size(); ++form) {
+      const double count = equation.counts[form];
+      if (count == 0) continue;
+      const Fitted& known = fit_.forms[form];
+      if (count < 0 || known.form.per_unit) return;
+      names.push_back(count == 1 ? known.form.mnemonic : fmt::format("{:g} × {}", count, known.form.mnemonic));
+      if (known_figure(known.form) == 0) continue;
+      if (!known.sum) {
+        parts.push_back(form);
+        continue;
+      }
+      middle -= count * known.ns;
+      least -= count * known.ns * (1 + known.uncertainty / 100);
+      most -= count * known.ns / (1 + known.uncertainty / 100);
+    }
+    if (parts.empty() || middle <= 0) return;
+    fit_.sums.push_back({fmt::format("{}", fmt::join(names, " + ")), whole.ns, whole.within});
+    for (const std::size_t part : parts) take_part(equation, part, parts, {least, middle, most});
+  }
+
+ private:
+  struct Rest {
+    double least, middle, most;
+  };
+
+  /// The part is largest if its own figure is as large as it may be and those of the others are as small.
+  void take_part(const Equation& equation, std::size_t part, const std::vector<std::size_t>& parts, const Rest& rest) {
+    double others = 0, others_least = 0, others_most = 0;
+    for (const std::size_t other : parts) {
+      if (other == part) continue;
+      const Form& form = fit_.forms[other].form;
+      const double figure = equation.counts[other] * known_figure(form), factor = 1 + form.row->uncertainty / 100;
+      others += figure;
+      others_least += figure / factor;
+      others_most += figure * factor;
+    }
+    Fitted& fitted = fit_.forms[part];
+    const double count = equation.counts[part], own = count * known_figure(fitted.form);
+    const double factor = 1 + fitted.form.row->uncertainty / 100;
+    fitted.ns = rest.middle / count * own / (own + others);
+    const double least = rest.least / count * (own / factor) / (own / factor + others_most);
+    const double most = rest.most / count * (own * factor) / (own * factor + others_least);
+    fitted.uncertainty =
+        least <= 0 ? kMostUncertain : std::min(kMostUncertain, 100 * (std::max(fitted.ns / least, most / fitted.ns) - 1));
+    fitted.sum = fit_.sums.size() - 1;
+  }
+
+  Fit& fit_;
+  const std::vector<LoopTime>& times_;
+};
+
+}  // namespace
+
+Fit fit(const Loops& loops, const std::vector<LoopTime>& measured) {
+  std::vector<LoopTime> times = measured;
+  std::vector<Equation> loop_equations;
+  for (std::size_t i = 0; i < times.size(); ++i) loop_equations.push_back(equation_of(loops, i, times));
+  std::vector<Equation> equations = loop_equations;
+  eliminate(equations, loops.forms.size(), times);
   Fit result;
   for (const Form& form : loops.forms) result.forms.push_back({form});
-  for (std::size_t i = 0; i < equations.size(); ++i) {
-    const LoopTime time = time_of(equations[i], times);
-    const auto left = std::ranges::count_if(equations[i].counts, [](double count) { return count != 0; });
+  for (const Equation& equation : equations) {
+    const LoopTime time = time_of(equation, times);
+    const auto left = std::ranges::count_if(equation.counts, [](double count) { return count != 0; });
     if (left == 0) result.contradiction = std::max(result.contradiction, std::abs(time.ns) - time.within);
     if (left != 1) continue;
-    const auto form = std::ranges::find_if(equations[i].counts, [](double count) { return count != 0; });
-    result.forms[static_cast<std::size_t>(form - equations[i].counts.begin())] = {
-        loops.forms[static_cast<std::size_t>(form - equations[i].counts.begin())], true, time.ns, time.within};
+    const auto form = static_cast<std::size_t>(
+        std::ranges::find_if(equation.counts, [](double count) { return count != 0; }) - equation.counts.begin());
+    result.forms[form] = {loops.forms[form], true, time.ns, time.within};
+    for (Equation& loop : loop_equations)
+      if (loop.counts[form] != 0) subtract(loop, equation, loop.counts[form]);
   }
+  Division division(result, times);
+  for (const Equation& loop : loop_equations) division.add(loop);
   return result;
 }
 
@@ -89,13 +185,15 @@ namespace {
 
 /// In percent, as the tables have it: the true figure is between this one / (1 + p / 100) and this one × (1 + p / 100).
 double percent(const Fitted& fitted) {
+  if (fitted.sum) return fitted.uncertainty;
   const double least = fitted.ns - fitted.within;
-  return least <= 0 ? 1000 : std::min(1000.0, 100 * (fitted.ns / least - 1));
+  return least <= 0 ? kMostUncertain : std::min(kMostUncertain, 100 * (fitted.ns / least - 1));
 }
 
 /// Labels alone may take no time, and areas may add none.
 bool can_be_written(const Fitted& fitted) {
   if (fitted.form.mnemonic == name_of(SystemTime::OperandArea)) return fitted.found && fitted.ns > fitted.within;
+  if (fitted.sum) return fitted.ns >= 0.5;
   return fitted.found && (fitted.ns >= 0.5 || fitted.form.mnemonic == "LBL");
 }
 
@@ -116,8 +214,12 @@ std::vector<TimeRow> measured_rows(const Fit& fit, const std::string& source) {
     row.form = names_of(row.areas);
     row.base = in_ns(base.ns);
     row.per_unit = unit_found ? in_ns(unit->ns) : 0;
-    row.marker = "measured";
+    row.marker = base.sum ? "calibrated" : "measured";
     row.source = source;
+    if (base.sum) {
+      const Sum& sum = fit.sums[*base.sum];
+      row.source = fmt::format("{} = {:.2f} us, divided as the estimates are; {}", sum.text, sum.ns / 1000, source);
+    }
     row.uncertainty = row.base == 0 ? 0 : std::ceil(uncertainty * 100) / 100;
     rows.push_back(std::move(row));
   }
@@ -175,18 +277,49 @@ bool is_measured(const Fit& fit, Area area) {
 
 }  // namespace
 
-std::vector<std::string> not_measured(const Fit& fit, const CpuModel& model) {
-  std::set<std::string_view> found;
-  for (const Fitted& each : fit.forms)
-    if (each.found && !each.form.per_unit) found.insert(each.form.mnemonic);
-  std::vector<std::string> missing;
-  for (const SystemTime what : {SystemTime::InterruptEntry, SystemTime::ScanOverhead, SystemTime::EepromSave})
-    missing.emplace_back(name_of(what));
-  for (const Area area : {Area::AI, Area::AQ})  // they need a module
-    if (model.size_of(area) > 0 && !is_measured(fit, area)) missing.push_back(fmt::format("({} operands)", info(area).name));
+namespace {
+
+/// What the program does not run, and why.
+struct Unfit {
+  std::string_view mnemonics, why;
+};
+constexpr std::array<Unfit, 6> kUnfit{{
+    {"XMT RCV NETR NETW", "it uses the line"},
+    {"HDEF HSC PLS", "it sets up hardware that may be wired"},
+    {"TODW TODWX", "it sets the clock"},
+    {"STOP", "it ends the measurement"},
+    {"END", "it takes the place of MEND, and what else a scan takes is a thousand times as long"},
+    {"SBR INT", "it is never without CALL, or without an interrupt"},
+}};
+
+std::string_view reason_for(const Instruction& instruction) {
+  for (const Unfit& unfit : kUnfit)
+    for (const std::string& mnemonic : stl::split_words(unfit.mnemonics))
+      if (mnemonic == instruction.mnemonic) return unfit.why;
+  return instruction.cpus & kCpu214 ? "the loops do not tell it apart"
+                                    : "the program runs on a CPU 214, which does not have it";
+}
+
+/// Found, or a part of a sum.
+bool has_figure(const Fit& fit, std::string_view mnemonic) {
+  return std::ranges::any_of(fit.forms, [&](const Fitted& each) {
+    return (each.found || each.sum) && !each.form.per_unit && each.form.mnemonic == mnemonic;
+  });
+}
+
+}  // namespace
+
+std::vector<NotMeasured> not_measured(const Fit& fit, const CpuModel& model) {
+  std::vector<NotMeasured> missing;
+  for (const SystemTime what : {SystemTime::InterruptEntry, SystemTime::ScanOverhead})
+    if (!has_figure(fit, name_of(what))) missing.push_back({std::string(name_of(what)), "the loops do not tell it apart"});
+  missing.push_back({std::string(name_of(SystemTime::EepromSave)), "it wears the EEPROM"});
+  for (const Area area : {Area::AI, Area::AQ})
+    if (model.size_of(area) > 0 && !is_measured(fit, area))
+      missing.push_back({fmt::format("({} operands)", info(area).name), "it needs a module"});
   for (const Instruction& instruction : all_instructions())
-    if (instruction.modelled() && (instruction.cpus & model.self) && !found.contains(instruction.mnemonic))
-      missing.emplace_back(instruction.mnemonic);
+    if (instruction.modelled() && (instruction.cpus & model.self) && !has_figure(fit, instruction.mnemonic))
+      missing.push_back({std::string(instruction.mnemonic), reason_for(instruction)});
   return missing;
 }
 

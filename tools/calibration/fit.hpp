@@ -1,7 +1,10 @@
 // Figures out of the times of loops.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/calibration/forms.hpp"
@@ -14,15 +17,25 @@ struct Fitted {
   Form form;
   bool found = false;
   double ns = 0, within = 0;
+  std::optional<std::size_t> sum = {};  ///< it is not found, but a part of this one
+  double uncertainty = 0;               ///< of a part, in percent, as the tables have it
+};
+
+/// Forms that no loop has one without the other.
+struct Sum {
+  std::string text;  ///< `CALL + RET`
+  double ns = 0, within = 0;
 };
 
 struct Fit {
   std::vector<Fitted> forms;
+  std::vector<Sum> sums;
   double contradiction = 0;  ///< ns by which loops contradict each other more than the clock explains
 };
 
 /// Each loop is an equation. They are solved by elimination, so that a form is found exactly if the loops tell it apart; the
-/// errors of the loops add up in the worst way. `times`: of the first loops.
+/// errors of the loops add up in the worst way. A sum of forms is divided as their known figures are, and each part is as
+/// unsure as these make it. `times`: of the first loops.
 Fit fit(const Loops& loops, const std::vector<LoopTime>& times);
 
 /// How much slower the CPU is than the table that is corrected says: the middle one of all figures that were measured.
@@ -32,7 +45,13 @@ double ratio_to_known(const Fit& fit);
 /// ratio, as unsure as they are and as the ratio makes them. `known` is told_apart(), `own` what the CPU runs with.
 TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& own, const std::string& source);
 
-/// The instructions of the CPU that it does not have.
-std::vector<std::string> not_measured(const Fit& fit, const CpuModel& model);
+/// A time that the table has no measured figure for, not even as a part of a sum.
+struct NotMeasured {
+  std::string name;
+  std::string_view why;
+};
+
+/// The instructions of the CPU, and times of its system.
+std::vector<NotMeasured> not_measured(const Fit& fit, const CpuModel& model);
 
 }  // namespace s7200::tools

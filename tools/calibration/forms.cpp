@@ -103,6 +103,10 @@ class FormCounter final : public TraceSink {
       if (times_.find(name_of(SystemTime::OperandArea), area)) return count(SystemTime::OperandArea, area, parts.areas);
   }
 
+  void count(SystemTime what, std::optional<Area> area, double times) {
+    count({std::string(name_of(what)), times_.find(name_of(what), area)}, times);
+  }
+
   Counts take() { return std::exchange(counts_, {}); }
 
  private:
@@ -113,10 +117,6 @@ class FormCounter final : public TraceSink {
       if (const auto* address = std::get_if<stl::Address>(&operand.value))
         if (const auto area = area_named(address->area)) areas.push_back(*area);
     return areas;
-  }
-
-  void count(SystemTime what, std::optional<Area> area, double times) {
-    count({std::string(name_of(what)), times_.find(name_of(what), area)}, times);
   }
 
   void count(const Form& form, double times) {
@@ -138,23 +138,44 @@ void command(Cpu& cpu, const Command& command) {
   cpu.poke(image::kM + measuring::kCompleteByte, std::array{measuring::kCompleteBit});
 }
 
-/// The instructions of the repetitions alone: those between the beginning of the outer loop and its end.
+/// The instructions of the repetitions alone: those between the beginning of the outer loop and the answer, those of
+/// interrupts apart.
 class Window final : public TraceSink {
  public:
-  Window(const Program& program, FormCounter& counter) : program_(program), counter_(counter) {}
+  Window(const Program& program, FormCounter& repetitions, FormCounter& interrupts)
+      : program_(program), repetitions_(repetitions), interrupts_(interrupts) {}
   bool wants_instructions() const override { return true; }
   void instruction(const InstructionRecord& record) override {
     const std::string_view mnemonic = program_.ops[record.op].instruction->mnemonic;
     if (mnemonic == "WDR") inside_ = true;
-    if (mnemonic == "XMT") inside_ = false;
-    if (inside_) counter_.instruction(record);
+    if (mnemonic == "XMT") inside_ = false;  // and other scans may follow
+    if (inside_) (in_interrupt_ ? interrupts_ : repetitions_).instruction(record);
+    in_interrupt_ = in_service_;
   }
+  void record(const TraceRecord& record) override {
+    if (record.kind == TraceKind::ServiceBegin) in_interrupt_ = in_service_ = true;
+    if (record.kind == TraceKind::ServiceEnd) in_service_ = false;  // by the instruction that is recorded next
+    if (!inside_) return;
+    if (record.kind == TraceKind::ServiceBegin) interrupts_.count(SystemTime::InterruptEntry, {}, 1);
+    if (record.kind == TraceKind::ServiceEnd) ++services_;
+    if (record.kind == TraceKind::ScanBegin) repetitions_.count(SystemTime::ScanOverhead, {}, 1);
+  }
+
+  /// How many interrupts there were.
+  int services() const { return services_; }
 
  private:
   const Program& program_;
-  FormCounter& counter_;
-  bool inside_ = false;
+  FormCounter &repetitions_, &interrupts_;
+  bool inside_ = false, in_interrupt_ = false, in_service_ = false;
+  int services_ = 0;
 };
+
+Repetition in_order(const Counts& counts, std::size_t forms, double each) {
+  Repetition repetition(forms, 0);
+  for (const auto& [form, times] : counts) repetition[form] = times / each;
+  return repetition;
+}
 
 }  // namespace
 
@@ -189,30 +210,37 @@ Loops find_loops(const CpuModel& model, const TimeTable& times) {
   Loops found;
   const auto program = measuring_program(model, telling_times(times));
   if (!program) return found;
-  FormCounter counter(*program, times, found.forms);
-  Window window(*program, counter);
-  const auto run = [&](std::size_t loop, std::uint16_t repetitions) {
+  FormCounter repetitions(*program, times, found.forms), interrupts(*program, times, found.forms);
+  const auto run = [&](std::size_t loop, std::uint16_t times_over) {
     serial::Simulation simulation(program);
     Cpu& cpu = simulation.cpu();
     simulation.power_up();
     cpu.pause_at_scan_end(true);
     simulation.run_until(10 * kSecond);
-    command(cpu, {.loop = static_cast<std::uint8_t>(loop), .outer = 1, .inner = repetitions});
+    command(cpu, {.loop = static_cast<std::uint8_t>(loop), .outer = 1, .inner = times_over});
+    Window window(*program, repetitions, interrupts);
     cpu.set_sink(&window);
-    simulation.run_until(simulation.time() + 100 * kSecond);
+    for (std::uint16_t scan = 0; scan <= times_over; ++scan)  // of the last loop, whose repetitions they are
+      simulation.run_until(simulation.time() + 100 * kSecond);
     cpu.set_sink(nullptr);
-    return counter.take();
+    return window.services();
   };
-  std::vector<Counts> more;
+  struct Counted {
+    Counts once_more, in_interrupts;
+    double services;
+  };
+  std::vector<Counted> counted;
   for (std::size_t loop = 0; loop < measured_loops(*program); ++loop) {
-    Counts twice = run(loop, 2);
-    for (const auto& [form, times_once] : run(loop, 1)) twice[form] -= times_once;
-    more.push_back(std::move(twice));
+    run(loop, 2);
+    Counts once_more = repetitions.take();
+    interrupts.take();
+    const int services = run(loop, 1);
+    for (const auto& [form, times_once] : repetitions.take()) once_more[form] -= times_once;
+    counted.push_back({std::move(once_more), interrupts.take(), static_cast<double>(services)});
   }
-  for (const Counts& counts : more) {
-    Repetition repetition(found.forms.size(), 0);
-    for (const auto& [form, times_more] : counts) repetition[form] = times_more;
-    found.loops.push_back(std::move(repetition));
+  for (const auto& [once_more, in_interrupts, services] : counted) {
+    found.loops.push_back(in_order(once_more, found.forms.size(), 1));
+    if (services > 0) found.interrupts[found.loops.size() - 1] = in_order(in_interrupts, found.forms.size(), services);
   }
   return found;
 }

@@ -1,6 +1,8 @@
 // What the loops of measure_times.stl are made of: which figures of a table of times one repetition of each consists of.
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,12 +23,13 @@ struct Form {
 /// that no table tells apart, and a figure for each area that with any of them adds time.
 TimeTable told_apart(const CpuModel& model);
 
-/// A loop: how often a repetition takes each of the forms.
+/// How often each of the forms is taken.
 using Repetition = std::vector<double>;
 
 struct Loops {
   std::vector<Form> forms;
-  std::vector<Repetition> loops;  ///< by their numbers
+  std::vector<Repetition> loops;                      ///< by their numbers
+  std::map<std::size_t, Repetition> interrupts = {};  ///< of loops that have any, by the same: of each interrupt
 };
 
 /// The program that this version of the command knows, for a CPU; null if the CPU cannot run it.

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "interpreter/base/time.hpp"
+
 namespace s7200::tools::measuring {
 
 /// Of the meaning of commands and answers; the program's answers name it.
-inline constexpr std::uint8_t kVersion = 1;
+inline constexpr std::uint8_t kVersion = 2;
 
 inline constexpr std::uint8_t kCommandMark = 0x6D, kAnswerMark = 0x4D;
 
@@ -15,6 +17,9 @@ inline constexpr std::uint8_t kCommandMark = 0x6D, kAnswerMark = 0x4D;
 inline constexpr std::size_t kMilliseconds = 6, kIdentification = 8, kVersionPlace = 9, kLoops = 10, kAnswerLength = 11;
 
 inline constexpr std::uint8_t kNoLoop = 255;
+
+/// SMB34, in the loops that a timed interrupt takes time from.
+inline constexpr Time kInterruptEvery = 5 * kMillisecond;
 
 /// V memory: where a command comes to stand. M31.0: it is complete. VW10 counts the repetitions of a loop.
 inline constexpr std::uint32_t kCommandAt = 20, kCompleteByte = 31, kCounterAt = 10;

@@ -51,11 +51,12 @@ Bytes Command::bytes() const {
 }
 
 std::size_t measured_loops(const Program& program) {
-  return static_cast<std::size_t>(std::ranges::count_if(program.statements, [](const stl::Statement& statement) {
-    if (statement.mnemonic != "FOR") return false;
-    const auto* counter = std::get_if<stl::Address>(&statement.operands[0].value);
-    return counter != nullptr && counter->number == measuring::kCounterAt;
-  }));
+  constexpr std::size_t kScans = 1;
+  return kScans + static_cast<std::size_t>(std::ranges::count_if(program.statements, [](const stl::Statement& statement) {
+           if (statement.mnemonic != "FOR") return false;
+           const auto* counter = std::get_if<stl::Address>(&statement.operands[0].value);
+           return counter != nullptr && counter->number == measuring::kCounterAt;
+         }));
 }
 
 Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const MeasurementListener& listener) {
@@ -80,7 +81,8 @@ Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const Meas
     const auto run = ask(slave, {number, outer, inner});
     if (!run) break;
     const double repetitions = static_cast<double>(outer) * inner;
-    measurement.loops.push_back({(in_ns(*run) - in_ns(*nothing)) / repetitions, kWithinNs / repetitions});
+    measurement.loops.push_back(
+        {(in_ns(*run) - in_ns(*nothing)) / repetitions, kWithinNs / repetitions, in_ns(*run) / repetitions});
     listener.measured(i + 1);
   }
   return measurement;

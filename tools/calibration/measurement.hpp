@@ -27,12 +27,13 @@ struct Measured {
   std::uint8_t loops = 0;
 };
 
-/// How many loops the program has.
+/// How many loops the program has. The last one runs scans and has no FOR.
 std::size_t measured_loops(const Program& program);
 
 /// What a loop took for one repetition, and by how much that may be wrong.
 struct LoopTime {
   double ns = 0, within = 0;
+  double run = 0;  ///< the whole run, with all that is around the loop, divided by the repetitions
 };
 
 struct Measurement {

@@ -27,6 +27,34 @@ TEST(Fit, AFormIsFoundIfTheLoopsTellItApart) {
   EXPECT_EQ(found.contradiction, 0);
 }
 
+TEST(Fit, ASumThatNoLoopTakesApartIsDividedAsTheKnownFiguresAreAndAsUnsureAsTheseAre) {
+  // Known: CALL 23 ± 25 %, RET 18 ± 40 %, CRET 17 ± 195 %. This CPU takes twice as long for all of them.
+  const Loops loops{{form("NEXT"), form("CALL"), form("RET"), form("CRET")}, {{1, 0, 0, 0}, {1, 1, 1, 0}, {1, 1, 0, 1}}};
+  const Fit found = fit(loops, {{150'000, 0}, {150'000 + 82'000, 0}, {150'000 + 80'000, 0}});
+  ASSERT_EQ(found.sums.size(), 2U);
+  EXPECT_EQ(found.sums[0].text, "CALL + RET");
+  EXPECT_NEAR(found.sums[0].ns, 82'000, 1e-6);
+  EXPECT_EQ(found.sums[1].text, "CALL + CRET");
+  const Fitted &call = found.forms[1], &ret = found.forms[2], &cret = found.forms[3];
+  EXPECT_FALSE(call.found);
+  EXPECT_EQ(call.sum, 0U);
+  EXPECT_NEAR(call.ns, 46'000, 1e-6);
+  EXPECT_NEAR(ret.ns, 36'000, 1e-6);
+  EXPECT_NEAR(call.uncertainty, 100 * (46.0 / (82 * 18.4 / (18.4 + 25.2)) - 1), 1e-6) << "CALL short and RET long";
+  EXPECT_NEAR(ret.uncertainty, 100 * (36.0 / (82 * (18 / 1.4) / (18 / 1.4 + 28.75)) - 1), 1e-6);
+  EXPECT_EQ(cret.sum, 1U);
+  EXPECT_NEAR(cret.ns, 34'000, 1e-6) << "what CALL leaves";
+  EXPECT_NEAR(cret.uncertainty, 100 * (34.0 / (80 - 46 * (1 + call.uncertainty / 100)) - 1), 1e-6);
+}
+
+TEST(Fit, InterruptsTakeTheirTimeFromTheWholeRun) {
+  // NEXT of 100 us, which takes 102 while every 5 ms an interrupt comes.
+  const Loops loops{{form("NEXT"), form("RETI")}, {{1, 0}, {1, 0}}, {{1, {0, 1}}}};
+  const double whole = 102'000;
+  const Fit found = fit(loops, {{100'000, 0, 100'000}, {whole, 0, whole}});
+  EXPECT_NEAR(found.forms[1].ns, 2'000 / (whole / 5e6), 1e-6);
+}
+
 TEST(Fit, LoopsThatDisagreeByMoreThanTheirErrorsAreAContradiction) {
   const Loops loops{{form("NEXT")}, {{1}, {2}}};
   EXPECT_EQ(fit(loops, {{150'000, 100}, {300'100, 100}}).contradiction, 0);
@@ -104,7 +132,21 @@ TEST(FindLoops, EachLoopOfTheProgramConsistsOfWhatIsWrittenInIt) {
   bool any_shift_of_15 = false;
   for (std::size_t loop = 0; loop < loops.loops.size(); ++loop) any_shift_of_15 |= count(loop, "SLW", true) == 15;
   EXPECT_TRUE(any_shift_of_15);
-  EXPECT_EQ(count(loops.loops.size() - 1, "(operand area adds)"), 8) << "two accumulators in each of four";
+  EXPECT_EQ(count(163, "(operand area adds)"), 8) << "two accumulators in each of four";
+  EXPECT_EQ(count(185, "CALL"), 1);
+  EXPECT_EQ(count(185, "RET"), 1);
+  const auto in_interrupt = [&](std::size_t loop, std::string_view mnemonic) {
+    const auto form = std::ranges::find(loops.forms, mnemonic, &Form::mnemonic);
+    return form == loops.forms.end() ? 0 : loops.interrupts.at(loop)[static_cast<std::size_t>(form - loops.forms.begin())];
+  };
+  EXPECT_EQ(loops.interrupts.size(), 2U);
+  EXPECT_EQ(in_interrupt(189, "(interrupt entry)"), 1);
+  EXPECT_EQ(in_interrupt(189, "RETI"), 1);
+  EXPECT_EQ(in_interrupt(190, "CRETI"), 1);
+  EXPECT_EQ(in_interrupt(190, "NEXT"), 0);
+  EXPECT_EQ(count(189, "NEXT"), 1);
+  EXPECT_EQ(count(loops.loops.size() - 1, "(scan overhead)"), 1) << "the last one runs scans";
+  EXPECT_EQ(count(loops.loops.size() - 1, "MEND"), 1);
 }
 
 }  // namespace
