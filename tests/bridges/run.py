@@ -1437,6 +1437,28 @@ class RunTests(Case):
         self.assertGreaterEqual(took, 0.6)
         self.assertNotIn("realtime", timed("--for", "500ms")[1])
 
+    def test_what_is_recorded_can_be_followed_while_it_runs(self):
+        blinks = self.program("LD SM0.5\n= Q0.0\nLD SM0.1\nATCH 0, 8\nENI\nMEND\nINT 0\nRETI\n")
+        system = self.folder / "one.yaml"
+        system.write_text(f"plcs:\n  one: {{program: {blinks}}}\nlines:\n  bus: {{stations: [one]}}\n", encoding="utf-8")
+        for what, arguments in ((blinks, ["--output", self.folder / "outputs"]), (blinks, ["--trace", self.folder / "trace"]),
+                                (blinks, ["--trace", "-"]), (system, ["--trace", self.folder / "of_system"])):
+            with self.subTest(arguments):
+                aside = self.folder / "stdout"
+                with open(aside, "w", encoding="utf-8") as out:
+                    run = subprocess.Popen([S7200, "run", str(what), "--speed", "20", "--for", "10000h", *map(str, arguments)],
+                                           stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.DEVNULL)
+                self.addCleanup(run.wait)
+                self.addCleanup(run.kill)
+                followed = aside if arguments[1] == "-" else arguments[1]
+                until = time.monotonic() + LONG
+                while not followed.exists() or len(followed.read_text(encoding="utf-8").splitlines()) < 5:
+                    self.assertIsNone(run.poll())
+                    self.assertLess(time.monotonic(), until, "nothing comes before 64 KB")
+                    time.sleep(0.05)
+                self.assertTrue(followed.read_text(encoding="utf-8").endswith("\n"), "whole lines")
+                run.kill()
+
     def test_the_first_request_and_one_after_a_broadcast_are_answered_at_every_rate(self):
         for baud in self.RATES:
             with self.subTest(baud):

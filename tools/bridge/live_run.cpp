@@ -88,6 +88,7 @@ class LiveRun::Engine {
         if (!halt_ && line->has_failed()) fail(*line);
       if (halt_) return *halt_;
       meanwhile();
+      if (options_.before_wait) options_.before_wait();
       sleep();
     }
   }

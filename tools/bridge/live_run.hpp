@@ -20,6 +20,7 @@ struct LiveRunOptions {
   LiveMessages messages{};
   const std::atomic<bool>* stop = nullptr;  ///< ends a run as an interruption does; not owned
   bool in_stop_too = false;                 ///< a run that begins in STOP lets time pass
+  std::function<void()> before_wait{};      ///< is told when the simulation has caught up with the clock; may be null
 };
 
 /// What runs in real time: a simulation, or a system.

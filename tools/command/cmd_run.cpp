@@ -16,7 +16,8 @@
 namespace s7200::tools {
 namespace {
 
-Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
+Ending run_to_end(Rig& rig, const RunOptions& options) {
+  serial::Simulation& simulation = rig.simulation();
   Bridge* const bridge = options.bridge.bridge();
   const Time end = options.end(bridge != nullptr);
   if (!options.bridge.realtime()) {
@@ -28,7 +29,8 @@ Ending run_to_end(serial::Simulation& simulation, const RunOptions& options) {
                {.speed = options.bridge.speed(),
                 .line = options.bridge.line(),
                 .messages = print_live_messages(),
-                .in_stop_too = to_ppi},
+                .in_stop_too = to_ppi,
+                .before_wait = [&rig] { rig.flush_records(); }},
                bridge);
   std::string why;
   if (!live.start(why)) return print_error(why), Ending{};
@@ -53,7 +55,7 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   serial::Simulation& simulation = rig->simulation();
   rig->power_up();
   simulation.cpu().pause_at_error(options.rig.strict());
-  const Ending ending = run_to_end(simulation, options);
+  const Ending ending = run_to_end(*rig, options);
   if (ending.reason.empty()) return kUnusable;
   const bool all_written = finish(*rig);
 

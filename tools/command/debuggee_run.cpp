@@ -18,7 +18,8 @@ DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges
                             .line = options.rig.on_line(options.master),
                             .messages = messages,
                             .stop = stop,
-                            .in_stop_too = true};
+                            .in_stop_too = true,
+                            .before_wait = [&rig] { rig.flush_records(); }};
   if (!options.rig.plan()) {
     live_ = std::make_unique<LiveRun>(simulation, live, bridge);
     return;

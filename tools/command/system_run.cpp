@@ -57,7 +57,9 @@ Ending run_to_end(Rig& rig, Bridges bridges, const RunOptions& options) {
     return {run(rig, end, Progress([&] { return rig.system().time(); }, limits)), {}};
   }
   const auto machine = machine_of(rig.system());
-  LiveRun live(*machine, ends_of(rig, bridges), {.speed = options.bridge.speed(), .messages = print_live_messages()});
+  LiveRun live(
+      *machine, ends_of(rig, bridges),
+      {.speed = options.bridge.speed(), .messages = print_live_messages(), .before_wait = [&rig] { rig.flush_records(); }});
   std::string why;
   if (!live.start(why)) return print_error(why), Ending{};
   const serial::Halt halt = live.run_until(end);

@@ -115,6 +115,10 @@ bool RecordFile::put(std::string& why) {
   return destination_.stream || check(file_.put(destination_), why);
 }
 
+void RecordFile::flush() {
+  if (std::ostream* const out = standard_output_ ? standard_output_ : stream_.get()) out->flush();
+}
+
 bool RecordFile::close(std::string& why) {
   if (!buffer_) return true;
   stream_->flush();

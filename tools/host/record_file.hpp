@@ -26,6 +26,9 @@ class RecordFile {
   /// Puts the file in its place: its first line has been written.
   bool put(std::string& why);
 
+  /// Writes what is recorded so far, for whoever follows the file. What cannot be written close() tells.
+  void flush();
+
   /// False if not everything could be written.
   bool close(std::string& why);
 

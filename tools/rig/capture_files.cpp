@@ -82,6 +82,10 @@ void CaptureFiles::watch(serial::ResponderStation& plc, Time from) {
   if (!captures_.empty()) plc.set_wire_sink(this, from);
 }
 
+void CaptureFiles::flush() {
+  for (Capture& capture : captures_) capture.file.flush();
+}
+
 void CaptureFiles::close(std::vector<std::string>& problems) {
   finish();
   for (Capture& capture : captures_) {

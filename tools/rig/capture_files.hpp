@@ -22,6 +22,9 @@ class CaptureFiles final : private serial::WireSink {
   bool open(std::string& why);
   bool put(std::string& why);
 
+  /// Writes what is recorded so far.
+  void flush();
+
   /// What the line's file says of it counts, not how the port that is watched is set.
   void read_as(const serial::LineSettings& line) { line_ = line; }
 

@@ -54,6 +54,7 @@ class PlcRig {
   /// What watches the CPU; others may be added.
   FanOut& sinks() { return traces_.sinks(); }
 
+  void flush() { traces_.flush(); }
   void close(std::vector<std::string>& problems) { traces_.close(problems); }
   void keep_memory(const Cpu& cpu, std::vector<std::string>& problems) const;
 

@@ -196,6 +196,12 @@ void Rig::power_up() {
     if (poller) poller->poller().start(kFirstPoll);
 }
 
+void Rig::flush_records() {
+  if (trace_) trace_->flush();
+  for (PlcRig& plc : plc_rigs_) plc.flush();
+  for (CaptureFiles& captures : captures_) captures.flush();
+}
+
 std::vector<std::string> Rig::finish() {
   std::vector<std::string> problems;
   std::string why;

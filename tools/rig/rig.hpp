@@ -99,6 +99,9 @@ class Rig final {
   /// What watches a CPU; others may be added.
   FanOut& sinks(std::size_t plc = 0) { return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->sinks(); }
 
+  /// Writes what is recorded so far, for whoever follows a run in real time. A trace of a system is a second behind.
+  void flush_records();
+
   /// Completes the records and keeps the memories. Returns what could not be written.
   std::vector<std::string> finish();
 

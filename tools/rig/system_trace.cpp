@@ -85,6 +85,11 @@ bool SystemTrace::close(std::string& why) {
   return file_.close(why);
 }
 
+void SystemTrace::flush() {
+  write_until(system_.time() - kTold);
+  file_.flush();
+}
+
 TraceSink& SystemTrace::station(std::size_t plc) { return *stations_[plc]; }
 
 void SystemTrace::tell(const EventPlan& event, Time at, std::string_view what) {

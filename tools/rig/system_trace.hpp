@@ -30,6 +30,9 @@ class SystemTrace final {
   bool put(std::string& why) { return file_.put(why); }
   bool close(std::string& why);
 
+  /// Writes the lines that no other one can come before any more.
+  void flush();
+
   /// What watches a CPU. The file is open.
   TraceSink& station(std::size_t plc);
 

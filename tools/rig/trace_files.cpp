@@ -27,6 +27,10 @@ bool TraceFiles::put(std::string& why) {
   return std::ranges::all_of(records_, [&](Record& record) { return record.file.put(why); });
 }
 
+void TraceFiles::flush() {
+  for (Record& record : records_) record.file.flush();
+}
+
 void TraceFiles::close(std::vector<std::string>& problems) {
   for (Record& record : records_) {
     std::string why;

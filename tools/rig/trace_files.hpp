@@ -23,6 +23,9 @@ class TraceFiles {
   bool open(std::string& why);
   bool put(std::string& why);
 
+  /// Writes what is recorded so far.
+  void flush();
+
   /// What watches the CPU. Other sinks may be added.
   FanOut& sinks() { return sinks_; }
 
