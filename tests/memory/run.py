@@ -51,6 +51,7 @@ def cases(seconds):
         Case("test waits.yaml --against SLAVE"),
         Case(f"test --random {minutes * 40} --target SLAVE --json --record transcript.yaml --force --junit results.xml",
              name="test --random, forty requests a minute"),
+        Case(f"test --random {minutes * 40} --target SLAVE --against SLAVE", name="test --random --against, forty requests a minute"),
         Case(f"master SLAVE read 40001 --every 60s --count {minutes}"),
         Case(f"master SLAVE read 40001 --every 60s --count {minutes} --json --capture line.pcap"),
         Case(f"master SLAVE read 40001 --continuous --count {minutes} -v"),

@@ -3,7 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <cstdlib>
+#include <deque>
+#include <exception>
+#include <future>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/scenario/bytes_diff.hpp"
@@ -61,22 +69,98 @@ std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen&
   return text;
 }
 
-/// What both were asked in the same step.
-struct Pair {
-  const Seen* one;
-  const Seen* other;
+/// Where both sides differ first.
+class FirstDifference {
+ public:
+  FirstDifference(const Scenario& scenario, const Side& one, const Side& other, const Comparison& comparison)
+      : scenario_(scenario), one_(one), other_(other), comparison_(comparison) {}
+
+  /// What both were asked in the same step.
+  void add(const Seen& one, const Seen& other) {
+    if (answer_differs_) return;
+    if (!same_answer(one.exchange, other.exchange)) {
+      answer_differs_ = true;
+      show("the first different answer", one, other);
+    } else if (comparison_.timing && !time_differs_ && !same_time(one.exchange, other.exchange, comparison_.tolerance)) {
+      time_differs_ = true;
+      show("the first different time", one, other);
+    }
+  }
+
+  std::string text() const { return text_; }
+
+ private:
+  void show(std::string_view heading, const Seen& one, const Seen& other) {
+    text_ += fmt::format("{}{}\n", kIndent, heading);
+    text_ += exchange_text(scenario_, one, other, one_.name, other_.name, comparison_.colour);
+  }
+
+  const Scenario& scenario_;
+  const Side &one_, &other_;
+  const Comparison& comparison_;
+  bool answer_differs_ = false, time_differs_ = false;
+  std::string text_;
 };
 
-std::vector<Pair> pairs_of(const ScenarioResult& one, const ScenarioResult& other) {
-  std::vector<Pair> pairs;
-  const auto place = [](const Seen& seen) { return std::pair(seen.step, seen.turn); };
-  auto next = other.seen.begin();
-  for (const Seen& seen : one.seen) {
-    while (next != other.seen.end() && place(*next) < place(seen)) ++next;
-    if (next != other.seen.end() && place(*next) == place(seen)) pairs.push_back({&seen, &*next});
+/// The exchanges of the other side on their way to this one.
+class ExchangeQueue {
+ public:
+  explicit ExchangeQueue(std::size_t most) : most_(most) {}
+
+  /// Waits for room.
+  void put(const Seen& seen) {
+    std::unique_lock lock(mutex_);
+    moved_.wait(lock, [&] { return seen_.size() < most_ || closed_; });
+    if (!closed_) seen_.push_back(seen);
+    moved_.notify_all();
   }
-  return pairs;
-}
+
+  /// No more will come.
+  void end(std::exception_ptr failed = nullptr) {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    failed_ = std::move(failed);
+    moved_.notify_all();
+  }
+
+  /// The one that belongs to this one, with all before it out of the way; nothing if there is none. Throws what the other
+  /// side threw.
+  std::optional<Seen> take(const Seen& like) {
+    std::unique_lock lock(mutex_);
+    const auto behind = [&] { return !seen_.empty() && place(seen_.front()) < place(like); };
+    const auto known = [&] {
+      while (behind()) seen_.pop_front();
+      moved_.notify_all();
+      return !seen_.empty() || ended_;
+    };
+    moved_.wait(lock, known);
+    if (failed_) std::rethrow_exception(failed_);
+    if (seen_.empty() || place(seen_.front()) != place(like)) return {};
+    std::optional<Seen> taken(std::move(seen_.front()));
+    seen_.pop_front();
+    moved_.notify_all();
+    return taken;
+  }
+
+  /// Whoever puts more need not wait: nobody takes them.
+  void close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    moved_.notify_all();
+  }
+
+ private:
+  static std::pair<std::size_t, std::size_t> place(const Seen& seen) { return {seen.step, seen.turn}; }
+
+  const std::size_t most_;
+  std::mutex mutex_;
+  std::condition_variable moved_;
+  std::deque<Seen> seen_;
+  bool ended_ = false, closed_ = false;
+  std::exception_ptr failed_;
+};
+
+constexpr std::size_t kMostAhead = 256;
 
 /// What kept a side from being asked.
 std::string trouble_text(const Scenario& scenario, const ScenarioResult& result, const std::string& name) {
@@ -95,28 +179,41 @@ std::string trouble_text(const Scenario& scenario, const ScenarioResult& result,
 
 }  // namespace
 
-Difference compare(const Scenario& scenario, const ScenarioResult& one, const ScenarioResult& other,
-                   const std::string& one_name, const std::string& other_name, const Comparison& comparison, bool colour) {
-  Difference difference;
-  const std::vector<Pair> pairs = pairs_of(one, other);
-  std::size_t answer = 0, time = pairs.size();
-  while (answer < pairs.size() && same_answer(pairs[answer].one->exchange, pairs[answer].other->exchange)) ++answer;
-  if (comparison.timing) {
-    time = 0;
-    while (time < pairs.size() && same_time(pairs[time].one->exchange, pairs[time].other->exchange, comparison.tolerance))
-      ++time;
-  }
-  const auto show = [&](std::string_view heading, std::size_t i) {
-    difference.found = true;
-    difference.text += fmt::format("{}{}\n", kIndent, heading);
-    difference.text += exchange_text(scenario, *pairs[i].one, *pairs[i].other, one_name, other_name, colour);
+Compared compare(const Scenario& scenario, const Side& one, const Side& other, const Comparison& comparison) {
+  Compared compared{.scenario = &scenario};
+  FirstDifference first(scenario, one, other, comparison);
+  ExchangeQueue queue(comparison.one_after_other ? std::numeric_limits<std::size_t>::max() : kMostAhead);
+  auto running = std::async(std::launch::async, [&] {
+    try {
+      ScenarioResult result = other.run([&](const Seen& seen) { queue.put(seen); });
+      queue.end();
+      return result;
+    } catch (...) {
+      queue.end(std::current_exception());
+      throw;
+    }
+  });
+  struct Closing {
+    ExchangeQueue& queue;
+    ~Closing() { queue.close(); }
   };
-  if (time < answer) show("the first different time", time);
-  if (answer < pairs.size()) show("the first different answer", answer);
-  const std::string trouble = trouble_text(scenario, one, one_name) + trouble_text(scenario, other, other_name);
-  if (!trouble.empty()) difference.found = true;
-  difference.text += trouble;
-  return difference;
+  ScenarioResult of_one;
+  {
+    const Closing closing{queue};
+    if (comparison.one_after_other) running.wait();
+    of_one = one.run([&](const Seen& seen) {
+      ++compared.exchanges;
+      if (const auto pair = queue.take(seen)) first.add(seen, *pair);
+    });
+  }
+  const ScenarioResult of_other = running.get();
+  for (const ScenarioResult* each : {&std::as_const(of_one), &of_other})
+    if (each->outcome == ScenarioResult::Outcome::Skipped) compared.skipped = each->reason;
+  if (!compared.skipped.empty()) return compared;
+  compared.difference.text =
+      first.text() + trouble_text(scenario, of_one, one.name) + trouble_text(scenario, of_other, other.name);
+  compared.difference.found = !compared.difference.text.empty();
+  return compared;
 }
 
 }  // namespace s7200::tools

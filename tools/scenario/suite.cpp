@@ -171,31 +171,27 @@ std::optional<ComparisonResult> Suite::compare(const std::string& other, Time to
   if (!other_benches) return {};
   catch_interruption();
   const bool live = one_benches->slave || other_benches->slave;
-  const Comparison comparison{!ignore_timing, tolerance_for(tolerance, live)};
-  std::vector<ScenarioResult> of_other;
-  const auto run_on = [&](const Benches& benches) {
-    return [&](std::size_t i) { return run_scenario(scenarios_[i], benches.of[i]); };
+  const Comparison comparison{.timing = !ignore_timing,
+                              .tolerance = tolerance_for(tolerance, live),
+                              .one_after_other = one_benches->slave && other_benches->slave,
+                              .colour = colour};
+  const auto side = [&](const Benches& benches, std::size_t i, const std::string& name) {
+    return Side{file_name(name), [&, i](const ExchangeListener& listener) {
+                  Bench bench = benches.of[i];
+                  bench.watch = listener;
+                  return run_scenario(scenarios_[i], bench);
+                }};
   };
-  ParallelRun<ScenarioResult>(scenarios_.size(), jobs_on(*other_benches), run_on(*other_benches))
-      .each(
-          [&](std::size_t, ScenarioResult result) {
-            of_other.push_back(std::move(result));
-            return !interrupted();
-          },
-          watcher.waiting);
   ComparisonResult all;
-  ParallelRun<ScenarioResult>(scenarios_.size(), jobs_on(*one_benches), run_on(*one_benches))
+  ParallelRun<Compared>(scenarios_.size(), std::min(jobs_on(*one_benches), jobs_on(*other_benches)),
+                        [&](std::size_t i) {
+                          const std::string& one = settings_.target.empty() ? scenarios_[i].program : one_benches->name;
+                          return tools::compare(scenarios_[i], side(*one_benches, i, one),
+                                                side(*other_benches, i, other_benches->name), comparison);
+                        })
       .each(
-          [&](std::size_t i, const ScenarioResult& result) {
+          [&](std::size_t, Compared compared) {
             if (interrupted()) return false;
-            const Scenario& scenario = scenarios_[i];
-            Compared compared{.scenario = &scenario, .exchanges = result.seen.size()};
-            for (const ScenarioResult* each : {&result, &std::as_const(of_other[i])})
-              if (each->outcome == Outcome::Skipped) compared.skipped = each->reason;
-            const std::string one_name = settings_.target.empty() ? scenario.program : one_benches->name;
-            if (compared.skipped.empty())
-              compared.difference = tools::compare(scenario, result, of_other[i], file_name(one_name),
-                                                   file_name(other_benches->name), comparison, colour);
             all.scenarios.push_back(std::move(compared));
             if (watcher.finished) watcher.finished(all.scenarios.back());
             return all.same() || !settings_.fail_fast;

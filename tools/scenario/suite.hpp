@@ -32,14 +32,6 @@ struct SuiteResult {
   std::string why_nothing_was_checked() const;
 };
 
-/// A scenario that went over two slaves.
-struct Compared {
-  const Scenario* scenario = nullptr;
-  std::string skipped{};  ///< why it was not compared; empty if it was
-  std::size_t exchanges = 0;
-  Difference difference{};
-};
-
 struct ComparisonResult {
   std::vector<Compared> scenarios{};
   bool same() const;

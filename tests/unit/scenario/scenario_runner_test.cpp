@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/slave_bench.hpp"
@@ -431,13 +434,25 @@ TEST(ScenarioRecord, AProgramThatAnswersLaterIsNoticed) {
 
 // --- comparison ---
 
+/// Of two results that are there already.
+Difference compare(const Scenario& scenario, const ScenarioResult& one, const ScenarioResult& other,
+                   const Comparison& comparison = {}) {
+  const auto side = [](const char* name, const ScenarioResult& result) {
+    return Side{name, [&result](const ExchangeListener& listener) {
+                  for (const Seen& seen : result.seen) listener(seen);
+                  return result;
+                }};
+  };
+  return tools::compare(scenario, side("a", one), side("b", other), comparison).difference;
+}
+
 TEST(ScenarioCompare, FindsTheFirstDifference) {
   const Scenario scenario =
       scenario_of("  - {read: holding 0}\n  - {write: coils 5, value: 1}\n  - {read: coils 0, count: 3}\n");
   const auto other = test::compile(test::changed(test::slave_text(), "MOVW    65, VW3290", "MOVW 5, VW3290"));
   const ScenarioResult a = run(scenario), b = run(scenario, other);
-  EXPECT_FALSE(compare(scenario, a, a, "a", "b", {}, false).found);
-  const Difference difference = compare(scenario, a, b, "a", "b", {.timing = false}, false);
+  EXPECT_FALSE(compare(scenario, a, a).found);
+  const Difference difference = compare(scenario, a, b, {.timing = false});
   ASSERT_TRUE(difference.found);
   EXPECT_NE(difference.text.find("exchange 2, file.yaml:4\n"), std::string::npos) << difference.text;
   EXPECT_NE(difference.text.find("a         coil 5 written: 1 after"), std::string::npos) << difference.text;
@@ -448,9 +463,9 @@ TEST(ScenarioCompare, TimesCountUnlessTheyAreIgnoredOrTolerated) {
   const Scenario scenario = scenario_of("  - {read: holding 0}\n");
   const auto slower = test::compile(test::changed(test::slave_text(), "MOVB    6, SMB34", "MOVB 9, SMB34"));
   const ScenarioResult a = run(scenario), b = run(scenario, slower);
-  EXPECT_TRUE(compare(scenario, a, b, "a", "b", {}, false).found);
-  EXPECT_FALSE(compare(scenario, a, b, "a", "b", {.timing = false}, false).found);
-  EXPECT_FALSE(compare(scenario, a, b, "a", "b", {.tolerance = 5 * kMillisecond}, false).found);
+  EXPECT_TRUE(compare(scenario, a, b).found);
+  EXPECT_FALSE(compare(scenario, a, b, {.timing = false}).found);
+  EXPECT_FALSE(compare(scenario, a, b, {.tolerance = 5 * kMillisecond}).found);
 }
 
 TEST(ScenarioCompare, RandomTrafficIsTheSameForTheSameSeed) {
@@ -479,17 +494,40 @@ TEST(ScenarioCompare, ExchangesOfTheSameStepAreCompared) {
   };
   const ScenarioResult both{.seen = {seen(0, 1), seen(1, 2)}};
   const ScenarioResult second{.seen = {seen(1, 2)}, .skipped_steps = 1};
-  EXPECT_FALSE(compare(scenario, both, second, "a", "b", {}, false).found);
-  EXPECT_FALSE(compare(scenario, second, both, "a", "b", {}, false).found);
+  EXPECT_FALSE(compare(scenario, both, second).found);
+  EXPECT_FALSE(compare(scenario, second, both).found);
   const ScenarioResult other{.seen = {seen(1, 3)}, .skipped_steps = 1};
-  EXPECT_NE(compare(scenario, both, other, "a", "b", {}, false).text.find("exchange 2,"), std::string::npos);
+  EXPECT_NE(compare(scenario, both, other).text.find("exchange 2,"), std::string::npos);
+}
+
+TEST(ScenarioCompare, ASideThatIsFasterWaitsForTheOtherAndOneThatLosesItsSlaveEndsBoth) {
+  const Scenario scenario = scenario_of("  - {read: holding 0}\n");
+  constexpr std::size_t kMany = 5000;
+  std::atomic<std::int64_t> ahead = 0;
+  std::int64_t most_ahead = 0;
+  const auto many = [](const std::function<void()>& told, const ExchangeListener& listener) {
+    for (std::size_t turn = 0; turn < kMany; ++turn) listener({.turn = turn}), told();
+    return ScenarioResult{};
+  };
+  const Side slow{"slow", [&](const ExchangeListener& listener) { return many([&] { --ahead; }, listener); }};
+  const Side fast{"fast", [&](const ExchangeListener& listener) {
+                    return many([&] { most_ahead = std::max<std::int64_t>(most_ahead, ++ahead); }, listener);
+                  }};
+  const Side lost{"lost", [](const ExchangeListener&) -> ScenarioResult { throw SlaveUnreachable("gone"); }};
+  const Compared compared = tools::compare(scenario, slow, fast, {});
+  EXPECT_EQ(compared.exchanges, kMany);
+  EXPECT_FALSE(compared.difference.found) << compared.difference.text;
+  EXPECT_LT(most_ahead, 1000);
+  EXPECT_THROW(tools::compare(scenario, slow, lost, {}), SlaveUnreachable);
+  EXPECT_THROW(tools::compare(scenario, lost, fast, {}), SlaveUnreachable);
+  EXPECT_EQ(tools::compare(scenario, slow, fast, {.one_after_other = true}).exchanges, kMany);
 }
 
 TEST(ScenarioCompare, ASideThatCouldNotBeAskedIsADifferenceEvenIfBothCouldNot) {
   const Scenario scenario = scenario_of("  - {read: holding 0}\n");
   const ScenarioResult lost{
       .findings = {{.what = "slave", .expected = "that it stays there", .found = "it is gone", .of_run = true}}};
-  const Difference difference = compare(scenario, lost, lost, "a", "b", {}, false);
+  const Difference difference = compare(scenario, lost, lost);
   EXPECT_TRUE(difference.found);
   EXPECT_NE(difference.text.find("b could not be asked"), std::string::npos) << difference.text;
   EXPECT_NE(difference.text.find("it is gone"), std::string::npos) << difference.text;
@@ -502,7 +540,7 @@ TEST(ScenarioCompare, TransmissionsAreComparedAndAProgramThatNeverGetsThereDiffe
   const auto other = test::compile(test::changed(text, "'READ'", "'HEAD'"));
   const auto forgetful = test::compile(test::changed(text, "MOVW    VW12, VW0", "MOVW    VW12, VW2"));
   const auto difference = [&](const std::shared_ptr<const Program>& program) {
-    return compare(scenario, run(scenario, text_commands()), run(scenario, program), "a", "b", {}, false).text;
+    return compare(scenario, run(scenario, text_commands()), run(scenario, program)).text;
   };
   EXPECT_EQ(difference(text_commands()), "");
   EXPECT_NE(difference(other).find("request   none: a transmission that no one asked for\n"), std::string::npos)
