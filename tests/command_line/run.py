@@ -872,7 +872,7 @@ class Options(Case):
     """Every option of every verb, from the lists that --help prints: each number and each text with a form has its range, and
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
-    ANY_TEXT = ("TABLE", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
+    ANY_TEXT = ("TABLE", "DIR", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
     BEGINNING = {"check": [SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "decode": [LOG], "import-capture": [LOG], "debug": [SLAVE, "-x", "quit"], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
@@ -1185,16 +1185,24 @@ class Json(Case):
         self.assertIn("did not answer", self.ends(UNUSABLE, "bench", silent, "--each", "1ms").stderr)
         before = self.json(FINE, "bench", "--each", "1ms", "--json")
         for figure in before["figures"]:
-            self.assertEqual(list(figure), ["name", "unit", "per_second", "ratio"])
+            self.assertEqual(list(figure), ["name", "unit", "per_second", "takes", "ratio"])
             self.assertIsNone(figure["ratio"])
+            self.assertEqual(figure["per_second"] is None, figure["takes"] is not None)
         names = [figure["name"] for figure in before["figures"]]
         self.assertIn("1900 instructions, mixed", names)
         self.assertIn("check, 100000 lines", names)
+        self.assertEqual({figure["name"]: figure["unit"] for figure in before["figures"] if figure["takes"]},
+                         {"the same, events traced": "times as long", "a day, polled every second": "s", "start to first output": "ms"})
+        self.assertLess({"instruction trace", "nobody talking", "nobody talking, tip-like"}, set(names))
         del before["figures"][1]
         file = self.program(json.dumps(before), "before.json")
         for figure, name in zip(self.json(FINE, "bench", "--each", "1ms", "--json", "--against", file)["figures"], range(20)):
             self.assertEqual(figure["ratio"] is None, name == 1, "it has no figure to compare with")
-        self.assertRegex(self.ends(FINE, "bench", "--each", "1ms", "--against", file).stdout, r"first scan .* \d+\.\d\d times\n")
+        compared = self.ends(FINE, "bench", "--each", "1ms", "--against", file).stdout
+        self.assertRegex(compared, r"first scan .* \d+\.\d\d times\n")
+        self.assertRegex(compared, r"start to first output +\d+\.\d\d ms  \d+\.\d\d times\n")
+        slower = self.program(json.dumps(before | {"figures": [{"name": "start to first output", "takes": 1e6}]}), "slower.json")
+        self.assertGreater(self.json(FINE, "bench", "--each", "1ms", "--json", "--against", slower)["figures"][-1]["ratio"], 100)
         for key, other in (("program", "other.stl"), ("cpu", "224"), ("times", "my.csv"), ("no_skip", True), ("build", "?")):
             changed = self.program(json.dumps(before | {key: other}), "changed.json")
             self.assertIn(f"was measured with {key} {json.dumps(other)}, this with", self.ends(FINE, "bench", "--each", "1ms", "--against", changed).stderr)
@@ -1204,6 +1212,17 @@ class Json(Case):
             self.assertIn("a rate above 0", self.ends(UNUSABLE, "bench", "--each", "1ms", "--against", bad).stderr)
         for wrong in ("missing.json", self.program("[1]", "list.json"), self.program("{", "half.json")):
             self.assertIn("cannot read", self.ends(UNUSABLE, "bench", "--each", "1ms", "--against", wrong).stderr)
+
+    def test_bench_saves_the_mixed_programs_and_overwrites_none(self):
+        folder = self.folder / "saved"
+        self.assertEqual(self.ends(FINE, "bench", "--save-programs", folder).stdout, "")
+        for count in (340, 1900, 4000):
+            self.assertEqual(self.json(FINE, "run", folder / f"mixed_{count}.stl", "--cpu", "226XM", "--scans", "2", "--json")["instructions"], 2 * count)
+        (folder / "mixed_340.stl").unlink()
+        (folder / "mixed_1900.stl").write_text("mine", encoding="utf-8")
+        self.assertIn("mixed_1900.stl exists", self.ends(UNUSABLE, "bench", "--save-programs", folder).stderr)
+        self.assertEqual((folder / "mixed_1900.stl").read_text(encoding="utf-8"), "mine")
+        self.assertFalse((folder / "mixed_340.stl").exists(), "all or none")
 
     def test_every_scan_run_gives_the_same_as_scans_passed_over(self):
         timers = self.program("LD SM0.5\nTON T37, 3\nLD T37\n= Q0.0\nMEND\n")
@@ -2667,7 +2686,7 @@ class Times(Case):
         self.assertIn("not checked  the first scan takes about 690 ms", done.stdout)
         fitted = lambda *of: [each["fitted"] for each in self.json(FINE, "times", "--check", *of, "--json")["statements"]]
         for table in ("cpu214", "cpu214_from_22x"):
-            self.assertEqual(fitted(table), [True, False, False, False], table)
+            self.assertEqual(fitted(table), [True, True, False, False, False], table)
         self.assertRegex(done.stdout, r"the first scan takes .*\(Application Tip 41, SBR 62 and text; the table was fitted to it\)")
         self.assertEqual(fitted("cpu22x_release1", "--cpu", "224r1"), [True] * 4, "its figures are the page's")
         wrong = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\n(EEPROM save),,9000,,,measured\n", "mine.csv")

@@ -9,10 +9,16 @@
 namespace s7200::tools {
 namespace {
 
-/// A rate is above 0.
-bool is_rate(const nlohmann::json& figure) {
-  return figure.is_object() && figure.value("name", nlohmann::json()).is_string() &&
-         figure.value("per_second", nlohmann::json()).is_number() && figure["per_second"] > 0;
+bool is_above_0(const nlohmann::json& figure, const char* key) {
+  const auto number = figure.value(key, nlohmann::json());
+  return number.is_number() && number > 0;
+}
+
+/// What Figure::speed() was; nothing if it is no figure.
+std::optional<double> speed_of(const nlohmann::json& figure) {
+  if (!figure.is_object() || !figure.value("name", nlohmann::json()).is_string()) return {};
+  if (is_above_0(figure, "takes")) return 1 / figure["takes"].get<double>();
+  return is_above_0(figure, "per_second") ? std::optional(figure["per_second"].get<double>()) : std::nullopt;
 }
 
 }  // namespace
@@ -38,12 +44,13 @@ std::optional<EarlierBench> read_earlier_bench(const std::string& path) {
   }
   EarlierBench before{{}, json};
   for (const auto& figure : json["figures"]) {
-    if (!is_rate(figure)) {
+    const auto speed = speed_of(figure);
+    if (!speed) {
       print_error(fmt::format("cannot read {}: '{}' is not a figure with a name and a rate above 0", path,
                               stl::shortened(figure.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))));
       return {};
     }
-    before.rates[figure["name"]] = figure["per_second"];
+    before.speeds[figure["name"]] = *speed;
   }
   return before;
 }
@@ -59,8 +66,8 @@ void warn_of_differences(const nlohmann::ordered_json& now, const EarlierBench& 
 }
 
 std::optional<double> ratio_of(const Figure& figure, const EarlierBench& before) {
-  const auto found = before.rates.find(std::string(figure.name));
-  return found == before.rates.end() ? std::nullopt : std::optional(figure.per_second / found->second);
+  const auto found = before.speeds.find(std::string(figure.name));
+  return found == before.speeds.end() ? std::nullopt : std::optional(figure.speed() / found->second);
 }
 
 }  // namespace s7200::tools

@@ -12,8 +12,8 @@
 namespace s7200::tools {
 
 struct EarlierBench {
-  std::map<std::string, double> rates;  ///< by the names of their figures
-  nlohmann::json measured;              ///< with what it was measured, among other things
+  std::map<std::string, double> speeds;  ///< by the names of their figures
+  nlohmann::json measured;               ///< with what it was measured, among other things
 };
 
 /// With what figures are measured: two results are comparable if this is the same in both.

@@ -2,7 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
@@ -12,8 +15,10 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/measuring/measure.hpp"
+#include "tools/measuring/mixed_program.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -23,14 +28,37 @@ struct BenchOptions {
   ProgramOptions program;  // without a path: the slave program that is built in
   Time each = kSecond;     // processor time for each figure
   std::string against;     // an earlier --json
+  std::string save;        // where to write the mixed programs
   bool json = false;
 };
 
 void print_line(const Figure& figure, const EarlierBench& before) {
   const bool millions = figure.per_second >= 1e6;
   const auto ratio = ratio_of(figure, before);
-  fmt::print("  {:<26} {:>9.1f} {} {} a second{}\n", figure.name, figure.per_second / (millions ? 1e6 : 1e3),
-             millions ? "million " : "thousand", figure.unit, ratio ? fmt::format("  {:.2f} times", *ratio) : "");
+  const std::string what = figure.takes > 0
+                               ? fmt::format("{:>9.2f} {}", figure.takes, figure.unit)
+                               : fmt::format("{:>9.1f} {} {} a second", figure.per_second / (millions ? 1e6 : 1e3),
+                                             millions ? "million " : "thousand", figure.unit);
+  fmt::print("  {:<26} {}{}\n", figure.name, what, ratio ? fmt::format("  {:.2f} times", *ratio) : "");
+}
+
+/// `null` of what a figure has not.
+nlohmann::ordered_json if_any(double figure) { return figure > 0 ? nlohmann::ordered_json(figure) : nullptr; }
+
+/// All of them, or none if one is there already.
+int save_mixed_programs(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const auto path = [&](std::uint32_t instructions) {
+    return (std::filesystem::path(folder) / fmt::format("mixed_{}.stl", instructions)).string();
+  };
+  for (const std::uint32_t instructions : kMixedLengths)
+    if (std::filesystem::exists(path(instructions), error))
+      return print_error(fmt::format("{} exists; give --save-programs another folder", path(instructions))), kUnusable;
+  for (const std::uint32_t instructions : kMixedLengths)
+    if (const int written = write_stl(path(instructions), {}, false, mixed_program(instructions)); written != kFine)
+      return written;
+  return kFine;
 }
 
 std::optional<SourceText> read_bench_program(const std::string& path) {
@@ -39,6 +67,7 @@ std::optional<SourceText> read_bench_program(const std::string& path) {
 }
 
 int run_bench(const BenchOptions& options) {
+  if (!options.save.empty()) return save_mixed_programs(options.save);
   int exit_code = kUnusable;
   const auto text = read_bench_program(options.program.path);
   const auto program = text ? options.program.load(*text, exit_code) : nullptr;
@@ -49,8 +78,9 @@ int run_bench(const BenchOptions& options) {
   if (!options.against.empty()) warn_of_differences(how, *before, options.against);
   std::vector<Figure> figures = measure(program, options.each);
   if (options.program.path.empty())
-    for (const auto& others : {measure_mixed, measure_files})
+    for (const auto& others : {measure_tip_like, measure_mixed, measure_files})
       std::ranges::copy(others(options.each), std::back_inserter(figures));
+  std::ranges::copy(measure_start("/proc/self/exe", options.each), std::back_inserter(figures));
   if (options.json) {
     auto results = results_of("bench");
     results.update(how);
@@ -58,7 +88,8 @@ int run_bench(const BenchOptions& options) {
       const auto ratio = ratio_of(f, *before);
       results["figures"].push_back({{"name", f.name},
                                     {"unit", f.unit},
-                                    {"per_second", f.per_second},
+                                    {"per_second", if_any(f.per_second)},
+                                    {"takes", if_any(f.takes)},
                                     {"ratio", ratio ? nlohmann::ordered_json(*ratio) : nullptr}});
     }
     fmt::print("{}", lines_of(results));
@@ -81,6 +112,9 @@ void add_bench(CLI::App& app, int& exit_code) {
                {kMillisecond, 3600 * kSecond});
   verb->add_option("--against", options->against, "an earlier result of --json: how many times as fast it is now")
       ->type_name("FILE");
+  verb->add_option("--save-programs", options->save,
+                   "only write the mixed programs to DIR, for a CPU 226XM: to measure whole processes in pairs")
+      ->type_name("DIR");
   verb->add_flag("--json", options->json, "print as JSON");
   verb->footer("Example: s7200 bench");
   verb->callback([options, &exit_code] { exit_code = run_bench(*options); });

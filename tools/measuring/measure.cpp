@@ -1,12 +1,20 @@
 #include "tools/measuring/measure.hpp"
 
+#include <spawn.h>
+#include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <chrono>
+#include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "interpreter/program/load.hpp"
+#include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
@@ -204,6 +212,29 @@ double idle_minutes(serial::Simulation& simulation) {
   return minutes * static_cast<double>(kMinute) / static_cast<double>(kSecond);
 }
 
+/// A minute with an exchange in each second; its seconds.
+double polled_minute(serial::Simulation& simulation) {
+  constexpr int kPolls = 60;
+  for (int poll = 0; poll < kPolls; ++poll) {
+    const Time next = simulation.time() + kSecond;
+    exchange(simulation);
+    simulation.run_until(next);
+  }
+  return kPolls;
+}
+
+/// While a trace of it is written and thrown away.
+template <class Work>
+double traced(serial::Simulation& simulation, const std::shared_ptr<const Program>& program, TraceDetail detail, Time each,
+              Work work) {
+  std::ofstream out("/dev/null");
+  TextTrace trace(out, program, detail);
+  simulation.cpu().set_sink(&trace);
+  const double rate = best_rate(each, [&] { return timed([&] { return work(simulation); }); });
+  simulation.cpu().set_sink(nullptr);
+  return rate;
+}
+
 /// A second, in which an input changes ten times.
 double mixed_scans(serial::Simulation& simulation) {
   Cpu& cpu = simulation.cpu();
@@ -239,8 +270,17 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   Serving serving(program);
   figures.push_back({"serving requests", "instructions", best_rate(each, [&] { return timed([&] { return serving(); }); })});
 
-  figures.push_back({"10 registers, whole line", "exchanges",
-                     best_rate(each, [&] { return timed([&] { return exchange(simulation), 1.0; }); })});
+  const auto one_exchange = [](serial::Simulation& asked) { return exchange(asked), 1.0; };
+  const double exchanges = best_rate(each, [&] { return timed([&] { return one_exchange(simulation); }); });
+  figures.push_back({"10 registers, whole line", "exchanges", exchanges});
+  const double with_events = traced(simulation, program, TraceDetail::Events, each, one_exchange);
+  figures.push_back({"the same, events traced", "times as long", 0, exchanges / with_events});
+  constexpr double kDay = 86'400;
+  figures.push_back({"a day, polled every second", "s", 0,
+                     kDay / best_rate(each, [&] { return timed([&] { return polled_minute(simulation); }); })});
+  simulation.cpu().use_steady_scans(SteadyScansUse::Off);
+  figures.push_back(
+      {"instruction trace", "lines", traced(simulation, program, TraceDetail::Instructions, each, idle_scans)});
   return figures;
 }
 
@@ -254,10 +294,58 @@ std::vector<Figure> measure_mixed(Time each) {
     figures.push_back(
         {name, "instructions", best_rate(each, [&] { return timed([&] { return mixed_scans(simulation); }); })});
   };
-  mixed("340 instructions, mixed", 340);
-  mixed("1900 instructions, mixed", 1900);
-  mixed("4000 instructions, mixed", 4000);
+  constexpr std::array<std::string_view, kMixedLengths.size()> kNames{"340 instructions, mixed", "1900 instructions, mixed",
+                                                                      "4000 instructions, mixed"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) mixed(kNames[i], kMixedLengths[i]);
   return figures;
+}
+
+std::vector<Figure> measure_tip_like(Time each) {
+  constexpr std::string_view kText = R"(
+LD SM0.1
+CALL 50
+LD M31.7
+CALL 51
+R M31.7, 1
+MEND
+SBR 50
+LD SM0.0
+MOVB 16#49, SMB30
+MOVD &VB3000, VD20
+FOR VW10, 0, 255
+LD SM0.0
+MOVW VW10, VW12
+FOR VW14, 1, 8
+LD SM0.0
+SRW VW12, 1
+LD SM1.1
+XORW 16#A001, VW12
+NEXT
+LD SM0.0
+MOVW VW12, *VD20
++D 2, VD20
+NEXT
+LD SM0.0
+ATCH 0, 8
+ENI
+RET
+SBR 51
+LD SM0.0
+XMT VB0, 0
+RET
+INT 0
+LD SM0.0
+MOVB SMB2, VB1
+MOVB 1, VB0
+S M31.7, 1
+RETI
+)";
+  const CpuModel& model = cpu214();
+  serial::Simulation simulation(check_text(kText, "tip_like.stl", model, default_times(model)).program);
+  simulation.power_up();
+  simulation.run_until(10 * kSecond);
+  return {{"nobody talking, tip-like", "seconds",
+           best_rate(each, [&] { return timed([&] { return idle_minutes(simulation); }); })}};
 }
 
 std::vector<Figure> measure_files(Time each) {
@@ -272,6 +360,62 @@ std::vector<Figure> measure_files(Time each) {
     return static_cast<double>(kLines * (fine_for(*text, result, model).empty() ? 1 : 0));
   };
   return {{"check, 100000 lines", "lines", best_rate(each, [&] { return timed(check_listing); })}};
+}
+
+namespace {
+
+/// Ends with the process.
+class Started {
+ public:
+  explicit Started(const std::string& command) {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+    out_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_addclose(&actions, ends[0]);
+    posix_spawn_file_actions_addclose(&actions, ends[1]);
+    std::string name = command, option = "--version";
+    std::array<char*, 3> arguments{name.data(), option.data(), nullptr};
+    const int error = posix_spawn(&process_, command.c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    if (error == 0) return;
+    ::close(out_);
+    throw std::system_error(error, std::generic_category(), command);
+  }
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+  ~Started() {
+    ::close(out_);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
+  }
+
+  void wait_for_output() const {
+    char first = 0;
+    while (read(out_, &first, 1) < 0 && errno == EINTR) continue;
+  }
+
+ private:
+  int out_ = -1;
+  pid_t process_ = 0;
+};
+
+}  // namespace
+
+std::vector<Figure> measure_start(const std::string& command, Time each) {
+  using Clock = std::chrono::steady_clock;
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  Milliseconds best = Milliseconds::max();
+  const auto end = Clock::now() + std::chrono::nanoseconds(each);
+  do {
+    const auto begin = Clock::now();
+    const Started started(command);
+    started.wait_for_output();
+    best = std::min<Milliseconds>(best, Clock::now() - begin);
+  } while (Clock::now() < end);
+  return {{"start to first output", "ms", 0, best.count()}};
 }
 
 }  // namespace s7200::tools

@@ -1,7 +1,10 @@
 // How fast a program is simulated on this computer.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +15,10 @@ namespace s7200::tools {
 struct Figure {
   std::string_view name, unit;
   double per_second = 0;
+  double takes = 0;  ///< instead of a rate, and the less the better
+
+  /// Twice as much is twice as fast.
+  double speed() const { return takes > 0 ? 1 / takes : per_second; }
 };
 
 /// The best of five rounds on one core, each figure for `each` of the host's time. The program is a Modbus slave at address
@@ -20,8 +27,16 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
 
 /// The same of mixed programs of three lengths (mixed_program.hpp), every scan run.
 std::vector<Figure> measure_mixed(Time each);
+inline constexpr std::array<std::uint32_t, 3> kMixedLengths{340, 1900, 4000};
+
+/// Of a slave whose first scan makes a table in loops, and that receives each character in an interrupt, as that of
+/// Application Tip 41 does.
+std::vector<Figure> measure_tip_like(Time each);
 
 /// How fast files are checked, as `s7200 check` does it: lines of a listing of 100,000 (long_listing.hpp).
 std::vector<Figure> measure_files(Time each);
+
+/// From the start of the process `command --version` to its first output, by the clock.
+std::vector<Figure> measure_start(const std::string& command, Time each);
 
 }  // namespace s7200::tools
