@@ -2697,8 +2697,8 @@ class Times(Case):
             self.assertIn(line, copy)
             return fitted(self.program(copy.replace(line, other), "mine.csv"), "--cpu", cpu)
 
-        self.assertEqual(changed("214", "\nNEXT,", "\nNEXT,"), [True, False, False, False], "a copy is as good as the table")
-        self.assertEqual(changed("214", "\nNEXT,each repetition,150,", "\nNEXT,each repetition,149,"), [False] * 4)
+        self.assertEqual(changed("214", "\nNEXT,", "\nNEXT,"), [True, True, False, False, False], "a copy is as good as the table")
+        self.assertEqual(changed("214", "\nNEXT,each repetition,150,", "\nNEXT,each repetition,149,"), [False] * 5)
         self.assertEqual(changed("224r1", "\nRCV,,80,,,manual,", "\nRCV,,80,,,measured,"), [False, True, True, True])
         self.assertIn("is not Application Tip 41", self.ends(UNUSABLE, "times", "--check", "cpu214", "--tip41", SLAVE).stderr)
         for cpu in ("224", "224r1"):
@@ -2708,7 +2708,9 @@ class Times(Case):
     def test_the_tip_holds_with_both_tables_and_not_with_a_faster_cpu(self):
         for table in ("cpu214", "cpu214_from_22x"):
             done = self.ends(FINE, "times", "--check", table, "--tip41", TIP)
-            self.assertIn("4 hold, 0 fail\n", done.stdout)
+            self.assertIn("5 hold, 0 fail\n", done.stdout)
+            self.assertIn("holds        the loop for its CRC table needs its WDR, and no more: with it the watchdog does nothing, without it it stops",
+                          done.stdout)
         rows = self.json(FINE, "times", "--json")["times"]
         fast = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\n" + "".join(
             f"{' '.join(row['mnemonics'])},{row['form']},{row['base_us'] / 3},{row['per_unit_us'] / 3},,measured\n" for row in rows
@@ -2716,6 +2718,7 @@ class Times(Case):
         done = self.ends(FAILED, "times", "--check", fast, "--tip41", TIP)
         self.assertIn("FAILS        the first scan takes about 690 ms", done.stdout)
         self.assertIn("FAILS        it does not work correctly at 38400 baud", done.stdout)
+        self.assertIn("FAILS        the loop for its CRC table needs its WDR, and no more", done.stdout)
 
     def test_a_band_gives_ranges_and_says_with_how_many_tables(self):
         arguments = ["send", SLAVE, "--crc", "0103000a0002", "--times-band", "20"]
@@ -2881,7 +2884,7 @@ class Times(Case):
     def test_a_cpu_with_other_times_is_within_the_band_of_its_measured_table(self):
         truth, out = ["--times", "cpu214_from_22x"], self.folder / "measured.csv"
         self.ends(FINE, "calibrate", MEASURE, *truth, "--each", "1s", "-o", out)
-        self.assertIn("4 hold, 0 fail\n", self.ends(FINE, "times", "--check", out, "--tip41", TIP).stdout)
+        self.assertIn("5 hold, 0 fail\n", self.ends(FINE, "times", "--check", out, "--tip41", TIP).stdout)
         for program, request in ((TIP, "01030000000a"), (SLAVE, "0103000a0002")):
             arguments = ["send", program, "--crc", request, "--json"]
             true = self.json(FINE, *arguments, *truth)["exchanges"][0]["latency_us"]

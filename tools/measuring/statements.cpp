@@ -7,6 +7,7 @@
 #include <set>
 
 #include "interpreter/base/numbers.hpp"
+#include "interpreter/model/errors.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/constants.hpp"
 #include "serial_sim/modbus/request.hpp"
@@ -110,9 +111,16 @@ class Tip41 {
   Tip41(const SourceText& text, const CpuModel& model, const TimeTable& times) : text_(text), model_(model), times_(times) {}
 
   Time first_scan() const {
-    serial::Simulation simulation(program({9600, 0x49, 6}));
+    serial::Simulation simulation(program(kUsual));
     start(simulation);
     return simulation.cpu().state().longest_scan;
+  }
+
+  /// Whether the watchdog stops it in the first scan, with the WDR that its loop for the CRC table has, or without.
+  bool watchdog_stops_it(bool with_wdr) const {
+    serial::Simulation simulation(program(kUsual, with_wdr));
+    start(simulation);
+    return simulation.cpu().state().fatal_code == static_cast<std::uint16_t>(FatalError::Watchdog);
   }
 
   Served serve(const Rate& rate) const {
@@ -131,11 +139,27 @@ class Tip41 {
   }
 
  private:
-  std::shared_ptr<const Program> program(const Rate& rate) const {
+  static constexpr Rate kUsual{9600, 0x49, 6};
+
+  std::shared_ptr<const Program> program(const Rate& rate, bool with_wdr = true) const {
     stl::ParseResult parsed = text_.parsed;
+    if (!with_wdr) replace_wdr(parsed.source);
     set_constant(parsed.source, "SMB30", {.value = rate.port_control}, false);
     set_constant(parsed.source, "SMB34", {.value = rate.quiet_ms}, false);
     return check(std::move(parsed), model_, times_).program;
+  }
+
+  /// In SBR 62.
+  static void replace_wdr(stl::Source& source) {
+    bool inside = false;
+    for (stl::Line& line : source.lines) {
+      auto* statement = std::get_if<stl::Statement>(&line);
+      if (!statement) continue;
+      if (statement->mnemonic == "SBR") inside = std::get<stl::Integer>(statement->operands[0].value).value == 62;
+      if (!inside || statement->mnemonic != "WDR") continue;
+      statement->mnemonic = "NOP";
+      statement->operands = {{.value = stl::Integer{0}}};
+    }
   }
 
   static bool start(serial::Simulation& simulation) {
@@ -166,6 +190,8 @@ void check_tip41(const CpuModel& model, const TimeTable& times, const SourceText
   const std::string says_of_itself = "Application Tip 41, ";
   Statement scan{"the first scan takes about 690 ms, elsewhere about 700", says_of_itself + "SBR 62 and text"};
   scan.fitted = is_fitted_to_first_scan(times);
+  Statement wdr{"the loop for its CRC table needs its WDR, and no more", says_of_itself + "SBR 62"};
+  wdr.fitted = scan.fitted;
   Statement slow{"it serves from 300 to 19200 baud", says_of_itself + "SBR 50"};
   Statement fast{"it does not work correctly at 38400 baud", says_of_itself + "SBR 50"};
   if (text) {
@@ -173,6 +199,10 @@ void check_tip41(const CpuModel& model, const TimeTable& times, const SourceText
     const Time first = tip.first_scan();
     scan.found = in_milliseconds(first);
     scan.verdict = verdict_of(kFirstScan.has(first));
+    const bool stopped = tip.watchdog_stops_it(true), stopped_without = tip.watchdog_stops_it(false);
+    wdr.verdict = verdict_of(!stopped && stopped_without);
+    wdr.found = fmt::format("with it the watchdog {}, without it {}", stopped ? "stops the CPU" : "does nothing",
+                            stopped_without ? "it stops the CPU" : "it does nothing");
     slow.verdict = Verdict::Holds;
     slow.found = "60 registers written and 2 read at each rate, no event lost";
     for (const Rate& rate : kRates) {
@@ -188,9 +218,9 @@ void check_tip41(const CpuModel& model, const TimeTable& times, const SourceText
     fast.found = fmt::format("{}, {} characters or events lost during a request for 60 registers",
                              served.all_answered ? "answers" : "no answer", served.lost);
   } else {
-    scan.found = slow.found = fast.found = "needs the document: --tip41 FILE";
+    scan.found = wdr.found = slow.found = fast.found = "needs the document: --tip41 FILE";
   }
-  for (Statement* each : {&scan, &slow, &fast}) statements.push_back(std::move(*each));
+  for (Statement* each : {&scan, &wdr, &slow, &fast}) statements.push_back(std::move(*each));
 }
 
 }  // namespace
