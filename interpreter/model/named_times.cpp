@@ -25,10 +25,11 @@ void add(TimeTable& table, std::string_view csv) {
   assert(errors.empty());
 }
 
-TimeTable table_of(std::string_view csv, std::string_view more = {}) {
+/// What a CPU runs with if nothing else is asked for.
+TimeTable own_times(const CpuModel& model) {
   TimeTable table;
-  add(table, csv);
-  if (!more.empty()) add(table, more);
+  for (const std::string_view csv : model.times_csv)
+    if (!csv.empty()) add(table, csv);
   return table;
 }
 
@@ -36,10 +37,10 @@ bool is_of_22x(const TimeRow& row) {
   return row.marker != "estimate" && row.mnemonics.front() != name_of(SystemTime::EepromSave);
 }
 
-TimeTable cpu214_times() { return table_of(embedded::kCpu214Times); }
-TimeTable cpu215_times() { return table_of(embedded::kCpu214Times, embedded::kCpu215Times); }
-TimeTable cpu22x_release1_times() { return table_of(embedded::kCpu22xRelease1Times); }
-TimeTable cpu22x_times() { return table_of(embedded::kCpu22xTimes); }
+TimeTable cpu214_times() { return own_times(cpu214()); }
+TimeTable cpu215_times() { return own_times(cpu215()); }
+TimeTable cpu22x_release1_times() { return own_times(*find_cpu("224r1")); }
+TimeTable cpu22x_times() { return own_times(cpu224()); }
 
 TimeTable cpu214_from_22x_times() {
   const auto slower = [](Time time) { return static_cast<Time>(std::llround(static_cast<double>(time) * kSlower)); };
@@ -50,7 +51,7 @@ TimeTable cpu214_from_22x_times() {
         fmt::format("{:g} × CPU 22x of release 1, first scan of Application Tip 41 = 690 ms; {}", kSlower, row.source);
     row.marker = "remembered";
   };
-  TimeTable table = table_of(embedded::kCpu22xRelease1Times).filtered(is_of_22x).with(scale);
+  TimeTable table = cpu22x_release1_times().filtered(is_of_22x).with(scale);
   add(table, embedded::kCpu214From22xTimes);
   return table;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/named_times.hpp"
 #include "interpreter/model/times_file.hpp"
 #include "interpreter/program/chains.hpp"
 #include "interpreter/program/data_block.hpp"
@@ -578,13 +579,10 @@ std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {
 }
 
 TimeTable default_times(const CpuModel& model) {
-  TimeTable times;
-  for (const std::string_view csv : model.times_csv) {
-    if (csv.empty()) continue;
-    [[maybe_unused]] const auto errors = times.add(csv, std::string("times of CPU ").append(model.name));
-    assert(errors.empty());
-  }
-  return times;
+  const auto own =
+      std::ranges::find_if(named_times(), [&](const NamedTimes& named) { return named.own && (named.cpus & model.self); });
+  assert(own != named_times().end());
+  return own->table();
 }
 
 }  // namespace s7200

@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import xml.etree.ElementTree
@@ -2823,6 +2824,16 @@ class Times(Case):
         self.assertEqual(of_one["band"]["tables"], 202, "a scenario that asks for a share is run with the usual number of tables")
         self.assertIn("'95' is not a share", self.ends(UNUSABLE, "test", self.program(text.replace("100%", "95"), "x.yaml")).stderr)
         self.assertIn("are about one", self.ends(UNUSABLE, "test", scenario, "--times-band", "2", "--record", self.folder / "t.yaml").stderr)
+
+    def test_a_scenario_with_a_band_reads_its_table_once(self):
+        csv_text = self.ends(FINE, "times", "--csv").stdout
+        table = self.folder / "times.csv"
+        os.mkfifo(table)
+        scenario = self.program(f"program: {SLAVE}\ntimes: {table}\nsteps:\n  - {{read: holding 0, expect: [0]}}\n", "once.yaml")
+        writer = threading.Thread(target=table.write_text, args=(csv_text,), daemon=True)
+        writer.start()
+        self.assertIn("(4 of 4 tables", self.ends(FINE, "test", scenario, "--times-band", "3").stdout)
+        writer.join()
 
     def test_a_measured_cpu_gives_its_table_back_within_the_stated_uncertainty(self):
         """A simulated CPU with random times is measured through its line. The command knows nothing of them but the answers."""

@@ -11,20 +11,21 @@ namespace s7200::tools {
 
 std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
                                    std::vector<std::string>& errors) {
+  auto times = load_times(model, table, errors);
+  if (!times) return {};
+  return band_around(model, table, std::move(*times), settings);
+}
+
+TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable times, const BandSettings& settings) {
+  if (!table.empty()) return TimesBand({{table, std::move(times)}}, settings);
   std::vector<TimesBand::Named> tables;
-  const auto add = [&](const std::string& name, const std::string& title) {
-    auto times = load_times(model, name, errors);
-    if (times) tables.push_back({title, std::move(*times)});
-    return times.has_value();
-  };
-  if (!table.empty()) {
-    if (!add(table, table)) return {};
-    return TimesBand(std::move(tables), settings);
-  }
+  std::vector<std::string> errors;  // there are none in tables that have a name
   for (const bool own : {true, false})
     for (const NamedTimes& named : named_times())
-      if (named.own == own && (named.cpus & model.self))
-        if (const std::string name(named.name); !add(name, name)) return {};
+      if (named.own == own && (named.cpus & model.self)) {
+        const std::string name(named.name);
+        tables.push_back({name, *load_times(model, name, errors)});
+      }
   return TimesBand(std::move(tables), settings);
 }
 

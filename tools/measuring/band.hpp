@@ -21,6 +21,9 @@ namespace s7200::tools {
 std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
                                    std::vector<std::string>& errors);
 
+/// The same of a table that has been read already, as `times`.
+TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable times, const BandSettings& settings);
+
 /// A program that has no errors, with each of the tables. It is checked for a table when that is first asked for, from any
 /// thread; with one of the first tables it is kept, with the others checked anew each time, so that a hundred thousand of
 /// them need no more memory than a few hundred.

@@ -87,10 +87,11 @@ Programs::Loaded Programs::load(const std::vector<std::string>& files, const std
   auto parsed = read(files, repairs, loaded.messages);
   if (!parsed) return loaded;
   std::vector<std::string> errors;
-  const auto times = load_times(model, times_table, errors);
+  auto times = load_times(model, times_table, errors);
   for (const std::string& error : errors) add_error(loaded.messages, error);
   if (!times) return loaded;
   CheckResult result = check(std::move(*parsed), model, *times);
+  loaded.times = std::move(*times);
   loaded.program = std::move(result.program);
   if (loaded.program) return loaded;
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
@@ -111,10 +112,10 @@ std::shared_ptr<const ProgramBand> Programs::band(const std::string& path, const
   auto& known = bands_[{{files, cpu, times_table, repairs}, block}];
   if (known) return known;
   Messages messages;
-  std::vector<std::string> errors;
   auto parsed = read(files, repairs, messages);
-  auto tables = load_band(*find_cpu(cpu), times_table, settings, errors);
-  return known = std::make_shared<ProgramBand>(std::move(*parsed), *find_cpu(cpu), std::move(*tables), block);
+  const CpuModel& model = *find_cpu(cpu);
+  auto tables = band_around(model, times_table, get(path, with, cpu, times_table, repairs).times, settings);
+  return known = std::make_shared<ProgramBand>(std::move(*parsed), model, std::move(tables), block);
 }
 
 namespace {

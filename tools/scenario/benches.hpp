@@ -20,6 +20,7 @@ class Programs {
  public:
   struct Loaded {
     std::shared_ptr<const Program> program{};
+    TimeTable times{};    ///< that it has
     Messages messages{};  ///< why there is none
 
     /// The first of what is wrong, in a few lines.
