@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -17,6 +19,7 @@
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/measuring/long_listing.hpp"
 #include "tools/measuring/measure.hpp"
 #include "tools/measuring/mixed_program.hpp"
 #include "tools/views/results_json.hpp"
@@ -45,19 +48,23 @@ void print_line(const Figure& figure, const EarlierBench& before) {
 /// `null` of what a figure has not.
 nlohmann::ordered_json if_any(double figure) { return figure > 0 ? nlohmann::ordered_json(figure) : nullptr; }
 
-/// All of them, or none if one is there already.
-int save_mixed_programs(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  const auto path = [&](std::uint32_t instructions) {
-    return (std::filesystem::path(folder) / fmt::format("mixed_{}.stl", instructions)).string();
+/// What is measured besides a slave, as files: all of them, or none if one is there already.
+int save_programs(const std::string& folder) {
+  std::map<std::string, std::function<std::string()>> texts;
+  const auto path = [&](std::string_view kind, std::uint32_t length) {
+    return (std::filesystem::path(folder) / fmt::format("{}_{}.stl", kind, length)).string();
   };
   for (const std::uint32_t instructions : kMixedLengths)
-    if (std::filesystem::exists(path(instructions), error))
-      return print_error(fmt::format("{} exists; give --save-programs another folder", path(instructions))), kUnusable;
-  for (const std::uint32_t instructions : kMixedLengths)
-    if (const int written = write_stl(path(instructions), {}, false, mixed_program(instructions)); written != kFine)
-      return written;
+    texts[path("mixed", instructions)] = [instructions] { return mixed_program(instructions); };
+  for (const std::uint32_t lines : {100'000U, 1'000'000U})
+    texts[path("listing", lines)] = [lines] { return long_listing(lines); };
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (const auto& [file, text] : texts)
+    if (std::filesystem::exists(file, error))
+      return print_error(fmt::format("{} exists; give --save-programs another folder", file)), kUnusable;
+  for (const auto& [file, text] : texts)
+    if (const int written = write_stl(file, {}, false, text()); written != kFine) return written;
   return kFine;
 }
 
@@ -67,7 +74,7 @@ std::optional<SourceText> read_bench_program(const std::string& path) {
 }
 
 int run_bench(const BenchOptions& options) {
-  if (!options.save.empty()) return save_mixed_programs(options.save);
+  if (!options.save.empty()) return save_programs(options.save);
   int exit_code = kUnusable;
   const auto text = read_bench_program(options.program.path);
   const auto program = text ? options.program.load(*text, exit_code) : nullptr;
@@ -112,8 +119,9 @@ void add_bench(CLI::App& app, int& exit_code) {
                {kMillisecond, 3600 * kSecond});
   verb->add_option("--against", options->against, "an earlier result of --json: how many times as fast it is now")
       ->type_name("FILE");
-  verb->add_option("--save-programs", options->save,
-                   "only write the mixed programs to DIR, for a CPU 226XM: to measure whole processes in pairs")
+  verb->add_option(
+          "--save-programs", options->save,
+          "only write the mixed programs, for a CPU 226XM, and long listings to DIR: to measure whole processes in pairs")
       ->type_name("DIR");
   verb->add_flag("--json", options->json, "print as JSON");
   verb->footer("Example: s7200 bench");
