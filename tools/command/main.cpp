@@ -42,9 +42,10 @@ constexpr std::array kVerbs{
     Verb{"bench", add_bench},
 };
 
-/// In the order of the help. All their options take milliseconds: if it is clear which verb is asked for, only its own.
+/// In the order of the help. All their options take milliseconds: if it is clear which verb is asked for, only its own, and
+/// none for the version.
 void add_verbs(CLI::App& app, std::string_view asked, int& exit_code) {
-  const bool clear = std::ranges::find(kVerbs, asked, &Verb::name) != kVerbs.end();
+  const bool clear = asked == "-V" || asked == "--version" || std::ranges::find(kVerbs, asked, &Verb::name) != kVerbs.end();
   for (const Verb& verb : kVerbs)
     if (!clear || verb.name == asked) verb.add(app, exit_code);
 }

@@ -376,8 +376,8 @@ class Started {
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_addclose(&actions, ends[0]);
     posix_spawn_file_actions_addclose(&actions, ends[1]);
-    std::string name = command, option = "--version";
-    std::array<char*, 3> arguments{name.data(), option.data(), nullptr};
+    std::string name = command, verb = "instructions", mnemonic = "LD";
+    std::array<char*, 4> arguments{name.data(), verb.data(), mnemonic.data(), nullptr};
     const int error = posix_spawn(&process_, command.c_str(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);

@@ -36,7 +36,7 @@ std::vector<Figure> measure_tip_like(Time each);
 /// How fast files are checked, as `s7200 check` does it: lines of a listing of 100,000 (long_listing.hpp).
 std::vector<Figure> measure_files(Time each);
 
-/// From the start of the process `command --version` to its first output, by the clock.
+/// From the start of the process `command instructions LD` to its first output, by the clock.
 std::vector<Figure> measure_start(const std::string& command, Time each);
 
 }  // namespace s7200::tools
