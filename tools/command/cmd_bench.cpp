@@ -2,12 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
@@ -17,11 +12,9 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
-#include "tools/command/stl_output.hpp"
+#include "tools/command/saved_programs.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/measuring/long_listing.hpp"
 #include "tools/measuring/measure.hpp"
-#include "tools/measuring/mixed_program.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -47,26 +40,6 @@ void print_line(const Figure& figure, const EarlierBench& before) {
 
 /// `null` of what a figure has not.
 nlohmann::ordered_json if_any(double figure) { return figure > 0 ? nlohmann::ordered_json(figure) : nullptr; }
-
-/// What is measured besides a slave, as files: all of them, or none if one is there already.
-int save_programs(const std::string& folder) {
-  std::map<std::string, std::function<std::string()>> texts;
-  const auto path = [&](std::string_view kind, std::uint32_t length) {
-    return (std::filesystem::path(folder) / fmt::format("{}_{}.stl", kind, length)).string();
-  };
-  for (const std::uint32_t instructions : kMixedLengths)
-    texts[path("mixed", instructions)] = [instructions] { return mixed_program(instructions); };
-  for (const std::uint32_t lines : {100'000U, 1'000'000U})
-    texts[path("listing", lines)] = [lines] { return long_listing(lines); };
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  for (const auto& [file, text] : texts)
-    if (std::filesystem::exists(file, error))
-      return print_error(fmt::format("{} exists; give --save-programs another folder", file)), kUnusable;
-  for (const auto& [file, text] : texts)
-    if (const int written = write_stl(file, {}, false, text()); written != kFine) return written;
-  return kFine;
-}
 
 std::optional<SourceText> read_bench_program(const std::string& path) {
   std::string why;

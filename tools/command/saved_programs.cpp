@@ -1,0 +1,40 @@
+#include "tools/command/saved_programs.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string_view>
+#include <system_error>
+
+#include "tools/command/exit_code.hpp"
+#include "tools/command/stl_output.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/measuring/long_listing.hpp"
+#include "tools/measuring/measure.hpp"
+#include "tools/measuring/mixed_program.hpp"
+
+namespace s7200::tools {
+
+int save_programs(const std::string& folder) {
+  std::map<std::string, std::function<std::string()>> texts;
+  const auto path = [&](std::string_view kind, std::uint32_t length) {
+    return (std::filesystem::path(folder) / fmt::format("{}_{}.stl", kind, length)).string();
+  };
+  for (const std::uint32_t instructions : kMixedLengths)
+    texts[path("mixed", instructions)] = [instructions] { return mixed_program(instructions); };
+  for (const std::uint32_t lines : {100'000U, 1'000'000U})
+    texts[path("listing", lines)] = [lines] { return long_listing(lines); };
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (const auto& [file, text] : texts)
+    if (std::filesystem::exists(file, error))
+      return print_error(fmt::format("{} exists; give --save-programs another folder", file)), kUnusable;
+  for (const auto& [file, text] : texts)
+    if (const int written = write_stl(file, {}, false, text()); written != kFine) return written;
+  return kFine;
+}
+
+}  // namespace s7200::tools
