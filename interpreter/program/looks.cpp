@@ -9,7 +9,7 @@ namespace {
 
 /// Bytes of the image, from `from` until before `to`.
 struct Bytes {
-  std::uint32_t from = 0, to = 0;
+  std::uint32_t from, to;
 
   bool contain(std::uint32_t at) const { return at >= from && at < to; }
 };

@@ -83,6 +83,15 @@ TEST(Looks, AtItsPresetAndNoFurtherIsALookAtAnotherTimer) {
 TEST(Looks, ANumberIsNoPlace) {
   static_assert(sm::kScanStatus == 64, "or another label");
   EXPECT_FALSE(looks("LD I0.0\nJMP 64\nLBL 64\n").clock_bits);
+  EXPECT_FALSE(looks("LD I0.0\nTONR T64, 5\n").clock_bits);
+  EXPECT_EQ(every_tick("LBL 1\nLD I0.0\nLD I0.1\nCTU C0, 5\n"), "") << "the counter of a timer's number";
+}
+
+TEST(Looks, WithEveryScanNothingElseIsDifferent) {
+  const auto program = program_of("LD SM0.5\n= Q0.0\nMEND\n");
+  Looks wanted = program->looks;
+  wanted.every_scan = true;
+  EXPECT_EQ(with_every_scan(*program)->looks, wanted);
 }
 
 TEST(Looks, ACallLooksAtWhatItHandsOver) {

@@ -34,6 +34,7 @@ class Both {
     ASSERT_EQ(with_.cpu.state(), without_.cpu.state()) << "at " << end << " ns of\n" << text_;
     ASSERT_EQ(with_.queue, without_.queue) << text_;
     ASSERT_EQ(with_.records.all.size(), without_.records.all.size()) << text_;
+    ASSERT_LE(passed(), with_.cpu.time());
   }
 
   const Plc& plc() const { return with_; }
@@ -305,6 +306,77 @@ TEST(SteadyScans, ScansThatDifferInTurnArePassedOverInPairs) {
   EXPECT_GT(both.passed(), 50 * kSecond);
 }
 
+/// The ticks of the scan before are those of a long one, or of a short one.
+TEST(SteadyScans, OfWhichTheLastOneHasATickAreRightToo) {
+  Both both("LD SM0.6\nSQRT VD100, VD104\nLD SM0.0\nTON T37, 30000\nMEND\n");
+  for (int i = 1; i <= 600; ++i) both.run_until(i * 700 * ms + i % 60 * 150 * us);
+  EXPECT_GT(both.passed(), 300 * kSecond);
+}
+
+TEST(SteadyScans, AreNotPassedOverOnceTheyAreOff) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  plc.run_until(kSecond);
+  const Time passed = plc.cpu.passed_over();
+  EXPECT_GT(passed, 0);
+  plc.cpu.use_steady_scans(SteadyScansUse::Off);
+  plc.run_until(2 * kSecond);
+  EXPECT_EQ(plc.cpu.passed_over(), passed);
+}
+
+TEST(SteadyScans, AreNotKnownOnceEachIsWatched) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  plc.run_until(kSecond);
+  plc.records.scans = true;
+  plc.run_until(kSecond + 10 * kMillisecond);
+  EXPECT_EQ(plc.cpu.alike_until(), plc.cpu.time());
+}
+
+/// Each run ends in the middle of some part of a scan.
+TEST(SteadyScans, AreKnownInRunsShorterThanAnyPartOfAScan) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  for (Time end = 0; end < 100 * kMillisecond; end += 70 * us) plc.run_until(end);
+  EXPECT_EQ(plc.cpu.alike_until(), kNever);
+}
+
+TEST(SteadyScans, LooksThatAreInVainLeaveTheEndOfARunWhereItIs) {
+  const auto check = [](SteadyScansUse use, std::string_view text, bool scans) {
+    PlcThat with(use, text), without(SteadyScansUse::Off, text);
+    with.records.scans = without.records.scans = scans;
+    for (int i = 0; i < 2000; ++i) {
+      with.cpu.run(kNever, 100 * us);
+      without.cpu.run(kNever, 100 * us);
+      ASSERT_EQ(with.cpu.time(), without.cpu.time()) << text << i;
+    }
+  };
+  check(SteadyScansUse::Eager, "LD SM0.0\nINCW VW0\nMEND\n", false);
+  check(SteadyScansUse::Eager, kContactsOnly, true);
+  check(SteadyScansUse::Check, kContactsOnly, false);
+}
+
+TEST(SteadyScans, ATimerOf10msOfASubroutineThatIsOffHoldsNothingUp) {
+  Both both("LD I0.0\nCALL 0\nMEND\nSBR 0\nLD I0.1\nTON T33, 100\nRET\n");
+  both.each([](Plc& plc) { plc.input("I0.0", true); });
+  both.run_until(60 * kSecond);
+  EXPECT_GT(both.passed(), 59 * kSecond);
+}
+
+TEST(SteadyScans, ATimerOf1msThatIsOffAgainTicksNoMore) {
+  Both both("LD I0.0\nTON T32, 100\nMEND\n");
+  both.each([](Plc& plc) {
+    plc.input_at(kSecond, "I0.0", true);
+    plc.input_at(2 * kSecond, "I0.0", false);
+  });
+  both.run_until(60 * kSecond);
+  EXPECT_GT(both.passed(), 57 * kSecond);
+}
+
+TEST(SteadyScans, ATimerWithANegativeValueCountsUpFromThere) {
+  Both both("LD SM0.1\nMOVW -20, T5\nMOVW -20, T1\nLD SM0.0\nTONR T5, 30\nTONR T1, 300\nMEND\n");
+  for (int i = 1; i <= 101; ++i) both.run_until(i * 51 * ms);
+  EXPECT_EQ(both.plc().value("T5"), 51 - 20);
+  EXPECT_EQ(both.plc().value("T1"), 515 - 20);
+}
+
 TEST(SteadyScans, ATimedInterruptComesOnTime) {
   Both both("LD SM0.1\nMOVB 250, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nINCW VW0\nRETI\n");
   for (int i = 1; i <= 60; ++i) both.run_until(i * 777 * ms);
@@ -522,6 +594,34 @@ TEST(SteadyScans, AreLookedForWhereItPays) {
   EXPECT_GT(plc.cpu.passed_over(), 9 * kSecond) << "ten thousand are, however short they are";
   plc.run_until(600 * kSecond);
   EXPECT_GT(plc.cpu.passed_over(), 595 * kSecond);
+}
+
+TEST(SteadyScans, TheCheckAgreesWithWhatTheCpuDoes) {
+  for (const char* text :
+       {"LD SM0.5\n= M0.0\nLD I0.0\nTON T37, 50\nTON T33, 70\nLD T37\n= Q0.0\nMEND\n", "LD I0.0\n= Q0.0\nMEND\n"}) {
+    PlcThat plc(SteadyScansUse::Check, text);
+    for (int i = 1; i <= 20; ++i) plc.input_at(i * 1'234 * ms, "I0.0", i % 2);
+    EXPECT_NO_THROW(plc.run_until(60 * kSecond)) << text;
+    EXPECT_EQ(plc.cpu.passed_over(), 0);
+  }
+}
+
+TEST(SteadyScans, TheCheckForgetsWhatItExpectedOnceItIsOff) {
+  PlcThat plc(SteadyScansUse::Check, kContactsOnly);
+  plc.cpu.run(10 * kSecond, kSecond);
+  plc.cpu.use_steady_scans(SteadyScansUse::Off);
+  plc.run_until(20 * kSecond);
+  plc.cpu.use_steady_scans(SteadyScansUse::Check);
+  EXPECT_NO_THROW(plc.run_until(30 * kSecond));
+}
+
+TEST(SteadyScans, TheCheckForgetsWhatItExpectedOnceEachIsWatched) {
+  PlcThat plc(SteadyScansUse::Check, kContactsOnly);
+  plc.cpu.run(10 * kSecond, kSecond);
+  plc.records.scans = true;
+  plc.run_until(20 * kSecond);
+  plc.records.scans = false;
+  EXPECT_NO_THROW(plc.run_until(30 * kSecond));
 }
 
 TEST(SteadyScans, TheCheckFindsAPredictionThatIsWrong) {

@@ -20,6 +20,31 @@ TEST(Timer, OneMillisecondTimersCountInsideAScan) {
   EXPECT_TRUE(timer_bit(plc, 32));
 }
 
+// T96 makes the CPU look at the tick at 1000 us, when the TON of T32 ends, too.
+TEST(Timer, ATickAtTheEndOfTheExecutionThatEnablesATimerIsNotOneOfIts) {
+  std::string text = "LD SM0.0\nTON T96, 4\n";
+  for (int i = 0; i < 77; ++i) text += "= M0.0\n";
+  Plc plc(text + "TON T32, 4\nMOVW T32, VW0\nMOVW T96, VW2\nMEND\n");
+  plc.run_scans(1);
+  EXPECT_EQ(plc.value("VW0"), 0);
+  EXPECT_EQ(plc.value("VW2"), 1);
+}
+
+TEST(Timer, TheEventsOfT32AndT96AreOfTheTickThatBringsThemToTheirPresets) {
+  Plc plc(
+      "LD SM0.1\nATCH 0, 21\nATCH 1, 22\nENI\nLD SM0.0\nTON T32, 5\nTON T96, 50\nMEND\n"
+      "INT 0\nINCW VW0\nMOVW T32, VW2\nRETI\nINT 1\nINCW VW4\nMOVW T96, VW6\nRETI\n",
+      cpu215());
+  plc.run_until(30 * ms);
+  EXPECT_EQ(plc.value("VW0"), 1);
+  EXPECT_EQ(plc.value("VW2"), 5);
+  EXPECT_EQ(plc.value("VW4"), 0);
+  plc.run_until(100 * ms);
+  EXPECT_EQ(plc.value("VW0"), 1);
+  EXPECT_EQ(plc.value("VW4"), 1);
+  EXPECT_EQ(plc.value("VW6"), 50);
+}
+
 TEST(Timer, AOneMillisecondTimerCountsWholeMillisecondsFromItsStart) {
   Plc plc("LD I0.0\nTON T32, 1000\nMEND\n");
   plc.input_at(1900 * us, "I0.0", true);  // executed from 2700 us on, in the scan begun at 2490 us
@@ -100,7 +125,8 @@ TEST(Timer, OnDelayTimersAreClearedByTheirInputAndRetentiveOnesByR) {
 
 // I0.1 resets the timers after their instructions; I0.2 jumps over the instructions.
 constexpr std::string_view kResetWhileCounting =
-    "LD I0.2\nJMP 1\nLD SM0.0\nTON T32, 1000\nTONR T0, 1000\nTON T33, 1000\nTONR T1, 1000\nLBL 1\nLD I0.1\nR T32, 2\nR T0, 2\n"
+    "LD I0.2\nJMP 1\nLD SM0.0\nTON T32, 1000\nTONR T0, 1000\nTON T33, 1000\nTONR T1, 1000\nLBL 1\nLD I0.1\nR T32, 2\nR T0, "
+    "2\n"
     "MEND\n";
 
 TEST(Timer, AResetStopsATimerOf1Or10MillisecondsUntilItsInstructionIsExecutedAgain) {
@@ -141,7 +167,8 @@ TEST(Timer, AResetOfAOneMillisecondTimerAlsoPreventsItsInterrupt) {
 TEST(Timer, AResetOfAHundredMillisecondTimerClearsValueAndBitAndTheTimerGoesOn) {
   for (const std::uint32_t number : {37u, 5u}) {
     const std::string timer = fmt::format("T{}", number);
-    Plc plc(fmt::format("LD SM0.0\nDIV VW100, VD104\n{} {}, 2\nLD I0.1\nR {}, 1\nMEND\n", number == 37 ? "TON" : "TONR", timer, timer));
+    Plc plc(fmt::format("LD SM0.0\nDIV VW100, VD104\n{} {}, 2\nLD I0.1\nR {}, 1\nMEND\n", number == 37 ? "TON" : "TONR",
+                        timer, timer));
     plc.set("VW100", 1);
     plc.run_scans(4);
     EXPECT_EQ(plc.value(timer), 3);
