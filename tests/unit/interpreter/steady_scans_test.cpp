@@ -608,20 +608,20 @@ TEST(SteadyScans, TheCheckAgreesWithWhatTheCpuDoes) {
 
 TEST(SteadyScans, TheCheckForgetsWhatItExpectedOnceItIsOff) {
   PlcThat plc(SteadyScansUse::Check, kContactsOnly);
-  plc.cpu.run(10 * kSecond, kSecond);
+  plc.cpu.run(100 * kSecond, 50 * kSecond);
   plc.cpu.use_steady_scans(SteadyScansUse::Off);
-  plc.run_until(20 * kSecond);
+  plc.run_until(200 * kSecond);
   plc.cpu.use_steady_scans(SteadyScansUse::Check);
-  EXPECT_NO_THROW(plc.run_until(30 * kSecond));
+  EXPECT_NO_THROW(plc.run_until(300 * kSecond));
 }
 
 TEST(SteadyScans, TheCheckForgetsWhatItExpectedOnceEachIsWatched) {
   PlcThat plc(SteadyScansUse::Check, kContactsOnly);
-  plc.cpu.run(10 * kSecond, kSecond);
+  plc.cpu.run(100 * kSecond, 50 * kSecond);
   plc.records.scans = true;
-  plc.run_until(20 * kSecond);
+  plc.run_until(200 * kSecond);
   plc.records.scans = false;
-  EXPECT_NO_THROW(plc.run_until(30 * kSecond));
+  EXPECT_NO_THROW(plc.run_until(300 * kSecond));
 }
 
 TEST(SteadyScans, TheCheckFindsAPredictionThatIsWrong) {

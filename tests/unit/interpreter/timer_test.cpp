@@ -1,4 +1,5 @@
 // Timers of 1, 10 and 100 ms and counters over scans of any length. Times: plc.hpp.
+#include "interpreter/cpu/scan.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -227,6 +228,26 @@ TEST(Timer, InStopTimersDoNotCount) {
   plc.run_until(200 * ms);
   EXPECT_EQ(plc.value("T32"), fast);
   EXPECT_EQ(plc.value("T33"), slow);
+}
+
+TEST(Timer, OneMillisecondTimersCountAgainAfterAStop) {
+  Plc plc("LD SM0.0\nTON T32, 5\nMEND\n");
+  plc.run_until(20 * ms);
+  scan::change_mode(plc.cpu.core(), Mode::Stop);
+  plc.run_until(40 * ms);
+  const std::int64_t before = plc.value("T32");
+  scan::change_mode(plc.cpu.core(), Mode::Run);
+  plc.run_until(80 * ms);
+  EXPECT_GT(plc.value("T32"), before + 30);
+}
+
+TEST(Timer, AResetOfOneLeavesTheOthersAlone) {
+  Plc plc("LD SM0.0\nTON T37, 500\nTON T33, 500\nTON T34, 500\nLD I0.0\nEU\nR C0, 1\nR C33, 1\nR T32, 1\nMEND\n");
+  plc.input_at(10'005 * ms, "I0.0", true);
+  plc.run_until(10'055 * ms);
+  EXPECT_EQ(plc.value("T37"), 100);
+  EXPECT_EQ(plc.value("T33"), 1005);
+  EXPECT_EQ(plc.value("T34"), 1005);
 }
 
 void scan_with(Plc& plc, std::string_view point, bool level) {
