@@ -124,7 +124,7 @@ def mutants_of(path, patterns, is_changed):
     for number, line in enumerate(lines, 1):
         if not is_changed(line):
             continue
-        nth = seen[line] = seen.get(line, -1) + 1
+        nth = seen[unaligned(line)] = seen.get(unaligned(line), -1) + 1
         code = re.sub(r'"[^"]*"|//.*', lambda m: "\0" * len(m.group(0)), line)  # no change inside texts and comments
         variants = {}
         for pattern, replacement in patterns:

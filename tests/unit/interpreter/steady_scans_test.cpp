@@ -343,8 +343,8 @@ TEST(SteadyScans, LooksThatAreInVainLeaveTheEndOfARunWhereItIs) {
     PlcThat with(use, text), without(SteadyScansUse::Off, text);
     with.records.scans = without.records.scans = scans;
     for (int i = 0; i < 2000; ++i) {
-      with.cpu.run(kNever, 100 * us);
-      without.cpu.run(kNever, 100 * us);
+      with.cpu.run(kNever, 3070 * us);
+      without.cpu.run(kNever, 3070 * us);
       ASSERT_EQ(with.cpu.time(), without.cpu.time()) << text << i;
     }
   };
