@@ -61,12 +61,16 @@ void turn_off(State& s, std::uint32_t first, std::uint32_t count) {
 void execute(Core& core, std::uint32_t number, bool enabled, std::int16_t preset, bool retentive) {
   State& s = core.s;
   TimerState& timer = s.timer[number];
+  if (!enabled) {
+    timer = {.preset = preset};
+    if (retentive) return;
+    store16(&s.image[image::kT + 2 * number], 0);
+    return put_bit(s, number, false);
+  }
   const bool was_enabled = timer.enabled;
   const Time base = timer_base(number).base;
-  timer = {.preset = preset, .enabled = enabled, .since = enabled_since(timer, enabled, s.time)};
-  if (!enabled && retentive) return;
-  if (!retentive && !(enabled && was_enabled)) store16(&s.image[image::kT + 2 * number], 0);
-  if (!enabled) return put_bit(s, number, false);
+  timer = {.preset = preset, .enabled = true, .since = was_enabled ? timer.since : s.time};
+  if (!retentive && !was_enabled) store16(&s.image[image::kT + 2 * number], 0);
   add_ticks(s, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
   if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(core, s.time);
 }
