@@ -190,7 +190,7 @@ struct TimerState {
   bool enabled = false;     ///< it counts: a TON or TONR whose input was on, a TOF whose input has gone off
   bool off_delay = false;   ///< a TOF
   bool input = false;       ///< of a TOF, at its last execution
-  Time since = 0;           ///< end of the execution that enabled it
+  Time since = 0;           ///< end of the execution that enabled it; 0 if the last one did not leave it enabled
   bool operator==(const TimerState&) const = default;
 };
 

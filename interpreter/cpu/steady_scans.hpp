@@ -3,7 +3,7 @@
 // When may scans be passed over? A pair of scans (SM0.6 alternates) is run and looked at, from the end of the program in one
 // scan to the same place two scans later. They are steady if the whole state afterwards is the state before, moved on by
 // the rules for what goes on by itself (move_on): clock, counts of scans and instructions, deadlines, timers, clock
-// bits; and if nothing was done to the CPU meanwhile and the CPU did nothing to the outside (Core::touched).
+// bits; if the same timers are on between them; and if nothing was done to the CPU, or by it to the outside (touched).
 //
 // Why is it exact? The next pair begins with the same state, but for what goes on by itself. Of that, the program looks only
 // at what Looks says; as long as none of it changes, the pair does the same again. So whole pairs are passed over until

@@ -36,6 +36,12 @@ void add_ticks(State& s, std::uint32_t number, std::int64_t ticks) {
   if (timer.off_delay && reached) timer.enabled = false;
 }
 
+/// Of a timer that was like `before`. One that does not count has no such moment: its scans are alike.
+Time enabled_since(const TimerState& before, bool enabled, Time now) {
+  if (!enabled) return 0;
+  return before.enabled ? before.since : now;
+}
+
 void await_tick_1ms(Core& core, Time from) {
   core.s.next_tick_1ms = (from / kMillisecond + 1) * kMillisecond;
   core.schedule(core.s.next_tick_1ms, kTick1ms);
@@ -55,12 +61,16 @@ void turn_off(State& s, std::uint32_t first, std::uint32_t count) {
 void execute(Core& core, std::uint32_t number, bool enabled, std::int16_t preset, bool retentive) {
   State& s = core.s;
   TimerState& timer = s.timer[number];
+  if (!enabled) {
+    timer = {.preset = preset};
+    if (retentive) return;
+    store16(&s.image[image::kT + 2 * number], 0);
+    return put_bit(s, number, false);
+  }
   const bool was_enabled = timer.enabled;
   const Time base = timer_base(number).base;
-  timer = {.preset = preset, .enabled = enabled, .since = was_enabled ? timer.since : s.time};
-  if (!enabled && retentive) return;
-  if (!retentive && !(enabled && was_enabled)) store16(&s.image[image::kT + 2 * number], 0);
-  if (!enabled) return put_bit(s, number, false);
+  timer = {.preset = preset, .enabled = true, .since = was_enabled ? timer.since : s.time};
+  if (!retentive && !was_enabled) store16(&s.image[image::kT + 2 * number], 0);
   add_ticks(s, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
   if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(core, s.time);
 }
@@ -69,13 +79,14 @@ void execute_off_delay(Core& core, std::uint32_t number, bool input, std::int16_
   State& s = core.s;
   TimerState& timer = s.timer[number];
   const bool goes_off = timer.input && !input && powered, was_enabled = timer.enabled;
+  const bool enabled = powered && !input && (was_enabled || goes_off);
   timer = {.preset = preset,
-           .enabled = powered && !input && (was_enabled || goes_off),
+           .enabled = enabled,
            .off_delay = true,
            .input = input && powered,
-           .since = was_enabled ? timer.since : s.time};
+           .since = enabled_since(timer, enabled, s.time)};
   if (input || goes_off || !powered) store16(&s.image[image::kT + 2 * number], 0);
-  if (!timer.enabled) return put_bit(s, number, timer.input);
+  if (!enabled) return put_bit(s, number, timer.input);
   const Time base = timer_base(number).base;
   add_ticks(s, number, was_enabled && base == 100 * kMillisecond ? s.ticks_100ms : 0);
   if (base == kMillisecond && s.next_tick_1ms == kNever) await_tick_1ms(core, s.time);
@@ -115,10 +126,11 @@ Time next_change(const Core& core) {
   for (const auto* timers : {&program.timers_10ms, &program.timers_100ms})
     for (const std::uint8_t number : *timers) {
       const TimerState& timer = s.timer[number];
-      if (!timer.enabled) continue;
-      const std::int64_t left = timer.preset - value_of(s, number);
-      const std::int64_t ticks = program.looks.every_tick.test(number) ? 1 : left;
       const Time base = timer_base(number).base;
+      const bool every_tick = program.looks.every_tick.test(number);
+      // One of 100 ms that is off after the program may have been on in it, and have counted when it was executed.
+      if (!timer.enabled && !(every_tick && base == 100 * kMillisecond)) continue;
+      const std::int64_t ticks = every_tick ? 1 : timer.preset - value_of(s, number);
       if (ticks > 0) next = std::min(next, (s.previous_scan_begin / base + ticks) * base);
     }
   return next;

@@ -9,15 +9,13 @@ namespace {
 
 /// Bytes of the image, from `from` until before `to`.
 struct Bytes {
-  std::uint32_t from = 0, to = 0;
+  std::uint32_t from, to;
 
-  bool overlap(const Bytes& other) const { return from < other.to && other.from < to; }
+  bool contain(std::uint32_t at) const { return at >= from && at < to; }
 };
 
-constexpr Bytes kScanStatus{sm::kScanStatus, sm::kScanStatus + 1};
 constexpr std::uint32_t kTimers = 256;
-constexpr Bytes value_of(std::uint32_t timer) { return {image::kT + 2 * timer, image::kT + 2 * timer + 2}; }
-constexpr Bytes bit_of(std::uint32_t timer) { return {image::kTBits + timer / 8, image::kTBits + timer / 8 + 1}; }
+constexpr Bytes kValues{image::kT, image::kT + 2 * kTimers}, kBits{image::kTBits, image::kTBits + kTimers / 8};
 
 class Finder {
  public:
@@ -26,7 +24,7 @@ class Finder {
   Looks find() {
     for (std::uint32_t op = 0; op < program_.ops.size(); ++op) look_at(op);
     for (const Parameter& parameter : program_.parameters)
-      operand(parameter.actual, parameter.role, parameter.width == Width::Bit, reach_of(parameter.actual, false));
+      operand(parameter.actual, parameter.role, parameter.width == Width::Bit, false);
     return looks_;
   }
 
@@ -42,9 +40,13 @@ class Finder {
     const auto rules = instruction.rules();
     for (std::size_t k = is_timer ? 1 : 0; k < rules.size(); ++k) {
       if (rules[k].kind != OperandKind::Memory) continue;
-      const bool counted = rules[k].counted != 0 || rules[k].elements != 1 || rules[k].text;
-      operand(op[k], rules[k].role, rules[k].width == Width::Bit, reach_of(op[k], counted));
+      operand(op[k], rules[k].role, rules[k].width == Width::Bit, begins_block(rules[k]));
     }
+  }
+
+  /// What is read and cannot be a constant is a table or a message: its first element says how far it goes.
+  static bool begins_block(const OperandRule& rule) {
+    return rule.counted != 0 || rule.elements != 1 || (rule.role == Role::In && rule.width != Width::Bit && !rule.constant);
   }
 
   /// Whether some of what follows may be left out in a scan, or done twice.
@@ -67,38 +69,24 @@ class Finder {
     seen_.set(timer);
   }
 
-  /// What an operand reaches: its own bytes or, if a count says how far it goes, all of its area from there on.
-  Bytes reach_of(const Operand& operand, bool counted) const {
-    return {operand.at, counted ? end_of_area(operand.at) : operand.at + operand.width};
-  }
-
-  std::uint32_t end_of_area(std::uint32_t at) const {
-    for (const AreaInfo& area : all_areas()) {
-      const std::uint32_t size = program_.model->size_of(area.area);
-      const std::uint32_t end = area.base + size * std::max(1u, area.element), end_of_bits = area.bits + (size + 7) / 8;
-      if (at >= area.base && at < end) return end;
-      if (area.element && area.bits != kNoBits && at >= area.bits && at < end_of_bits) return end_of_bits;
+  /// No pointer reaches special memory; every one reaches the values of timers. SMB0 is never written by a program.
+  void operand(const Operand& operand, Role role, bool is_bit, bool is_block) {
+    if (operand.pointer) {
+      looks_.every_tick.set();
+      return;
     }
-    return image::kSize;
+    if (operand.at == sm::kScanStatus) looks_.clock_bits |= !is_bit || is_clock_bit(operand);
+    if (kValues.contain(operand.at)) every_tick((operand.at - kValues.from) / 2, is_block);
+    if (role != Role::In && kBits.contain(operand.at)) every_tick((operand.at - kBits.from) * 8 + operand.bit, is_block);
   }
 
-  void operand(const Operand& operand, Role role, bool is_bit, Bytes bytes) {
-    if (operand.pointer) return through_pointer();
-    if (role != Role::Out && bytes.overlap(kScanStatus)) looks_.clock_bits |= !is_bit || is_clock_bit(operand);
-    for (std::uint32_t timer = 0; timer < kTimers; ++timer)
-      if (bytes.overlap(value_of(timer)) || (role != Role::In && bytes.overlap(bit_of(timer)))) looks_.every_tick.set(timer);
+  /// Of one timer or, in a block, of all from there on.
+  void every_tick(std::uint32_t first, bool is_block) {
+    const std::uint32_t end = is_block ? kTimers : first + 1;
+    for (std::uint32_t timer = first; timer < end; ++timer) looks_.every_tick.set(timer);
   }
 
   static bool is_clock_bit(const Operand& operand) { return (1u << operand.bit) & (sm::kClock1min | sm::kClock1s); }
-
-  void through_pointer() {
-    for (const Reach& reach : program_.reach) {
-      if (reach.size == 0) continue;
-      const Bytes bytes{reach.base, reach.base + reach.size};
-      looks_.clock_bits |= bytes.overlap(kScanStatus);
-      if (bytes.overlap(value_of(0))) looks_.every_tick.set();
-    }
-  }
 
   const Program& program_;
   Looks looks_;

@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
-"""Mutation check: do the tests notice when an instruction is wrong?
+"""Mutation check: do the tests notice when an instruction, a timer, or a condition for passing over scans is wrong?
 
-Changes one thing at a time in the bodies of the instructions, in the rows of their table and in the rules of their operands,
-and runs the tests from the quickest to the slowest until one fails. A mutant that no test notices survives and is printed.
+Changes one thing at a time in the bodies of the instructions, in the rows of their table, in the rules of their operands, and
+in what decides which scans are passed over, and runs the tests from the quickest to the slowest until one fails. A mutant that
+no test notices survives and is printed.
 
     tests/mutation/run.py                 every mutant
     tests/mutation/run.py --sample 100    so many, spread evenly over all
     tests/mutation/run.py --list          what would be changed
+    tests/mutation/run.py --of FILE       the mutants of this file only; may be given more than once
     tests/mutation/run.py --results FILE  keeps what became of each mutant; what the FILE says was noticed is not run again,
                                           so that a second run goes on, or tries the survivors only
     tests/mutation/run.py --work DIR      keeps the copy of the tree and its build, so that a second run starts at once
 
 Works on a copy of the tree. There the interpreter is a shared library, and a mutant is table.cpp with its bodies, built
 alone, that the tests find in front of it (LD_PRELOAD): a second or two, and nothing is linked again. The chains of contacts
-take as long as all the rest, and are built with it only when the change is in them or in what they are made of. CXX names the compiler
+take as long as all the rest, and are built with it only when the change is in them or in what they are made of. A file about
+scans that are passed over is such a library by itself. CXX names the compiler
 (clang++ where there is one): Clang is twice as quick, and has the fast loop without optimisation; GCC has not, so that the
 links of the fast loop are changed with Clang only.
 
@@ -43,6 +46,7 @@ RULES = f"{BODIES}/operand_rules.hpp"
 CHAINS = f"{BODIES}/contact_chains.cpp"
 LINKS = [f"{BODIES}/linked.hpp", CHAINS]
 CHAINS_ARE_MADE_OF = [*LINKS, f"{BODIES}/bit_logic.hpp"]
+STEADY_SCANS = ["interpreter/cpu/steady_scans.cpp", "interpreter/cpu/timers.cpp", "interpreter/program/looks.cpp"]
 COMPILER = os.environ.get("CXX") or shutil.which("clang++") or "c++"
 EQUIVALENT = pathlib.Path(__file__).resolve().parent / "equivalent.txt"
 GOAL = 0.95
@@ -76,6 +80,13 @@ IN_RULES = [
     (r"\bkLargestByte\b", "254"), (r"\btrue\b", "false"), (r"\bkMemoryTC\b", "kMemory"), (r"\bkRead(Word|Dword)\b", "kValue"),
     (r"\bkWriteWord\b", "kWordValue"), (r"\bkWordValue\b", "kValue"), (r"\bkValue\b", "kMemory"),
 ]
+# A case, a statement or a condition left out, a sum or an extreme turned round.
+CONDITION = r"if \(((?:[^()]|\((?:[^()]|\([^()]*\))*\))*)\)"
+IN_STEADY_SCANS = IN_BODIES + [
+    (r"^(\s*)case [\w:]+:", r"\1"), (r"^(\s*)[\w.*()\[\]>-]+(?:\([^;]*\)| [+|&]?= [^;]*);", r"\1;"), (CONDITION, r"if (false && (\1))"),
+    (CONDITION, r"if (true || (\1))"), (r" \+= ", " -= "), (r" \|= ", " = "), (r"std::min\b", "std::max"), (r"std::max\b", "std::min"),
+]
+WHEN_IT_PAYS = re.compile("stake|look_at_|kAskAgain|kBesides|kFurthest|done")  # not what is passed over
 
 class Mutant:
     """One line changed. `nth` tells apart equal lines of a file, so that a mutant is known again when lines move."""
@@ -113,7 +124,7 @@ def mutants_of(path, patterns, is_changed):
     for number, line in enumerate(lines, 1):
         if not is_changed(line):
             continue
-        nth = seen[line] = seen.get(line, -1) + 1
+        nth = seen[unaligned(line)] = seen.get(unaligned(line), -1) + 1
         code = re.sub(r'"[^"]*"|//.*', lambda m: "\0" * len(m.group(0)), line)  # no change inside texts and comments
         variants = {}
         for pattern, replacement in patterns:
@@ -130,6 +141,8 @@ def all_mutants():
         name = f"{BODIES}/{path.name}"
         if name != RULES and (name not in LINKS or "clang" in COMPILER):
             yield from mutants_of(name, IN_BODIES, is_code)
+    for name in STEADY_SCANS:
+        yield from mutants_of(name, IN_STEADY_SCANS, lambda line: is_code(line) and not WHEN_IT_PAYS.search(line))
     yield from mutants_of(RULES, IN_RULES, is_row)
     yield from mutants_of(TABLE, IN_ROWS, is_row)
 
@@ -155,7 +168,7 @@ class Tests:
     """The copy, its build, and the tests from the quickest to the slowest."""
 
     TARGETS = ["interpreter_tests", "program_tests", "lockstep_test", "generate_vectors", "s7200"]
-    STAGES = ["vectors", "lock-step", "unit tests", "whole programs", "wrong programs", "programs that go wrong", "vectors as generated", "reference page"]
+    STAGES = ["steady scans", "vectors", "lock-step", "unit tests", "whole programs", "wrong programs", "programs that go wrong", "vectors as generated", "reference page"]
     SECONDS, KILOBYTES = 120, 4_000_000  # of processor time and memory; what needs more hangs
     # What every mutant includes and no mutant changes.
     PRECOMPILED = ["algorithm", "array", "bit", "cmath", "numeric", "optional", "type_traits", "interpreter/cpu/core.hpp",
@@ -170,6 +183,7 @@ class Tests:
         bad_input = [sys.executable, self.tree / "tests/bad_input/run.py", command]
         quick, no_matter = "*Vectors*:InstructionTable*", "Parser.*:Document.*:Encoding.*"  # texts and files
         self.stages = dict(zip(self.STAGES, [
+            [unit, "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=Looks.*:SteadyScans.*"],
             [unit, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={quick}"],
             ["env", "S7200_LOCKSTEP_INSTRUCTIONS=20000", lockstep, "--gtest_fail_fast", "--gtest_filter=*Agrees*"],
             [unit, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter=-{quick}:{no_matter}"],
@@ -225,6 +239,8 @@ class Tests:
                 changed = place / mutant.path
                 changed.parent.mkdir(parents=True)
                 changed.write_text("\n".join(lines), encoding="utf-8")
+                if mutant.path in STEADY_SCANS:
+                    sources = [self.tree / mutant.path]
                 if mutant.path in CHAINS_ARE_MADE_OF:
                     sources.append(self.tree / CHAINS)
                 sources = [changed if self.tree / mutant.path == source else source for source in sources]
@@ -233,10 +249,13 @@ class Tests:
                               "-o", library, f"-L{self.build_dir}/interpreter", "-ls7200_interpreter",
                               f"-Wl,-rpath,{self.build_dir}/interpreter"]):
                 return None
-            return self.first_failure({**os.environ, "LD_PRELOAD": str(library)})
+            return self.first_failure({**os.environ, "LD_PRELOAD": str(library)}, mutant and mutant.path in STEADY_SCANS)
 
-    def first_failure(self, environment):
+    def first_failure(self, environment, about_scans):
+        """Instructions leave the tests of steady scans to the unit tests, of which they are a part."""
         for name, command in self.stages.items():
+            if name == "steady scans" and not about_scans:
+                continue
             if not self.call(command, env=environment, cwd=self.work):
                 return name
         return ""
@@ -316,6 +335,7 @@ def main():
                                       epilog="Example: nice tests/mutation/run.py --results /tmp/mutants.json")
     options.add_argument("--sample", type=int, metavar="N", help="so many mutants, spread evenly")
     options.add_argument("--list", action="store_true", help="print the mutants only")
+    options.add_argument("--of", action="append", metavar="FILE", help="the mutants of this file only; may be given more than once")
     options.add_argument("--results", type=pathlib.Path, metavar="FILE", help="keep what became of each; do not run again what was noticed")
     options.add_argument("--work", type=pathlib.Path, metavar="DIR", help="where the copy and its build are kept")
     options.add_argument("--jobs", type=int, default=2, metavar="N", help="mutants at a time (default 2)")
@@ -323,6 +343,8 @@ def main():
 
     mutants = list(all_mutants())
     reasons = equivalents(mutants)
+    if chosen.of:
+        mutants = [m for m in mutants if m.path in chosen.of]
     if chosen.sample and chosen.sample < len(mutants):
         mutants = [mutants[i * len(mutants) // chosen.sample] for i in range(chosen.sample)]
     if chosen.list:

@@ -214,6 +214,32 @@ TEST(Timer22x, ATofRaisesTheEventOfT32AtItsPreset) {
   EXPECT_EQ(plc.value("T32"), 5);
 }
 
+TEST(Timer22x, ATofThatHasEndedDoesNotCountFromAValueWrittenToIt) {
+  Plc plc("LD SM0.1\nTOF T37, 5\nTOF T33, 5\nMEND\n", cpu224());
+  plc.run_until(2000 * ms);
+  EXPECT_EQ(plc.value("T37"), 5);
+  EXPECT_EQ(plc.value("T33"), 5);
+  plc.set("T37", 0);
+  plc.set("T33", 0);
+  plc.run_until(4000 * ms);
+  EXPECT_EQ(plc.value("T37"), 0);
+  EXPECT_EQ(plc.value("T33"), 0);
+}
+
+// A scan takes 106 ms.
+TEST(Timer22x, TheExecutionThatStartsATofAddsNoTicks) {
+  std::string text = "LD SM0.0\n";
+  for (int i = 0; i < 21; ++i) text += "SQRT VD100, VD104\n";
+  Plc plc(text + "LD I0.0\nTOF T37, 100\nMEND\n", cpu224());
+  plc.input("I0.0", true);
+  plc.run_scans(3);
+  plc.input("I0.0", false);
+  plc.run_scans(4);
+  EXPECT_EQ(plc.value("T37"), 0);
+  plc.run_scans(5);
+  EXPECT_EQ(plc.value("T37"), 1);
+}
+
 // --- PID ---
 
 /// A loop at VB100: PV SP M KC TS TI TD MX PV-1; TS / TI = 1/4.

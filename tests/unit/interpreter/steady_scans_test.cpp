@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "tests/support/plc.hpp"
 
@@ -33,6 +34,7 @@ class Both {
     ASSERT_EQ(with_.cpu.state(), without_.cpu.state()) << "at " << end << " ns of\n" << text_;
     ASSERT_EQ(with_.queue, without_.queue) << text_;
     ASSERT_EQ(with_.records.all.size(), without_.records.all.size()) << text_;
+    ASSERT_LE(passed(), with_.cpu.time());
   }
 
   const Plc& plc() const { return with_; }
@@ -164,6 +166,55 @@ TEST(SteadyScans, ATimerReachesItsPresetOnTime) {
   }
 }
 
+TEST(SteadyScans, ATimerThatIsOffDoesNotKeepScansFromBeingAlike) {
+  struct Off {
+    std::string_view timer;
+    bool input;
+  };
+  for (const auto& [timer, input] :
+       {Off{"TON T32", false}, Off{"TON T33", false}, Off{"TON T37", false}, Off{"TONR T0", false}, Off{"TONR T5", false},
+        Off{"TOF T32", false}, Off{"TOF T37", false}, Off{"TOF T37", true}}) {
+    Both both(fmt::format("LD I0.0\n{}, 100\nMEND\n", timer), *find_cpu("224"));
+    both.each([level = input](Plc& plc) { plc.input("I0.0", level); });
+    both.run_until(60 * kSecond);
+    EXPECT_GT(both.passed(), 59 * kSecond) << timer;
+  }
+}
+
+/// It looks off between scans.
+TEST(SteadyScans, ATimerExecutedThreeTimesInAScanAndLastOffCountsInBetween) {
+  for (const char* timer : {"TONR T5", "TON T37", "TONR T1", "TON T33", "TONR T0", "TON T32"}) {
+    Both both(fmt::format("LD SM0.0\n{0}, 40\nLD SM0.0\n{0}, 40\nLD {1}\nEU\nINCW VW0\nLDN SM0.0\n{0}, 40\nMEND\n", timer,
+                          std::string(timer).substr(std::string(timer).find('T', 1))),
+              *find_cpu("224"));
+    for (int i = 1; i <= 60; ++i) both.run_until(i * 333 * ms);
+    if (std::string_view(timer) == "TONR T5") {
+      EXPECT_EQ(both.plc().value("T5"), 199);
+      EXPECT_GT(both.passed(), 10 * kSecond);
+    }
+  }
+}
+
+TEST(SteadyScans, ATimerThatIsOnInEverySecondScanCountsTheTicksBetweenThem) {
+  Both both("LD SM0.6\nTONR T1, 1\nMEND\n");
+  for (int i = 1; i <= 60; ++i) both.run_until(i * 333 * ms);
+  EXPECT_GT(both.plc().value("T1"), 500);
+}
+
+TEST(SteadyScans, APresetThatDiffersFromScanToScanIsReachedInItsScan) {
+  Both both(
+      "LD SM0.6\nMOVW 300, VW2\nNOT\nMOVW 100, VW2\nLD I0.0\nTON T37, VW2\nLD T37\nEU\nINCW VW0\nLD SM0.5\n= Q0.0\nMEND\n");
+  both.each([](Plc& plc) { plc.input("I0.0", true); });
+  for (int i = 1; i <= 120; ++i) both.run_until(i * 333 * ms);
+  EXPECT_GT(both.plc().value("VW0"), 100);
+}
+
+TEST(SteadyScans, ATableThatIsSearchedIsSeenTickByTick) {
+  Both both("LD SM0.0\nTON T37, 1000\nMOVW 10, T30\nMOVW 0, VW0\nFND> T30, 50, VW0\nMEND\n");
+  for (int i = 1; i <= 60; ++i) both.run_until(i * 333 * ms);
+  EXPECT_EQ(both.plc().value("VW0"), 6);
+}
+
 TEST(SteadyScans, AnOffDelayEndsOnTime) {
   Both both("LD I0.0\nTOF T37, 100\nLD T37\n= Q0.0\nMEND\n", *find_cpu("224"));
   both.each([](Plc& plc) {
@@ -255,6 +306,77 @@ TEST(SteadyScans, ScansThatDifferInTurnArePassedOverInPairs) {
   EXPECT_GT(both.passed(), 50 * kSecond);
 }
 
+/// The ticks of the scan before are those of a long one, or of a short one.
+TEST(SteadyScans, OfWhichTheLastOneHasATickAreRightToo) {
+  Both both("LD SM0.6\nSQRT VD100, VD104\nLD SM0.0\nTON T37, 30000\nMEND\n");
+  for (int i = 1; i <= 600; ++i) both.run_until(i * 700 * ms + i % 60 * 150 * us);
+  EXPECT_GT(both.passed(), 300 * kSecond);
+}
+
+TEST(SteadyScans, AreNotPassedOverOnceTheyAreOff) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  plc.run_until(kSecond);
+  const Time passed = plc.cpu.passed_over();
+  EXPECT_GT(passed, 0);
+  plc.cpu.use_steady_scans(SteadyScansUse::Off);
+  plc.run_until(2 * kSecond);
+  EXPECT_EQ(plc.cpu.passed_over(), passed);
+}
+
+TEST(SteadyScans, AreNotKnownOnceEachIsWatched) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  plc.run_until(kSecond);
+  plc.records.scans = true;
+  plc.run_until(kSecond + 10 * kMillisecond);
+  EXPECT_EQ(plc.cpu.alike_until(), plc.cpu.time());
+}
+
+/// Each run ends in the middle of some part of a scan.
+TEST(SteadyScans, AreKnownInRunsShorterThanAnyPartOfAScan) {
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  for (Time end = 0; end < 100 * kMillisecond; end += 70 * us) plc.run_until(end);
+  EXPECT_EQ(plc.cpu.alike_until(), kNever);
+}
+
+TEST(SteadyScans, LooksThatAreInVainLeaveTheEndOfARunWhereItIs) {
+  const auto check = [](SteadyScansUse use, std::string_view text, bool scans) {
+    PlcThat with(use, text), without(SteadyScansUse::Off, text);
+    with.records.scans = without.records.scans = scans;
+    for (int i = 0; i < 2000; ++i) {
+      with.cpu.run(kNever, 3070 * us);
+      without.cpu.run(kNever, 3070 * us);
+      ASSERT_EQ(with.cpu.time(), without.cpu.time()) << text << i;
+    }
+  };
+  check(SteadyScansUse::Eager, "LD SM0.0\nINCW VW0\nMEND\n", false);
+  check(SteadyScansUse::Eager, kContactsOnly, true);
+  check(SteadyScansUse::Check, kContactsOnly, false);
+}
+
+TEST(SteadyScans, ATimerOf10msOfASubroutineThatIsOffHoldsNothingUp) {
+  Both both("LD I0.0\nCALL 0\nMEND\nSBR 0\nLD I0.1\nTON T33, 100\nRET\n");
+  both.each([](Plc& plc) { plc.input("I0.0", true); });
+  both.run_until(60 * kSecond);
+  EXPECT_GT(both.passed(), 59 * kSecond);
+}
+
+TEST(SteadyScans, ATimerOf1msThatIsOffAgainTicksNoMore) {
+  Both both("LD I0.0\nTON T32, 100\nMEND\n");
+  both.each([](Plc& plc) {
+    plc.input_at(kSecond, "I0.0", true);
+    plc.input_at(2 * kSecond, "I0.0", false);
+  });
+  both.run_until(60 * kSecond);
+  EXPECT_GT(both.passed(), 57 * kSecond);
+}
+
+TEST(SteadyScans, ATimerWithANegativeValueCountsUpFromThere) {
+  Both both("LD SM0.1\nMOVW -20, T5\nMOVW -20, T1\nLD SM0.0\nTONR T5, 30\nTONR T1, 300\nMEND\n");
+  for (int i = 1; i <= 101; ++i) both.run_until(i * 51 * ms);
+  EXPECT_EQ(both.plc().value("T5"), 51 - 20);
+  EXPECT_EQ(both.plc().value("T1"), 515 - 20);
+}
+
 TEST(SteadyScans, ATimedInterruptComesOnTime) {
   Both both("LD SM0.1\nMOVB 250, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nINCW VW0\nRETI\n");
   for (int i = 1; i <= 60; ++i) both.run_until(i * 777 * ms);
@@ -282,56 +404,155 @@ TEST(SteadyScans, ATimerThatIsResetInEachScanHasCountedInOneScanOnly) {
   EXPECT_GT(both.passed(), kSecond);
 }
 
-/// Networks about everything that goes on by itself.
-std::string about_time(std::mt19937& draw) {
-  const auto below = [&](unsigned n) { return static_cast<unsigned>(draw() % n); };
-  static constexpr std::string_view kTimers[] = {"T37", "T38", "T33", "T34", "T1", "T5"};
-  const auto timer = [&] { return std::string(below(30) ? kTimers[below(6)] : "T32"); };
-  std::string text, subroutine = "SBR 0\n";
-  for (unsigned networks = 3 + below(6); networks > 0; --networks) {
-    std::string& to = below(8) ? text : subroutine;
-    const std::string t = timer();
-    const auto source = [&]() -> std::string {
-      static constexpr std::string_view kBits[] = {"I0.0", "I0.1", "M0.0", "SM0.0", "SM0.5", "M1.0", "I0.2"};
-      return below(3) ? std::string(kBits[below(7)]) : timer();
-    };
-    switch (below(11)) {
-      case 0:
-      case 1:
-      case 2:
-        to += fmt::format("LD{} {}\n{} {}, {}\n", below(2) ? "N" : "", source(), t == "T1" || t == "T5" ? "TONR" : "TON", t,
-                          1 + below(300));
-        break;
-      case 3:
-        to += fmt::format("LD {}\nA {}\n= Q0.{}\n", source(), source(), below(4));
-        break;
-      case 4:
-        to += fmt::format("LD {}\nEU\nINCW VW{}\n", source(), 2 * below(4));
-        break;
-      case 5:
-        to += below(2) ? fmt::format("LD {}\nR {}, 1\n", source(), timer()) : fmt::format("LD {}\nTODR VB20\n", source());
-        break;
-      case 6:
-        to += fmt::format("LD {}\nJMP {}\n", source(), networks);
-        to += fmt::format("LD {}\nTON T4{}, 50\nLBL {}\n", source(), below(4), networks);
-        break;
-      case 7:
-        if (below(3) == 0) to += fmt::format("LDW>= {}, {}\n= M0.{}\n", timer(), below(100), below(8));
-        break;
-      case 8:
-        to += fmt::format("LD {}\nLD {}\nCTU C{}, 3\n", source(), source(), below(4));
-        break;
-      case 9:
-        to += fmt::format("LD SM0.0\nMOVW 0, VW10\nLBL {}\nLD {}\nTON T4{}, {}\n", networks, source(), below(4),
-                          1 + below(300));
-        to += fmt::format("LD SM0.0\nINCW VW10\nLDW<= VW10, {}\nA {}\nJMP {}\n", 1 + below(3), source(), networks);
-        break;
+/// A program about everything that goes on by itself, for a CPU 214 or a CPU 224.
+class AboutTime {
+ public:
+  explicit AboutTime(std::mt19937& draw) : draw_(draw), is_224_(below(2) != 0) {}
+
+  const CpuModel& model() const { return is_224_ ? *find_cpu("224") : cpu214(); }
+
+  std::string text() {
+    for (unsigned n = 3 + below(6); n > 0; --n) {
+      const bool in_main = below(8) != 0;
+      (in_main ? main_ : subroutine_) += network(n, in_main);
+    }
+    main_ += "LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\nENI\n";
+    const std::string interrupt = "LD SM0.0\nINCW VW8\n";
+    if (!is_224_) return main_ + "MEND\nSBR 0\n" + subroutine_ + "RET\nINT 0\n" + interrupt + "RETI\n";
+    return "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\n" + main_ +
+           "END_ORGANIZATION_BLOCK\nSUBROUTINE_BLOCK Work:SBR0\nVAR_INPUT\n on : BOOL;\n n : INT;\nEND_VAR\n"
+           "VAR_OUTPUT\n y : INT;\nEND_VAR\nBEGIN\nNETWORK 1\nLD #on\nMOVW #n, #y\n" +
+           subroutine_ + "END_SUBROUTINE_BLOCK\nINTERRUPT_BLOCK Count:INT0\nBEGIN\nNETWORK 1\n" + interrupt +
+           "END_INTERRUPT_BLOCK\n";
+  }
+
+ private:
+  unsigned below(unsigned n) { return static_cast<unsigned>(draw_() % n); }
+  template <std::size_t count>
+  std::string one_of(const std::string_view (&names)[count]) {
+    return std::string(names[below(count)]);
+  }
+
+  std::string timer() {
+    static constexpr std::string_view kTimers[] = {"T37", "T38", "T33", "T34", "T1", "T5"}, kOfOneMs[] = {"T32", "T96"};
+    return below(30) ? one_of(kTimers) : one_of(kOfOneMs);
+  }
+  std::string bit() {
+    static constexpr std::string_view kBits[] = {"I0.0",  "I0.1",  "I0.2",  "M0.0",  "M1.0",  "M2.0",
+                                                 "SM0.0", "SM0.1", "SM0.4", "SM0.5", "SM0.6", "Q0.0"};
+    return below(3) ? one_of(kBits) : timer();
+  }
+  std::string load() { return fmt::format("LD{} {}\n", below(2) ? "N" : "", bit()); }
+  std::string preset() { return below(8) ? std::to_string(1 + below(300)) : "VW2"; }
+  /// A network's own timer, or any; executed as what it is.
+  std::string on_delay(const std::string& t) {
+    return fmt::format("{} {}, {}\n", t == "T1" || t == "T5" ? "TONR" : "TON", t, preset());
+  }
+  std::string place() {
+    static constexpr std::string_view kPlaces[] = {"VW0", "VW2", "VW4", "MW0", "T37", "T33", "T5"};
+    return one_of(kPlaces);
+  }
+  std::string pointer() { return fmt::format("LD SM0.1\nMOVD &{}, VD40\n{}EU\n+D 2, VD40\n", place(), load()); }
+
+  /// `n` is a number of its own.
+  std::string network(unsigned n, bool in_main) {
+    static constexpr std::string_view kOffDelayTimers[] = {"T36", "T50", "T51", "T100"};
+    switch (below(25)) {
       default:
-        text += fmt::format("LD {}\nCALL 0\n", source());
+        return load() + on_delay(timer());
+      case 3:
+        return fmt::format("{}A {}\n= Q0.{}\n", load(), bit(), below(4));
+      case 4:
+        return fmt::format("{}EU\nINCW VW{}\n", load(), 2 * below(4));
+      case 5:
+        return load() + (below(2) ? fmt::format("R {}, {}\n", timer(), 1 + below(2)) : "TODR VB20\n");
+      case 6:
+        return fmt::format("{}JMP {}\n{}TON T4{}, 50\nLBL {}\n", load(), n, load(), below(4), n);
+      case 7:
+        return fmt::format("LDW>= {}, {}\n= M0.{}\n", below(3) ? place() : timer(), below(100), below(8));
+      case 8:
+        return fmt::format("{}{}CTU C{}, {}\n", load(), load(), below(4), preset());
+      case 9:
+        return fmt::format("LD SM0.0\nMOVW 0, VW10\nLBL {}\n{}TON T4{}, {}\n", n, load(), below(4), preset()) +
+               fmt::format("LD SM0.0\nINCW VW10\nLDW<= VW10, {}\nA {}\nJMP {}\n", 1 + below(3), bit(), n);
+      case 10:
+      case 11:
+        main_ += call();
+        return {};
+      case 12:
+      case 13:
+        return fmt::format("{}FOR VW12, 1, {}\n{}{}NEXT\n", load(), below(5), load(), on_delay(timer()));
+      case 14:
+      case 15:
+        return segment(n);
+      case 16:
+        return pointer() + load() +
+               fmt::format("MOVW *VD40, VW{}\nLDW>= *VD40, {}\n= M1.{}\n", 2 * below(4), below(100), below(8));
+      case 17:
+        return pointer() + load() + fmt::format("EU\nMOVW {}, *VD40\n", below(300));
+      case 18:
+        return load() + pulses();
+      case 19:
+        return high_speed_counter() + load() + "EU\nHSC 0\nLDD>= HC0, 2\n= M0.7\n";
+      case 20:
+        return load() + (is_224_ ? receive() : "EU\nXMT VB200, 0\n");
+      case 21:
+        return load() + (is_224_ ? fmt::format("TOF {}, {}\n", one_of(kOffDelayTimers), preset()) : "EU\nMOVW 7, VW2\n");
+      case 22: {
+        const std::string t = below(3) ? "T5" : timer();
+        return load() + on_delay(t) + load() + on_delay(t) + load() + on_delay(t);
+      }
+      case 23:
+        return below(2) ? fmt::format("{}MOVW {}, VW2\n", load(), 1 + below(50))
+                        : fmt::format("LD SM0.0\nMOVW 0, VW14\nMOVW 5, T35\nFND> T35, {}, VW14\n", below(100));
+      case 24:
+        return rare(in_main);
     }
   }
-  return text + "LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\nENI\nMEND\n" + subroutine + "RET\nINT 0\nINCW VW8\nRETI\n";
-}
+
+  std::string call() {
+    if (!is_224_) return load() + "CALL 0\n";
+    return fmt::format("{}CALL Work, {}, {}, {}\n", load(), bit(), below(2) ? place() : "*VD40",
+                       below(3) ? place() : "*VD44");
+  }
+  std::string segment(unsigned n) {
+    std::string text = fmt::format("LD SM0.1\nS S0.{}, 1\nLSCR S0.{}\n{}{}", n % 8, n % 8, load(), on_delay(timer()));
+    if (is_224_ && below(2)) text += fmt::format("{}CSCRE\n{}{}", load(), load(), on_delay(timer()));
+    return text + fmt::format("{}SCRT S0.{}\nSCRE\n", load(), below(8));
+  }
+  std::string pulses() {
+    const bool widths = below(2) != 0;
+    return fmt::format("EU\nMOVB 16#{}, SMB67\nMOVW {}, SMW68\nMOVW {}, SMW70\nMOVD {}, SMD72\nPLS 0\n",
+                       widths ? "CB" : "8D", 50 + below(900), below(500), 1 + below(5));
+  }
+  std::string high_speed_counter() {
+    if (std::exchange(has_counter_, true)) return {};
+    return "LD SM0.1\nMOVB 16#F8, SMB37\nMOVD 0, SMD38\nMOVD 3, SMD42\nHDEF 0, 0\nHSC 0\n";
+  }
+  std::string receive() {
+    return fmt::format(
+        "EU\nMOVB 16#{}, SMB87\nMOVB 65, SMB89\nMOVW {}, SMW90\nMOVW {}, SMW92\nMOVB {}, SMB94\nRCV VB100, 0\n",
+        below(2) ? "B0" : "94", below(9), 1 + below(3000), 1 + below(4));
+  }
+  /// What keeps scans from being passed over for long, or ends them early.
+  std::string rare(bool in_main) {
+    switch (below(4)) {
+      case 0:
+        return load() + "EU\nMOVW 100, SMW32\nMOVB 16#81, SMB31\n";
+      case 1:
+        return is_224_ ? load() + "BITIM VD60\n" : load() + "EU\nTODW VB20\n";
+      case 2:
+        return load() + "WDR\n";
+      default:
+        return load() + (in_main ? "END\n" : "CRET\n");
+    }
+  }
+
+  std::mt19937& draw_;
+  const bool is_224_;
+  bool has_counter_ = false;
+  std::string main_, subroutine_;
+};
 
 /// S7200_STEADY_PROGRAMS sets how many.
 TEST(SteadyScans, ChangeNothingInRandomProgramsWithInputsAndCharactersAtRandomInstants) {
@@ -340,7 +561,8 @@ TEST(SteadyScans, ChangeNothingInRandomProgramsWithInputsAndCharactersAtRandomIn
   const int programs = wanted ? std::stoi(wanted) : 80;
   Time passed = 0, simulated = 0;
   for (int i = 0; i < programs; ++i) {
-    Both both(about_time(draw));
+    AboutTime about_time(draw);
+    Both both(about_time.text(), about_time.model());
     Time at = 0;
     std::vector<Time> instants;
     for (int k = 0; k < 12; ++k) {
@@ -372,6 +594,34 @@ TEST(SteadyScans, AreLookedForWhereItPays) {
   EXPECT_GT(plc.cpu.passed_over(), 9 * kSecond) << "ten thousand are, however short they are";
   plc.run_until(600 * kSecond);
   EXPECT_GT(plc.cpu.passed_over(), 595 * kSecond);
+}
+
+TEST(SteadyScans, TheCheckAgreesWithWhatTheCpuDoes) {
+  for (const char* text :
+       {"LD SM0.5\n= M0.0\nLD I0.0\nTON T37, 50\nTON T33, 70\nLD T37\n= Q0.0\nMEND\n", "LD I0.0\n= Q0.0\nMEND\n"}) {
+    PlcThat plc(SteadyScansUse::Check, text);
+    for (int i = 1; i <= 20; ++i) plc.input_at(i * 1'234 * ms, "I0.0", i % 2);
+    EXPECT_NO_THROW(plc.run_until(60 * kSecond)) << text;
+    EXPECT_EQ(plc.cpu.passed_over(), 0);
+  }
+}
+
+TEST(SteadyScans, TheCheckForgetsWhatItExpectedOnceItIsOff) {
+  PlcThat plc(SteadyScansUse::Check, kContactsOnly);
+  plc.cpu.run(100 * kSecond, 50 * kSecond);
+  plc.cpu.use_steady_scans(SteadyScansUse::Off);
+  plc.run_until(200 * kSecond);
+  plc.cpu.use_steady_scans(SteadyScansUse::Check);
+  EXPECT_NO_THROW(plc.run_until(300 * kSecond));
+}
+
+TEST(SteadyScans, TheCheckForgetsWhatItExpectedOnceEachIsWatched) {
+  PlcThat plc(SteadyScansUse::Check, kContactsOnly);
+  plc.cpu.run(100 * kSecond, 50 * kSecond);
+  plc.records.scans = true;
+  plc.run_until(200 * kSecond);
+  plc.records.scans = false;
+  EXPECT_NO_THROW(plc.run_until(300 * kSecond));
 }
 
 TEST(SteadyScans, TheCheckFindsAPredictionThatIsWrong) {

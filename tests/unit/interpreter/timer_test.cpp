@@ -1,4 +1,5 @@
 // Timers of 1, 10 and 100 ms and counters over scans of any length. Times: plc.hpp.
+#include "interpreter/cpu/scan.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -18,6 +19,31 @@ TEST(Timer, OneMillisecondTimersCountInsideAScan) {
   EXPECT_EQ(plc.value("VW0"), 0);
   EXPECT_EQ(plc.value("VW2"), 5);
   EXPECT_TRUE(timer_bit(plc, 32));
+}
+
+// T96 makes the CPU look at the tick at 1000 us, when the TON of T32 ends, too.
+TEST(Timer, ATickAtTheEndOfTheExecutionThatEnablesATimerIsNotOneOfIts) {
+  std::string text = "LD SM0.0\nTON T96, 4\n";
+  for (int i = 0; i < 77; ++i) text += "= M0.0\n";
+  Plc plc(text + "TON T32, 4\nMOVW T32, VW0\nMOVW T96, VW2\nMEND\n");
+  plc.run_scans(1);
+  EXPECT_EQ(plc.value("VW0"), 0);
+  EXPECT_EQ(plc.value("VW2"), 1);
+}
+
+TEST(Timer, TheEventsOfT32AndT96AreOfTheTickThatBringsThemToTheirPresets) {
+  Plc plc(
+      "LD SM0.1\nATCH 0, 21\nATCH 1, 22\nENI\nLD SM0.0\nTON T32, 5\nTON T96, 50\nMEND\n"
+      "INT 0\nINCW VW0\nMOVW T32, VW2\nRETI\nINT 1\nINCW VW4\nMOVW T96, VW6\nRETI\n",
+      cpu215());
+  plc.run_until(30 * ms);
+  EXPECT_EQ(plc.value("VW0"), 1);
+  EXPECT_EQ(plc.value("VW2"), 5);
+  EXPECT_EQ(plc.value("VW4"), 0);
+  plc.run_until(100 * ms);
+  EXPECT_EQ(plc.value("VW0"), 1);
+  EXPECT_EQ(plc.value("VW4"), 1);
+  EXPECT_EQ(plc.value("VW6"), 50);
 }
 
 TEST(Timer, AOneMillisecondTimerCountsWholeMillisecondsFromItsStart) {
@@ -100,7 +126,8 @@ TEST(Timer, OnDelayTimersAreClearedByTheirInputAndRetentiveOnesByR) {
 
 // I0.1 resets the timers after their instructions; I0.2 jumps over the instructions.
 constexpr std::string_view kResetWhileCounting =
-    "LD I0.2\nJMP 1\nLD SM0.0\nTON T32, 1000\nTONR T0, 1000\nTON T33, 1000\nTONR T1, 1000\nLBL 1\nLD I0.1\nR T32, 2\nR T0, 2\n"
+    "LD I0.2\nJMP 1\nLD SM0.0\nTON T32, 1000\nTONR T0, 1000\nTON T33, 1000\nTONR T1, 1000\nLBL 1\nLD I0.1\nR T32, 2\nR T0, "
+    "2\n"
     "MEND\n";
 
 TEST(Timer, AResetStopsATimerOf1Or10MillisecondsUntilItsInstructionIsExecutedAgain) {
@@ -141,7 +168,8 @@ TEST(Timer, AResetOfAOneMillisecondTimerAlsoPreventsItsInterrupt) {
 TEST(Timer, AResetOfAHundredMillisecondTimerClearsValueAndBitAndTheTimerGoesOn) {
   for (const std::uint32_t number : {37u, 5u}) {
     const std::string timer = fmt::format("T{}", number);
-    Plc plc(fmt::format("LD SM0.0\nDIV VW100, VD104\n{} {}, 2\nLD I0.1\nR {}, 1\nMEND\n", number == 37 ? "TON" : "TONR", timer, timer));
+    Plc plc(fmt::format("LD SM0.0\nDIV VW100, VD104\n{} {}, 2\nLD I0.1\nR {}, 1\nMEND\n", number == 37 ? "TON" : "TONR",
+                        timer, timer));
     plc.set("VW100", 1);
     plc.run_scans(4);
     EXPECT_EQ(plc.value(timer), 3);
@@ -200,6 +228,26 @@ TEST(Timer, InStopTimersDoNotCount) {
   plc.run_until(200 * ms);
   EXPECT_EQ(plc.value("T32"), fast);
   EXPECT_EQ(plc.value("T33"), slow);
+}
+
+TEST(Timer, OneMillisecondTimersCountAgainAfterAStop) {
+  Plc plc("LD SM0.0\nTON T32, 5\nMEND\n");
+  plc.run_until(20 * ms);
+  scan::change_mode(plc.cpu.core(), Mode::Stop);
+  plc.run_until(40 * ms);
+  const std::int64_t before = plc.value("T32");
+  scan::change_mode(plc.cpu.core(), Mode::Run);
+  plc.run_until(80 * ms);
+  EXPECT_GT(plc.value("T32"), before + 30);
+}
+
+TEST(Timer, AResetOfOneLeavesTheOthersAlone) {
+  Plc plc("LD SM0.0\nTON T37, 500\nTON T33, 500\nTON T34, 500\nLD I0.0\nEU\nR C0, 1\nR C33, 1\nR T32, 1\nMEND\n");
+  plc.input_at(10'005 * ms, "I0.0", true);
+  plc.run_until(10'055 * ms);
+  EXPECT_EQ(plc.value("T37"), 100);
+  EXPECT_EQ(plc.value("T33"), 1005);
+  EXPECT_EQ(plc.value("T34"), 1005);
 }
 
 void scan_with(Plc& plc, std::string_view point, bool level) {
