@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::size_t kMostSteps = 100;  // of a routine; a loop may call many
 
+/// Only a scan that WDR prolongs does more.
+constexpr std::size_t kLongestCourse = 1'000'000;
+
 bool is_only_in(const Instruction& instruction, std::uint8_t part) { return instruction.allowed.parts == part; }
 
 std::string times_text(std::uint64_t times) { return times == 1 ? "" : fmt::format(" {} times", times); }
@@ -67,8 +70,8 @@ std::string ProgramPath::of(const TraceRecord& record) {
   switch (record.kind) {
     case TraceKind::ScanBegin:
       known_ = true;
-      in_interrupt_ = interrupt_ends_ = false;
-      open_.assign(1, {});
+      ended_ = in_interrupt_ = interrupt_ends_ = false;
+      course_.clear();
       break;
     case TraceKind::ServiceBegin:
       in_interrupt_ = true;
@@ -80,8 +83,8 @@ std::string ProgramPath::of(const TraceRecord& record) {
       failed_ = true;
       break;
     case TraceKind::ModeChange: {
-      const bool stopped_meanwhile = known_ && record.code == 0 && !open_.empty() && !open_.front().way.empty();
-      const std::string text = stopped_meanwhile ? "main program until then: " + text_of(whole()) : "";
+      const bool stopped_meanwhile = known_ && record.code == 0 && !ended_ && !course_.empty();
+      const std::string text = stopped_meanwhile ? "main program until then: " + text_of(way_of(course_)) : "";
       forget();
       return text;
     }
@@ -98,43 +101,27 @@ std::string ProgramPath::of(const InstructionRecord& record) {
     return {};
   }
   const Role role = role_[record.op];
-  if (!known_ || role == Role::None || open_.empty()) return {};
-  if (!(role == Role::Call && failed)) take(record, role);
-  const bool ends = role == Role::End || (role == Role::ConditionalEnd && record.powered);
-  if (!ends) return {};
-  Way way = whole();
-  open_.clear();
-  const auto known = before_.begin() + static_cast<std::ptrdiff_t>(known_before_);
-  const bool as_before = std::find(before_.begin(), known, way) != known;
-  std::swap(before_[0], before_[1]);
-  before_[0] = std::move(way);
-  known_before_ = std::min(known_before_ + 1, before_.size());
-  return as_before ? "" : "main program: " + text_of(before_[0]);
-}
-
-void ProgramPath::take(const InstructionRecord& record, Role role) {
+  if (!known_ || ended_ || role == Role::None) return {};
   const bool flows = role == Role::Coil ? record.top : record.powered;
-  if (role == Role::Return) return return_from_subroutine();
-  if (!flows || role == Role::End) return;
-  add({.what = What::Network, .op = networks_.first_of(record.op)});
-  switch (role) {
-    case Role::Jump:
-      return add({.what = What::Jump, .op = record.op});
-    case Role::Call:
-      return open_.push_back({.by = record.op});
-    case Role::ConditionalReturn:
-      add({.what = What::Leave, .op = record.op});
-      return return_from_subroutine();
-    case Role::ConditionalEnd:
-    case Role::Leave:
-      return add({.what = What::Leave, .op = record.op});
-    default:
-      return;
-  }
+  const bool happens = role == Role::Return || (flows && role != Role::End && !(role == Role::Call && failed));
+  if (happens && course_.size() < kLongestCourse) course_.push_back(record.op);
+  ended_ = role == Role::End || (role == Role::ConditionalEnd && record.powered);
+  if (!ended_) return {};
+  const bool same = as_before();
+  std::swap(before_[0], before_[1]);
+  std::swap(before_[0], course_);
+  known_before_ = std::min(known_before_ + 1, before_.size());
+  return same ? "" : "main program: " + text_of(way_of(before_[0]));
 }
 
-void ProgramPath::add(Step step) {
-  Way& way = open_.back().way;
+bool ProgramPath::as_before() const {
+  const auto known = before_.begin() + static_cast<std::ptrdiff_t>(known_before_);
+  if (std::find(before_.begin(), known, course_) != known) return true;
+  const Way way = way_of(course_);
+  return std::any_of(before_.begin(), known, [&](const Course& one) { return way_of(one) == way; });
+}
+
+void ProgramPath::add(Way& way, Step step) {
   const auto same = std::find_if(way.rbegin(), way.rend(), [&](const Step& known) { return known.repeats(step); });
   if (same != way.rend()) {
     same->times += step.what == What::Network ? 0 : 1;
@@ -145,16 +132,29 @@ void ProgramPath::add(Step step) {
   }
 }
 
-void ProgramPath::return_from_subroutine() {
-  if (open_.size() < 2) return;
-  Called called = std::move(open_.back());
-  open_.pop_back();
-  add({.what = What::Call, .op = called.by, .inside = std::move(called.way)});
+void ProgramPath::return_from_subroutine(std::vector<Called>& open) {
+  if (open.size() < 2) return;
+  Called called = std::move(open.back());
+  open.pop_back();
+  add(open.back().way, {.what = What::Call, .op = called.by, .inside = std::move(called.way)});
 }
 
-ProgramPath::Way ProgramPath::whole() {
-  while (open_.size() > 1) return_from_subroutine();
-  return open_.front().way;
+void ProgramPath::take(std::vector<Called>& open, std::uint32_t op) const {
+  const Role role = role_[op];
+  if (role == Role::Return) return return_from_subroutine(open);
+  add(open.back().way, {.what = What::Network, .op = networks_.first_of(op)});
+  if (role == Role::Box || role == Role::Coil) return;
+  if (role == Role::Call) return open.push_back({.by = op});
+  add(open.back().way, {.what = role == Role::Jump ? What::Jump : What::Leave, .op = op});
+  if (role == Role::ConditionalReturn) return_from_subroutine(open);
+}
+
+ProgramPath::Way ProgramPath::way_of(const Course& course) const {
+  std::vector<Called> open(1);
+  for (const std::uint32_t op : course) take(open, op);
+  while (open.size() > 1) return_from_subroutine(open);
+  if (course.size() == kLongestCourse) open.front().way.push_back({.what = What::More});
+  return std::move(open.front().way);
 }
 
 std::string ProgramPath::text_of(const Step& step, std::size_t depth) const {

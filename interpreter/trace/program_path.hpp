@@ -51,11 +51,16 @@ class ProgramPath {
     Way way{};
   };
 
+  /// What the main program did in a scan, in its order: the ops that had power flow, and the RETs. It says more than the
+  /// way, which is made of it only if it is another one.
+  using Course = std::vector<std::uint32_t>;
+
   static Role role_of(const Op& op);
-  void add(Step step);
-  void return_from_subroutine();
-  void take(const InstructionRecord& record, Role role);
-  Way whole();
+  bool as_before() const;
+  Way way_of(const Course& course) const;
+  static void add(Way& way, Step step);
+  static void return_from_subroutine(std::vector<Called>& open);
+  void take(std::vector<Called>& open, std::uint32_t op) const;
   std::string text_of(const Way& way, std::size_t depth = 0) const;
   std::string text_of(const Step& step, std::size_t depth) const;
 
@@ -63,11 +68,12 @@ class ProgramPath {
   std::size_t deepest_;
   Networks networks_;
   std::vector<Role> role_;  ///< by op
-  bool known_ = false;      ///< from its beginning
+  bool known_ = false;      ///< the scan, from its beginning on
+  bool ended_ = false;      ///< it has come to END or MEND
   bool in_interrupt_ = false, interrupt_ends_ = false;
   bool failed_ = false;  ///< the instruction being executed has caused a run-time error
-  std::vector<Called> open_;
-  std::array<Way, 2> before_;     ///< in the last scan, and in that before it
+  Course course_;
+  std::array<Course, 2> before_;  ///< in the last scan, and in that before it
   std::size_t known_before_ = 0;  ///< so many of them
 };
 

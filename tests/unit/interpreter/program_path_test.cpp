@@ -53,6 +53,17 @@ TEST(ProgramPath, WhatAlternatesIsTheSameWay) {
   EXPECT_EQ(ways_of("NETWORK 1\nLDN M0.0\n= M0.0\nNETWORK 2\nLD SM0.0\nINCW VW0\nMEND\n").size(), 2U);
 }
 
+TEST(ProgramPath, TwoScansThatDoOtherThingsInTheSameNetworksGoTheSameWay) {
+  EXPECT_EQ(ways_of("NETWORK 1\nLDN I0.0\nINCW VW0\nLD I0.0\nDECW VW0\nMEND\n"), Texts{"main program: network 1"});
+}
+
+TEST(ProgramPath, OfAScanWithoutEndItKeepsTheBeginning) {
+  EXPECT_EQ(ways_of("LD SM0.0\nMOVD 0, VD0\nLBL 1\nLD SM0.0\nWDR\nINCD VD0\nLDD<= VD0, 400000\nJMP 1\n"
+                    "LD SM0.0\nINCW VW4\nMEND\n",
+                    60 * kSecond),
+            Texts{"main program: line 1, line 4, line 7, JMP 1 in line 8 249999 times, …"});
+}
+
 TEST(ProgramPath, AConditionalEndOfTheScanAndOfASubroutineAreNamed) {
   EXPECT_EQ(ways_of("NETWORK 1\nLD SM0.0\nCALL 1\nNETWORK 2\nLDN I0.0\nEND\nNETWORK 3\nLD SM0.0\nINCW VW0\nMEND\n"
                     "SBR 1\nLD SM0.0\nCRET\nINCW VW2\nRET\n"),
