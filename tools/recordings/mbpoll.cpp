@@ -23,6 +23,8 @@ constexpr std::array kDataTypes{
     DataType{"discrete output", Function::ReadCoils}, DataType{"discrete input", Function::ReadInputs},
     DataType{"input register", Function::ReadInputRegisters}, DataType{"output (holding)", Function::ReadHoldingRegisters}};
 
+constexpr std::uint16_t kMostValues = 125;  // that mbpoll reads at once
+
 /// The number behind `name` in a line.
 std::optional<std::uint16_t> number_behind(std::string_view line, std::string_view name) {
   const std::size_t at = line.find(name);
@@ -59,7 +61,8 @@ class MbpollReader {
       ask(static_cast<std::uint8_t>(*station), number);
     } else if (const auto value = value_in(line)) {
       take_value(*value);
-    } else if (line.find(" failed: ") != std::string_view::npos && line.find("timed out") == std::string_view::npos) {
+    } else if (asked_ && line.find(" failed: ") != std::string_view::npos &&
+               line.find("timed out") == std::string_view::npos) {
       asked_ = false;  // a refusal or a wrong answer: what it was is not said
       recording_.frames.pop_back();
     }
@@ -75,7 +78,7 @@ class MbpollReader {
 
   /// References count from 1; with its option -0, from 0, which it does not say.
   void ask(std::uint8_t station, std::size_t number) {
-    asked_ = function_ && first_ > 0;
+    asked_ = function_ && first_ > 0 && count_ > 0 && count_ <= kMostValues;
     if (!asked_) return;
     station_ = station;
     place_ = fmt::format("line {}", number);
