@@ -216,12 +216,12 @@ class Verbs(Case):
         for protocol, model, words, said in (
                 ("modbus", "pc1200", ["write", "40001=7", "read", "40001", "general-read", "0:0:2"],
                  ["station 1, write register 40001 = 16#0007", "register 40001 written: 16#0007", "station 1, read holding registers 40001, 1 of them",
-                  "1 register: 16#0007", "station 1, read file record", "references of kind 16#33: 07 00"]),
+                  "1 register: 16#0007", "station 1, read file record: extended memory 0000:0000, 2 bytes", "references of kind 16#33: 07 00"]),
                 ("pc1000-lan", "pc1200", ["unit", "5", "read", "16#4000"],
                  ["address unit 16#05", "keyswitch in stop, fault register 16#0000", "read 2 bytes from word 16#4000 on", "00 00"]),
                 ("westnet", "pc1200", ["address", "17", "open"],
                  ["address 00.11.00", "PLC 00.11.00 addressed", "open session", "session open"]),
-                ("hppc", "hppc", ["read", "16#80000:2"], ["read 2 bytes from 16#80000 on", "02 8a 00"])):
+                ("hppc", "hppc", ["read", "16#80000:2"], ["read 2 bytes from 16#80000 on", "2 bytes: 8a 00"])):
             with self.subTest(protocol):
                 files = [self.folder / f"{protocol}.pcap", self.folder / f"{protocol}.vcd"]
                 self.ends(FINE, "master", f"westinghouse:{model}", "--protocol", protocol, *words, "--capture", files[0], "--capture", files[1])
@@ -422,7 +422,7 @@ class Verbs(Case):
         asked = {"a": ("40001", "010300000001840a"), "b": ("40008", "01030007000135cb")}
         peers = "".join(f"  {name}: {{polls: [{{read: {address}}}], every: 1h}}\n" for name, (address, _) in asked.items())
         system = self.program(f"plcs: {{slave: {{program: {SLAVE}}}}}\npeers:\n{peers}"
-                              "lines: {bus: {stations: [slave, a, b], capture: [both.pcap]}}\n", "both.yaml")
+                              "lines: {bus: {stations: [slave, a, b], contention: space, capture: [both.pcap]}}\n", "both.yaml")
         self.ends(FINE, "run", system, "--for", "1500ms", cwd=self.folder)
         frames = [frame["bytes"] for frame in self.json(FINE, "decode", self.folder / "both.pcap", "--json")["frames"]]
         first, second = (bytes.fromhex(frame) for _, frame in asked.values())
