@@ -235,7 +235,7 @@ class Line {
 
   /// A character that begins now may be implied: no driver has edges, and nothing disturbs, cuts or contends. While there
   /// is an implied one that stays so: whatever would change it reveals that one first.
-  bool may_imply() const { return busy_ == 0 && !implied_.any() && !irregular() && contention_.on_until.empty(); }
+  bool may_imply() const { return busy_ == 0 && !implied_.any() && !irregular(); }
   void add_edges(int number, unsigned levels, const BitTimes& times, Time at) const;
   void reveal() const {
     if (implied_.any()) reveal_implied();

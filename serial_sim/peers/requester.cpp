@@ -20,6 +20,7 @@ bool Exchange::framing_error() const {
 
 std::string_view Exchange::damage() const {
   if (too_long) return "an answer without end, cut off";
+  if (of_another_master) return "the request of another master, and no answer";
   if (parity_error()) return "characters with wrong parity";
   if (framing_error()) return "characters with framing errors";
   return {};
@@ -51,7 +52,7 @@ void Requester::begin(const Request& request, Time at) {
   exchange.request = request.frame;
   exchange.request_start = at;
   exchange.request_end = exchange.response_start = exchange.response_end = 0;
-  exchange.timed_out = exchange.too_long = exchange.given_up = exchange.early = false;
+  exchange.timed_out = exchange.too_long = exchange.given_up = exchange.of_another_master = exchange.early = false;
 }
 
 void Requester::listen(const Listening& listening, Time at) {
@@ -101,13 +102,13 @@ void Requester::handle(const Event& event) {
   }
 }
 
-void Requester::on(const Uart::Report& report) {
+void Requester::on(const Uart::Report& report, bool another_sends) {
   const bool of_request = state_.sent > 0;  // and not the last character of one that was given up
-  if (report.received) take(*report.received);
+  if (report.received) take(*report.received, another_sends);
   if (report.sent && state_.phase == Phase::Sending && of_request) sent(*report.sent);
 }
 
-void Requester::take(const ReceivedCharacter& character) {
+void Requester::take(const ReceivedCharacter& character, bool another_sends) {
   switch (state_.phase) {
     case Phase::Idle:
       if (character.start >= uart_.state().send_end && state_.heard.size() < kMostHeard) state_.heard.push_back(character);
@@ -117,7 +118,7 @@ void Requester::take(const ReceivedCharacter& character) {
       return;
     case Phase::Waiting:
     case Phase::Receiving:
-      return received(character);
+      return received(character, another_sends);
   }
 }
 
@@ -143,7 +144,7 @@ void Requester::sent(Time at) {
   queue_.schedule(at + state_.request.timeout, owner_, kQuiet);
 }
 
-void Requester::received(const ReceivedCharacter& character) {
+void Requester::received(const ReceivedCharacter& character, bool another_sends) {
   Exchange& exchange = state_.exchange;
   if (exchange.response.size() == kLongestResponse) {
     exchange.too_long = true;
@@ -151,7 +152,10 @@ void Requester::received(const ReceivedCharacter& character) {
     finish();
     return;
   }
-  if (exchange.response.empty()) exchange.response_start = character.start;
+  if (exchange.response.empty()) {
+    exchange.response_start = character.start;
+    exchange.of_another_master = another_sends;
+  }
   exchange.response.push_back(character);
   exchange.response_end = character.start + uart_.state().format.character_time();
   state_.phase = Phase::Receiving;

@@ -50,12 +50,13 @@ struct Exchange {
   Time request_end = 0;                   ///< end of the last stop bit
   std::vector<ReceivedCharacter> echo{};  ///< what the master heard while it sent; nothing on a line without echo
   std::vector<ReceivedCharacter> response{};
-  Time response_start = 0;  ///< start edge of the first character; 0 if there is none, like the next
-  Time response_end = 0;    ///< end of the last character's stop bit
-  bool timed_out = false;   ///< no answer began in time
-  bool too_long = false;    ///< cut off after Requester::kLongestResponse characters
-  bool given_up = false;    ///< by Requester::give_up(), before its answer was complete
-  bool early = false;       ///< another station held the line at space when the request ended: its start edge was not heard
+  Time response_start = 0;         ///< start edge of the first character; 0 if there is none, like the next
+  Time response_end = 0;           ///< end of the last character's stop bit
+  bool timed_out = false;          ///< no answer began in time
+  bool too_long = false;           ///< cut off after Requester::kLongestResponse characters
+  bool given_up = false;           ///< by Requester::give_up(), before its answer was complete
+  bool of_another_master = false;  ///< the answer began while another master of the line was sending its request
+  bool early = false;  ///< another station held the line at space when the request ended: its start edge was not heard
 
   bool operator==(const Exchange&) const = default;
 
@@ -107,6 +108,9 @@ class Requester {
 
   bool busy() const { return state_.phase != Phase::Idle; }
 
+  /// Its request is on the line.
+  bool sends() const { return state_.phase == Phase::Sending && state_.sent > 0; }
+
   /// Busy with a request and its answer, not with listening.
   bool asks() const { return busy() && !state_.request.frame.empty(); }
 
@@ -118,7 +122,8 @@ class Requester {
   /// The one under way, or the last one.
   const Exchange& exchange() const { return state_.exchange; }
 
-  void on(const Uart::Report& report);
+  /// `another_sends`: another master has its request on the line.
+  void on(const Uart::Report& report, bool another_sends = false);
   void handle(const Event& event);
 
   const State& state() const { return state_; }
@@ -131,8 +136,8 @@ class Requester {
   void send_next(Time at);
   void sent(Time at);
   void take_first_transmission();
-  void take(const ReceivedCharacter& character);
-  void received(const ReceivedCharacter& character);
+  void take(const ReceivedCharacter& character, bool another_sends);
+  void received(const ReceivedCharacter& character, bool another_sends);
   void quiet(Time now);
   void finish();
   void drive_sync(bool high, Time at) const;

@@ -66,6 +66,9 @@ class Dispatcher {
   /// meanwhile is left to the next call unless its rank is still to come in its queue.
   void handle(const Due& due);
 
+  /// How many events so far: what a run costs, whatever the host.
+  std::uint64_t handled() const { return handled_; }
+
   std::vector<EventQueue> state() const;
   void restore(const std::vector<EventQueue>& state);
 
@@ -81,6 +84,7 @@ class Dispatcher {
   std::size_t sharing_ = 0;
   std::array<std::vector<EventHandler*>, kRanks> handlers_;  // by rank, then in the order in which they were added
   std::vector<EventQueue*> due_;                             // of the instant that is being handled
+  std::uint64_t handled_ = 0;
 };
 
 }  // namespace s7200::serial

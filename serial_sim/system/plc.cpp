@@ -95,10 +95,11 @@ Ports Plc::devices() const {
   return devices;
 }
 
-void Plc::power_up(const RetentiveMemory* memory) {
+void Plc::power_up(const RetentiveMemory* memory, Time at) {
   executed_before_ = 0;
-  cpu_.power_up(true, memory);
-  field_.power_up();
+  powered_ = true;
+  cpu_.power_up(true, memory, at);
+  field_.power_up(at);
 }
 
 void Plc::power_off(Time at) {

@@ -62,8 +62,9 @@ class Plc final : private EventHandler, private OutputListener {
   Plc(const Plc&) = delete;
   Plc& operator=(const Plc&) = delete;
 
-  /// Powers the CPU up into RUN, at time 0, with what its memory has kept, and starts the field's script.
-  void power_up(const RetentiveMemory* memory = nullptr);
+  /// It has power from `at` on: the CPU goes into RUN with what its memory has kept, and the field's script starts. In the
+  /// system's time `at` is now, or nothing has run yet.
+  void power_up(const RetentiveMemory* memory = nullptr, Time at = 0);
 
   /// Power goes off at `at`, and comes back: the CPU keeps what a real one keeps, and begins anew in RUN.
   void power_off(Time at);

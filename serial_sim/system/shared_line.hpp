@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "serial_sim/faults/faults.hpp"
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/line/uart.hpp"
+#include "serial_sim/peers/requester.hpp"
 #include "serial_sim/system/dispatcher.hpp"
 
 namespace s7200::serial {
@@ -31,6 +33,14 @@ class SharedLine final : private EventHandler {
   Faults& faults() { return faults_; }
   const Faults& faults() const { return faults_; }
 
+  /// One that asks here, and lives as long as the line. Wiring, not state.
+  void add_master(const Requester& master) { masters_.push_back(&master); }
+
+  /// Whether a master besides `one` has its request on the line.
+  bool another_sends(const Requester& one) const {
+    return std::ranges::any_of(masters_, [&](const Requester* each) { return each != &one && each->sends(); });
+  }
+
   /// The number of one more driver, at most Line::kDrivers.
   int add_driver();
 
@@ -49,6 +59,7 @@ class SharedLine final : private EventHandler {
 
   Line line_;
   Faults faults_;
+  std::vector<const Requester*> masters_;
   int drivers_ = 0;
   Time last_activity_ = 0;
 };

@@ -16,11 +16,13 @@ Uart::Report PeerStation::hear(const Event& event) {
 }
 
 RequesterStation::RequesterStation(Dispatcher& events, SharedLine& line)
-    : PeerStation(events, line), requester_(uart_, queue_, events.add(Rank::Peer, *this)) {}
+    : PeerStation(events, line), requester_(uart_, queue_, events.add(Rank::Peer, *this)) {
+  line.add_master(requester_);
+}
 
 void RequesterStation::handle(const Event& event) {
   if (Dispatcher::rank_of(event.owner) == Rank::Peer) return requester_.handle(event);
-  requester_.on(hear(event));
+  requester_.on(hear(event), line_.another_sends(requester_));
 }
 
 void RequesterStation::restore(const State& state) {
@@ -32,11 +34,13 @@ PollerStation::PollerStation(Dispatcher& events, SharedLine& line, PollPlan plan
     : PeerStation(events, line),
       requester_owner_(events.add(Rank::Peer, *this)),
       requester_(uart_, queue_, requester_owner_),
-      poller_(uart_, requester_, queue_, events.add(Rank::Peer, *this), std::move(plan), std::move(wiring)) {}
+      poller_(uart_, requester_, queue_, events.add(Rank::Peer, *this), std::move(plan), std::move(wiring)) {
+  line.add_master(requester_);
+}
 
 void PollerStation::handle(const Event& event) {
   if (Dispatcher::rank_of(event.owner) == Rank::Uart)
-    requester_.on(hear(event));
+    requester_.on(hear(event), line_.another_sends(requester_));
   else if (event.owner == requester_owner_)
     requester_.handle(event);
   else

@@ -89,6 +89,9 @@ class System {
   /// Whether anything is scheduled, or was.
   bool has_schedule() const { return !schedule_.empty(); }
 
+  /// How many events have been handled: what a run costs, whatever the host.
+  std::uint64_t events_handled() const { return events_.handled(); }
+
   /// How many PLCs there are.
   std::size_t plcs() const { return plcs_.size(); }
 

@@ -223,7 +223,7 @@ const std::vector<Setting<HppcPlc>>& HppcPlc::settings() {
     add({"run", "", "whether the processor runs", Word, {"running", "stopped"}}, &S::run);
     add({"fcs", "", "frame check: with the odd entry of the document's table, or without", Word, {"document", "polynomial"}},
         &S::fcs);
-    add({"edit_lo", "", "register in error responses", Hex, {}, 0, UINT16_MAX}, &S::edit_lo);
+    add({"edit_lo", "H8", "register in error responses", Hex, {}, 0, UINT16_MAX}, &S::edit_lo);
     add({"answer_after", "", "characters of silence before an answer", Decimal, {}, 1, 200}, &S::answer_after);
     add_line_settings(
         rows, "H1", [](auto& plc) -> auto& { return plc.settings_.line; });

@@ -300,7 +300,7 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
     add({"version", "", "of function 17"}, &S::version);
     add({"err", "", "of function 17", Hex, {}, 0, UINT16_MAX}, &S::err);
     add({"mode_chg", "", "of function 17", Hex, {}, 0, UINT16_MAX}, &S::mode_chg);
-    add({"exception", "", "answered to all that could be done: 04, 06; 00 for none"}, &S::exception);
+    add({"exception", "M8", "answered to all that could be done: 04, 06; 00 for none"}, &S::exception);
     add({"function_7", "M1", "section of the document that says which models have it", Word, {"section422", "section41"}},
         &S::function_7);
     add_line_settings(

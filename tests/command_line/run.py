@@ -6,6 +6,7 @@ import itertools
 import json
 import os
 import pathlib
+import pty
 import random
 import re
 import shlex
@@ -15,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import termios
 import time
 import unittest
 import xml.etree.ElementTree
@@ -215,12 +217,12 @@ class Verbs(Case):
         for protocol, model, words, said in (
                 ("modbus", "pc1200", ["write", "40001=7", "read", "40001", "general-read", "0:0:2"],
                  ["station 1, write register 40001 = 16#0007", "register 40001 written: 16#0007", "station 1, read holding registers 40001, 1 of them",
-                  "1 register: 16#0007", "station 1, read file record", "references of kind 16#33: 07 00"]),
+                  "1 register: 16#0007", "station 1, read file record: extended memory 0000:0000, 2 bytes", "references of kind 16#33: 07 00"]),
                 ("pc1000-lan", "pc1200", ["unit", "5", "read", "16#4000"],
                  ["address unit 16#05", "keyswitch in stop, fault register 16#0000", "read 2 bytes from word 16#4000 on", "00 00"]),
                 ("westnet", "pc1200", ["address", "17", "open"],
                  ["address 00.11.00", "PLC 00.11.00 addressed", "open session", "session open"]),
-                ("hppc", "hppc", ["read", "16#80000:2"], ["read 2 bytes from 16#80000 on", "02 8a 00"])):
+                ("hppc", "hppc", ["read", "16#80000:2"], ["read 2 bytes from 16#80000 on", "2 bytes: 8a 00"])):
             with self.subTest(protocol):
                 files = [self.folder / f"{protocol}.pcap", self.folder / f"{protocol}.vcd"]
                 self.ends(FINE, "master", f"westinghouse:{model}", "--protocol", protocol, *words, "--capture", files[0], "--capture", files[1])
@@ -311,6 +313,19 @@ class Verbs(Case):
                 summary = decoded["summary"]
                 self.assertEqual({e["verdict"] for e in exchanges}, {"silent"})
                 self.assertEqual([summary[key] for key in ("requests", "answered", "wrong", "strays")], [sum(e["attempts"] for e in exchanges), 0, 0, 0])
+
+    def test_what_an_hppc_is_asked_before_a_repetition_can_be_set(self):
+        silent = ["--protocol", "hppc", "westinghouse:hppc", "--fault", "missing:of=answer,character=each", "parameters", "--retries", "1"]
+        def requests(*options):
+            capture = self.folder / "hppc.pcap"
+            s7200("master", *silent, *options, "--capture", capture)
+            frames = json.loads(self.ends(FINE, "decode", capture, "--protocol", "hppc", "--json").stdout)["frames"]
+            return [(frame["bytes"].startswith("0c"), frame["at_us"]) for frame in frames if frame["kind"] == "request"]
+        usual, plain = requests(), requests("--no-resync", "--before-retry", "20ms")
+        self.assertEqual([resync for resync, _ in usual], [False, True, False])
+        self.assertEqual([resync for resync, _ in plain], [False, False])
+        self.assertGreater(usual[1][1] - usual[0][1], plain[1][1] - plain[0][1])
+        self.ends(UNUSABLE, "master", "westinghouse:pc1200", "read", "40001", "--no-resync")
 
     def test_a_capture_with_silence_and_repetition_plays_back_as_it_was(self):
         for protocol, arguments in (("modbus", ["--program", SLAVE]), ("ppi", ["--program", self.folder / "idle.stl"])):
@@ -408,7 +423,7 @@ class Verbs(Case):
         asked = {"a": ("40001", "010300000001840a"), "b": ("40008", "01030007000135cb")}
         peers = "".join(f"  {name}: {{polls: [{{read: {address}}}], every: 1h}}\n" for name, (address, _) in asked.items())
         system = self.program(f"plcs: {{slave: {{program: {SLAVE}}}}}\npeers:\n{peers}"
-                              "lines: {bus: {stations: [slave, a, b], capture: [both.pcap]}}\n", "both.yaml")
+                              "lines: {bus: {stations: [slave, a, b], contention: space, capture: [both.pcap]}}\n", "both.yaml")
         self.ends(FINE, "run", system, "--for", "1500ms", cwd=self.folder)
         frames = [frame["bytes"] for frame in self.json(FINE, "decode", self.folder / "both.pcap", "--json")["frames"]]
         first, second = (bytes.fromhex(frame) for _, frame in asked.values())
@@ -596,7 +611,7 @@ class Verbs(Case):
                                (["master", "--protocol", "pc500-loader", "westinghouse:pc2000", "blocks"],
                                 "no 'pc2000' speaks pc500-loader in simulation: pc503 does; it speaks modbus"),
                                (["master", SOURCE / "tests/programs/systems/other_plcs.yaml", "read", "40001"],
-                                "no S7-200 is in it, and 's7200 master' is about one. 's7200 test' asks its other PLCs: with --target ")):
+                                "there are several lines, plant, yard: name one of them (--at NAME)")):
             with self.subTest(arguments):
                 self.assertIn(why, self.ends(UNUSABLE, *arguments).stderr)
 
@@ -1609,6 +1624,19 @@ lines:
             with self.subTest(arguments):
                 self.assertIn(why, self.ends(UNUSABLE, "test", yaml, "--target", *arguments).stderr)
 
+    def test_a_cpu_in_stop_leaves_the_others_on_its_line_to_answer(self):
+        stopped = self.program("LD SM0.0\nSTOP\nMEND\n", "stopped.stl")
+        system = self.program(f"plcs:\n  a: {{program: {stopped}}}\n  b: {{program: {SLAVE}, station: 4, set: {{VW20: 7}}}}\n"
+                              "lines: {l: {stations: [a, b]}}\n", "system.yaml")
+        scenario = self.program("steps: [{read: 40011, station: 4, expect: [7]}]\n", "reads.yaml")
+        self.ends(FINE, "test", scenario, "--target", system)
+
+    def test_a_band_asks_a_cpu_in_stop_as_send_does(self):
+        stopped = self.program("LD SM0.0\nSTOP\nMEND\n", "stopped.stl")
+        status, accepted = "10 02 00 49 4b 16", "answer   10 00 02 00 02 16"  # in STOP its port speaks PPI
+        self.assertIn(accepted, self.ends(FINE, "send", stopped, status).stdout)
+        self.assertIn("answered: 4 of 4 tables", self.ends(FINE, "send", stopped, status, "--times-band", "2").stdout)
+
     def test_a_plc_that_is_off_at_the_end_is_said_to_be(self):
         system = self.program(f"plcs: {{a: {{program: {SLAVE}}}}}\nlines: {{l: {{stations: [a]}}}}\nevents: [{{at: 1ms, power_off: a}}]\n", "off.yaml")
         self.assertRegex(self.ends(FINE, "run", system, "--for", "10ms").stdout, r"CPU 214 without power\n")
@@ -1902,14 +1930,44 @@ lines:
         self.assertRegex(shown, r"set of slave2.*")
         self.assertIn("it has none: nothing was set", shown)
 
+    def test_what_another_master_asks_is_no_answer_though_it_reads_like_one(self):
+        system = self.program(f"plcs: {{slave: {{program: {SLAVE}, station: 1}}}}\n"
+                              "peers: {panel: {polls: [{station: 9, write: 40001, value: 5}], starts: 1050ms, timeout: 100ms}}\n"
+                              "lines: {x: {stations: [panel, slave]}}\n", "system.yaml")
+        scenario = self.program("system: system.yaml\nsteps:\n  - {write: holding 0, value: 5, station: 9, expect: echo, at: 1s}\n", "scenario.yaml")
+        self.assertIn("the request of another master, and no answer", self.ends(FAILED, "test", scenario).stdout)
+        asked = ["--after", "1s", "--crc", "090600000005"]
+        self.assertIn("the request of another master, and no answer", self.ends(FAILED, "send", system, *asked).stdout)
+        self.assertIn("the request of another master, and no answer",
+                      self.ends(FAILED, "master", system, "--station", "9", "--after", "1s", "write", "40001=5").stdout)
+
+    def test_plcs_of_another_make_alone_are_asked_by_send_and_master(self):
+        others = SOURCE / "tests/programs/systems/other_plcs.yaml"
+        asked = self.ends(FINE, "master", others, "--at", "yard", "--station", "5", "read", "40001", "write", "40001=7", "read", "40001")
+        self.assertRegex(asked.stdout, r"(?s)  40001 +0  16#9ABC.*  40001 +0  16#0007")
+        sent = self.ends(FINE, "send", others, "--at", "yard", "--crc", "050300000001", "--timeline")
+        self.assertIn("answer   05 03 02 9a bc", sent.stdout)
+        late = self.ends(FAILED, "send", others, "--at", "yard", "--crc", "050300000001", "--after", "600ms")
+        self.assertIn("none within", late.stdout, "its power is off by then")
+        capture = self.program(f"peers: {{boiler: {{westinghouse: hppc}}}}\nlines: {{x: {{stations: [boiler], capture: [x.pcap]}}}}\n", "hppc.yaml")
+        shown = self.json(FINE, "master", capture, "--protocol", "hppc", "write-register", "1=5", "read-register", "1", "--json")
+        self.assertEqual([exchange["verdict"] for exchange in shown["exchanges"]], ["right", "right"])
+        self.assertEqual(shown["lines"], [{"name": "x", "faults": []}])
+        self.assertIn("holding register 1 at 16#ABFFE", self.ends(FINE, "decode", self.folder / "x.pcap", "--protocol", "hppc").stdout)
+        self.assertIn("--set", self.ends(UNUSABLE, "send", others, "--at", "yard", "01", "--set", "VB0=1").stderr)
+        self.assertIn("there is no line 'tank': the lines are plant, yard", self.ends(UNUSABLE, "send", others, "--at", "tank", "01").stderr)
+
+    def test_instructions_are_not_shown_of_plcs_of_another_make(self):
+        others = SOURCE / "tests/programs/systems/other_plcs.yaml"
+        self.assertIn("'s7200 debug' shows instructions, and simulated PLCs of another make have none; 's7200 send', 'master' and 'test' ask them",
+                      self.ends(UNUSABLE, "debug", others, "--at", "yard", "-x", "step").stderr)
+
     def test_plcs_of_another_make_alone_are_a_target_of_scenarios(self):
         others = SOURCE / "tests/programs/systems/other_plcs.yaml"
         scenario = self.program("timeout: 60ms\nsteps:\n  - {read: holding 0, station: 5, expect: [16#9ABC]}\n", "scenario.yaml")
         self.ends(FINE, "test", scenario, "--target", others, "--at", "yard")
         self.assertIn("there are several lines, plant, yard: name one of them (--at NAME)",
                       self.ends(UNUSABLE, "test", scenario, "--target", others).stderr)
-        for verb in (["master", others, "--at", "yard", "read", "40001"], ["send", others, "--at", "yard", "01"]):
-            self.assertIn(f"no S7-200 is in it, and 's7200 {verb[0]}' is about one. 's7200 test' asks its other PLCs", self.ends(UNUSABLE, *verb).stderr)
         transcript = self.folder / "transcript.yaml"
         self.ends(FINE, "test", SOURCE / "tests/programs/systems/without_s7200.yaml", "--record", transcript)
         self.ends(FINE, "test", transcript)
@@ -3009,6 +3067,10 @@ class Readme(Case):
     command is what it prints; a line that is `…` stands for anything. A command with `&` runs until the end of its block."""
 
     TOOLS = ("sigrok-cli", "tshark", "mbpoll", "pytest-3")  # of others; skipped where they are not installed
+    # What is in commands that find something wrong, or get no answer: their exit code is 1, and that of all others 0.
+    NOT_RIGHT = ("import --compare", "wrong_answer.yaml", "send stl_programs/modbus_slave.stl 0103000a00010000", "--baud 19200", "pointers.stl",
+                 "broken.awl", "--fault flip:", "tip41_modbus_rtu_slave.txt --crc 0106000a1234", "freeport_pc_protocol_zh.txt --cpu 224", "4006381333931",
+                 "--only 'wrong quantity'", "--conformance tests/conformance/tip41.yaml")
 
     def test_the_five_commands_of_the_readme_end_where_its_table_says(self):
         readme = (SOURCE / "README.md").read_text(encoding="utf-8")
@@ -3055,10 +3117,44 @@ class Readme(Case):
                     self.assertLess(process.wait(timeout=120), UNUSABLE)
         self.assertGreater(count, 3)
 
+    def test_each_row_of_the_tables_of_source_documents_names_a_command_that_works(self):
+        readme = (SOURCE / "README.md").read_text(encoding="utf-8")
+        for title, least in (("**Programs of the source documents**", 3), ("**Protocols of the source documents.**", 10)):
+            table = readme.split(title, 1)[1].split("\n|---", 1)[1].split("\n\n", 1)[0]
+            commands = re.findall(r"\| `(s7200 [^`]+)`", table)
+            self.assertGreaterEqual(len(commands), least, title)
+            for command in commands:
+                if "../shared/seeds" in command and not TIP.exists():
+                    print(f"skipped, there is no {TIP}: {command}")
+                    continue
+                with self.subTest(command):
+                    if command.endswith(" menu"):
+                        self.quit_menu(command)
+                    else:
+                        self.run_to_end(command, "")
+
+    def quit_menu(self, command):
+        """On a terminal: it shows itself, and Q ends it."""
+        here, there = pty.openpty()
+        termios.tcsetwinsize(there, (24, 80))
+        with subprocess.Popen(["bash", "-c", command], stdin=there, stdout=there, stderr=there, **self.surroundings()) as process:
+            os.close(there)
+            shown, asked = b"", False
+            with contextlib.suppress(OSError):  # the terminal is gone with the process
+                while piece := os.read(here, 4096):
+                    shown += piece
+                    if b"loopback" in shown and not asked:  # it has the terminal to itself by now
+                        asked = os.write(here, b"q\r") > 0
+            self.assertEqual(process.wait(timeout=60), FINE, shown)
+        os.close(here)
+        self.assertIn(b"loopback", shown)
+
     def run_to_end(self, command, shown):
         done = subprocess.run(["bash", "-c", command], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120,
                               check=False, **self.surroundings())
-        self.assertLess(done.returncode, UNUSABLE, done.stdout + done.stderr)
+        finds = any(part in command for part in self.NOT_RIGHT) and "--repair" not in command
+        expected = FAILED if finds else FINE
+        self.assertEqual(done.returncode, expected, done.stdout + done.stderr)
         self.assertRegex(done.stderr + done.stdout, self.pattern(shown))
 
     def start(self, command, shown):

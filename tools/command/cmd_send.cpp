@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tools/command/commands.hpp"
@@ -13,6 +14,7 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/first_scans.hpp"
 #include "tools/rig/system_reader.hpp"
+#include "tools/slave/line_of_other_plcs.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
@@ -21,6 +23,23 @@
 
 namespace s7200::tools {
 namespace {
+
+/// Whoever answers, and whether the first frame can be sent; if not, after messages.
+std::unique_ptr<SlaveInSimulation> slave_of(const SendOptions& options, Rig& rig, bool& ready) {
+  if (options.rig.without_s7200()) {
+    auto others = std::make_unique<LineOfOtherPlcs>(rig, options.rig.line(), options.master, options.rig.target());
+    ready = others->wait_until_ready(options.after);
+    return others;
+  }
+  // In STOP its port speaks PPI.
+  auto program = std::make_unique<SimulatedSlave>(rig.simulation(), options.master, options.rig.target(), true);
+  if (options.after == kNever) run_first_scans(rig, kReadyWithin);
+  std::string why;
+  ready = program->wait_until_ready(options.after, why);
+  if (ready) print_note_if_any(program->note_on_port());
+  if (!why.empty()) print_error(why);
+  return program;
+}
 
 int run_send(const CLI::App& verb, SendOptions& options) {
   if (options.band.wanted() && !is_system_file(options.program.path)) return run_send_band(options);
@@ -32,38 +51,36 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   if (!frames) return print_error(why), kUnusable;
   const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();
-  serial::Simulation& simulation = rig->simulation();
   rig->power_up();
+  const std::size_t line = options.rig.line();
+  const serial::Requester& master = rig->requester(line)->requester();
+  const auto failed_strictly = [&] { return !options.rig.without_s7200() && options.rig.failed_strictly(rig->cpu()); };
   Timelines timelines(*rig);
 
   StreamedResults results(results_of("send"), "exchanges");
-  SimulatedSlave slave(simulation, options.master, options.rig.target(), true);  // in STOP its port speaks PPI
-  if (options.after == kNever) run_first_scans(*rig, kReadyWithin);
-  const bool ready = slave.wait_until_ready(options.after, why);
-  if (ready) print_note_if_any(slave.note_on_port());
-  if (!why.empty()) print_error(why);
+  bool ready = false;
+  const std::unique_ptr<SlaveInSimulation> slave = slave_of(options, *rig, ready);
   std::size_t answered = 0, damaged = 0;
   for (const serial::Frame& frame : *frames) {
-    if (!ready || interrupted() || options.rig.failed_strictly(simulation.cpu())) break;
-    const serial::Faults::State faults_before = simulation.faults().state();
+    if (!ready || interrupted() || failed_strictly()) break;
+    const serial::Faults::State faults_before = rig->faults(line).state();
     if (options.timeline) timelines.begin();
-    const Bytes unasked = serial::bytes_of(simulation.master().heard());
-    const serial::Exchange exchange = slave.exchange(options.master.request(frame));
+    const Bytes unasked = serial::bytes_of(master.heard());
+    const serial::Exchange exchange = slave->exchange(options.master.request(frame));
     if (options.timeline) timelines.end();
-    if (simulation.master().busy()) break;  // Ctrl-C came before the answer
+    if (master.busy()) break;  // Ctrl-C came before the answer
     answered += !exchange.timed_out;
     damaged += is_damaged(exchange);
     if (options.json) {
       auto json = exchange_json(exchange, unasked);
-      if (options.rig.faulted())
-        json["faults"] = faults_json(simulation.faults(), faults_before, stations_of(*rig, options.rig.line()));
+      if (options.rig.faulted()) json["faults"] = faults_json(rig->faults(line), faults_before, stations_of(*rig, line));
       if (options.timeline) json["timeline"] = timelines.json(exchange);
       fmt::print("{}", results.entry(json));
     } else {
       fmt::print("{}{}", unasked_text(unasked), exchange_text(exchange, options.master.timeout));
       if (options.timeline) fmt::print("{}\n", timelines.text(exchange, colour_wanted(stdout)));
     }
-    slave.wait(options.pause == kNever ? slave.pause() : options.pause);
+    slave->wait(options.pause == kNever ? slave->pause() : options.pause);
   }
   const bool all_written = finish(*rig);
   if (options.json) {
@@ -79,7 +96,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   if (!all_written) return kUnusable;
   if (exit_code_of(*rig) != kFine) return exit_code_of(*rig);
   print_interruption();
-  if (options.rig.failed_strictly(simulation.cpu())) {
+  if (failed_strictly()) {
     print_error("--strict: a run-time error ended the exchanges");
     return kCheckFailed;
   }

@@ -13,6 +13,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/first_scans.hpp"
+#include "tools/slave/line_of_other_plcs.hpp"
 #include "tools/slave/peer_slave.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/faults.hpp"
@@ -107,6 +108,32 @@ int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>&
   return run_band(options.band, options.program, options.rig, options.json, exchanges);
 }
 
+/// A line of a system where all PLCs are of another make.
+static int run_on_line(MasterOptions& options, Rig& rig, const std::vector<MasterAction>& actions) {
+  const std::size_t line = options.rig.line();
+  LineOfOtherPlcs slave(rig, line, options.master, options.rig.target());
+  if (!slave.wait_until_ready(options.after)) return print_interruption(), kCheckFailed;
+  int exit_code = kFine;
+  if (options.wants_menu()) {
+    const auto open = [&](const serial::MasterSettings& master) {
+      return std::make_unique<LineOfOtherPlcs>(rig, line, on_line(master, rig.plan().lines[line]), options.rig.target());
+    };
+    const auto format = [&](const serial::MasterSettings& master) {
+      return on_line(master, rig.plan().lines[line]).over(format_without_s7200(rig.plan(), rig.plan().lines[line]));
+    };
+    exit_code = run_menu(options, {.open = open, .format = format});
+  } else {
+    MasterSession session(slave, actions, options.session(true));
+    MasterOutput output(options.output(), slave.name());
+    exit_code = run_session(
+        options, session, actions, output, [] { return false; }, [&] { return rig_json(rig); });
+  }
+  const bool all_written = finish(rig);
+  print_notes(notes_on_other_masters(rig, line));
+  print_notes(line_notes(rig));
+  return all_written ? exit_code : kUnusable;
+}
+
 int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vector<MasterAction>& actions) {
   int exit_code = kFine;
   options.program.path = options.target;
@@ -115,6 +142,7 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
+  if (options.rig.without_s7200()) return run_on_line(options, *rig, actions);
   const auto plant = [&] { return rig_json(*rig); };
   SimulatedSlave slave(rig->simulation(), options.master, options.rig.target(),
                        somebody_answers_in_stop(*rig, options.rig.line(), *options.protocol));

@@ -14,7 +14,7 @@ namespace {
 /// The exchanges with one table.
 std::vector<BandOutcome> outcomes(const SendOptions& options, serial::Simulation& simulation, LostEvents& lost,
                                   const std::vector<serial::Frame>& frames, const std::string& name) {
-  SimulatedSlave slave(simulation, options.master, name);
+  SimulatedSlave slave(simulation, options.master, name, true);  // in STOP its port speaks PPI
   std::vector<BandOutcome> outcomes;
   std::string why;
   bool going = slave.wait_until_ready(options.after, why);

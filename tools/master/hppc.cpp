@@ -12,7 +12,7 @@ using westinghouse::FcsTable;
 using westinghouse::HppcOpcode;
 using Data = std::span<const std::uint8_t>;
 
-constexpr std::string_view kFcs = "--fcs";
+constexpr std::string_view kFcs = "--fcs", kNoResync = "--no-resync";
 constexpr std::array<std::string_view, 2> kFcsWords{"document", "polynomial"};
 constexpr std::uint8_t kWholeTable = 0x34;  // bytes of the parameter table up to the number of holding registers
 constexpr std::size_t kAddress = 3;
@@ -457,17 +457,20 @@ const Protocol& hppc_protocol() {
       .format = {.parity = Parity::None},
       .over_modbus_tcp = false,
       .options = {{kFcs, "TABLE", "frame check: document, with the odd entry of its table, or polynomial", "document",
-                   fault_of_fcs}},
+                   fault_of_fcs},
+                  {kNoResync, "", "nothing is read from location zero before a request is repeated", {}, nullptr}},
       .actions_help =
           "Actions of --protocol hppc; in brackets its opcodes:\n" + verbs_help(std::span<const HppcVerb>(kVerbs)),
       .action_words = verb_words(std::span<const HppcVerb>(kVerbs)),
       .actions = actions,
       .is_complete = westinghouse::is_whole_hppc,
-      .patience = {.timeout = kSecond,  // [H9]
+      .patience = {.timeout = kSecond,
                    .retries = 2,
                    .pause = 500 * kMillisecond,
                    .first = resynchronisation,
+                   .without_first = kNoResync,
                    .repeats = [](std::uint16_t code) { return code == kLinkError; }},
+      .choices = "--timeout, --retries, --before-retry, --no-resync [H9]",
       .plcs = westinghouse::find_plc("hppc")};
   return protocol;
 }

@@ -453,6 +453,7 @@ const Protocol& modbus_protocol() {
                                  .action_words = verb_words(std::span<const ModbusVerb>(kVerbs)),
                                  .actions = actions,
                                  .is_complete = modbus::crc_ok,
+                                 .choices = "--timeout, --silence [M16]",
                                  .refusal = "exception",
                                  .plcs = westinghouse::find_plc("modbus")};
   return protocol;

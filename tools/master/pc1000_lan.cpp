@@ -79,7 +79,8 @@ const Protocol& pc1000_lan_protocol() {
       .action_words = verb_words(std::span<const LanVerb>(kVerbs)),
       .actions = actions,
       .is_complete = westinghouse::is_whole_answer,
-      .patience = {.timeout = 500 * kMillisecond, .retries = 2},  // [L10]
+      .patience = {.timeout = 500 * kMillisecond, .retries = 2},
+      .choices = "--timeout, --retries [L10]",
       .plcs = westinghouse::find_plc("pc1000-lan")};
   return protocol;
 }

@@ -280,10 +280,11 @@ const Protocol& pc500_loader_protocol() {
       .action_words = verb_words(std::span<const LoaderVerb>(kVerbs)),
       .actions = actions,
       .is_complete = westinghouse::is_whole_step,
-      .patience = {.timeout = 500 * kMillisecond,  // [S4]
+      .patience = {.timeout = 500 * kMillisecond,
                    .retries = 2,
                    .pause = 500 * kMillisecond,
                    .repeats = [](std::uint16_t) { return true; }},
+      .choices = "--timeout, --retries, --before-retry [S4]",
       .plcs = westinghouse::find_plc("pc500-loader")};
   return protocol;
 }

@@ -101,6 +101,7 @@ struct Patience {
   int retries = 0;
   Time pause = 0;                                  ///< before it asks again
   serial::Frame (*first)() = nullptr;              ///< is sent before that, whatever is answered
+  std::string_view without_first{};                ///< the option that leaves that out
   bool (*repeats)(std::uint16_t error) = nullptr;  ///< a refusal that it asks again after; null: none
 };
 
@@ -123,6 +124,8 @@ struct Protocol {
   std::string (*doubt)(const std::vector<MasterAction>& actions, const ProtocolUse& use) = nullptr;
 
   Patience patience{};
+
+  std::string_view choices{};  ///< options for what its document leaves open, with their marks: `[L10] --timeout, --retries`
 
   std::string_view refusal = "error";  ///< what a refusal is called
 

@@ -36,6 +36,9 @@ std::string protocols_help() {
   std::string text = "Protocols:\n";
   for (const Protocol* protocol : protocols()) text += fmt::format("  {:<38}{}\n", protocol->name, protocol->meaning);
   for (const Protocol* protocol : protocols()) text += protocol->actions_help;
+  text += "What documents leave open of a master; in brackets choices of ours:\n";
+  for (const Protocol* protocol : protocols())
+    if (!protocol->choices.empty()) text += fmt::format("  {:<38}{}\n", protocol->name, protocol->choices);
   for (const Protocol* protocol : protocols())
     if (protocol->plcs != nullptr)
       text +=

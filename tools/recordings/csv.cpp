@@ -73,6 +73,14 @@ std::optional<Time> unit_of(std::string_view name) {
   return {};
 }
 
+/// `us`, `[ms]`, `t [us]`: all that it says.
+bool is_unit(std::string_view name) {
+  std::string word = stl::upper_case(name);
+  std::erase_if(word, [](char c) { return std::ispunct(static_cast<unsigned char>(c)) != 0 || c == ' '; });
+  if (word.size() > 1 && word.front() == 'T') word.erase(0, 1);
+  return std::ranges::find(kUnits, word, &Unit::word) != kUnits.end();
+}
+
 Columns columns_of(std::string_view line) {
   Columns columns{.separator = separator_of(line)};
   if (columns.separator == 0) return columns;
@@ -80,7 +88,7 @@ Columns columns_of(std::string_view line) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (contains(names[i], {"ERROR"})) {
       columns.errors.push_back(i);
-    } else if (!columns.time && contains(names[i], {"TIME", "START"})) {
+    } else if (!columns.time && (contains(names[i], {"TIME", "START"}) || is_unit(names[i]))) {
       columns.time = i;
       if (const auto unit = unit_of(names[i]))
         columns.unit = *unit;
@@ -116,38 +124,69 @@ bool says_error(std::string_view field) {
   return std::ranges::find(kNone, stl::upper_case(stl::trim(field))) == kNone.end();
 }
 
+/// A list without times is one of bytes in its second row already.
+bool has_bytes_below(std::string_view bytes, const Columns& columns) {
+  const std::size_t end = bytes.find('\n');
+  if (end == std::string_view::npos) return false;
+  const auto fields = fields_of(first_line(bytes.substr(end + 1)), columns.separator);
+  return *columns.data < fields.size() && bytes_of_text(fields[*columns.data]);
+}
+
+/// `1`, `16`, `132`, without zeros in front.
+std::optional<Bytes> byte_in_decimal(std::string_view field) {
+  const std::string_view figure = stl::trim(field);
+  const auto byte = figure.size() > 1 && figure.front() == '0' ? std::nullopt : parse_decimal<std::uint8_t>(figure);
+  return byte ? std::optional(Bytes{*byte}) : std::nullopt;
+}
+
+/// Logic analysers write a character as a number from 0 to 255 if they are told so: then some have one digit, or three.
+bool is_in_decimal(const std::vector<std::string>& lines, const Columns& columns) {
+  bool any = false;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto fields = fields_of(lines[i], columns.separator);
+    const std::string_view field = *columns.data < fields.size() ? stl::trim(fields[*columns.data]) : "";
+    if (field.empty()) continue;
+    if (!byte_in_decimal(field)) return false;
+    any = any || field.size() != 2;
+  }
+  return any;
+}
+
 }  // namespace
 
 bool looks_like_csv(std::string_view bytes) {
   if (!is_text(bytes)) return false;
   const Columns columns = columns_of(first_line(bytes));
-  return columns.time && columns.data;
+  if (!columns.data || columns.time) return columns.data.has_value();
+  return columns.direction && has_bytes_below(bytes, columns);
 }
 
 std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
   LineRecording recording;
   const std::vector<std::string> lines = stl::split_lines(bytes);
   const Columns columns = columns_of(lines.front());
+  const bool decimal = is_in_decimal(lines, columns);
   DayCounter days;
-  bool characters = true;
+  bool characters = columns.time.has_value();
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (lines[i].find_first_not_of(" \t,;") == std::string::npos) continue;
     const auto fields = fields_of(lines[i], columns.separator);
     const auto field = [&](std::optional<std::size_t> column) {
       return column && *column < fields.size() ? fields[*column] : "";
     };
-    const auto time = time_of(field(columns.time), columns);
-    auto data = bytes_of_text(field(columns.data));
+    const auto time = columns.time ? time_of(field(columns.time), columns) : std::nullopt;
+    auto data = decimal ? byte_in_decimal(field(columns.data)) : bytes_of_text(field(columns.data));
     if (time && !time->of_day && !columns.unknown_unit.empty()) {
       why = fmt::format("line 1: '{}' names no unit; write [s], [ms], [us] or [ns]", stl::shortened(columns.unknown_unit));
       return {};
     }
-    if (!time || !data) {
-      why = fmt::format("line {}: '{}' is not {}", i + 1, stl::shortened(!time ? field(columns.time) : field(columns.data)),
-                        !time ? "a time" : "bytes in hex");
+    const bool no_time = columns.time && !time;
+    if (no_time || !data) {
+      why = fmt::format("line {}: '{}' is not {}", i + 1, stl::shortened(field(no_time ? columns.time : columns.data)),
+                        no_time ? "a time" : "bytes in hex");
       return {};
     }
-    RecordedFrame frame{.at = days.since_first_midnight(*time),
+    RecordedFrame frame{.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
                         .direction = direction_of(field(columns.direction)),
                         .bytes = std::move(*data),
                         .place = fmt::format("line {}", i + 1)};

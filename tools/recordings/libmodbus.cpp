@@ -36,14 +36,15 @@ bool looks_like_libmodbus(std::string_view bytes) {
 std::optional<LineRecording> read_libmodbus(const std::string& bytes, const ReadingChoices&, std::string&) {
   LineRecording recording;
   std::size_t number = 0;
-  for (const std::string& line : stl::split_lines(bytes)) {
+  const std::vector<std::string> lines = stl::split_lines(bytes);
+  for (const std::string& line : lines) {
     ++number;
     auto frame = frame_in(line);
     if (!frame) continue;
     frame->place = fmt::format("line {}", number);
     recording.frames.push_back(std::move(*frame));
   }
-  if (recording.frames.empty()) recording.notes.emplace_back("mbpoll prints frames only with its option -v");
+  if (recording.frames.empty()) read_values_of_mbpoll(lines, recording);
   return recording;
 }
 

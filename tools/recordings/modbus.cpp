@@ -13,6 +13,66 @@ using Data = std::span<const std::uint8_t>;
 
 constexpr std::size_t kShortestRtu = 4;
 
+/// `16#1234 16#0000`
+std::string words_text(Data bytes) {
+  std::string text;
+  for (std::size_t at = 0; at + 1 < bytes.size(); at += 2)
+    text += fmt::format("{}16#{:04X}", at == 0 ? "" : " ", load16(&bytes[at]));
+  return text;
+}
+
+/// `1010 1010 11`, the first one first
+std::string bits_text(Data bytes, std::size_t count) {
+  std::string text;
+  for (std::size_t bit = 0; bit < std::min(count, 8 * bytes.size()); ++bit)
+    text.append(bit > 0 && bit % 4 == 0 ? " " : "").append(1, (bytes[bit / 8] >> bit % 8 & 1) != 0 ? '1' : '0');
+  return text;
+}
+
+/// `file 4, record 1, 2 registers`, `extended memory 0010:0004, 2 bytes: 12 34`
+std::string reference_text(const modbus::Reference& reference) {
+  const bool file = reference.type == modbus::kFileReference;
+  std::string text =
+      file ? fmt::format("file {}, record {}, {}", reference.file, reference.record, plural(reference.count, "register"))
+      : reference.type == modbus::kExtendedMemoryReference
+          ? fmt::format("extended memory {:04X}:{:04X}, {}", reference.file, reference.record,
+                        plural(reference.count, "byte"))
+          : fmt::format("kind 16#{:02X}, {:04X}:{:04X}, {} of them", reference.type, reference.file, reference.record,
+                        reference.count);
+  if (!reference.data.empty()) text += ": " + (file ? words_text(reference.data) : serial::to_hex(reference.data));
+  return text;
+}
+
+/// What stands in a request after its function, for those whose data say more than an address and a number.
+std::string carried_text(const modbus::FunctionRow& row, Data data) {
+  using modbus::Shape;
+  constexpr std::size_t kBeforeWritten = 5;  // address, count, byte count
+  switch (row.shape) {
+    case Shape::WriteBits:
+      return data.size() > kBeforeWritten ? ": " + bits_text(data.subspan(kBeforeWritten), load16(&data[2])) : "";
+    case Shape::WriteRegisters:
+      return data.size() > kBeforeWritten ? ": " + words_text(data.subspan(kBeforeWritten)) : "";
+    case Shape::Diagnostics: {
+      if (data.size() < 2) return "";
+      const std::uint16_t subfunction = load16(data.data());
+      const modbus::DiagnosticRow* known = modbus::find_diagnostics_subfunction(subfunction);
+      const std::string values = words_text(data.subspan(2));
+      return fmt::format(" {}{}{}{}", subfunction, known ? fmt::format(", {}", known->name) : "", values.empty() ? "" : ": ",
+                         values);
+    }
+    case Shape::ReadFile:
+    case Shape::WriteFile: {
+      if (data.empty()) return "";
+      std::string text;
+      for (const modbus::Reference& each : modbus::references_of(data.subspan(1), row.shape == Shape::WriteFile))
+        text.append(text.empty() ? ": " : "; ").append(reference_text(each));
+      return text;
+    }
+    default:
+      return "";
+  }
+}
+
 /// `station 1, read holding registers 40001, 10 of them`
 std::string modbus_request_text(Data frame) {
   const std::uint8_t station = frame[0], function = frame[1];
@@ -20,7 +80,8 @@ std::string modbus_request_text(Data frame) {
   std::string text = station == modbus::kBroadcast ? "all stations" : fmt::format("station {}", station);
   if (row == nullptr) return text + fmt::format(", function {}", function);
   text += fmt::format(", {}", row->name);
-  if (frame.size() < kShortestRtu + 4) return text;
+  const std::string carried = carried_text(*row, frame.subspan(2, frame.size() - kShortestRtu));
+  if (frame.size() < kShortestRtu + 4) return text + carried;
   const std::uint16_t first = load16(&frame[2]), second = load16(&frame[4]);
   for (const modbus::AreaRow& area : modbus::areas()) {
     const bool reads = area.read == row->function, one = area.write_one == row->function,
@@ -30,7 +91,7 @@ std::string modbus_request_text(Data frame) {
     text += " " + (notation.empty() ? fmt::format("{} on the wire", first) : notation);
     text += one ? fmt::format(" = 16#{:04X}", second) : fmt::format(", {} of them", second);
   }
-  return text;
+  return text + carried;
 }
 
 /// As long as its function says, if that does.

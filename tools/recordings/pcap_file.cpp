@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 #include <pcap/pcap.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
 
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
@@ -98,15 +100,15 @@ struct Stream {
 
 class Reader {
  public:
-  Reader(const ReadingChoices& choices, int link_type) : choices_(choices), link_type_(link_type) {}
+  explicit Reader(const ReadingChoices& choices) : choices_(choices) {}
 
-  void take(std::size_t number, Time at, Data packet) {
+  void take(std::size_t number, Time at, int link_type, Data packet) {
     const std::string place = fmt::format("packet {}", number);
-    if (link_type_ == kSerial) {
+    if (link_type == kSerial) {
       if (!packet.empty()) add({.at = at, .bytes = Bytes(packet.begin(), packet.end()), .place = place});
       return;
     }
-    const auto segment = tcp_of(ip_of(packet, link_type_));
+    const auto segment = tcp_of(ip_of(packet, link_type));
     if (segment && !segment->whole)
       ++broken_;
     else if (segment && (segment->source_port == choices_.tcp_port || segment->destination_port == choices_.tcp_port))
@@ -180,13 +182,140 @@ class Reader {
   }
 
   const ReadingChoices& choices_;
-  int link_type_;
   LineRecording recording_;
   std::map<std::pair<Bytes, Bytes>, Stream> streams_;
   std::map<std::uint32_t, std::size_t> last_;  // frame of each connection
   std::uint32_t connections_ = 0;
   std::size_t others_ = 0, broken_ = 0;
 };
+
+/// What libpcap reads at once: it refuses a pcapng whose interfaces have several link types.
+struct CapturePart {
+  std::string bytes;
+  std::vector<std::size_t> numbers{};  ///< of its packets in the whole file; empty: all of them, from 1 on
+};
+
+/// Numbers in the order of bytes that a section has.
+class PcapNgNumbers {
+ public:
+  explicit PcapNgNumbers(std::string_view file) : file_(file) {}
+  std::uint32_t get(std::size_t at, std::size_t bytes) const {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i)
+      value = value << 8 | static_cast<std::uint8_t>(file_[at + (big_endian ? i : bytes - 1 - i)]);
+    return value;
+  }
+  void put(std::string& block, std::size_t at, std::uint32_t value) const {
+    for (std::size_t i = 0; i < 4; ++i) block[at + i] = static_cast<char>(value >> 8 * (big_endian ? 3 - i : i));
+  }
+  bool big_endian = false;
+
+ private:
+  std::string_view file_;
+};
+
+/// A pcapng by the link types of its interfaces, with their packets. Any other file, or one that is broken, is one part.
+std::vector<CapturePart> parts_of(const std::string& file) {
+  constexpr std::uint32_t kSection = 0x0A0D0D0A, kInterface = 1, kSimplePacket = 3, kPacket = 6;
+  constexpr std::size_t kHead = 8, kShortest = 16;
+  std::map<std::uint32_t, CapturePart> by_link;
+  std::map<std::uint32_t, std::uint32_t> interfaces;        // of a link type's part: how many so far
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> of;  // interface of the section: link type, number in its part
+  std::string section;
+  std::size_t number = 0;
+  PcapNgNumbers numbers(file);
+  const std::vector<CapturePart> whole{{.bytes = file}};
+  for (std::size_t at = 0; at < file.size();) {
+    if (at + kShortest > file.size()) return whole;
+    const bool begins = numbers.get(at, 4) == kSection;
+    if (begins) numbers.big_endian = file[at + kHead] == '\x1A';
+    const std::uint32_t type = numbers.get(at, 4), length = numbers.get(at + 4, 4);
+    if ((type == kInterface || type == kPacket) && length < kShortest + 4) return whole;
+    if (length < 12 || length > file.size() - at) return whole;
+    std::string block = file.substr(at, length);
+    if (begins) {
+      if (!section.empty()) return whole;  // libpcap reads several, if they are alike
+      section = std::move(block);
+    } else if (type == kInterface) {
+      const std::uint32_t link = numbers.get(at + kHead, 2);
+      of.emplace_back(link, interfaces[link]++);
+      by_link[link].bytes += block;
+    } else if (type == kPacket || type == kSimplePacket) {
+      ++number;
+      const std::uint32_t interface = type == kPacket ? numbers.get(at + kHead, 4) : 0;
+      if (interface >= of.size()) return whole;
+      const auto& [link, place] = of[interface];
+      if (type == kPacket) numbers.put(block, kHead, place);
+      by_link[link].bytes += block;
+      by_link[link].numbers.push_back(number);
+    }
+    at += length;
+  }
+  if (by_link.size() < 2 || section.empty()) return whole;
+  std::vector<CapturePart> parts;
+  for (auto& [link, part] : by_link) {
+    part.bytes.insert(0, section);
+    if (!part.numbers.empty()) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+struct Packet {
+  std::size_t number = 0;
+  Time at = 0;
+  int link_type = 0;
+  Bytes data{};
+};
+
+struct Packets {
+  std::vector<Packet> list{};
+  std::vector<int> unknown_link_types{};
+  std::string error{};  ///< from where on a file could not be read
+};
+
+bool is_known(int link_type) {
+  return link_type == kSerial || link_type == DLT_EN10MB || link_type == DLT_LINUX_SLL || link_type == DLT_LINUX_SLL2 ||
+         link_type == DLT_RAW || link_type == DLT_IPV4 || link_type == DLT_IPV6;
+}
+
+/// False, and `why`, for what is no capture.
+bool read_packets(const CapturePart& part, Packets& packets, std::string& why) {
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  std::FILE* file = ::fmemopen(const_cast<char*>(part.bytes.data()), part.bytes.size(), "rb");
+  if (file == nullptr) return why = "out of memory", false;
+  const std::unique_ptr<pcap_t, void (*)(pcap_t*)> capture(
+      pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, error.data()), [](pcap_t* p) {
+        if (p != nullptr) pcap_close(p);
+      });
+  if (!capture) {
+    std::fclose(file);
+    why = error.data();
+    return false;
+  }
+  const int link_type = pcap_datalink(capture.get());
+  if (!is_known(link_type)) {
+    packets.unknown_link_types.push_back(link_type);
+    return true;
+  }
+  pcap_pkthdr* head = nullptr;
+  const u_char* data = nullptr;
+  int result = 0;
+  std::size_t number = 0;
+  for (std::size_t read = 0; (result = pcap_next_ex(capture.get(), &head, &data)) == 1; ++read) {
+    number = read < part.numbers.size() ? part.numbers[read] : read + 1;
+    if (std::abs(head->ts.tv_sec) >= kFurthestTime / kSecond) {
+      why = fmt::format("packet {}: {} s since 1970 is not a time of a recording", number, head->ts.tv_sec);
+      return false;
+    }
+    packets.list.push_back({.number = number,
+                            .at = head->ts.tv_sec * kSecond + head->ts.tv_usec,
+                            .link_type = link_type,
+                            .data = Bytes(data, data + head->caplen)});
+  }
+  if (result == PCAP_ERROR)
+    packets.error = fmt::format("after packet {} the file cannot be read: {}", number, pcap_geterr(capture.get()));
+  return true;
+}
 
 }  // namespace
 
@@ -199,42 +328,22 @@ bool looks_like_pcap(std::string_view bytes) {
 }
 
 std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
-  std::array<char, PCAP_ERRBUF_SIZE> error{};
-  std::FILE* file = ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");
-  if (file == nullptr) return why = "out of memory", std::nullopt;
-  const std::unique_ptr<pcap_t, void (*)(pcap_t*)> capture(
-      pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, error.data()), [](pcap_t* p) {
-        if (p != nullptr) pcap_close(p);
-      });
-  if (!capture) {
-    std::fclose(file);
-    why = error.data();
+  Packets packets;
+  for (const CapturePart& part : parts_of(bytes))
+    if (!read_packets(part, packets, why)) return {};
+  if (packets.list.empty() && packets.error.empty() && !packets.unknown_link_types.empty()) {
+    why = fmt::format("link type {} is not one of {} (serial), Ethernet, Linux cooked or raw IP",
+                      packets.unknown_link_types.front(), kSerial);
     return {};
   }
-  const int link_type = pcap_datalink(capture.get());
-  if (link_type != kSerial && link_type != DLT_EN10MB && link_type != DLT_LINUX_SLL && link_type != DLT_LINUX_SLL2 &&
-      link_type != DLT_RAW && link_type != DLT_IPV4 && link_type != DLT_IPV6) {
-    why = fmt::format("link type {} is not one of {} (serial), Ethernet, Linux cooked or raw IP", link_type, kSerial);
-    return {};
-  }
-  Reader reader(choices, link_type);
-  pcap_pkthdr* head = nullptr;
-  const u_char* data = nullptr;
-  int result = 0;
-  std::size_t number = 0;
-  while ((result = pcap_next_ex(capture.get(), &head, &data)) == 1) {
-    ++number;
-    if (std::abs(head->ts.tv_sec) >= kFurthestTime / kSecond) {
-      why = fmt::format("packet {}: {} s since 1970 is not a time of a recording", number, head->ts.tv_sec);
-      return {};
-    }
-    reader.take(number, head->ts.tv_sec * kSecond + head->ts.tv_usec, {data, head->caplen});
-  }
-  if (result == PCAP_ERROR) reader.cut_off();
+  std::ranges::stable_sort(packets.list, {}, &Packet::number);
+  Reader reader(choices);
+  for (const Packet& packet : packets.list) reader.take(packet.number, packet.at, packet.link_type, packet.data);
+  if (!packets.error.empty()) reader.cut_off();
   LineRecording recording = reader.finish();
-  if (result == PCAP_ERROR)
-    recording.notes.push_back(
-        fmt::format("after packet {} the file cannot be read: {}", number, pcap_geterr(capture.get())));
+  for (const int link_type : packets.unknown_link_types)
+    recording.notes.push_back(fmt::format("what has link type {} was left out", link_type));
+  if (!packets.error.empty()) recording.notes.push_back(packets.error);
   return recording;
 }
 

@@ -1,12 +1,21 @@
 // The protocols of our own programs, and PPI, in recordings.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "tools/recordings/conversation.hpp"
 
 namespace s7200::tools {
+
+/// `1 byte`, `2 bytes`
+inline std::string plural(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
 
 std::unique_ptr<FrameReader> modbus_reader();
 std::unique_ptr<FrameReader> ppi_reader();

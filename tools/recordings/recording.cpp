@@ -7,6 +7,7 @@
 
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/encoding.hpp"
 #include "tools/recordings/forms.hpp"
 
 namespace s7200::tools {
@@ -19,8 +20,8 @@ constexpr std::array kForms{
                   "parity errors",
                   false, looks_like_pcap, read_pcap},
     RecordingForm{"CSV", "CSV with a frame or a character in each row", true, looks_like_csv, read_csv},
-    RecordingForm{"mbpoll", "what mbpoll -v and other programs with libmodbus print", true, looks_like_libmodbus,
-                  read_libmodbus},
+    RecordingForm{"mbpoll", "what mbpoll and other programs with libmodbus print; without -v mbpoll has values only", true,
+                  looks_like_libmodbus, read_libmodbus},
     RecordingForm{"pymodbus", "what pymodbus logs at the level DEBUG", true, looks_like_pymodbus, read_pymodbus},
     RecordingForm{"text", "text logs with a frame or a character in each line", true, is_text, read_text_log},
 };
@@ -37,6 +38,14 @@ void note_times_that_run_backwards(LineRecording& recording) {
   }
 }
 
+/// Logs that Windows programs write as UTF-16, with its mark, as UTF-8; any other file as it is.
+std::string in_utf8(const std::string& file) {
+  const bool marked = file.starts_with("\xFF\xFE") || file.starts_with("\xFE\xFF");
+  std::string why;
+  auto decoded = marked ? stl::decode(file, why) : std::nullopt;
+  return decoded ? std::move(decoded->text) : std::string(stl::without_byte_order_mark(file));
+}
+
 /// By the sections of its head.
 bool is_vcd(std::string_view bytes) {
   return bytes.starts_with('$') && bytes.find("$enddefinitions") != std::string_view::npos;
@@ -49,7 +58,7 @@ std::span<const RecordingForm> recording_forms() { return kForms; }
 bool is_text(std::string_view bytes) { return bytes.find('\0') == std::string_view::npos; }
 
 std::optional<LineRecording> read_recording(const std::string& file, const ReadingChoices& choices, std::string& why) {
-  const std::string bytes(stl::without_byte_order_mark(file));
+  const std::string bytes = in_utf8(file);
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
     why = fmt::format("it has none of the forms {}", stl::joined(kForms, &RecordingForm::name));

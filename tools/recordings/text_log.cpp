@@ -31,10 +31,19 @@ std::size_t length_of_counter(std::string_view line) {
   return begins_with(line, match, kCounter) ? static_cast<std::size_t>(match.length()) : 0;
 }
 
-/// `> 2026/11/22 10:00:00.5  length=8` of socat: the direction stands before the time.
-std::size_t length_of_arrow(std::string_view line) {
-  const bool is_arrow = line.starts_with("> ") || line.starts_with("< ");
-  return is_arrow && leading_time(line.substr(2)) ? 2 : 0;
+/// A direction that stands before the time, and how long it is: `> 2026/11/22 10:00:00.5  length=8` of socat, `[RTU]>Tx >
+/// 10:00:00:500 - 01  03` of QModMaster.
+struct LeadingDirection {
+  Direction direction = Direction::Unknown;
+  std::size_t length = 0;
+};
+LeadingDirection leading_direction(std::string_view line) {
+  static const std::regex kPattern(R"((?:\[\w+\]>([TR]x) )?[<>] )");
+  TextMatch match;
+  if (!begins_with(line, match, kPattern)) return {};
+  const auto length = static_cast<std::size_t>(match.length());
+  if (!leading_time(line.substr(length))) return {};
+  return {direction_of(match[1].matched ? match.str(1) : match.str()), length};
 }
 
 bool has_clock(std::string_view text) {
@@ -96,10 +105,9 @@ class LogReader {
     if (const std::string_view rest = stl::trim(line); rest.empty() || rest.front() == '#') return;
     if (ends_dump(line)) return;
     if (const auto character = character_of_interceptty(line)) return take(*character);
-    const std::size_t arrow = length_of_arrow(line);
-    const Direction said = direction_of(line.substr(0, arrow));
-    const auto time = leading_time(line.substr(arrow));
-    if (time) line.remove_prefix(arrow + time->length);
+    const auto [said, length] = leading_direction(line);
+    const auto time = leading_time(line.substr(length));
+    if (time) line.remove_prefix(length + time->length);
     const std::optional<Time> at = time ? std::optional(days_.since_first_midnight(*time)) : std::nullopt;
     const std::string_view whole = line;
     if (!at && offset_is_wrong(line)) {
@@ -110,7 +118,7 @@ class LogReader {
     const std::size_t counter = length_of_counter(line);
     in_characters_ = false;
     const std::string_view rest = without_characters(stl::trim_end(line.substr(counter)));
-    const auto direction = [&](Direction read) { return time && said != Direction::Unknown ? said : read; };
+    const auto direction = [&, told = said](Direction read) { return time && told != Direction::Unknown ? told : read; };
     const auto found = bytes_in_line(rest);
     in_dump_ = !at && rest.size() < whole.size() && is_dump(whole);
     if (!found)

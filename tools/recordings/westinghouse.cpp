@@ -12,6 +12,7 @@
 #include "serial_sim/westinghouse/hppc_message.hpp"
 #include "serial_sim/westinghouse/loader_session.hpp"
 #include "serial_sim/westinghouse/pc1000.hpp"
+#include "tools/recordings/readers.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -21,10 +22,6 @@ using serial::to_hex;
 using serial::Verdict;
 
 bool fits(const serial::Answer& answer) { return answer.verdict == Verdict::Right || answer.verdict == Verdict::Exception; }
-
-std::string plural(std::size_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
 
 // --- six-byte messages ---
 
@@ -425,17 +422,24 @@ class HppcReader final : public FrameReader {
         break;
       case HppcOpcode::Write:
         if (operands.size() > kAddress)
-          return fmt::format("write from 16#{:05X} on: {}", address(), to_hex(operands.subspan(kAddress + 1)));
+          return fmt::format("write {} from 16#{:05X} on: {}", plural(operands.size() - kAddress - 1, "byte"), address(),
+                             to_hex(operands.subspan(kAddress + 1)));
         break;
       case HppcOpcode::BitWrite:
-        if (operands.size() >= kAddress)
-          return fmt::format("write bits of 16#{:05X}: {}", address(), to_hex(operands.subspan(kAddress)));
+        if (operands.size() == kAddress + 4)
+          return fmt::format("write bits of the word at 16#{:05X}: 16#{:04X}, those of the mask 16#{:04X}", address(),
+                             load16_low_first(&operands[kAddress]), load16_low_first(&operands[kAddress + 2]));
         break;
       case HppcOpcode::Parameters:
         if (operands.size() == 1) return fmt::format("parameter table, {}", plural(operands[0], "byte"));
         break;
       case HppcOpcode::Monitor:
-        return fmt::format("monitor: {}", to_hex(operands));
+        if (const auto monitored = monitored_by(operands)) {
+          std::string text = fmt::format("monitor network {}", address());
+          for (const Monitored& each : *monitored) text += fmt::format(", {} at 16#{:05X}", each.name(), each.address);
+          return text;
+        }
+        break;
       case HppcOpcode::Error:
         break;
     }
@@ -448,7 +452,58 @@ class HppcReader final : public FrameReader {
     if (answer.verdict == Verdict::Exception)
       return serial::error_text(answer.exception, westinghouse::hppc_error_name(answer.exception));
     if (answer.verdict != Verdict::Right) return answer.fault;
-    return answer.bytes.empty() ? "done" : to_hex(answer.bytes);
+    const Data operands(answer.bytes);
+    const auto opcode = static_cast<westinghouse::HppcOpcode>(request[kOpcode]);
+    if (opcode == westinghouse::HppcOpcode::Parameters && operands.size() >= kAddress) return parameters_text(operands);
+    if (opcode == westinghouse::HppcOpcode::Read && !operands.empty() && operands.size() == 1U + operands[0])
+      return fmt::format("{}{}{}", plural(operands[0], "byte"), operands[0] == 0 ? "" : ": ", to_hex(operands.subspan(1)));
+    if (const auto monitored = monitored_by(operands_of(request)); monitored && opcode == westinghouse::HppcOpcode::Monitor)
+      if (std::string text = monitored_text(*monitored, operands); !text.empty()) return text;
+    return operands.empty() ? "done" : to_hex(operands);
+  }
+
+  static std::string parameters_text(Data operands) {
+    const Data table = operands.subspan(kAddress);
+    std::string text = fmt::format("parameter table at 16#{:05X}", westinghouse::hppc_address(operands));
+    if (const auto found = westinghouse::holding_registers(table))
+      text += fmt::format(", holding register 1 at 16#{:05X}", found->base);
+    return table.empty() ? text : fmt::format("{}: {}", text, to_hex(table));
+  }
+
+  struct Monitored {
+    std::uint32_t address = 0;
+    std::size_t bytes = 1;
+
+    std::string_view name() const { return bytes == 1 ? "byte" : bytes == 2 ? "word" : "double word"; }
+  };
+
+  /// In the order of the message; nothing if its operands are not those of a monitor with addresses of three bytes.
+  static std::optional<std::vector<Monitored>> monitored_by(Data operands) {
+    constexpr std::size_t kSizes = 3, kHead = kAddress + kSizes;
+    if (operands.size() < kHead) return {};
+    std::vector<Monitored> monitored;
+    for (std::size_t size = 0; size < kSizes; ++size)
+      for (unsigned i = 0; i < operands[kAddress + size]; ++i) {
+        const std::size_t place = kHead + kAddress * monitored.size();
+        if (place + kAddress > operands.size()) return {};
+        monitored.push_back({westinghouse::hppc_address(operands.subspan(place)), std::size_t{1} << size});
+      }
+    return kHead + kAddress * monitored.size() == operands.size() ? std::optional(monitored) : std::nullopt;
+  }
+
+  /// Empty if there are more or fewer bytes than were asked for.
+  static std::string monitored_text(const std::vector<Monitored>& monitored, Data operands) {
+    if (operands.empty()) return "";
+    std::string text = fmt::format("status 16#{:02X}", operands[0]);
+    std::size_t place = 1;
+    for (const Monitored& each : monitored) {
+      if (place + each.bytes > operands.size()) return "";
+      std::uint32_t value = 0;
+      for (std::size_t i = each.bytes; i-- > 0;) value = value << 8 | operands[place + i];
+      text += fmt::format(", 16#{:05X} is 16#{:0{}X}", each.address, value, 2 * each.bytes);
+      place += each.bytes;
+    }
+    return place == operands.size() ? text : "";
   }
 };
 

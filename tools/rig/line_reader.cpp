@@ -78,7 +78,10 @@ class LineReader {
       plan.settings.data_bits = static_cast<std::uint8_t>(*bits);
     if (const auto bits = values_.number(map.find("stop_bits"), 1, 2))
       plan.settings.stop_bits = static_cast<std::uint8_t>(*bits);
-    if (const auto seed = values_.number(map.find("contention"), 0, UINT32_MAX))
+    const YamlNode* const contention = map.find("contention");
+    if (contention && contention->text == "space")
+      plan.contention.reset();
+    else if (const auto seed = values_.number(contention, 0, UINT32_MAX))
       plan.contention = static_cast<std::uint64_t>(*seed);
   }
 

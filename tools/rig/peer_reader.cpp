@@ -44,6 +44,7 @@ class PeerReader {
 
  private:
   void read_polls(const YamlNode& map, serial::PollPlan& polls) {
+    polls.starts = values_.duration(map.find("starts")).value_or(polls.starts);
     polls.every = values_.duration(map.find("every")).value_or(0);
     const Time timeout = values_.duration(map.find("timeout")).value_or(kSecond);
     for (const YamlNode* poll : items_of(map, "polls", "{station: 1..3, read: 40001, count: 10}", values_)) {

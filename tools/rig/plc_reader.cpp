@@ -56,7 +56,7 @@ class PlcReader {
       if (!model) continue;
       each.program = read_program(plc, *model, station ? std::optional(*station + copy) : std::nullopt);
       if (each.program) each.program = with_system_block(*each.program, block);
-      if (each.program) read_settings(map, each, copies > 1);
+      if (each.program) read_settings(map, each, copy, copies > 1);
       if (map.find("ppi_station"))
         for (std::uint8_t& ppi_station : block.ppi_stations) ++ppi_station;
       if (values_.complaints.count() > before) return;  // the others would say the same
@@ -190,7 +190,7 @@ class PlcReader {
     }
   }
 
-  void read_settings(const YamlNode& map, PlcPlan& plc, bool one_of_several) {
+  void read_settings(const YamlNode& map, PlcPlan& plc, std::int64_t copy, bool one_of_several) {
     PlcSettings& settings = plc.settings;
     if (const YamlNode* set = map.find("set")) settings.set = read_assignments(*set, *plc.program, values_);
     settings.input = path(map, "input");
@@ -198,6 +198,7 @@ class PlcReader {
     if (const YamlNode* clock = map.find("clock"))
       settings.clock = values_.value(clock, "a time from 1990 to 2089", "2026-11-21 10:00:00",
                                      [](const std::string& t) { return parse_clock(t); });
+    settings.starts = values_.duration(map.find("starts")).value_or(0) * (copy + 1);
     settings.memory.path = written_file(map, "memory", one_of_several);
     settings.trace = written_file(map, "trace", one_of_several);
     settings.output = written_file(map, "output", one_of_several);

@@ -20,6 +20,7 @@ struct PlcSettings {
   std::vector<Assignment> set{};     ///< memory and input points, before the first scan
   std::string input{};               ///< inputs over time, as CSV
   std::optional<ClockTime> clock{};  ///< time of day at power-up
+  Time starts = 0;                   ///< when it is powered up
   MemorySettings memory{};           ///< read at power-up, written by keep_memory()
   std::string trace{};
   TraceDetail trace_detail = TraceDetail::Way;
@@ -43,7 +44,8 @@ class PlcRig {
   bool open(std::string& why) { return traces_.open(why); }
   bool put(std::string& why) { return traces_.put(why); }
 
-  /// Time 0: the program begins with its memory, clock and assignments, and the records watch it.
+  /// At time 0, or as late as it starts: the program begins with its memory, clock and assignments, and the records watch
+  /// it.
   void power_up(serial::Plc& plc);
 
   /// Writes into the trace what is done to the PLC from outside.

@@ -13,9 +13,6 @@
 namespace s7200::tools {
 namespace {
 
-/// When masters begin, after they have power: programs have set their ports by then.
-constexpr Time kFirstPoll = kSecond;
-
 bool is_right(const serial::Exchange& exchange) {
   const Bytes request = serial::bytes_of(exchange.request);
   return exchange.damage().empty() &&
@@ -135,6 +132,7 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
   plan.plcs.push_back({.name = "", .program = std::move(program), .settings = settings, .field = std::move(*field)});
   plan.lines.push_back({.name = "",
                         .faults = of_anyone(settings.faults),
+                        .contention = {},  // as a scenario's own line, which needs no seed
                         .captures = settings.captures,
                         .stations = {{StationPlan::Kind::Plc, 0, port}}});
   const RigSurroundings surroundings{
@@ -191,9 +189,16 @@ void Rig::power_up() {
     if (const auto seed = plan_.lines[line].contention) lines_[line]->line().leave_contention_to_chance(*seed);
   }
   auto rig = plc_rigs_.begin();
-  for (serial::Plc* plc : plcs_) (rig++)->power_up(*plc);
-  for (serial::PollerStation* poller : pollers_)
-    if (poller) poller->poller().start(kFirstPoll);
+  for (std::size_t number = 0; number < plcs_.size(); ++number, ++rig) {
+    if (plan_.plcs[number].settings.starts == 0) {
+      rig->power_up(*plcs_[number]);
+      continue;
+    }
+    if (!rig->sinks().empty()) plcs_[number]->cpu().set_sink(&rig->sinks());
+    system_.power_off(*plcs_[number]);
+  }
+  for (std::size_t peer = 0; peer < pollers_.size(); ++peer)
+    if (pollers_[peer]) pollers_[peer]->poller().start(plan_.peers[peer].polls.starts);
 }
 
 void Rig::flush_records() {
@@ -289,6 +294,8 @@ void Rig::switch_power(const StationPlan& station, bool on) {
   if (station.kind == StationPlan::Kind::Plc) {
     serial::Plc& plc = *plcs_[station.number];
     if (plc.powered() == on) return;
+    const bool starts = on && plc.cpu().time() == 0 && plan_.plcs[station.number].settings.starts == now;
+    if (starts) return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(station.number))->power_up(plc);
     on ? system_.power_on(plc) : system_.power_off(plc);
   } else if (serial::ResponderStation* const responder = responders_[station.number]) {
     if (responder->powered() == on) return;
@@ -296,7 +303,7 @@ void Rig::switch_power(const StationPlan& station, bool on) {
   } else {
     serial::PollerStation& poller = *pollers_[station.number];
     if (poller.powered() == on) return;
-    on ? poller.power_on(now, now + kFirstPoll) : poller.power_off(now);
+    on ? poller.power_on(now, now + plan_.peers[station.number].polls.starts) : poller.power_off(now);
   }
 }
 

@@ -58,8 +58,9 @@ class Rig final {
 
   ~Rig();
 
-  /// Time 0: every PLC begins with its memory, clock and assignments, the lines with their faults, the records watch them,
-  /// and every master asks its first request 1 s later. All that runs ends early after an interruption.
+  /// Every PLC begins with its memory, clock and assignments, at time 0 or when it starts, the lines with their faults, the
+  /// records watch them, and every master asks its first request 1 s later or when it starts. All that runs ends early after
+  /// an interruption.
   void power_up();
 
   serial::System& system() { return system_; }

@@ -86,7 +86,9 @@ void warn_of_power_that_stays_as_it_is(SystemReading& reading, const std::vector
     using What = EventPlan::What;
     if (event.what != What::PowerOff && event.what != What::PowerOn) continue;
     const bool on = event.what == What::PowerOn;
-    bool& now = powered.try_emplace({event.station.kind, event.station.number}, true).first->second;
+    const bool is_plc = event.station.kind == StationPlan::Kind::Plc;
+    const bool from_start = !is_plc || reading.file.plan.plcs[event.station.number].settings.starts == 0;
+    bool& now = powered.try_emplace({event.station.kind, event.station.number}, from_start).first->second;
     if (now == on)
       reading.file.file.diagnostics.push_back(
           {.severity = stl::Severity::Warning,

@@ -45,6 +45,7 @@ const std::array kKeys{
     SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
     SystemKey{Where::Plc, "input", "PATH", "inputs over time, I, AIW and the potentiometers SMB28 and SMB29: CSV in the format of `s7200 run --input`"},
     SystemKey{Where::Plc, "clock", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
+    SystemKey{Where::Plc, "starts", "TIME", "when it is powered up, `0s` if left out; of `copies` each as much later than the one before, so that they are not in step"},
     SystemKey{Where::Plc, "memory", "PATH", "retentive memory, EEPROM and clock: read at the start if it exists, written at the end"},
     SystemKey{Where::Plc, "trace", "PATH", "interrupts, characters, attachments and errors are written there"},
     SystemKey{Where::Plc, "trace_instructions", "true, false", "every instruction is traced too; `false` if left out"},
@@ -59,13 +60,14 @@ const std::array kKeys{
     SystemKey{Where::Line, "turn_round", "TIME", "how long a master on it leaves it quiet between an answer and its next request; 7 characters and 10 ms if left out"},
     SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`, or a map if it is of one station; `master` says whose characters are requests"},
     SystemKey{Where::Line, "master", "NAME", "which station asks the others, for `faults` of requests or answers, as in `of=answer`; if left out, the first PLC to send, where several are on the line and no one has asked them"},
-    SystemKey{Where::Line, "contention", "SEED", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed; if left out space wins, as if each driver only pulled the line down, so that a collision is the same for everybody and needs no seed"},
+    SystemKey{Where::Line, "contention", "SEED, space", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed, 1 if left out; `space` wins always, as if each driver only pulled the line down"},
     SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx, tx and line) or FILE.pcap (frames); rx and tx are those of its first PLC, an S7-200 if there is one"},
 
     SystemKey{Where::Fault, "fault", "TEXT", "in the form of `s7200 run --fault`: `parity:character=each`"},
     SystemKey{Where::Fault, "station", "NAME", "whose it is: what this station sends is disturbed, be it request or answer, or its clock is off, or it hears its echo; noise, and what happens at an instant, is of the line"},
 
-    SystemKey{Where::Master, "polls", "LIST", "what the master asks in Modbus RTU, in turn and without end, from 1 s after the start on"},
+    SystemKey{Where::Master, "polls", "LIST", "what the master asks in Modbus RTU, in turn and without end"},
+    SystemKey{Where::Master, "starts", "TIME", "its first request, so long after it has power; `1s` if left out"},
     SystemKey{Where::Master, "every", "TIME", "a round begins no sooner than so long after the one before; at once if left out"},
     SystemKey{Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
 
@@ -88,7 +90,7 @@ const std::array kKeys{
 
     SystemKey{Where::Event, "at", "TIME", "since the start; beside one of the following"},
     SystemKey{Where::Event, "power_off", "NAME", "a PLC or a peer loses power: it falls silent in the middle of a character and keeps what a real one keeps"},
-    SystemKey{Where::Event, "power_on", "NAME", "its power comes back; a PLC begins anew in RUN, a master asks its first request 1 s later"},
+    SystemKey{Where::Event, "power_on", "NAME", "its power comes back; a PLC begins anew in RUN, a master at its first request"},
     SystemKey{Where::Event, "cut", "LINE", "the cable is cut: both parts go on without each other"},
     SystemKey{Where::Event, "after", "NAME", "beside `cut`: the last station on the first part, in the order of `stations`"},
     SystemKey{Where::Event, "mend", "LINE", "the cable is whole again"},

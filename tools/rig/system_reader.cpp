@@ -36,6 +36,10 @@ void read_file(const YamlNode& root, SystemReading& reading) {
   if (values.complaints.count() == 0)
     for (const YamlNode* node : items_of(root, "events", "{at: 1s, power_off: slave}", values))
       if (auto event = read_timed_event(*node, plan, values)) events.push_back({std::move(*event), node});
+  for (std::size_t plc = 0; plc < plan.plcs.size(); ++plc)
+    if (const Time starts = plan.plcs[plc].settings.starts; starts > 0)
+      events.push_back({{.what = EventPlan::What::PowerOn, .at = starts, .station = {StationPlan::Kind::Plc, plc}},
+                        reading.names.plc_keys[plc]});
   std::ranges::stable_sort(events, {}, [](const TimedEvent& each) { return each.plan.at; });
   for (const TimedEvent& each : events) plan.events.push_back(each.plan);
   if (values.complaints.count() == 0) check_system(reading);

@@ -38,6 +38,7 @@ std::string remarks_on(const serial::Exchange& exchange) {
   add(exchange.parity_error(), "parity errors");
   add(exchange.framing_error(), "framing errors");
   add(exchange.too_long, "cut off");
+  add(exchange.of_another_master, "the request of another master, and no answer");
   return text;
 }
 

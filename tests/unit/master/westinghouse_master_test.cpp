@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -49,6 +50,25 @@ TEST(WestinghouseMaster, H9AnHppcIsResynchronisedAfterSilenceAndALinkErrorAndAsk
   EXPECT_EQ(serial::to_hex(patience.first()), "0c 00 20 40 00 0c 00 00 00 00 2b e8");
   EXPECT_TRUE(patience.repeats(0x01));
   EXPECT_FALSE(patience.repeats(0x10));
+}
+
+/// The marks in `text`, as in `[L7]`.
+void take_marks(std::string_view text, std::set<std::string>& marks) {
+  for (std::size_t open = text.find('['); open != text.npos; open = text.find('[', open + 1))
+    marks.emplace(text.substr(open + 1, text.find(']', open) - open - 1));
+}
+
+TEST(WestinghouseMaster, EachChoiceOfTheReferenceIsASettingOfAPlcOrAnOptionOfTheMaster) {
+  std::set<std::string> marks;
+  for (const westinghouse::PlcRow& row : westinghouse::plcs())
+    for (const std::string& line : row.settings()) take_marks(line, marks);
+  for (const Protocol* protocol : protocols()) take_marks(protocol->choices, marks);
+  constexpr std::pair<char, int> kOfReference[]{{'M', 16}, {'L', 10}, {'W', 7}, {'S', 5}, {'H', 10}};
+  for (const auto& [letter, last] : kOfReference)
+    for (int number = 1; number <= last; ++number) {
+      const std::string mark = letter + std::to_string(number);
+      EXPECT_TRUE(marks.contains(mark)) << mark;
+    }
 }
 
 TEST(WestinghouseMaster, ActionsOfTheLanAreSixByteMessages) {

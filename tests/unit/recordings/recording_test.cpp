@@ -14,6 +14,7 @@
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/record/pcap_capture.hpp"
+#include "serial_sim/westinghouse/hppc_message.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/playback.hpp"
@@ -403,6 +404,121 @@ TEST(Recordings, ACsvHasItsColumnsByName) {
   EXPECT_EQ(refusal_of("Time,Data\n0,zz\n"), "line 2: 'zz' is not bytes in hex");
 }
 
+TEST(Recordings, ACsvWithoutTimesHasItsFramesInTheirOrder) {
+  const LineRecording list = recording_of("Dir,Bytes\nTX,01 03 00 00 00 01 84 0A\nRX,01 03 02 12 34 B5 33\n");
+  ASSERT_EQ(list.frames.size(), 2U);
+  EXPECT_EQ(list.form, "CSV");
+  EXPECT_EQ(list.frames[0].bytes, kRequest);
+  EXPECT_EQ(list.frames[0].at, std::nullopt);
+  EXPECT_EQ(list.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(recording_of("log of port 1, all frames\nTX 01 03\n").form, "text") << "no list: no bytes below its columns";
+}
+
+TEST(Recordings, ACharacterInDecimalIsOneIfAnyHasOneDigitOrThree) {
+  const LineRecording saleae =
+      recording_of("Time [s],Value,Parity Error,Framing Error\n0.000,1,,\n0.001,3,,\n0.002,16,,\n0.003,132,,\n");
+  ASSERT_EQ(saleae.frames.size(), 1U);
+  EXPECT_EQ(saleae.frames[0].bytes, (Bytes{1, 3, 16, 132}));
+  EXPECT_EQ(recording_of("Time [s],Value\n0.000,01\n0.001,16\n").frames[0].bytes, (Bytes{0x01, 0x16})) << "pairs are hex";
+  EXPECT_EQ(refusal_of("Time [s],Value\n0.000,1\n0.001,256\n"), "line 2: '1' is not bytes in hex");
+}
+
+TEST(Recordings, ALogInUtf16IsReadAsOneInUtf8) {
+  const std::string log = "00:00:10.000 TX: 01 03 00 00 00 01 84 0A\r\n";
+  std::string little = "\xFF\xFE", big = "\xFE\xFF";
+  for (const char c : log) {
+    little.append({c, '\0'});
+    big.append({'\0', c});
+  }
+  for (const std::string& file : {little, big}) {
+    const LineRecording read = recording_of(file);
+    ASSERT_EQ(read.frames.size(), 1U);
+    EXPECT_EQ(read.frames[0].bytes, kRequest);
+  }
+  EXPECT_FALSE(refusal_of("\xFF\xFE\x01").empty());
+}
+
+TEST(Recordings, QModMasterSaysTheDirectionBeforeTheTime) {
+  const LineRecording log = recording_of(
+      "[RTU]>Tx > 10:00:00:500 - 01  03  00  00  00  01  84  0A \n"
+      "[RTU]>Rx > 10:00:00:525 - 01  03  02  12  34  B5  33 \n");
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  EXPECT_EQ(log.frames[0].direction, Direction::Request);
+  EXPECT_EQ(log.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(log.frames[1].at, 25 * ms);
+}
+
+/// A block of a pcapng: its type, and its body in whole words.
+std::string block(std::uint32_t type, const std::string& body) {
+  const auto word = [](std::uint32_t value) {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> 8 * i & 0xFF);
+    return bytes;
+  };
+  const auto length = static_cast<std::uint32_t>(body.size() + 12);
+  return word(type) + word(length) + body + word(length);
+}
+
+TEST(Recordings, APcapngMayHaveInterfacesOfSeveralLinkTypes) {
+  const auto words = [](std::initializer_list<std::uint32_t> values) {
+    std::string bytes;
+    for (const std::uint32_t value : values)
+      for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> 8 * i & 0xFF);
+    return bytes;
+  };
+  const auto packet = [&](std::uint32_t interface, std::uint32_t microseconds, const Bytes& bytes) {
+    std::string data(bytes.begin(), bytes.end());
+    const auto length = static_cast<std::uint32_t>(data.size());
+    data.resize((data.size() + 3) / 4 * 4);
+    return block(6, words({interface, 0, microseconds, length, length}) + data);
+  };
+  constexpr std::uint32_t kUsb = 220, kSerial = 147;
+  const std::string head = block(0x0A0D0D0A, words({0x1A2B3C4D, 1, 0xFFFFFFFF, 0xFFFFFFFF})),
+                    usb = block(1, words({kUsb, 65535})), serial = block(1, words({kSerial, 65535}));
+  const LineRecording read =
+      recording_of(head + usb + serial + packet(0, 500, {9}) + packet(1, 1000, kRequest) + packet(1, 26'000, kAnswer));
+  ASSERT_EQ(read.frames.size(), 2U);
+  EXPECT_EQ(read.frames[0].bytes, kRequest);
+  EXPECT_EQ(read.frames[0].place, "packet 2") << "as Wireshark counts them";
+  EXPECT_EQ(read.frames[1].at, 25 * ms);
+  EXPECT_EQ(read.notes, std::vector<std::string>{"what has link type 220 was left out"});
+  EXPECT_EQ(recording_of(head + serial + serial + packet(1, 0, kRequest)).frames.size(), 1U);
+  EXPECT_TRUE(refusal_of(head + usb + packet(0, 0, kRequest)).starts_with("link type 220 is not one of"));
+}
+
+std::string printed_by_mbpoll(const std::string& type, const std::string& values) {
+  return "mbpoll 1.0-0 - FieldTalk(tm) Modbus(R) Master Simulator\n"
+         "Protocol configuration: Modbus RTU\n"
+         "Slave configuration...: address = [1]\n"
+         "                        start reference = 1, count = 1\n"
+         "Data type.............: " +
+         type + "\n\n-- Polling slave 1... Ctrl-C to stop)\n" + values;
+}
+
+TEST(Recordings, WhatMbpollReadIsMadeOfTheValuesThatItPrints) {
+  const std::string holding = "16-bit register, output (holding) register table";
+  for (const char* const value : {"[1]: \t0x1234\n", "[1]: \t4660\n"}) {
+    const LineRecording read = recording_of(printed_by_mbpoll(holding, value));
+    ASSERT_EQ(read.frames.size(), 2U) << value;
+    EXPECT_EQ(read.frames[0].bytes, kRequest);
+    EXPECT_EQ(read.frames[1].bytes, kAnswer);
+    EXPECT_EQ(read.frames[1].direction, Direction::Answer);
+    EXPECT_EQ(read.notes.size(), 1U) << "that it printed none";
+  }
+  EXPECT_EQ(recording_of(printed_by_mbpoll("discrete output (coil)", "[1]: \t1\n")).frames.at(1).bytes,
+            modbus::rtu_frame(1, Bytes{1, 1, 1}));
+  EXPECT_EQ(recording_of(printed_by_mbpoll(holding, "[1]: \t65535 (-1)\n")).frames.at(1).bytes,
+            modbus::rtu_frame(1, Bytes{3, 2, 0xFF, 0xFF}));
+  const std::string silent = "Read output (holding) register failed: Connection timed out\n";
+  EXPECT_EQ(recording_of(printed_by_mbpoll(holding, silent)).frames.size(), 1U) << "a request without an answer";
+  EXPECT_TRUE(refusal_of(printed_by_mbpoll(holding, "Read output (holding) register failed: Illegal data address\n"))
+                  .starts_with("no frame in it"))
+      << "which exception it was is not said";
+  EXPECT_TRUE(refusal_of(printed_by_mbpoll("32-bit float, output (holding) register table", "[1]: \t1.5\n"))
+                  .starts_with("no frame in it"));
+}
+
 std::vector<std::optional<Time>> times_of(const LineRecording& recording) {
   std::vector<std::optional<Time>> times;
   for (const RecordedFrame& frame : recording.frames) times.push_back(frame.at);
@@ -427,7 +543,7 @@ TEST(Recordings, AColumnOfTimesInACsvIsInTheUnitThatItsNameSays) {
   };
   for (const char* const name : {"Time [ns]", "Time (ns)", "time_ns", "Start ns"})
     EXPECT_EQ(second_time(name), 250'000) << name;
-  for (const char* const name : {"Time [us]", "Time (\u00B5s)", "time [\u03BCs]"})
+  for (const char* const name : {"us", "[us]", "t [us]", "t_us", "Time [us]", "Time (\u00B5s)", "time [\u03BCs]"})
     EXPECT_EQ(second_time(name), 250 * ms) << name;
   EXPECT_EQ(second_time("start_ms"), 250 * kSecond);
   for (const char* const name : {"Time", "Time [s]", "Timestamp (sec)", "Time (seconds)"})
@@ -1234,6 +1350,54 @@ TEST(Conversation, WestnetIsReadWithItsCommandsAndErrors) {
                                       "< error 16#12: PLC in session with another computer"}));
 }
 
+TEST(Conversation, WhatARequestWritesIsShown) {
+  const auto text = [](const Bytes& pdu) {
+    const Bytes frame = modbus::rtu_frame(1, pdu);
+    std::string line = "0.000 TX:";
+    for (const std::uint8_t byte : frame) line += fmt::format(" {:02x}", byte);
+    return read(recording_of(line + "\n"), "modbus").at(0).text;
+  };
+  const std::uint16_t words[]{0x1234, 5};
+  EXPECT_EQ(text(modbus::write_registers(0, words)), "station 1, write registers 40001, 2 of them: 16#1234 16#0005");
+  EXPECT_EQ(text(modbus::write_coils(2, {true, false, true, true, false, true})),
+            "station 1, write coils 00003, 6 of them: 1011 01");
+  EXPECT_EQ(text(modbus::diagnostics(0, std::span(words).first(1))), "station 1, diagnostics 0, loopback: 16#1234");
+  const modbus::Reference file{.file = 4, .record = 1, .count = 2, .data = {}};
+  EXPECT_EQ(text(modbus::read_file_record({&file, 1})), "station 1, read file record: file 4, record 1, 2 registers");
+  const modbus::Reference written{.file = 4, .record = 7, .count = 1, .data = {0x06, 0xAF}};
+  EXPECT_EQ(text(modbus::write_file_record({&written, 1})),
+            "station 1, write file record: file 4, record 7, 1 register: 16#06AF");
+  const modbus::Reference extended{modbus::kExtendedMemoryReference, 0x10, 4, 2, {0x12, 0x34}};
+  EXPECT_EQ(text(modbus::write_file_record({&extended, 1})),
+            "station 1, write file record: extended memory 0010:0004, 2 bytes: 12 34");
+}
+
+TEST(Conversation, OperandsOfAnHppcAreAddressesAndValues) {
+  using namespace westinghouse;
+  const auto line = [](std::uint8_t to, std::uint8_t from, HppcOpcode opcode, const Bytes& operands) {
+    std::string text;
+    for (const std::uint8_t byte : hppc_message(to, from, opcode, operands, FcsTable::Document))
+      text += fmt::format(" {:02x}", byte);
+    return "0.000" + text + "\n";
+  };
+  const auto said = [&](HppcOpcode opcode, const Bytes& request, const Bytes& answer) {
+    return texts(read(recording_of(line(kIop, kApl, opcode, request) + line(kApl, kIop, opcode, answer)), "hppc"));
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(said(HppcOpcode::Read, hppc_read(0x80002, 2), {2, 0x56, 0x04}),
+            (Texts{"> read 2 bytes from 16#80002 on", "< 2 bytes: 56 04"}));
+  EXPECT_EQ(said(HppcOpcode::Write, hppc_write(0x80002, Bytes{1, 2}), {}),
+            (Texts{"> write 2 bytes from 16#80002 on: 01 02", "< done"}));
+  EXPECT_EQ(said(HppcOpcode::BitWrite, hppc_bit_write(0xABFFE, 0xF000, 0xFF00), {}),
+            (Texts{"> write bits of the word at 16#ABFFE: 16#F000, those of the mask 16#FF00", "< done"}));
+  const std::uint32_t byte[]{0xABFFC}, word[]{0xABFFE};
+  EXPECT_EQ(said(HppcOpcode::Monitor, hppc_monitor(5, byte, word, {}), {0x02, 0x11, 0x34, 0x12}),
+            (Texts{"> monitor network 5, byte at 16#ABFFC, word at 16#ABFFE",
+                   "< status 16#02, 16#ABFFC is 16#11, 16#ABFFE is 16#1234"}));
+  EXPECT_EQ(said(HppcOpcode::Parameters, {0}, {0, 0, 8}),
+            (Texts{"> parameter table, 0 bytes", "< parameter table at 16#80000"}));
+}
+
 TEST(Conversation, ALoaderSessionIsReadStepByStep) {
   const auto frames = read(
       recording_of(character_rows({"02", "10 06", "04", "02", "10 06", "16 10 03", "10 06 90 00 90 01 10 04", "10 06 02",
@@ -1333,7 +1497,7 @@ TEST(Conversation, HppcIsReadWithEitherFrameCheck) {
                         "0.020 0C 00 20 40 00 0C 02 00 08 02 6F 2F\n0.030 0B 00 40 00 00 10 11 00 00 AE D1\n"
                         "0.040 0C 00 20 40 00 0C 02 00 08 02 6F 6B\n0.050 0C 00 20 40 00 0C 02 00 08 02 6F 6C\n"),
            "hppc");
-  EXPECT_EQ(texts(frames), (std::vector<std::string>{"> read 2 bytes from 16#90001 on", "< 02 22 33",
+  EXPECT_EQ(texts(frames), (std::vector<std::string>{"> read 2 bytes from 16#90001 on", "< 2 bytes: 22 33",
                                                      "> read 2 bytes from 16#80002 on", "< error 16#11: invalid operand",
                                                      "> read 2 bytes from 16#80002 on", "> wrong frame check"}));
   EXPECT_TRUE(frames[4].right) << "the polynomial's";

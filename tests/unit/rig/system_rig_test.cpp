@@ -68,6 +68,34 @@ TEST(SystemRig, AMasterProgramPollsThirtyOneSlaves) {
     EXPECT_EQ(rig->plc(plc).cpu().state().error_count, 0U) << rig->plan().plcs[plc].name;
 }
 
+/// What three seconds of a line cost where all slaves are polled: each station hears every character, and each step looks at
+/// every PLC.
+struct Cost {
+  double events = 0, looks = 0;
+};
+Cost cost_of(int slaves) {
+  const auto rig =
+      rig_of(fmt::format("plcs:\n"
+                         "  master: {{program: ../modbus_master.stl, cpu: 224, set: {{I0.2: 1, VB3840: {0}}}}}\n"
+                         "  slave: {{program: ../modbus_slave.stl, copies: {0}, station: 1}}\n"
+                         "lines: {{bus: {{stations: [master, slave]}}}}\n",
+                         slaves));
+  if (!rig) return {};
+  serial::System& system = rig->system();
+  std::uint64_t steps = 0;
+  for (; system.time() < 3 * kSecond; ++steps) system.step(3 * kSecond);
+  EXPECT_EQ(double_word(*rig, 0, 3846), 0U) << "failures";
+  return {.events = static_cast<double>(system.events_handled()), .looks = static_cast<double>(steps) * (slaves + 1)};
+}
+
+TEST(SystemRig, WhatALineCostsGrowsAsItsStationsDo) {
+  const Cost eight = cost_of(7), sixteen = cost_of(15), all = cost_of(31);
+  for (const auto of : {&Cost::events, &Cost::looks}) {
+    EXPECT_LT(sixteen.*of, 2.2 * eight.*of);
+    EXPECT_LT(all.*of, 2.2 * sixteen.*of);
+  }
+}
+
 TEST(SystemRig, TwoMastersCollideAndRecover) {
   const auto rig = rig_of_file("two_masters.yaml");
   ASSERT_TRUE(rig);
@@ -79,6 +107,74 @@ TEST(SystemRig, TwoMastersCollideAndRecover) {
   EXPECT_GT(panel.answered - panel.wrong, panel.asked / 2) << "and come to their answers all the same";
   EXPECT_GE(recorder.answered - recorder.wrong, recorder.asked / 3);
   EXPECT_EQ(word(*rig, 0, 20), 99U);
+}
+
+/// What a master program has come to: jobs that ended well and otherwise, and how often it has asked again.
+struct Jobs {
+  int right = 0, failed = 0, repeated = 0;
+};
+
+/// Both ask every second, one of them 20 ms later: while the other one's request or answer is on the line. Each hears that,
+/// takes it for a wrong answer, and asks again after its own time-out; those differ.
+TEST(SystemRig, TwoMasterProgramsThatStartApartCollideAndRecover) {
+  const auto rig = rig_of(
+      "plcs:\n"
+      "  one: {program: ../modbus_master.stl, cpu: 224, set: {I0.1: 1}, constants: {VW3014: 30}}\n"
+      "  other: {program: ../modbus_master.stl, cpu: 224, set: {I0.1: 1}, starts: 20ms}\n"
+      "  slave: {program: ../modbus_slave.stl, station: 1, set: {VW0: 16#1234}}\n"
+      "lines: {bus: {stations: [one, slave, other]}}\n");
+  ASSERT_TRUE(rig);
+  std::array<Jobs, 2> jobs;
+  std::array<bool, 2> done{};
+  std::array<std::uint16_t, 2> left{};  // how often it may still ask
+  while (rig->system().time() < 10 * kSecond) {
+    rig->system().run_until(rig->system().time() + kMillisecond);
+    for (std::size_t plc = 0; plc < jobs.size(); ++plc) {
+      const auto& memory = rig->plc(plc).cpu().state().image;
+      const bool is_done = (memory[image::kM + 31] >> 2 & 1) != 0;
+      if (is_done && !done[plc]) ++(memory[image::kV + 3013] == 0 ? jobs[plc].right : jobs[plc].failed);
+      done[plc] = is_done;
+      jobs[plc].repeated += word(*rig, plc, 3016) < left[plc];
+      left[plc] = word(*rig, plc, 3016);
+    }
+  }
+  EXPECT_GT(jobs[0].repeated + jobs[1].repeated, 5) << "they have collided";
+  for (std::size_t plc = 0; plc < jobs.size(); ++plc) {
+    EXPECT_GE(jobs[plc].right, 9) << "and come to their answers all the same";
+    EXPECT_EQ(jobs[plc].failed, 0);
+    EXPECT_EQ(word(*rig, plc, 100), 0x1234U);
+  }
+}
+
+TEST(SystemRig, APlcThatStartsLaterHasItsFirstScanThen) {
+  const auto rig = rig_of(
+      "plcs: {a: {program: ../edge_counter.stl, copies: 2, starts: 37ms, set: {VW20: 5}}}\nlines: {bus: {stations: [a]}}\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(36 * kMillisecond);
+  for (std::size_t plc : {0U, 1U}) EXPECT_FALSE(rig->plc(plc).powered());
+  const serial::System::Snapshot before = rig->system().snapshot();
+  for ([[maybe_unused]] const int again : {1, 2}) {
+    rig->system().restore(before);
+    rig->system().run_until(70 * kMillisecond);
+    EXPECT_GT(rig->plc(0).cpu().state().scans, 0U);
+    EXPECT_EQ(word(*rig, 0, 20), 5U) << "with the memory that it has before its first scan";
+    EXPECT_FALSE(rig->plc(1).powered()) << "of several copies each as much later";
+    rig->system().run_until(100 * kMillisecond);
+    EXPECT_GT(rig->plc(1).cpu().state().scans, 0U);
+  }
+}
+
+TEST(SystemRig, APlcHearsNothingBeforeItStarts) {
+  const auto rig = rig_of(
+      "plcs: {slave: {program: ../modbus_slave.stl, station: 1, starts: 2500ms}}\n"
+      "peers: {master: {polls: [{station: 1, read: 40001}], every: 250ms, timeout: 50ms, starts: 500ms}}\n"
+      "lines: {bus: {stations: [master, slave], baud: 9600, parity: even}}\n");
+  ASSERT_TRUE(rig);
+  const serial::Poller::State before = polls_until(*rig, 2400 * kMillisecond);
+  EXPECT_EQ(before.asked, 8U) << "from 500 ms on";
+  EXPECT_EQ(before.answered, 0U);
+  const serial::Poller::State after = polls_until(*rig, 4400 * kMillisecond);
+  EXPECT_GE(after.answered, 6U);
 }
 
 TEST(SystemRig, AGatewayWithBothPortsOfACpu226PassesRequestsAndAnswersOn) {
@@ -558,6 +654,22 @@ TEST(SystemRig, DriversThatDisagreeGiveTheSameLevelsForTheSameSeedOnly) {
   EXPECT_TRUE(end == end_of(*same, 2 * kSecond, kSecond));
   const auto heard = [](const serial::System::Snapshot& snapshot) { return snapshot.plcs[0].cpu; };
   EXPECT_FALSE(heard(end) == heard(end_of(*different, 2 * kSecond, kSecond)));
+}
+
+TEST(SystemRig, DriversThatDisagreeAreLeftToChanceUnlessSpaceIsToWin) {
+  const auto written = [](const std::string& settings) {
+    const auto rig = rig_of(
+        "plcs: {slave: {program: ../modbus_slave.stl, station: 1}}\n"
+        "peers:\n"
+        "  one: {polls: [{station: 1, read: 40001}], every: 100ms, timeout: 30ms}\n"
+        "  other: {polls: [{station: 2, read: 40011}], every: 100ms, timeout: 30ms}\n"
+        "lines: {bus: {stations: [one, slave, other]" +
+        settings + "}}\n");
+    return rig ? end_of(*rig, 2 * kSecond, kSecond).plcs[0].cpu : State{};
+  };
+  const State usual = written("");
+  EXPECT_TRUE(usual == written(", contention: 1"));
+  EXPECT_FALSE(usual == written(", contention: space"));
 }
 
 // --- who joins ---

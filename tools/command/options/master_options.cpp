@@ -77,6 +77,9 @@ void MasterOptions::add_to(CLI::App& app) {
       app, "--retries", [this](std::uint64_t given) { retries_ = static_cast<int>(given); }, {0, 1'000'000},
       "repeat after silence, wrong answer, lost connection",
       usual([](const Protocol& one) { return std::to_string(one.patience.retries); }));
+  add_duration(app, "--before-retry", before_retry_,
+               fmt::format("how long to wait before that [{}]",
+                           usual([](const Protocol& one) { return format_duration(one.patience.pause); })));
   const std::string quiet = serial::default_quiet_text();
   add_duration(app, "--pause", pause, fmt::format("pause between an answer and the next request [in simulation {}]", quiet));
   app.add_flag("-v,--verbose", verbose,
@@ -200,6 +203,9 @@ std::uint64_t MasterOptions::rounds() const { return open_ended() ? UINT64_MAX :
 SessionSettings MasterOptions::session(bool broadcasts_are_silent) const {
   serial::MasterSettings settings = master;
   if (timeout_->count() == 0) settings.timeout = protocol->patience.timeout;
+  Patience patience = protocol->patience;
+  if (before_retry_ != kNever) patience.pause = before_retry_;
+  if (given_.contains(patience.without_first)) patience.first = nullptr;
   return {settings,
           rounds(),
           every,
@@ -207,7 +213,7 @@ SessionSettings MasterOptions::session(bool broadcasts_are_silent) const {
           pause,
           silence == kNever ? std::nullopt : std::optional(silence),
           broadcasts_are_silent,
-          protocol->patience};
+          patience};
 }
 
 MasterOutputSettings MasterOptions::output() const {

@@ -66,6 +66,7 @@ struct MasterOptions {
 
   std::optional<std::uint8_t> station_;
   std::optional<int> retries_;
+  Time before_retry_ = kNever;  // as the protocol has it
   CLI::Option *timeout_ = nullptr, *plc_ = nullptr;
   std::map<std::string, std::string, std::less<>> given_;  // options of protocols, by name
 

@@ -127,7 +127,7 @@ void RigOptions::add_first_station_to(CLI::App& app) {
 bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   if (!load_one(verb, program, exit_code)) return false;
   if (!plan_) return true;
-  std::string why = why_no_room(*plan_, spot_.line);
+  std::string why = without_s7200() ? why_no_other_plc(*plan_, spot_.line) : why_no_room(*plan_, spot_.line);
   if (!why.empty()) why = fmt::format("{}: {}", program.path, why);
   if (!plan_->bridges.empty())
     why = fmt::format("bridge '{}' of {} follows the clock, which 's7200 {}' does not: leave it out, or use 's7200 run'",
@@ -141,6 +141,14 @@ bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& 
 bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   if (!load_one(verb, program, exit_code)) return false;
   if (!plan_) return true;
+  if (without_s7200()) {
+    exit_code = kUnusable;
+    print_error(
+        fmt::format("{}: no S7-200 is in it: 's7200 {}' shows instructions, and simulated PLCs of another make have "
+                    "none; 's7200 send', 'master' and 'test' ask them",
+                    program.path, verb.get_name()));
+    return false;
+  }
   stations_ = spots_of_plcs(*plan_);
   stations_[spot_.plc] = spot_;
   return true;
@@ -188,17 +196,16 @@ bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program
   plan_ = tools::load_system(program.path, exit_code);
   if (!plan_) return false;
   exit_code = kUnusable;
-  if (plan_->plcs.empty())
-    return print_error(
-               fmt::format("{0}: no S7-200 is in it, and 's7200 {1}' is about one. 's7200 test' asks its other PLCs: "
-                           "with --target {0}, or in a scenario with system: {0} and on: LINE",
-                           program.path, verb.get_name())),
-           false;
   std::string why;
-  const auto spot = find_spot(*plan_, at_, why);
+  std::optional<Spot> spot;
+  if (without_s7200()) {
+    if (const auto line = find_line(*plan_, at_, why)) spot = Spot{.line = *line};
+  } else {
+    spot = find_spot(*plan_, at_, why);
+  }
   if (!spot) return print_error(fmt::format("{}: {} (--at NAME)", program.path, why)), false;
   spot_ = *spot;
-  program_ = plan_->plcs[spot_.plc].program;
+  if (!without_s7200()) program_ = plan_->plcs[spot_.plc].program;
   exit_code = kFine;
   return true;
 }
@@ -210,7 +217,9 @@ std::unique_ptr<Rig> RigOptions::assemble(bool json, const std::string& link) {
   std::vector<std::string> problems;
   std::vector<Spot> spots{spot_};  // beside the first one stands whoever asks on its line
   spots.insert(spots.end(), stations_.begin(), stations_.end());
-  auto rig = Rig::assemble(*plan_, surroundings(path_, link, std::move(spots)), problems);
+  RigSurroundings surroundings = this->surroundings(path_, link, without_s7200() ? std::vector<Spot>() : std::move(spots));
+  if (without_s7200()) surroundings.lines = {spot_.line};
+  auto rig = Rig::assemble(*plan_, surroundings, problems);
   return keep_why(std::move(rig), problems);
 }
 
@@ -225,6 +234,7 @@ RigSurroundings RigOptions::surroundings(const std::string& path, const std::str
 
 std::string RigOptions::target() const {
   if (!plan_) return program_->source.name;
+  if (without_s7200()) return fmt::format("{}: line {}", path_, plan_->lines[spot_.line].name);
   return place_text(path_, *plan_, spot_);
 }
 

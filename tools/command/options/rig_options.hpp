@@ -37,6 +37,9 @@ class RigOptions {
   /// The same for verbs that look at all PLCs of a system.
   bool load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
 
+  /// Whether what load() has loaded is a system of PLCs of another make alone: a master joins the line, and no PROGRAM runs.
+  bool without_s7200() const { return plan_ && plan_->plcs.empty(); }
+
   /// Of a system that was loaded; nothing of a PROGRAM.
   const std::optional<SystemPlan>& plan() const { return plan_; }
 

@@ -37,7 +37,8 @@ void Reception::judge(Run& run, const serial::Exchange& exchange, const SerialFo
   const bool found_disturbed = exchange.parity_error() || exchange.framing_error();
   const bool as_expected = std::any_of(expected.begin(), expected.end(),
                                        [&](const Expected& e) { return fulfilled(e, has_crc, request, response); });
-  if (expected.empty() || (as_expected && found_disturbed == disturbed)) return judge_times(run, exchange, line);
+  const bool right = as_expected && found_disturbed == disturbed && !exchange.of_another_master;
+  if (expected.empty() || right) return judge_times(run, exchange, line);
   Finding finding{.what = request.empty() ? "transmission" : "answer",
                   .expected = in_words(expected.front(), request),
                   .found = found_text(run, request, response, waited),
@@ -47,6 +48,7 @@ void Reception::judge(Run& run, const serial::Exchange& exchange, const SerialFo
   for (std::size_t i = 1; i < expected.size(); ++i) finding.expected += " or " + in_words(expected[i], request);
   if (disturbed) add_remark(finding.expected, "with parity or framing errors");
   if (found_disturbed) add_remark(finding.found, exchange.parity_error() ? "parity errors" : "framing errors");
+  if (exchange.of_another_master) add_remark(finding.found, exchange.damage());
   if (exchange.early) add_remark(finding.found, "it began before the request's last stop bit ended");
   run.add_exchange(std::move(finding));
 }

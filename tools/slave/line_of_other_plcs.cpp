@@ -1,0 +1,19 @@
+#include "tools/slave/line_of_other_plcs.hpp"
+
+#include <utility>
+
+#include "tools/host/interruption.hpp"
+
+namespace s7200::tools {
+
+LineOfOtherPlcs::LineOfOtherPlcs(Rig& rig, std::size_t line, const serial::MasterSettings& master, std::string name)
+    : system_(rig.system()),
+      master_(rig.system(), *rig.requester(line), master.over(format_without_s7200(rig.plan(), rig.plan().lines[line]))),
+      name_(std::move(name)) {}
+
+bool LineOfOtherPlcs::wait_until_ready(Time after) {
+  wait(after == kNever ? pause() : after);
+  return !interrupted();
+}
+
+}  // namespace s7200::tools
