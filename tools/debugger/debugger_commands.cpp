@@ -174,10 +174,11 @@ they were set at. What stops at another station goes over to it.)",
        &Debugger::status, Takes::Places},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
       {"record", "", "record FILE.yaml [!]", "write this session, up to now, as a scenario that 's7200 test' replays",
-       R"(Frames, memory and inputs that were set, faults of the line and power cycles, each at its time, and the answers
-that came. Displayed memory is expected to have its values at the end. What no scenario can do is refused: force,
-mode, a bridge, 'power all' of a system, something set or sent while a frame or its answer was under way, a request
-given up within its answer, and a session with --memory, or of a system with --fault.)",
+       R"(Frames, those that came over a bridge too, memory and inputs that were set, what was forced, modes, faults of the line
+and power cycles, each at its time, and the answers that came. Displayed memory is expected to have its values at the end.
+What no scenario can do is left out, and said: something set or sent while a frame or its answer was under way, a request
+given up within its answer, 'goto' and the logic stack of an editor. 'power all' of a system, and a session with --memory,
+cannot be recorded.)",
        &Debugger::record, Takes::Files},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
       {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",

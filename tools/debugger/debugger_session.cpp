@@ -160,20 +160,28 @@ Debugger::Error Debugger::record(const Arguments& arguments) {
     return "record writes a scenario in YAML: name it .yaml; 'save' writes a session in JSON, which 'load' returns to";
   const auto to = destination(arguments, "record", {"a transcript", std::string(options_.scenario_beginning)}, why);
   if (!to) return why;
+std::optional<std::size_t> Debugger::station_at_host(std::size_t host) const {
+  for (std::size_t number = 0; number < stations_.size(); ++number)
+    if (history_.hosts()[host]->is_on(stations_[number].simulation->line().line())) return number;
+  return {};
+}
+
   if (const std::string requests = requests_under_way(); !requests.empty())
     return fmt::format(
         "cannot record this session: a request is under way: {}; 'continue' runs to its end, 'send cancel' gives it up; "
-        "then "
-        "record",
+        "then record",
         requests);
   SessionRecord record{.session = history_.recording(), .stations = {}};
   if (!record.session.complete) return "cannot record: " + oldest_text(history_);
   for (std::size_t number = 0; number < stations_.size(); ++number) record.stations.push_back(record_of(number));
   record.last = last_exchange();
-  if (!options_.write_scenario(record, *to, why)) return fmt::format("cannot record this session: {}", why);
+  const auto left_out = options_.write_scenario(record, *to, why);
+  if (!left_out) return fmt::format("cannot record this session: {}", why);
+  for (const std::string& what : *left_out) out_ << fmt::format("left out: {}\n", what);
   out_ << fmt::format("recorded up to {}; 's7200 test {}' replays it\n", moment_text(history_.now().time),
                       stl::printable(to->path));
   return {};
+  for (std::size_t host = 0; host < history_.hosts().size(); ++host) record.host_stations.push_back(station_at_host(host));
 }
 
 /// Of the masters of all lines; nothing if none has asked.
