@@ -225,11 +225,11 @@ Json Session::last_instructions(const Json& arguments) {
       tools::last_instructions(debuggee_->history(), looks_at(), static_cast<std::size_t>(count), settings_.stop_request);
   if (!found) refuse_interrupted();
   Json list = Json::array();
-  for (const InstructionRecord& record : *found) {
-    Json one{{"time", clock_text(record.at)},
-             {"routine", listing().routine_of(record.op)},
-             {"text", execution_text(record, cpu().program())}};
-    one.update(client_place(record.op));
+  for (const Execution& execution : *found) {
+    Json one{{"time", clock_text(execution.record.at)},
+             {"routine", listing().routine_of(execution.record.op)},
+             {"text", execution_text(execution, cpu().program())}};
+    one.update(client_place(execution.record.op));
     list.push_back(std::move(one));
   }
   return {{"instructions", list}};
@@ -249,11 +249,11 @@ Json Session::stl_status(const Json& arguments) {
     while (last_line && end > *first && listing().line_of(end - 1) > *last_line) --end;
     const LastExecutions last =
         tools::last_executions(debuggee_->history(), looks_at(), *first, end, kLookedAt, settings_.stop_request);
-    for (const auto& [op, record] : last.of) {
-      const std::string text = describe(record, program);
+    for (const auto& [op, execution] : last.of) {
+      const std::string text = describe(execution, program);
       const std::size_t values = text.find("S0=");
       lines.push_back({{"line", client_place(op)["line"]},
-                       {"powerFlow", record.powered},
+                       {"powerFlow", execution.record.powered},
                        {"text", values == std::string::npos ? text : text.substr(values)}});
     }
   }

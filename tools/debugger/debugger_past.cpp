@@ -168,9 +168,9 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
     out_ << interruption_text() << '\n';
     return {};
   }
-  for (const InstructionRecord& record : *found)
-    out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing().routine_of(record.op),
-                        execution_text(record, simulation().cpu().program()));
+  for (const Execution& one : *found)
+    out_ << fmt::format("{}  {:<7} {}\n", clock_text(one.record.at), listing().routine_of(one.record.op),
+                        execution_text(one, simulation().cpu().program()));
   return {};
 }
 
