@@ -230,6 +230,7 @@ class Session {
   void print(const std::string& text, const std::string& category = "console", std::optional<std::uint32_t> op = {});
   void print_of(std::size_t station, const std::string& text, const std::string& category, std::optional<std::uint32_t> op);
   void after_response(std::function<void()> action) { later_.push_back(std::move(action)); }
+    std::string why_no_moment{};
   [[noreturn]] void refuse_interrupted() const;
 
   std::size_t stations() const { return debuggee_->history().stations(); }

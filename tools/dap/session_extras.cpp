@@ -196,8 +196,8 @@ Session::Written Session::find_decision() {
   if (search.decision)
     say(search.decision->by.at, (search.unanswered.empty() ? "" : "what led here: ") + search.decision->text);
   if (text.empty()) text = kNothingDecided;
-  if (!search.origin()) return {std::nullopt, {{"text", text}}};
-  const LastDecision& found = *search.origin();
+  if (!search.origin()) return {std::nullopt, {{"text", text}}, search.why_no_origin()};
+  const LastDecision found = *search.origin();
   Json body{{"text", text}};
   body.update(named(found.by));
   return {found.moment, body};
@@ -207,8 +207,7 @@ Json Session::last_decision(const Json&) { return find_decision().body; }
 
 Json Session::reverse_to_last_decision(const Json&) {
   const Written found = find_decision();
-  if (!found.moment)
-    throw Refused(found.body["text"].get<std::string>() + "\nno instruction is named that it could go back to");
+  if (!found.moment) throw Refused(found.body["text"].get<std::string>() + "\n" + found.why_no_moment);
   after_response([this, found] {
     print(found.body["text"].get<std::string>());
     debuggee_->history().go_to(*found.moment);

@@ -257,7 +257,7 @@ class Debugger {
   std::optional<Writer> report_attachment(std::uint8_t event);
   std::optional<Writer> reported(const WriterSearch& search, const std::vector<Bits>& places);
   Error report_writer_of(const Arguments& arguments, std::string_view command, std::optional<Writer>& writer);
-  std::optional<LastDecision> find_decision();
+  DecisionSearch find_decision();
   void go_to(const Moment& moment);
   struct Named {
     MemoryRange range;

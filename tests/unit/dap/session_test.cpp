@@ -533,7 +533,7 @@ TEST(DapSession, GoingBackToADecisionIsRefusedWhereNoInstructionIsNamed) {
   const std::size_t messages = editor.messages.size();
   const std::string refused = editor.error_of("reverseToLastDecision", {{"threadId", 1}});
   EXPECT_TRUE(has(refused, "missing")) << "why nothing came is said all the same";
-  EXPECT_TRUE(has(refused, "\nno instruction is named that it could go back to"));
+  EXPECT_TRUE(has(refused, "\nit was lost on the line, which no instruction has decided; 'at "));
   EXPECT_EQ(editor.messages.size(), messages + 1) << "nothing but the response";
 }
 
