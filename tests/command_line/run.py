@@ -1804,8 +1804,9 @@ lines:
         self.assertIn("in the past; going forward plays what has run", shown)
         self.assertRegex(shown, r"\n> slave1  \d+\.\d+ ms .*\n  slave2  \d+\.\d+ ms ")
         self.assertIn("VW0", shown.splitlines()[-1] + shown.splitlines()[-3], "--dump of the system file, by PLC")
-        done = self.ends(UNUSABLE, "debug", self.GATEWAY, "-x", "station")
-        self.assertIn("there are several lines, office, field: name one of them, or a PLC (--at NAME)", done.stderr)
+        done = self.ends(FINE, "debug", self.GATEWAY, "-x", "step; station")
+        self.assertIn("note: gateway is in view, the first of 2 PLCs on 2 lines; 'station NAME' goes over to another one", done.stderr)
+        self.assertRegex(done.stdout, r"\n> gateway ")
         full = SOURCE / "stl_programs/systems/polled_slaves.yaml"
         done = self.ends(UNUSABLE, "debug", full, "--at", "slave31", "-x", "continue 20ms; send read 40001 station 31")
         self.assertIn("there is no place for one more master", done.stderr)

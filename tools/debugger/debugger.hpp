@@ -145,6 +145,7 @@ class Debugger {
     Commands,
     Switch,
     Mode,
+    Moments,
     Power,
     Frame,
     Stations

@@ -92,7 +92,7 @@ the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
       {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
        R"(TIME is in ns, us, ms, s, min or h. It stands in front of the first instruction at or after it. start is the oldest
 moment, which is power-up as long as nothing is forgotten, end the newest one.)",
-       &Debugger::at},
+       &Debugger::at, Takes::Moments},
       {"who", "", "who ADDRESS | event N",
        "the instruction that wrote an address last, or attached an event, without going there",
        R"(With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and

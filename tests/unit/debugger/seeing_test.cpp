@@ -129,6 +129,20 @@ TEST(Seeing, CompletionOffersTheNumbersOfEventsWhoseRoutineIsAskedFor) {
   EXPECT_EQ(offered("rwho event 10"), std::vector<std::string>{"10"});
 }
 
+TEST(Seeing, CompletionOffersMomentsAtWhichSomethingWasDone) {
+  Session session(kNested);
+  session("continue 10ms");
+  const Time done = session.simulation.time();
+  session("set VW20=5");
+  const std::vector<std::string> offered = session.debugger->completions("at ").candidates;
+  ASSERT_EQ(offered.size(), 3U);
+  EXPECT_EQ(offered[0], "start");
+  EXPECT_EQ(offered[1], "end");
+  EXPECT_EQ(parse_duration(offered[2]), done);
+  session("continue 10ms; at " + offered[2]);
+  EXPECT_EQ(session.simulation.time(), done);
+}
+
 TEST(Seeing, LabelsArePlacesAndAreCompleted) {
   Session session("LD SM0.0\nJMP 7\nINCW VW0\nLBL 7\nLD SM0.0\nINCW VW2\nLBL 20\nMEND\n");
   const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };

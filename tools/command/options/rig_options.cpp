@@ -120,7 +120,7 @@ void RigOptions::add_place_to(CLI::App& app) {
 }
 
 void RigOptions::add_first_station_to(CLI::App& app) {
-  app.add_option("--at", at_, "of a system: the PLC to look at first, gateway.1 at its port 1, or a line [the only line]")
+  app.add_option("--at", at_, "of a system: the PLC to look at first, gateway.1 at its port 1, or a line [the first PLC]")
       ->type_name("NAME");
 }
 
@@ -139,11 +139,24 @@ bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& 
 }
 
 bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
+  looks_at_all_ = true;
   if (!load_one(verb, program, exit_code)) return false;
   if (!plan_) return true;
   stations_ = spots_of_plcs(*plan_);
   stations_[spot_.plc] = spot_;
   return true;
+}
+
+/// Who looks at all PLCs on several lines begins with the first one.
+std::optional<Spot> RigOptions::place_in_system(std::string& why) const {
+  if (looks_at_all_ && at_.empty() && plan_->lines.size() > 1) return spots_of_plcs(*plan_).front();
+  return find_spot(*plan_, at_, why);
+}
+
+std::string RigOptions::note_on_first_station() const {
+  if (!plan_ || !at_.empty() || plan_->lines.size() < 2) return {};
+  return fmt::format("{} is in view, the first of {} PLCs on {} lines; 'station NAME' goes over to another one",
+                     stl::printable(plan_->plcs[spot_.plc].name), plan_->plcs.size(), plan_->lines.size());
 }
 
 std::vector<serial::Simulation*> RigOptions::stations(Rig& rig) const {
@@ -195,7 +208,7 @@ bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program
                            program.path, verb.get_name())),
            false;
   std::string why;
-  const auto spot = find_spot(*plan_, at_, why);
+  const auto spot = place_in_system(why);
   if (!spot) return print_error(fmt::format("{}: {} (--at NAME)", program.path, why)), false;
   spot_ = *spot;
   program_ = plan_->plcs[spot_.plc].program;
