@@ -135,9 +135,10 @@ the bit. Breakpoints and watches are in it too, and count their hits anew; displ
 CPU, execution times and version of s7200, started with the same options. An existing file is replaced if save has
 written it; ! replaces any.)",
        &Debugger::save, Takes::Files},
-      {"load", "", "load FILE", "go to where 'save' was given",
-       "Its breakpoints and watches join those that are set. back returns to here, and leaves them.", &Debugger::load,
-       Takes::Sessions},
+      {"load", "", "load FILE [!]", "go to where 'save' was given",
+       R"(Its breakpoints and watches join those that are set. back returns to here, and leaves them. With ! also a session of
+more than a week of simulated time, which is run again.)",
+       &Debugger::load, Takes::Sessions},
       {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
        "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
