@@ -366,8 +366,8 @@ class Debugger {
   std::optional<serial::Exchange> last_exchange() const;
   std::string requests_under_way();
   SessionRecord::Station record_of(std::size_t station) const;
-  void write_trace(Time until);
   std::optional<std::size_t> station_at_host(std::size_t host) const;
+  void write_trace(Time until);
   void write_trace_line(const TraceLine& line);
 
   std::ostream& out_;
