@@ -70,7 +70,6 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
   if (!has_room_for_bridge(options, *rig)) return kUnusable;
   rig->power_up();
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
-
   bool good = false, in_the_past = false, expectation_failed = false;
   {
     DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), nullptr);
