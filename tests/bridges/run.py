@@ -275,6 +275,26 @@ class PtyTests(Case):
             self.assertEqual(process.wait(LONG), FINE)
         self.assertFalse(self.link.is_symlink())
 
+    def test_what_a_master_on_a_bridge_has_asked_is_recorded_as_requests_and_replays_to_the_same_answers(self):
+        recorded = pathlib.Path(self.link).with_suffix(".yaml")
+        with subprocess.Popen([S7200, "debug", SLAVE, "--pty", self.link, *PRESET, "-i", "-x", "continue 2s"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.addCleanup(process.kill)
+            self.assertIn("serving", process.stderr.readline())
+            with SerialPort(self.link) as port:
+                for _ in range(3):
+                    self.assertEqual(port.ask(), ANSWER)
+                port.write(READ[:5])  # and no more of it
+            said, _ = process.communicate(f"continue 100ms\ndisplay VW20\nrecord {recorded}\n", LONG)
+            self.assertIn("recorded up to", said)
+            self.assertNotIn("left out", said)
+            self.assertEqual(process.returncode, FINE)
+        text = recorded.read_text(encoding="utf-8")
+        self.assertEqual(text.count(f"expect: {ANSWER.hex(' ')}"), 3, text)
+        self.assertIn(f"- send: {READ[:5].hex(' ')}\n", text)
+        replayed = subprocess.run([S7200, "test", recorded], capture_output=True, text=True, check=False)
+        self.assertIn("1 passed", replayed.stdout, replayed.stdout + replayed.stderr)
+
     def test_a_program_that_comes_back_is_never_refused_its_parity(self):
         running = self.serve()
         talking = self.open()

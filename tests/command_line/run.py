@@ -1854,8 +1854,9 @@ lines:
         self.assertIn("in the past; going forward plays what has run", shown)
         self.assertRegex(shown, r"\n> slave1  \d+\.\d+ ms .*\n  slave2  \d+\.\d+ ms ")
         self.assertIn("VW0", shown.splitlines()[-1] + shown.splitlines()[-3], "--dump of the system file, by PLC")
-        done = self.ends(UNUSABLE, "debug", self.GATEWAY, "-x", "station")
-        self.assertIn("there are several lines, office, field: name one of them, or a PLC (--at NAME)", done.stderr)
+        done = self.ends(FINE, "debug", self.GATEWAY, "-x", "step; station")
+        self.assertIn("note: gateway is in view, the first of 2 PLCs on 2 lines; 'station NAME' goes over to another one", done.stderr)
+        self.assertRegex(done.stdout, r"\n> gateway ")
         full = SOURCE / "stl_programs/systems/polled_slaves.yaml"
         done = self.ends(UNUSABLE, "debug", full, "--at", "slave31", "-x", "continue 20ms; send read 40001 station 31")
         self.assertIn("there is no place for one more master", done.stderr)
@@ -2475,9 +2476,10 @@ class Files(Case):
         self.assertEqual(text.count("- send:"), 3, text)
         self.assertIn("- send: 01 03 00\n", text)
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
-        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 25ms; send cancel; record {recorded} !")
-        self.assertIn("a request was given up within its answer at ", done.stderr)
-        advised = re.search(r"'(at [\d.]+ ms)', 'fork' and 'continue' lead to the end of that answer; then record", done.stderr)
+        done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 25ms; send cancel; continue 100ms; record {recorded} !")
+        self.assertIn("left out: a request was given up within its answer at ", done.stdout)
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+        advised = re.search(r"'(at [\d.]+ ms)', 'fork' and 'continue' lead to the end of that answer; then record", done.stdout)
         done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 25ms; send cancel; {advised[1]}; fork; continue; record {recorded} !")
         self.assertIn("answer   01 03 02", done.stdout)
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
@@ -2488,17 +2490,48 @@ class Files(Case):
         self.ends(FINE, "debug", SLAVE, "-x", f"{at_once} record {recorded}")
         self.assertIn("- send: 02 03 01 03 00 0a 00 01 a4 08\n", recorded.read_text(encoding="utf-8"))
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
-        done = self.ends(UNUSABLE, "debug", SLAVE, "--gap", "2ms", "-x", f"{at_once.replace('1500us', '3500us')} record {recorded} !")
-        self.assertIn("which no step can do with gaps between characters: 'continue 20ms' before 'send'", done.stderr)
+        done = self.ends(FINE, "debug", SLAVE, "--gap", "2ms", "-x", f"{at_once.replace('1500us', '3500us')} record {recorded} !")
+        self.assertIn("which no step can do with gaps between characters: 'continue 20ms' before 'send'", done.stdout)
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
 
-    def test_what_cannot_be_recorded_says_what_to_do(self):
-        ask, record = "send 01 03 00 0a 00 01 crc; ", f"record {self.folder / 'late.yaml'}"
+    def test_what_is_forced_and_the_mode_are_recorded_and_replay_to_the_same_answers(self):
+        recorded = self.folder / "forced.yaml"
+        ask = "send 01 03 00 0a 00 01 crc; continue; continue 10ms; "
+        done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; force VW20=16#4711 I0.3=1; {ask} mode stop; continue 50ms; mode run; continue 100ms; "
+                         f"{ask} set VW20=5; {ask} unforce I0.3; unforce all; set VW20=6; {ask} display VW20 I0.3; record {recorded}")
+        self.assertNotIn("left out", done.stdout)
+        text = recorded.read_text(encoding="utf-8")
+        for step in ("- force: {VW20: 16#4711, I0.3: 16#1}", "- set_mode: stop", "- set_mode: run", "- unforce: [I0.3]", "- unforce: [VW20]"):
+            self.assertIn(step, text)
+        self.assertEqual(text.count("02 47 11 4b b8"), 3, "what is forced, after the change to RUN and after 'set' too")
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+        stopped = self.folder / "stopped.yaml"
+        self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; mode stop; continue 50ms; record {stopped}")
+        self.assertIn("1 passed", self.ends(FINE, "test", stopped).stdout)
+
+    def test_a_session_with_a_system_whose_line_has_faults_from_the_start_is_recorded(self):
+        system = self.program(f"plcs:\n  slave: {{program: {SLAVE}, copies: 2, station: 4}}\n"
+                              "lines:\n  bus: {stations: [slave], faults: ['flip:character=3,bit=5,exchange=1']}\n", "system.yaml")
+        recorded = self.folder / "faulted.yaml"
+        ask = "send 04 03 00 0a 00 01 crc; continue; continue 10ms; "
+        done = self.ends(FINE, "debug", system, "-x", f"continue 100ms; {ask} force VW20=7; fault parity station=slave1; {ask} fault none; {ask} "
+                         f"mode stop; display VW20; continue 10ms; record {recorded}")
+        self.assertNotIn("left out", done.stdout)
+        text = recorded.read_text(encoding="utf-8")
+        self.assertEqual(text.count("expect: silence"), 1, text)
+        self.assertIn("- set_mode: stop\n        on: slave1", text)
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
+    def test_what_cannot_be_recorded_is_left_out_and_says_what_to_do(self):
+        ask, record = "send 01 03 00 0a 00 01 crc; ", f"record {self.folder / 'late.yaml'} !"
         done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; {record}")
         self.assertIn("a request is under way: 01 03 00 0a 00 01 a4 08; 'continue' runs to its end, 'send cancel' gives it up; then record", done.stderr)
-        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; set VW20=5; continue; {record}")
-        self.assertRegex(done.stderr, r"what was done at 10\d\.\d+ ms came while a request or its answer was under way, .*: do it before 'send', or after")
-        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} break sent; continue; continue 1ms; set VW20=5; continue; {record}")
-        self.assertRegex(done.stderr, r"under way, .*: do it before 'send', or after the answer and the silence that ends it")
+        done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; set VW20=5; continue; display VW20; {record}")
+        self.assertIn("1 passed", self.ends(FINE, "test", self.folder / "late.yaml").stdout)
+        self.assertIn("left out: how it stands at the end, which is another without the rest: ", done.stdout)
+        self.assertRegex(done.stdout, r"left out: what was done at 10\d\.\d+ ms came while a request or its answer was under way, .*: do it before 'send', or after")
+        done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} break sent; continue; continue 1ms; set VW20=5; continue; {record}")
+        self.assertRegex(done.stdout, r"under way, .*: do it before 'send', or after the answer and the silence that ends it")
 
     def test_what_is_done_directly_at_the_end_of_an_answer_of_a_system_is_recorded_as_a_scenario(self):
         system = self.program(f"plcs: {{s: {{program: {SLAVE}, station: 1, copies: 6}}, m: {{program: {SOURCE}/stl_programs/modbus_master.stl, cpu: 224}}}}\n"
@@ -2524,12 +2557,12 @@ class Files(Case):
         self.assertLess(text.index("- fault:"), text.index("- send:"), text)
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
 
-    def test_two_requests_at_one_instant_are_not_recorded_and_the_message_says_what_to_do(self):
+    def test_of_two_requests_at_one_instant_one_is_recorded_and_the_message_says_what_to_do(self):
         system = self.program(f"plcs: {{a: {{program: {SLAVE}, station: 1}}, b: {{program: {SLAVE}, station: 1}}}}\n"
                               "lines: {one: {stations: [a]}, two: {stations: [b]}}\n", "lines.yaml")
-        ask, record = "send 01 03 00 0a 00 01 crc; ", f"continue 1ms; record {self.folder / 'two.yaml'}"
-        done = self.ends(UNUSABLE, "debug", "--at", "a", system, "-x", f"continue 100ms; {ask} station b; {ask} continue; continue 100ms; {record}")
-        self.assertRegex(done.stderr, r"the request of 100\.\d+ ms was sent while another one or its answer was under way, .*: "
+        ask, record = "send 01 03 00 0a 00 01 crc; ", f"continue 1ms; record {self.folder / 'two.yaml'} !"
+        done = self.ends(FINE, "debug", "--at", "a", system, "-x", f"continue 100ms; {ask} station b; {ask} continue; continue 100ms; {record}")
+        self.assertRegex(done.stdout, r"left out: the request of 100\.\d+ ms was sent while another one or its answer was under way, .*: "
                          r"'continue' to the end of that answer before the next 'send'")
         self.ends(FINE, "debug", "--at", "a", system, "-x", f"continue 100ms; {ask} continue; continue 1ms; station b; {ask} continue; {record}")
 

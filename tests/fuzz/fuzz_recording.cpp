@@ -4,10 +4,9 @@
 // Promises: it is read, or refused with a reason. No byte of its frames is lost or read twice, and an answer and its request
 // name each other. What is said is text, and a scenario that is made of it can be read again.
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 #include "interpreter/base/text.hpp"
+#include "tests/fuzz/promise.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/playback.hpp"
 #include "tools/scenario/reader.hpp"
@@ -16,12 +15,6 @@ namespace {
 
 using namespace s7200;
 using namespace s7200::tools;
-
-void must(bool promise, const char* what, const std::string& text) {
-  if (promise) return;
-  std::fprintf(stderr, "%s:\n%s\n", what, text.c_str());
-  std::abort();
-}
 
 std::size_t bytes_of(const auto& frames, auto frame) {
   std::size_t count = 0;

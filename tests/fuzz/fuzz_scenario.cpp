@@ -1,11 +1,10 @@
 // Scenario files: whatever the text is, it is read or refused with messages. What can be read is run, for a bounded
 // simulated time, and the transcript of that run is a scenario again, which gives the same.
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "interpreter/program/load.hpp"
+#include "tests/fuzz/promise.hpp"
 #include "tools/scenario/junit.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/report_json.hpp"
@@ -79,12 +78,6 @@ void shorten(Scenario& scenario) {
       exchange.at.reset();
     });
   }
-}
-
-void must(bool condition, const char* what, const std::string& text) {
-  if (condition) return;
-  std::fprintf(stderr, "%s:\n%s\n", what, text.c_str());
-  std::abort();
 }
 
 std::string run(const std::vector<Scenario>& scenarios, bool replay) {

@@ -3,11 +3,10 @@
 // Promises: it is read, or refused with a reason. What is read is run, if that is for a short time, and can be written and
 // read again.
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "interpreter/program/load.hpp"
+#include "tests/fuzz/promise.hpp"
 #include "tools/debugger/digest.hpp"
 #include "tools/debugger/history.hpp"
 #include "tools/debugger/session_file.hpp"
@@ -17,12 +16,6 @@ namespace {
 
 using namespace s7200;
 using namespace s7200::tools;
-
-void must(bool promise, const char* what, const std::string& text) {
-  if (promise) return;
-  std::fprintf(stderr, "%s:\n%s\n", what, text.c_str());
-  std::abort();
-}
 
 std::optional<SessionFile> read(const std::string& text) {
   const CpuModel* const models[] = {&cpu214()};

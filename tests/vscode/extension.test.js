@@ -196,6 +196,11 @@ function stand_in() {
   return registered;
 }
 
+test("the commands have a request for each thing that the protocol has no button for", () => {
+  const commands = manifest.contributes.commands.map((one) => one.command.replace("s7200.", ""));
+  for (const request of ["stepInterrupt", "reverseStepInterrupt", "fault", "lastWrite", "lastDecision"]) assert.ok(commands.includes(request), request);
+});
+
 test("every command of package.json does what the session offers", async () => {
   const registered = stand_in();
   const commands = manifest.contributes.commands.map((one) => one.command);

@@ -9,46 +9,46 @@
 #include "tools/command/session_scenario.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/debugger/digest.hpp"
+#include "tools/debugger/host_frames.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
 
-/// The step of a scenario for an action; nothing, and `why`, if there is none.
+/// The step of a scenario for an action. Without any, `why_not` says why, or it is done in another way.
 struct StepOf {
   Time at;
-  std::string& why;
+  std::string& why_not;
 
   SessionSteps::Step operator()(const SetMemory& set) const { return {.at = at, .set = set.assignments}; }
   SessionSteps::Step operator()(const SendFrame& send) const { return {.at = at, .send = send.request}; }
   SessionSteps::Step operator()(const CancelRequest&) const { return {}; }
   SessionSteps::Step operator()(const SetPower&) const { return {}; }
-  SessionSteps::Step operator()(const serial::HostCall&) const {
-    return refuse("characters came over a bridge (a frame that 'send' puts on the line can be recorded)");
-  }
+  SessionSteps::Step operator()(const serial::HostCall&) const { return {}; }
   SessionSteps::Step operator()(const Jump&) const { return refuse("the program was made to go on elsewhere"); }
   SessionSteps::Step operator()(const InjectFault& inject) const {
     return {.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none", .fault_of = inject.of};
   }
-  SessionSteps::Step operator()(const SetMode&) const { return refuse("the mode was changed"); }
+  SessionSteps::Step operator()(const SetMode& set) const { return {.at = at, .mode = set.mode}; }
   SessionSteps::Step operator()(const SetStack&) const { return refuse("the logic stack was set"); }
-  SessionSteps::Step operator()(const Force&) const { return refuse("values were forced"); }
-  SessionSteps::Step operator()(const Unforce&) const { return {}; }
+  SessionSteps::Step operator()(const Force& force) const { return {.at = at, .force = force.assignments}; }
+  SessionSteps::Step operator()(const Unforce& unforce) const { return {.at = at, .unforce = unforce.places}; }
 
   SessionSteps::Step refuse(std::string_view what) const {
-    why = fmt::format("{} at {}, for which scenarios have no step", what, moment_text(at));
+    why_not = fmt::format("{} at {}, for which scenarios have no step", what, moment_text(at));
     return {};
   }
 };
 
 using Places = std::vector<RigOptions::Station>;
 
-/// What was done in a session, step by step, up to where no step can do it: `why` says what that was.
+/// What was done in a session, step by step. What no step can do is left out, and said.
 class StepsOfSession {
  public:
-  /// `places`: the stations as scenarios name them; none of the only PLC.
-  StepsOfSession(const Places& places, std::string& why) : places_(places), why_(why) {}
+  /// `places`: the stations as scenarios name them; none of the only PLC. `hosts`: by host port, a station on its line.
+  StepsOfSession(const Places& places, const std::vector<std::optional<std::size_t>>& hosts)
+      : places_(places), hosts_(hosts) {}
 
   /// Up to its `now`; first what was done before power went off and came back.
   void add(const Recording& recording) {
@@ -62,11 +62,25 @@ class StepsOfSession {
     }
     if (!recording.complete) fail("what came over a bridge before power was switched off is forgotten");
     cut_until_.clear();
-    for (std::size_t i = 0; i < recording.now.actions && why_.empty(); ++i)
-      add(recording.actions[i], recording.stations[i], recording.moments[i].time);
+    const std::size_t first = steps_.size();
+    std::vector<HostFrames> from_hosts(hosts_.size());
+    for (std::size_t i = 0; i < recording.now.actions; ++i) {
+      const Action& action = recording.actions[i];
+      if (const auto* const call = std::get_if<serial::HostCall>(&action))
+        from_hosts.at(recording.stations[i]).note(*call, recording.moments[i].time);
+      else
+        add(action, recording.stations[i], recording.moments[i].time);
+    }
+    for (std::size_t host = 0; host < hosts_.size(); ++host)
+      for (const HostTransmission& sent : from_hosts[host].transmissions()) add(sent, host, first);
+    limit_waiting(first, recording.now.time);
   }
 
+  /// Why nothing of the session can be recorded; empty if something can.
+  const std::string& why_nothing() const { return why_nothing_; }
+
   std::vector<SessionSteps::Step> take() { return std::move(steps_); }
+  std::vector<std::string> left_out() { return std::move(left_out_); }
 
   std::string place(std::size_t station) const { return places_.empty() ? std::string() : places_[station].place; }
 
@@ -74,18 +88,48 @@ class StepsOfSession {
   using Steps = std::vector<SessionSteps::Step>;
 
   void fail(std::string why) {
-    if (why_.empty()) why_ = std::move(why);
+    if (why_nothing_.empty()) why_nothing_ = std::move(why);
   }
 
   void add(const Action& action, std::size_t station, Time at) {
-    SessionSteps::Step step = std::visit(StepOf{at, why_}, action);
-    if (!why_.empty()) return;
+    std::string why_not;
+    SessionSteps::Step step = std::visit(StepOf{at, why_not}, action);
+    if (!why_not.empty()) return left_out_.push_back(why_not);
     step.on = place(station);
     if (const auto* const cancel = std::get_if<CancelRequest>(&action)) return cut_short(*cancel, step.on, at);
     if (const auto* const power = std::get_if<SetPower>(&action))
       step = {.at = at, .event = fmt::format("power_{}: {}", power->on ? "on" : "off", places_[station].name)};
     if (step.send && at < cut_until_[step.on]) return join(*step.send, step.on, at);
     if (step.does_something()) steps_.insert(place_for(step), std::move(step));
+  }
+
+  /// A master outside waits as long as it likes, and may ask again soon after the answer: the silence that is to end it is
+  /// the shortest that no frame of Modbus has inside.
+  void add(const HostTransmission& sent, std::size_t host, std::size_t first) {
+    constexpr auto silence = [](const SerialFormat& format) { return format.character_time() * 3 / 2; };
+    std::string_view why_not;
+    if (!hosts_[host]) why_not = "on a line without an S7-200, where no scenario sends";
+    if (sent.lacks_stop_bit) why_not = "with a character without a stop bit, which no step sends";
+    if (!why_not.empty())
+      return left_out_.push_back(fmt::format("the frame of {} came over a bridge {}", moment_text(sent.from), why_not));
+    SessionSteps::Step step{.at = sent.from,
+                            .send = serial::Request{.frame = sent.frame, .silence = silence(sent.format)},
+                            .sent_until = sent.to,
+                            .on = place(*hosts_[host])};
+    const auto later = std::find_if(steps_.begin() + static_cast<std::ptrdiff_t>(first), steps_.end(),
+                                    [&](const auto& one) { return one.at > step.at || (one.at == step.at && one.send); });
+    steps_.insert(later, std::move(step));
+  }
+
+  /// The scenario waits for an answer to what came over a bridge until the next thing was done, and no longer.
+  void limit_waiting(std::size_t first, Time end) {
+    constexpr Time kAtOnce = 1;
+    for (std::size_t i = first; i < steps_.size(); ++i) {
+      SessionSteps::Step& step = steps_[i];
+      const Time next = i + 1 < steps_.size() ? steps_[i + 1].at : end;
+      if (step.sent_until)
+        step.timeout = std::clamp(next - std::min(next, *step.sent_until), kAtOnce, serial::Request{}.timeout);
+    }
   }
 
   /// What was done at the instant of a request is the same in front of it, where no step is in the way.
@@ -105,7 +149,7 @@ class StepsOfSession {
     constexpr Time kAtOnce = 1;
     const auto sent = last_sent(on);
     if (cancel.answering || sent == steps_.rend())
-      return fail(fmt::format(
+      return left_out_.push_back(fmt::format(
           "a request was given up within its answer at {}, for which scenarios have no step: 'at {}', 'fork' and "
           "'continue' lead to the end of that answer; then record",
           moment_text(at), moment_text(at - kMicrosecond)));
@@ -120,7 +164,7 @@ class StepsOfSession {
   void join(const serial::Request& next, const std::string& on, Time at) {
     SessionSteps::Step& cut = *last_sent(on);
     if (cut.send->gap != 0)
-      return fail(fmt::format(
+      return left_out_.push_back(fmt::format(
           "a frame was sent at {} while the last character of one that was given up was on the line, which no step "
           "can do with gaps between characters: 'continue 20ms' before 'send'",
           moment_text(at)));
@@ -130,21 +174,26 @@ class StepsOfSession {
   }
 
   const Places& places_;
-  std::string& why_;
+  const std::vector<std::optional<std::size_t>>& hosts_;
+  std::string why_nothing_;
+  std::vector<std::string> left_out_{};
   Steps steps_{};
   std::map<std::string, Time> cut_until_{};  // by place, the end of the last character of a request that was given up
 };
 
 std::optional<SessionSteps> steps_of(const SessionRecord& record, const Places& places, std::string& why) {
   SessionSteps session{.steps = {}, .end = record.session.now.time, .ends = {}, .last = record.last};
-  StepsOfSession steps(places, why);
+  StepsOfSession steps(places, record.host_stations);
   steps.add(record.session);
+  why = steps.why_nothing();
+  if (!why.empty()) return {};
   for (std::size_t i = 0; i < record.stations.size(); ++i) {
     const SessionRecord::Station& station = record.stations[i];
     session.ends.push_back({steps.place(i), station.memory, station.stopped, station.fatal_code});
   }
   session.steps = steps.take();
-  return why.empty() ? std::optional(session) : std::nullopt;
+  session.left_out = steps.left_out();
+  return session;
 }
 
 std::string joined_or_none(const std::vector<std::string>& texts) {
@@ -185,11 +234,12 @@ DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, Deb
           .progress = can_redraw(stderr) ? show_progress : std::function<void(std::string_view)>(),
           .written = rig.files(),
           .conditions = conditions(options.rig.settings(), rig.plan().plcs.front()),
-          .write_scenario =
-              [&options](const SessionRecord& record, const Destination& to, std::string& why) {
-                const auto steps = steps_of(record, options.rig.named_stations(options.master), why);
-                return steps && write_session_scenario(options, options.rig.program(), *steps, to, why);
-              },
+          .write_scenario = [&options](const SessionRecord& record, const Destination& to,
+                                       std::string& why) -> std::optional<std::vector<std::string>> {
+            auto steps = steps_of(record, options.rig.named_stations(options.master), why);
+            if (!steps || !write_session_scenario(options, options.rig.program(), *steps, to, why)) return {};
+            return steps->left_out;
+          },
           .scenario_beginning = session_scenario_beginning()};
 }
 

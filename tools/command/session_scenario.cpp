@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tools/host/interruption.hpp"
 #include "tools/rig/system_reader.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/runner.hpp"
@@ -30,6 +31,14 @@ std::string send_text(const SessionSteps::Step& step) {
   return text;
 }
 
+std::string done_text(const SessionSteps::Step& step) {
+  if (step.mode) return *step.mode == Mode::Run ? "set_mode: run" : "set_mode: stop";
+  if (!step.fault.empty()) return "fault: " + step.fault;
+  if (!step.force.empty()) return "force: " + assignments_text(step.force);
+  if (!step.unforce.empty()) return "unforce: " + unforce_text(step.unforce);
+  return "set: " + assignments_text(step.set);
+}
+
 std::string step_text(const SessionSteps::Step& step) {
   if (step.send) return send_text(step);
   if (!step.event.empty()) return fmt::format("  - wait: until {}\n  - {}\n", exact(step.at), step.event);
@@ -37,8 +46,7 @@ std::string step_text(const SessionSteps::Step& step) {
     return fmt::format("  - wait: until {}\n  - power_cycle: memory {}\n", exact(step.at),
                        step.power->memory_lost ? "lost" : "kept") +
            (step.power->off == 0 ? "" : fmt::format("    power_off: {}\n", exact(step.power->off)));
-  return fmt::format("  - wait: until {}\n  - {}\n", exact(step.at),
-                     step.fault.empty() ? "set: " + assignments_text(step.set) : "fault: " + step.fault) +
+  return fmt::format("  - wait: until {}\n  - {}\n", exact(step.at), done_text(step)) +
          (step.fault_of.empty() ? "" : fmt::format("    station: {}\n", in_quotes(step.fault_of))) +
          on_text(step.on, "    ");
 }
@@ -46,33 +54,38 @@ std::string step_text(const SessionSteps::Step& step) {
 std::string steps_text(const SessionSteps& session) {
   std::string text;
   for (const SessionSteps::Step& step : session.steps) text += step_text(step);
-  const bool ends_with_exchange = !session.steps.empty() && session.steps.back().send;
-  if (!ends_with_exchange || session.last) text += fmt::format("  - wait: until {}\n", exact(session.end));
-  return text;
+  return text + fmt::format("  - wait: until {}\n", exact(session.end));
 }
 
 /// How many steps of a scenario one of the session becomes: memory is set, and the like, after a wait.
 std::size_t steps_in(const SessionSteps::Step& step) { return step.send ? 1 : 2; }
 
-/// Why that step of the scenario came too late: an exchange goes on up to its end first.
-std::string why_too_late(const SessionSteps& session, std::size_t number) {
+/// What of the session became that step of the scenario; nothing of the wait for its end.
+std::optional<std::size_t> done_in(const SessionSteps& session, std::size_t number) {
   std::size_t first = 0;
-  for (const SessionSteps::Step& step : session.steps) {
-    if (number >= first + steps_in(step)) {
-      first += steps_in(step);
-      continue;
-    }
-    if (step.send)
-      return fmt::format(
-          "the request of {} was sent while another one or its answer was under way, and the steps of a scenario come one "
-          "after the other: 'continue' to the end of that answer before the next 'send'",
-          moment_text(step.at));
-    return fmt::format(
-        "what was done at {} came while a request or its answer was under way, and the steps of a scenario come one after "
-        "the other: do it before 'send', or after the answer and the silence that ends it",
-        moment_text(step.at));
+  for (std::size_t done = 0; done < session.steps.size(); ++done) {
+    first += steps_in(session.steps[done]);
+    if (number < first) return done;
   }
-  return "it stands before the end of an answer: 'continue 1ms' first";
+  return {};
+}
+
+/// Why it comes too late in the scenario: an exchange goes on up to its end first.
+std::string why_too_late(const SessionSteps::Step& step) {
+  if (step.sent_until)
+    return fmt::format(
+        "the frame that came over a bridge at {}: another one or its answer was under way, and the steps of a scenario come "
+        "one after the other",
+        moment_text(step.at));
+  if (step.send)
+    return fmt::format(
+        "the request of {} was sent while another one or its answer was under way, and the steps of a scenario come one "
+        "after the other: 'continue' to the end of that answer before the next 'send'",
+        moment_text(step.at));
+  return fmt::format(
+      "what was done at {} came while a request or its answer was under way, and the steps of a scenario come one after "
+      "the other: do it before 'send', or after the answer and the silence that ends it",
+      moment_text(step.at));
 }
 
 /// What holds at the end, in the form of a transcript.
@@ -92,17 +105,15 @@ std::string end_text(const SessionSteps& session) {
 
 /// What options have asked for that a scenario has no word for.
 std::string_view without_a_key(const DebugOptions& options) {
-  if (options.rig.faulted() && is_system_file(options.program.path)) return "a line has faults from the start";
   if (!options.rig.settings().memory.path.empty()) return "it began with the memory of --memory";
   return {};
 }
 
-/// What the line has from the start begins with the first step: nothing is sent before it.
-SessionSteps with_faults(SessionSteps session, const std::vector<serial::Fault>& faults) {
+/// What the line has from the start begins with the first step: nothing is sent before it. A system file says it itself.
+void add_faults(SessionSteps& session, const std::vector<serial::Fault>& faults) {
   std::vector<SessionSteps::Step> first;
   for (const serial::Fault& fault : faults) first.push_back({.fault = serial::to_text(fault)});
   session.steps.insert(session.steps.begin(), first.begin(), first.end());
-  return session;
 }
 
 std::string input_text(const std::string& path) {
@@ -160,36 +171,86 @@ std::optional<Scenario> scenario_of(const SessionSource& source, const std::stri
   return std::move(file.scenarios.front());
 }
 
+/// A scenario as it was run.
+struct Trial {
+  std::optional<Scenario> scenario;
+  ScenarioResult result{};
+};
+
+/// The first finding but for a STOP at the end, which the session says itself; null if there is none.
+const Finding* bad_finding(const ScenarioResult& result) {
+  const auto bad = std::ranges::find_if(result.findings, [](const Finding& f) { return f.what != "mode at the end"; });
+  return bad == result.findings.end() ? nullptr : &*bad;
+}
+
+bool is_too_late(const Finding& finding) { return finding.what == "wait" || finding.what.starts_with("begin"); }
+
+/// Runs the session as a scenario, and again without what came too late. Nothing, and `why`, if it cannot be run.
+std::optional<Trial> tried(const SessionSource& source, SessionSteps& session, const std::string& path, std::string& why) {
+  for (;;) {
+    Trial trial{.scenario = scenario_of(source, path, why)};
+    if (!trial.scenario) return {};
+    trial.result = run_scenario(*trial.scenario, {.program = source.program});
+    if (interrupted()) return why = interruption_text(), std::nullopt;
+    const Finding* const bad = bad_finding(trial.result);
+    if (!bad || !is_too_late(*bad) || !bad->step) return trial;
+    const auto late = done_in(session, *bad->step);
+    if (!late) return why = "it stands before the end of an answer: 'continue 1ms' first", std::nullopt;
+    session.left_out.push_back(why_too_late(session.steps[*late]));
+    session.steps.erase(session.steps.begin() + static_cast<std::ptrdiff_t>(*late));
+  }
+}
+
+constexpr std::string_view kNotTheSame = "as a scenario it does not run the same way";
+
 /// In what the scenario went another way than the session; empty if in nothing.
 std::string difference(const SessionSteps& session, const ScenarioResult& result) {
-  const auto bad = std::ranges::find_if(result.findings, [](const Finding& f) { return f.what != "mode at the end"; });
-  const bool too_late = bad != result.findings.end() && (bad->what == "wait" || bad->what.starts_with("begin"));
-  if (too_late && bad->step) return why_too_late(session, *bad->step);
-  constexpr std::string_view kNotTheSame = "as a scenario it does not run the same way";
-  if (bad != result.findings.end())
+  if (const Finding* const bad = bad_finding(result))
     return fmt::format("{}: {}, expected {}, found {}", kNotTheSame, bad->what, bad->expected, bad->found);
+  const auto is_of_master = [&](const Seen& seen) {
+    const auto done = done_in(session, seen.step);
+    return done && !session.steps[*done].sent_until;
+  };
+  const auto last = std::find_if(result.seen.rbegin(), result.seen.rend(), is_of_master);
   const bool other_answer =
-      session.last && (result.seen.empty() || result.seen.back().exchange.response != session.last->response);
+      session.last && (last == result.seen.rend() || last->exchange.response != session.last->response);
   return other_answer ? fmt::format("{}: the last answer differs", kNotTheSame) : "";
+}
+
+/// Runs the text as it is to be written. Why it does not pass; empty if it does.
+std::string why_it_fails(const std::string& text, const std::string& path, const std::shared_ptr<const Program>& program) {
+  const ScenarioFile file = read_scenarios(text, path);
+  if (!file.diagnostics.empty()) return file.diagnostics.front().message;
+  const ScenarioResult result = run_scenario(file.scenarios.front(), {.program = program});
+  if (result.findings.empty()) return {};
+  const Finding& bad = result.findings.front();
+  return fmt::format("{}: {}, expected {}, found {}", kNotTheSame, bad.what, bad.expected, bad.found);
 }
 
 }  // namespace
 
 bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
-                            const SessionSteps& done, const Destination& to, std::string& why) {
+                            SessionSteps& session, const Destination& to, std::string& why) {
   why = without_a_key(options);
   if (!why.empty()) return false;
-  const SessionSteps session = with_faults(done, options.rig.settings().faults);
+  add_faults(session, options.rig.settings().faults);
   const SessionSource source{options, program, session};
-  const std::optional<Scenario> scenario = scenario_of(source, to.path, why);
-  if (!scenario) return false;
-  const Report report{&*scenario, run_scenario(*scenario, {.program = program})};
-  why = difference(session, report.result);
+  auto trial = tried(source, session, to.path, why);
+  if (!trial) return false;
+  if (session.left_out.empty()) why = difference(session, trial->result);
   if (!why.empty()) return false;
-  const std::string text =
-      transcript_text({report}, {.path = to.path, .recorded_from = source.name(), .by = "s7200 debug, record"}) +
-      end_text(session);
+  const Report report{&*trial->scenario, std::move(trial->result)};
+  const std::string steps =
+      transcript_text({report}, {.path = to.path, .recorded_from = source.name(), .by = "s7200 debug, record"});
+  std::string text = steps + end_text(session);
   why = why_not_replayed(text.size());
+  if (why.empty()) why = why_it_fails(text, to.path, program);
+  if (interrupted()) why = interruption_text();
+  if (!why.empty() && !session.left_out.empty() && !interrupted()) {
+    session.left_out.push_back("how it stands at the end, which is another without the rest: " + why);
+    text = steps;
+    why.clear();
+  }
   return why.empty() && write_result(to, text, why);
 }
 

@@ -18,20 +18,25 @@ struct SessionSteps {
     Time off = 0;
   };
 
-  /// Memory is set, a frame is sent, the line has a fault, or none any more; or power goes off and on, from where times
-  /// count anew.
+  /// Memory is set or forced, a frame is sent, the mode changes, the line has a fault, or none any more; or power goes off
+  /// and on, from where times count anew.
   struct Step {
     Time at = 0;
-    std::vector<Assignment> set{};
+    std::vector<Assignment> set{}, force{};
+    std::vector<MemoryRange> unforce{};
+    std::optional<Mode> mode{};
     std::optional<serial::Request> send{};
     std::string fault{};
-    std::string fault_of{};         ///< the station that it is about; empty: anyone on the line
-    std::optional<Time> timeout{};  ///< of what is sent, if not the scenario's
+    std::string fault_of{};            ///< the station that it is about; empty: anyone on the line
+    std::optional<Time> sent_until{};  ///< it came over a bridge: the end of the frame
+    std::optional<Time> timeout{};     ///< of what is sent, if not the scenario's
     std::optional<PowerCycle> power{};
     std::string event{};  ///< of a system: `power_off: pump`
     std::string on{};     ///< a PLC of a system
 
-    bool does_something() const { return send || power || !set.empty() || !fault.empty() || !event.empty(); }
+    bool does_something() const {
+      return send || power || mode || !(set.empty() && force.empty() && unforce.empty() && fault.empty() && event.empty());
+    }
   };
 
   /// How a PLC must be at the end.
@@ -45,13 +50,14 @@ struct SessionSteps {
   std::vector<Step> steps{};
   Time end = 0;
   std::vector<End> ends{};
-  std::optional<serial::Exchange> last{};  ///< the last exchange, if it is over
+  std::optional<serial::Exchange> last{};  ///< the last exchange of the simulated master, if it is over
+  std::vector<std::string> left_out{};     ///< what no step can do, and why
 };
 
-/// Writes it: of a system file if the program of the options is one. False, and why not, if no scenario can do what was
-/// done.
+/// Writes it: of a system file if the program of the options is one. What comes too late, because steps come one after the
+/// other, is left out too. False, and why not, if it cannot be written, or if it would not run as the session did.
 bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
-                            const SessionSteps& session, const Destination& to, std::string& why);
+                            SessionSteps& session, const Destination& to, std::string& why);
 
 /// How such a file begins.
 std::string_view session_scenario_beginning();

@@ -279,7 +279,7 @@ Json Session::initialize(const Json& arguments) {
 
 Json Session::launch(const Json& arguments) {
   if (debuggee_) throw Refused("a program is being debugged already");
-  read_wishes(arguments);
+  read_wishes(arguments, false);
   begin(settings_.launch(arguments));
   return {};
 }
@@ -290,15 +290,15 @@ Json Session::attach(const Json& arguments) {
     throw Refused(
         "there is no PLC to attach to: it is the one that s7200 dap is started with, for example s7200 dap --listen 4711 "
         "PROGRAM; launch brings its own");
-  attached_ = true;
-  read_wishes(arguments);
+  read_wishes(arguments, true);
   begin(settings_.attachable);
+  attached_ = true;
   return {};
 }
 
 /// What a launch or an attach says to the session itself.
-void Session::read_wishes(const Json& arguments) {
-  stop_on_entry_ = arguments.value("stopOnEntry", attached_);
+void Session::read_wishes(const Json& arguments, bool stops_on_entry) {
+  stop_on_entry_ = arguments.value("stopOnEntry", stops_on_entry);
   no_debug_ = arguments.value("noDebug", false);
   const std::string unit = arguments.value("step", "line");
   if (unit != "line" && unit != "network") throw Refused(fmt::format("step: '{}' is not line or network", unit));

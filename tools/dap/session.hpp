@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -95,7 +96,7 @@ class Session {
   Json terminate(const Json& arguments);
   Json disconnect(const Json& arguments);
   Json cancel(const Json& arguments);
-  void read_wishes(const Json& arguments);
+  void read_wishes(const Json& arguments, bool stops_on_entry);
   void begin(std::shared_ptr<Debuggee> debuggee);
   void read_frames(const Json& arguments);
   serial::Frame frame_of(const std::string& text) const;
@@ -215,10 +216,21 @@ class Session {
   Json last_instructions(const Json& arguments);
   Json stl_status(const Json& arguments);
   Json forced() const;
-  Json console_command(const std::string& line);
+
+  /// Of the debug console: what stands behind its word in, what it says out.
+  struct ConsoleCommand {
+    std::string_view word, help;
+    std::string (*run)(Session& session, const std::string& rest);
+  };
+  static std::span<const ConsoleCommand> console_commands();
+  static const ConsoleCommand* console_command(std::string_view word);  ///< null: it is none
+  static std::string console_help();
+  std::string set_in_console(const std::string& rest);
+  std::string history_in_console(const std::string& rest);
   struct Written {
     std::optional<Moment> moment;  ///< nothing: nothing was found that it could go back to
     Json body;
+    std::string why_no_moment{};
   };
   Written find_writer(const std::string& expression);
   Json named(const InstructionRecord& record) const;

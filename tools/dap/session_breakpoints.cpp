@@ -7,6 +7,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/networks.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/dap/addresses.hpp"
 #include "tools/dap/exception_filters.hpp"
@@ -198,6 +199,7 @@ Json Session::set_instruction_breakpoints(const Json& arguments) {
       throw Refused(fmt::format("{} is not an instruction of this program", stl::shortened(reference)));
     StopPoint stop = stop_at(static_cast<std::uint32_t>(op));
     stop.needs_power = false;
+    if (depends_on_power_flow(cpu().program().ops[stop.op])) answer["message"] = "stops without power flow, too";
     answer.update(client_place(stop.op));
     answer["instructionReference"] = at_station(instruction_reference(op), looks_at());
     return std::vector{with_conditions(std::move(stop), wanted)};

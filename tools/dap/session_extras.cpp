@@ -27,20 +27,6 @@
 namespace s7200::tools::dap {
 namespace {
 
-constexpr std::string_view kHelp =
-    "An expression in STL terms shows its value: VW100, VB0:16, *VD3570:word, VW2 * 2 + 1, M31.7 and VW3300 > 8.\n"
-    "set ADDRESS=VALUE      writes memory; I addresses are the input points\n"
-    "mode run | stop        what a programming device asks the CPU for\n"
-    "send HEX… | 'TEXT' [crc]  puts a frame on the line from now on\n"
-    "send read 40011:2 | write 00003=on [station n]  a Modbus request\n"
-    "fault KIND[:PARAMETER=VALUE,…] | none  a fault of the line from now on\n"
-    "force [ADDRESS=VALUE…]  holds values across scans; alone lists what is forced\n"
-    "unforce ADDRESS… | all  releases them\n"
-    "who ADDRESS | event N  the instruction that wrote an address last, or attached an event\n"
-    "why                    what decided that it has come here: contacts, a jump, a conditional return\n"
-    "history [n]            the last 10 instructions before now, or n\n"
-    "timeline               what the CPU did since the last request began\n";
-
 /// A text with blanks between its words, or a list of them; `VW10 = 5` is one.
 std::vector<std::string> words_in(const Json& arguments, const char* key) {
   const Json given = arguments.value(key, Json::array());
@@ -196,8 +182,8 @@ Session::Written Session::find_decision() {
   if (search.decision)
     say(search.decision->by.at, (search.unanswered.empty() ? "" : "what led here: ") + search.decision->text);
   if (text.empty()) text = kNothingDecided;
-  if (!search.origin()) return {std::nullopt, {{"text", text}}};
-  const LastDecision& found = *search.origin();
+  if (!search.origin()) return {std::nullopt, {{"text", text}}, search.why_no_origin()};
+  const LastDecision found = *search.origin();
   Json body{{"text", text}};
   body.update(named(found.by));
   return {found.moment, body};
@@ -207,8 +193,7 @@ Json Session::last_decision(const Json&) { return find_decision().body; }
 
 Json Session::reverse_to_last_decision(const Json&) {
   const Written found = find_decision();
-  if (!found.moment)
-    throw Refused(found.body["text"].get<std::string>() + "\nno instruction is named that it could go back to");
+  if (!found.moment) throw Refused(found.body["text"].get<std::string>() + "\n" + found.why_no_moment);
   after_response([this, found] {
     print(found.body["text"].get<std::string>());
     debuggee_->history().go_to(*found.moment);
@@ -225,11 +210,11 @@ Json Session::last_instructions(const Json& arguments) {
       tools::last_instructions(debuggee_->history(), looks_at(), static_cast<std::size_t>(count), settings_.stop_request);
   if (!found) refuse_interrupted();
   Json list = Json::array();
-  for (const InstructionRecord& record : *found) {
-    Json one{{"time", clock_text(record.at)},
-             {"routine", listing().routine_of(record.op)},
-             {"text", execution_text(record, cpu().program())}};
-    one.update(client_place(record.op));
+  for (const Execution& execution : *found) {
+    Json one{{"time", clock_text(execution.record.at)},
+             {"routine", listing().routine_of(execution.record.op)},
+             {"text", execution_text(execution, cpu().program())}};
+    one.update(client_place(execution.record.op));
     list.push_back(std::move(one));
   }
   return {{"instructions", list}};
@@ -249,52 +234,15 @@ Json Session::stl_status(const Json& arguments) {
     while (last_line && end > *first && listing().line_of(end - 1) > *last_line) --end;
     const LastExecutions last =
         tools::last_executions(debuggee_->history(), looks_at(), *first, end, kLookedAt, settings_.stop_request);
-    for (const auto& [op, record] : last.of) {
-      const std::string text = describe(record, program);
+    for (const auto& [op, execution] : last.of) {
+      const std::string text = describe(execution, program);
       const std::size_t values = text.find("S0=");
       lines.push_back({{"line", client_place(op)["line"]},
-                       {"powerFlow", record.powered},
+                       {"powerFlow", execution.record.powered},
                        {"text", values == std::string::npos ? text : text.substr(values)}});
     }
   }
   return {{"lines", lines}};
-}
-
-// --- the console ---
-
-Json Session::console_command(const std::string& line) {
-  const std::size_t blank = std::min(line.find(' '), line.size());
-  const std::string word = line.substr(0, blank), rest(stl::trim(std::string_view(line).substr(blank)));
-  const auto says = [](const std::string& text) { return Json{{"result", text}, {"variablesReference", 0}}; };
-  if (word == "help") return says(std::string(kHelp));
-  if (word == "who") return says(find_writer(rest).body["text"]);
-  if (word == "fault") return says(inject_fault({{"fault", rest}})["text"]);
-  if (word == "why") return says(find_decision().body["text"]);
-  if (word == "send") {
-    send_frame({{"frame", rest}});
-    return says("");
-  }
-  if (word == "force" || word == "unforce") {
-    return says((word == "force" ? force({{"values", rest}}) : unforce({{"places", rest}}))["text"]);
-  }
-  if (word == "mode") {
-    change_mode(rest);
-    return says("");
-  }
-  if (word == "timeline") return says(timeline(Json::object())["text"]);
-  if (word == "history") {
-    const auto count = rest.empty() ? std::optional<std::int64_t>(10) : parse_decimal<std::int64_t>(rest);
-    std::string text;
-    const Json all = last_instructions({{"count", count.value_or(0)}});
-    for (const Json& one : all["instructions"])
-      text += fmt::format("{}  {:<7} {}\n", one["time"].get<std::string>(), one["routine"].get<std::string>(),
-                          one["text"].get<std::string>());
-    return says(text);
-  }
-  const std::size_t equals = rest.find('=');
-  if (equals == std::string::npos) throw Refused("set expects an address and a value, for example: set VW100=5");
-  return says(
-      assign(std::string(stl::trim(rest.substr(0, equals))), std::string(stl::trim(rest.substr(equals + 1))))["value"]);
 }
 
 }  // namespace s7200::tools::dap

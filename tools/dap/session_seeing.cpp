@@ -64,8 +64,6 @@ std::string words_of(const Cpu& cpu, const MemoryRange& range) {
   return words;
 }
 
-constexpr std::string_view kCommands[] = {"set", "mode", "send",    "fault",    "force", "unforce",
-                                          "who", "why",  "history", "timeline", "help"};
 constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
 
 }  // namespace
@@ -186,7 +184,10 @@ Json Session::evaluate(const Json& arguments) {
   const std::string expression(stl::trim(arguments.at("expression").get<std::string>()));
   const bool console = arguments.value("context", "") == "repl";
   const std::string word = expression.substr(0, expression.find(' '));
-  if (console && std::ranges::find(kCommands, word) != std::end(kCommands)) return console_command(expression);
+  if (const ConsoleCommand* const command = console ? console_command(word) : nullptr) {
+    const std::string rest(stl::trim(std::string_view(expression).substr(word.size())));
+    return {{"result", command->run(*this, rest)}, {"variablesReference", 0}};
+  }
   return evaluated(expression, wants_hex(arguments));
 }
 
@@ -202,7 +203,8 @@ Json Session::completions(const Json& arguments) {
   const auto offer = [&](std::string_view label) {
     if (stl::upper_case(label).starts_with(word)) found.insert(std::string(label));
   };
-  if (begin == 0) std::ranges::for_each(kCommands, offer);
+  if (begin == 0)
+    for (const ConsoleCommand& command : console_commands()) offer(command.word);
   std::ranges::for_each(kForms, offer);
   for (const std::string& address : addresses_in(cpu().program())) offer(address.substr(0, address.find(':')));
   for (const stl::Symbol& symbol : cpu().program().source.symbols) offer(symbol.name);

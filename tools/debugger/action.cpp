@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "interpreter/base/text.hpp"
-#include "interpreter/cpu/scan.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/rig/programming_device.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
@@ -43,11 +43,7 @@ struct Doer {
       simulation.inject(*inject.fault);
   }
   void operator()(const SetStack& set) const { simulation.cpu().set_stack(set.stack); }
-  void operator()(const SetMode& set) const {
-    Core& core = simulation.cpu().core();
-    core.touched = true;
-    scan::change_mode(core, set.mode);
-  }
+  void operator()(const SetMode& set) const { change_mode(simulation.cpu(), set.mode); }
   void operator()(const SetPower& power) const {
     if (simulation.plc().powered() == power.on) return;
     power.on ? simulation.system().power_on(simulation.plc()) : simulation.system().power_off(simulation.plc());

@@ -392,7 +392,8 @@ void Debugger::print_instruction(std::size_t station, const InstructionRecord& r
     of.trace_lines.note(record);
   if (!looked_at || show_ == Show::None || (show_ == Show::Started && !started_at)) return;
   hide_progress();
-  out_ << fmt::format("   {}  {}\n", describe(record, of.simulation->cpu().program()),
+  const Cpu& cpu = of.simulation->cpu();
+  out_ << fmt::format("   {}  {}\n", describe(execution_of(record, cpu), cpu.program()),
                       format_duration(record.end - record.at));
 }
 

@@ -56,8 +56,11 @@ struct DebuggerOptions {
   WrittenFiles written{};                   ///< that are read and written already
   std::vector<SessionOption> conditions{};  ///< options that a saved session needs again, besides the master's
 
-  /// Writes a session as a scenario. False, and why not.
-  std::function<bool(const SessionRecord& record, const Destination& to, std::string& why)> write_scenario{};
+  /// Writes a session as a scenario. Returns what was left out, and why that cannot be recorded; nothing, and `why`, if
+  /// nothing of it can.
+  std::function<std::optional<std::vector<std::string>>(const SessionRecord& record, const Destination& to,
+                                                        std::string& why)>
+      write_scenario{};
   std::string_view scenario_beginning{};  ///< of such files
 };
 
@@ -142,6 +145,7 @@ class Debugger {
     Commands,
     Switch,
     Mode,
+    Moments,
     Power,
     Frame,
     Stations
@@ -254,7 +258,7 @@ class Debugger {
   std::optional<Writer> report_attachment(std::uint8_t event);
   std::optional<Writer> reported(const WriterSearch& search, const std::vector<Bits>& places);
   Error report_writer_of(const Arguments& arguments, std::string_view command, std::optional<Writer>& writer);
-  std::optional<LastDecision> find_decision();
+  DecisionSearch find_decision();
   void go_to(const Moment& moment);
   struct Named {
     MemoryRange range;
@@ -362,6 +366,7 @@ class Debugger {
   std::optional<serial::Exchange> last_exchange() const;
   std::string requests_under_way();
   SessionRecord::Station record_of(std::size_t station) const;
+  std::optional<std::size_t> station_at_host(std::size_t host) const;
   void write_trace(Time until);
   void write_trace_line(const TraceLine& line);
 

@@ -92,7 +92,7 @@ the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
       {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
        R"(TIME is in ns, us, ms, s, min or h. It stands in front of the first instruction at or after it. start is the oldest
 moment, which is power-up as long as nothing is forgotten, end the newest one.)",
-       &Debugger::at},
+       &Debugger::at, Takes::Moments},
       {"who", "", "who ADDRESS | event N",
        "the instruction that wrote an address last, or attached an event, without going there",
        R"(With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and
@@ -126,7 +126,7 @@ began. For example: send 01 03 00 0a 00 01 crc; continue; timeline, or timeline 
        "switch power off and on again: the CPU begins with what it has kept",
        R"(TIME is how long it was off, in ns, us, ms, s, min or h; the clock goes on: power 8h. lost: too long for the RAM,
 only the EEPROM is left. A new branch, from time 0: back takes it back. Of a system say which: all is every PLC at once,
-power all 8h; off and on switch this PLC alone, and time goes on: power off; continue 2s; power on.)",
+power all 8h; off and on switch this PLC alone, time goes on, and going back crosses both: power off; continue 2s; power on.)",
        &Debugger::power, Takes::Power},
       {"save", "", "save FILE [!]",
        "write where this session stands, and its past; 'load' returns there, in another session too",
@@ -135,9 +135,10 @@ the bit. Breakpoints and watches are in it too, and count their hits anew; displ
 CPU, execution times and version of s7200, started with the same options. An existing file is replaced if save has
 written it; ! replaces any.)",
        &Debugger::save, Takes::Files},
-      {"load", "", "load FILE", "go to where 'save' was given",
-       "Its breakpoints and watches join those that are set. back returns to here, and leaves them.", &Debugger::load,
-       Takes::Sessions},
+      {"load", "", "load FILE [!]", "go to where 'save' was given",
+       R"(Its breakpoints and watches join those that are set. back returns to here, and leaves them. With ! also a session of
+more than a week of simulated time, which is run again.)",
+       &Debugger::load, Takes::Sessions},
       {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
        "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
@@ -174,10 +175,11 @@ they were set at. What stops at another station goes over to it.)",
        &Debugger::status, Takes::Places},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
       {"record", "", "record FILE.yaml [!]", "write this session, up to now, as a scenario that 's7200 test' replays",
-       R"(Frames, memory and inputs that were set, faults of the line and power cycles, each at its time, and the answers
-that came. Displayed memory is expected to have its values at the end. What no scenario can do is refused: force,
-mode, a bridge, 'power all' of a system, something set or sent while a frame or its answer was under way, a request
-given up within its answer, and a session with --memory, or of a system with --fault.)",
+       R"(Frames, those that came over a bridge too, memory and inputs that were set, what was forced, modes, faults of the line
+and power cycles, each at its time, and the answers that came. Displayed memory is expected to have its values at the end.
+What no scenario can do is left out, and said: something set or sent while a frame or its answer was under way, a request
+given up within its answer, 'goto' and the logic stack of an editor. 'power all' of a system, and a session with --memory,
+cannot be recorded.)",
        &Debugger::record, Takes::Files},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
       {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",

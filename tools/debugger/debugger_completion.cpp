@@ -98,6 +98,19 @@ Words fault_words() {
   return words;
 }
 
+/// The ends of the past, and when something was done from outside, the latest first.
+Words moments_of(const History& history) {
+  constexpr std::size_t kMost = 20;
+  Words words{"start", "end"};
+  const std::vector<Moment>& done = history.action_moments();
+  for (auto moment = done.rbegin(); moment != done.rend() && words.size() < kMost; ++moment) {
+    std::string time = format_duration(moment->time, 9);
+    std::erase(time, ' ');
+    if (words.back() != time) words.push_back(std::move(time));
+  }
+  return words;
+}
+
 /// Whether the next word belongs to a condition.
 bool is_in_condition(const std::string& before) { return before == "IF" || before == "AND" || before == "OR"; }
 
@@ -130,6 +143,9 @@ Debugger::Offers Debugger::completions(std::string_view line) const {
       break;
     case Takes::Mode:
       all = {"run", "stop"};
+      break;
+    case Takes::Moments:
+      if (given.empty()) all = moments_of(history_);
       break;
     case Takes::Power:
       if (!is_system() || !given.empty()) all = {"lost"};

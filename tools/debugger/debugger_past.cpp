@@ -168,9 +168,9 @@ Debugger::Error Debugger::history(const Arguments& arguments) {
     out_ << interruption_text() << '\n';
     return {};
   }
-  for (const InstructionRecord& record : *found)
-    out_ << fmt::format("{}  {:<7} {}\n", clock_text(record.at), listing().routine_of(record.op),
-                        execution_text(record, simulation().cpu().program()));
+  for (const Execution& one : *found)
+    out_ << fmt::format("{}  {:<7} {}\n", clock_text(one.record.at), listing().routine_of(one.record.op),
+                        execution_text(one, simulation().cpu().program()));
   return {};
 }
 
@@ -192,8 +192,8 @@ Debugger::Error Debugger::timeline(const Arguments& arguments) {
   return {};
 }
 
-/// Where it goes back to.
-std::optional<LastDecision> Debugger::find_decision() {
+/// Says it.
+DecisionSearch Debugger::find_decision() {
   const DecisionSearch search =
       at_length([&] { return find_last_decision(history_, focus(), stepper_.host_timeout(), options_.stop_request); });
   for (const TraceLine& line : search.unanswered) out_ << fmt::format("{}  {}\n", moment_text(line.at), line.text);
@@ -205,7 +205,7 @@ std::optional<LastDecision> Debugger::find_decision() {
                         search.decision->text);
   else if (search.unanswered.empty())
     out_ << kNothingDecided << '\n';
-  return search.origin();
+  return search;
 }
 
 Debugger::Error Debugger::why(const Arguments& arguments) {
@@ -216,10 +216,11 @@ Debugger::Error Debugger::why(const Arguments& arguments) {
 
 Debugger::Error Debugger::back_to_decision(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("rwhy");
-  if (const auto decision = find_decision())
-    go_to(decision->moment);
+  const DecisionSearch search = find_decision();
+  if (const auto origin = search.origin())
+    go_to(origin->moment);
   else
-    out_ << "rwhy goes nowhere: no instruction is named that it could go back to\n";
+    out_ << fmt::format("rwhy goes nowhere: {}\n", search.why_no_origin());
   return {};
 }
 

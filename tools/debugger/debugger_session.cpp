@@ -18,6 +18,9 @@
 namespace s7200::tools {
 namespace {
 
+/// Longer ones are not run again without being asked for: a week of a slave that nobody asks takes about a minute.
+constexpr Time kLongSession = 7 * 24 * 3600 * kSecond;
+
 std::string without_quotes(const std::string& text) {
   const std::size_t length = quotation_length(text);
   return length > 1 && length == text.size() ? text.substr(1, length - 2) : text;
@@ -101,7 +104,8 @@ Debugger::Error Debugger::save(const Arguments& arguments) {
 }
 
 Debugger::Error Debugger::load(const Arguments& arguments) {
-  if (arguments.size() != 1) return expects("load", "a file that 'save' has written");
+  const bool however_long = arguments.size() == 2 && arguments[1] == "!";
+  if (arguments.size() != 1 && !however_long) return expects("load", "a file that 'save' has written");
   const std::string path = without_quotes(arguments[0]);
   std::string why;
   const auto text = read_file(path, why);
@@ -125,6 +129,9 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
   }
   if (why.empty() && !history_.has_hosts_of(file->recording))
     why = "a bridge belongs to it, and there is no port for that here: give --pty, --device or --tcp as then";
+  if (why.empty() && !however_long && file->recording.end.time > kLongSession)
+    why = fmt::format("{} of simulated time are run again, which may take long; 'load {} !' does it all the same",
+                      format_duration(file->recording.end.time), path);
   const auto stops = why.empty() ? stops_of(*file, why) : std::nullopt;
   if (!why.empty()) return fmt::format("cannot load {}: {}", path, why);
   const History::Place place = history_.here();
@@ -153,6 +160,12 @@ SessionRecord::Station Debugger::record_of(std::size_t number) const {
   return record;
 }
 
+std::optional<std::size_t> Debugger::station_at_host(std::size_t host) const {
+  for (std::size_t number = 0; number < stations_.size(); ++number)
+    if (history_.hosts()[host]->is_on(stations_[number].simulation->line().line())) return number;
+  return {};
+}
+
 Debugger::Error Debugger::record(const Arguments& arguments) {
   if (!options_.write_scenario) return "record: scenarios cannot be written here";
   std::string why;
@@ -163,14 +176,16 @@ Debugger::Error Debugger::record(const Arguments& arguments) {
   if (const std::string requests = requests_under_way(); !requests.empty())
     return fmt::format(
         "cannot record this session: a request is under way: {}; 'continue' runs to its end, 'send cancel' gives it up; "
-        "then "
-        "record",
+        "then record",
         requests);
   SessionRecord record{.session = history_.recording(), .stations = {}};
+  for (std::size_t host = 0; host < history_.hosts().size(); ++host) record.host_stations.push_back(station_at_host(host));
   if (!record.session.complete) return "cannot record: " + oldest_text(history_);
   for (std::size_t number = 0; number < stations_.size(); ++number) record.stations.push_back(record_of(number));
   record.last = last_exchange();
-  if (!options_.write_scenario(record, *to, why)) return fmt::format("cannot record this session: {}", why);
+  const auto left_out = options_.write_scenario(record, *to, why);
+  if (!left_out) return fmt::format("cannot record this session: {}", why);
+  for (const std::string& what : *left_out) out_ << fmt::format("left out: {}\n", what);
   out_ << fmt::format("recorded up to {}; 's7200 test {}' replays it\n", moment_text(history_.now().time),
                       stl::printable(to->path));
   return {};

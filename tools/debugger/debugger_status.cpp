@@ -71,7 +71,8 @@ void Debugger::begin_live_status() {
 }
 
 void Debugger::note_live_status(const InstructionRecord& record) {
-  if (record.op >= live_status_->first && record.op < live_status_->end) live_status_->last.of[record.op] = record;
+  if (record.op >= live_status_->first && record.op < live_status_->end)
+    live_status_->last.of[record.op] = execution_of(record, simulation().cpu());
 }
 
 std::vector<std::string> Debugger::view(std::size_t rows) {

@@ -353,7 +353,8 @@ std::string Debugger::asked_by(const Hit& hit) const {
 
 void Debugger::report_access(const Hit& hit) {
   const Station& station = stations_[hit.stop.station];
-  const Program& program = station.simulation->cpu().program();
+  const Cpu& cpu = station.simulation->cpu();
+  const Program& program = cpu.program();
   const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
   const std::string is = value_text(program, *hit.stop.range, hit.value);
   out_ << said_of(hit.stop.station);
@@ -361,10 +362,11 @@ void Debugger::report_access(const Hit& hit) {
                          : fmt::format("watch {}: {} was {}, is {}", hit.stop.number, hit.stop.name, was, is))
        << '\n';
   if (hit.by)
-    out_ << fmt::format("  by {} {}\n", station.listing.routine_of(hit.by->op), execution_text(*hit.by, program));
+    out_ << fmt::format("  by {} {}\n", station.listing.routine_of(hit.by->op),
+                        execution_text(execution_of(*hit.by, cpu), program));
   else
     out_ << "  by " << changer_text(history_, hit.action, hit.planned)
-         << (hit.action || hit.planned ? "" : forced_text(station.simulation->cpu(), {bits_of(*hit.stop.range)})) << '\n';
+         << (hit.action || hit.planned ? "" : forced_text(cpu, {bits_of(*hit.stop.range)})) << '\n';
 }
 
 void Debugger::print_message(const StopPoint& stop, const Hit& hit) {

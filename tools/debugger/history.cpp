@@ -43,6 +43,17 @@ std::size_t bytes_of(const serial::Simulation::Snapshot& state) {
   return bytes;
 }
 
+/// A programming device writes, or what it has asked for clears memory.
+bool writes_memory(TraceKind kind) {
+  return kind == TraceKind::ModeChange || kind == TraceKind::PpiService || kind == TraceKind::PpiAccess;
+}
+
+bool changes_memory(const Action& action) {
+  return std::holds_alternative<SetMemory>(action) || std::holds_alternative<Force>(action) ||
+         std::holds_alternative<Unforce>(action) || std::holds_alternative<SetMode>(action) ||
+         std::holds_alternative<SetPower>(action);
+}
+
 constexpr Time kLongestFrame = 3 * kSecond;    // 256 characters of 11 bits at 1200 baud
 constexpr Time kSlice = 100 * kMillisecond;    // a stop request is heard in between
 constexpr std::uint32_t kTellEvery = 1 << 10;  // instructions
@@ -73,6 +84,7 @@ History::History(std::vector<serial::Simulation*> stations, Settings settings)
       bytes_(std::make_shared<std::size_t>(0)) {
   if (stations_.size() == 1 && settings_.hosts.empty() && station(0).has_host_port())
     settings_.hosts.push_back(&station(0).host_port());
+  for (const serial::Simulation* station : stations_) markers_.emplace_back(station->cpu());
   for (std::size_t number = 0; number < stations_.size(); ++number)
     station(number).cpu().set_sink(taps_.emplace_back(std::make_unique<Tap>(*this, number)).get());
   for (std::size_t number = 0; number < settings_.hosts.size(); ++number)
@@ -192,8 +204,11 @@ serial::Halt History::run(Observer& observer) {
   return halt;
 }
 
+/// Whose instructions nobody looks at may write anything.
 serial::Halt History::run_live() {
   live_ = true;
+  for (std::size_t station = 0; station < stations_.size(); ++station)
+    if (!wants_instructions(station)) note_unknown_writes(station);
   serial::Halt halt = serial::Halt::Time;
   while (halt == serial::Halt::Time) {
     const Time last = branch_->checkpoints.back()->moment.time;
@@ -281,9 +296,13 @@ bool History::do_next_action() {
   else
     perform(action, station(where), nullptr, station_of_fault(action, where));
   settled_ = false;
+  if (live_ && changes_memory(action)) note_unknown_writes(where);
   if (observer_) observer_->acted();
   return true;
 }
+
+/// To what is written since the last checkpoint.
+void History::note_unknown_writes(std::size_t station) { branch_->written.back()[station].unknown = true; }
 
 /// Plays until a moment that has as many actions before it as have been done.
 bool History::reach(const Moment& moment) {
@@ -347,6 +366,7 @@ void History::record(std::size_t station, const TraceRecord& record) {
   told_of_ = station;
   if (TraceSink* const records = records_of(station)) records->record(record);
   if (observer_ && observer_->watches(station)) observer_->record(record);
+  if (live_ && writes_memory(record.kind)) note_unknown_writes(station);
   requests_.note(station, record);
 }
 
@@ -360,17 +380,20 @@ bool History::before(std::size_t station, std::uint32_t op) {
   if (TraceSink* const records = records_of(station); records && records->wants_instructions())
     goes_on = records->before(op);
   if (observer_ && observer_->watches(station)) goes_on &= observer_->before(op);
+  if (live_) markers_[station].before(op);
   stopped_by_observer_ = !goes_on;
   return goes_on;
 }
 
 void History::instruction(std::size_t station, const InstructionRecord& record) {
   told_of_ = station;
+  if (live_) markers_[station].executed(record, branch_->written.back()[station]);
   if (TraceSink* const records = records_of(station); records && records->wants_instructions()) records->instruction(record);
   if (observer_ && observer_->watches(station)) observer_->instruction(record);
 }
 
 void History::planned(std::size_t number, bool done) {
+  for (std::size_t station = 0; live_ && station < stations_.size(); ++station) note_unknown_writes(station);
   if (!observer_) return;
   done ? observer_->planned_done(number) : observer_->before_planned(number);
 }
@@ -449,9 +472,10 @@ Moment History::go_to_before(const Moment& end, Time ahead) {
 }
 
 History::Search History::search_back(Observer& observer, Moment end, const std::function<void()>& begin,
-                                     const std::function<bool()>& found) {
+                                     const std::function<bool()>& found, const MayHold& may_hold) {
   constexpr Time kFirstPart = 5 * kMillisecond;
   for (Time ahead = kFirstPart;; ahead = std::min(ahead, kNever / 8) * 4) {
+    end = passed_over(end, may_hold);
     const Moment from = go_to_before(end, ahead);
     begin();
     if (!play(observer, end)) return Search::Interrupted;
@@ -462,6 +486,28 @@ History::Search History::search_back(Observer& observer, Moment end, const std::
     }
     end = from;
   }
+}
+
+/// The end of the last part that may hold it, or of the first.
+Moment History::passed_over(Moment end, const MayHold& may_hold) const {
+  const auto& all = branch_->checkpoints;
+  const auto after = std::lower_bound(all.begin() + 1, all.end(), end,
+                                      [](const CheckpointPtr& c, const Moment& m) { return c->moment < m; });
+  auto part = static_cast<std::size_t>(after - all.begin()) - 1;
+  for (; part > 0 && !may_hold(part); --part) end = all[part]->moment;
+  return end;
+}
+
+/// Scans that were passed over at the beginning of a part were executed in the one before, and a subroutine gives back what
+/// it was called for in the one before.
+History::MayHold History::may_have_written(std::size_t station, const MemoryRange& range) const {
+  const WriteMarker& marker = markers_[station];
+  if (!marker.knows(range)) return [](std::size_t) { return true; };
+  const Bits bits = bits_of(range);
+  const auto may_hold = [this, station, bits, writers = marker.writers_of(bits)](std::size_t part) {
+    return WriteMarker::may_hold(branch_->written[part][station], bits, writers);
+  };
+  return [may_hold](std::size_t part) { return may_hold(part) || (part > 0 && may_hold(part - 1)); };
 }
 
 void History::return_to(const Place& place) {
@@ -529,6 +575,7 @@ void History::fork() {
   auto branch = std::make_shared<Branch>(*branch_);
   const Moment here = now();
   std::erase_if(branch->checkpoints, [&](const CheckpointPtr& checkpoint) { return here < checkpoint->moment; });
+  branch->written.resize(branch->checkpoints.size());
   branch->actions.resize(actions_ - branch->forgotten);
   branch->stations.resize(actions_ - branch->forgotten);
   branch->moments.resize(actions_ - branch->forgotten);
@@ -604,6 +651,8 @@ bool History::replay(Recording recording) {
     if (!play_to(time)) return false;
     keep_checkpoint();
   }
+  for (std::vector<WrittenMemory>& part : branch_->written)
+    for (WrittenMemory& written : part) written.unknown = true;
   go_to(recording.end);
   if (now() != recording.end) return false;
   branch_->log_bytes = bytes_of(branch_->actions);  // not before: where it stood must not be forgotten on the way
@@ -624,6 +673,7 @@ void History::begin_branch(serial::Simulation::Snapshot state) {
   branch_->interval = settings_.interval;
   branch_->end = now();
   branch_->checkpoints.push_back(checkpoint_of(std::move(state)));
+  branch_->written.push_back(nothing_written());
   branches_.push_back(branch_);
 }
 
@@ -654,8 +704,15 @@ History::CheckpointPtr History::checkpoint_of(serial::Simulation::Snapshot state
           }};
 }
 
+std::vector<WrittenMemory> History::nothing_written() const {
+  std::vector<WrittenMemory> written;
+  for (const WriteMarker& marker : markers_) written.push_back(marker.nothing());
+  return written;
+}
+
 void History::keep_checkpoint() {
   branch_->checkpoints.push_back(checkpoint_of(system().snapshot()));
+  branch_->written.push_back(nothing_written());
   if (*bytes_ > settings_.bound) thin();
   if (branch_->log_bytes > settings_.log_bound) forget();
 }
@@ -672,6 +729,7 @@ void History::forget() {
   const auto oldest = std::find_if(branch.checkpoints.begin(), branch.checkpoints.end() - 1,
                                    [&](const CheckpointPtr& checkpoint) { return checkpoint->moment.actions >= actions; });
   const std::size_t gone = (*oldest)->moment.actions - branch.forgotten;
+  branch.written.erase(branch.written.begin(), branch.written.begin() + (oldest - branch.checkpoints.begin()));
   branch.checkpoints.erase(branch.checkpoints.begin(), oldest);
   for (std::size_t i = 0; i < gone; ++i) branch.log_bytes -= bytes_of(branch.actions[i]);
   branch.actions.erase(branch.actions.begin(), branch.actions.begin() + static_cast<std::ptrdiff_t>(gone));
@@ -686,8 +744,18 @@ void History::thin() {
   for (const auto& weak : branches_) {
     const BranchPtr branch = weak.lock();
     std::vector<CheckpointPtr> kept;
-    for (std::size_t i = 0; i < branch->checkpoints.size(); i += 2) kept.push_back(branch->checkpoints[i]);
+    std::vector<std::vector<WrittenMemory>> written;
+    for (std::size_t i = 0; i < branch->checkpoints.size(); ++i) {
+      if (i % 2 == 0) {
+        kept.push_back(branch->checkpoints[i]);
+        written.push_back(std::move(branch->written[i]));
+      } else {
+        for (std::size_t station = 0; station < stations_.size(); ++station)
+          written.back()[station].add(branch->written[i][station]);
+      }
+    }
     branch->checkpoints = std::move(kept);
+    branch->written = std::move(written);
     branch->interval = std::min(branch->interval, kNever / 4) * 2;
   }
 }

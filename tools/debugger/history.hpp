@@ -27,6 +27,7 @@
 #include "tools/debugger/host_frames.hpp"
 #include "tools/debugger/line_stations.hpp"
 #include "tools/debugger/plc_requests.hpp"
+#include "tools/debugger/written_memory.hpp"
 
 namespace s7200::tools {
 
@@ -205,10 +206,18 @@ class History final {
 
   enum class Search : std::uint8_t { Found, Oldest, Interrupted };
 
+  /// Whether a station may have written there in a part of the past, between two checkpoints.
+  using MayHold = std::function<bool(std::size_t part)>;
+
   /// Plays ever earlier parts of what ran before `end`, each from its beginning to its end and `begin` told before it, until
-  /// something was found in one. Interrupted: the observer has stopped it. It stands anywhere afterwards, at the oldest
-  /// moment if nothing was found.
-  Search search_back(Observer& observer, Moment end, const std::function<void()>& begin, const std::function<bool()>& found);
+  /// something was found in one. Parts that cannot hold it are passed over. Interrupted: the observer has stopped it. It
+  /// stands anywhere afterwards, at the oldest moment if nothing was found.
+  Search search_back(
+      Observer& observer, Moment end, const std::function<void()>& begin, const std::function<bool()>& found,
+      const MayHold& may_hold = [](std::size_t) { return true; });
+
+  /// For search_back(): where a station may have written to this memory.
+  MayHold may_have_written(std::size_t station, const MemoryRange& range) const;
 
   /// Does something to a station, or on its line, now. In the past a new branch begins; what ran on the old one stays in it.
   /// `told`: what that makes happen at once; null for nobody.
@@ -333,6 +342,9 @@ class History final {
   bool do_next_action();
   const LineStation* station_of_fault(const Action& action, std::size_t station) const;
   bool play_to(Time time);
+  Moment passed_over(Moment end, const MayHold& may_hold) const;
+  void note_unknown_writes(std::size_t station);
+  std::vector<WrittenMemory> nothing_written() const;
   void tell_progress() const {
     if (settings_.progress) settings_.progress();
   }
@@ -353,6 +365,7 @@ class History final {
   std::vector<std::unique_ptr<Tap>> taps_;          // by station
   std::vector<std::unique_ptr<Journal>> journals_;  // by host port
   PlcRequests requests_;
+  std::vector<WriteMarker> markers_;    // by station
   bool alone_;                          // one CPU that always has power
   std::shared_ptr<std::size_t> bytes_;  ///< of all checkpoints
   CheckpointPtr origin_;
@@ -376,7 +389,8 @@ class History final {
 
 /// What ran, from the beginning of the history: until `end`, and once or again.
 struct History::Branch {
-  std::vector<CheckpointPtr> checkpoints;  ///< in order; the first is the beginning
+  std::vector<CheckpointPtr> checkpoints;             ///< in order; the first is the beginning
+  std::vector<std::vector<WrittenMemory>> written{};  ///< since each of them, by station
   std::vector<Action> actions;
   std::vector<std::size_t> stations;  ///< of the actions
   std::vector<Moment> moments;        ///< of the actions

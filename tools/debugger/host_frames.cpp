@@ -27,7 +27,7 @@ void HostFrames::note(const serial::HostCall& call, Time at) {
   if (call.what != serial::HostCall::What::Send) return;
   if (!characters_.empty()) free = std::max(free, characters_.back().to);
   for (const serial::HostCharacter& one : call.characters)
-    append({.byte = one.byte, .sender = one.sender, .format = one.format});
+    append({.byte = one.byte, .fault = one.fault, .sender = one.sender, .format = one.format});
 }
 
 std::vector<SentByHost> HostFrames::frames() const {
@@ -41,6 +41,19 @@ std::vector<SentByHost> HostFrames::frames() const {
     frames.back().to = one.to;
   }
   return frames;
+}
+
+std::vector<HostTransmission> HostFrames::transmissions() const {
+  using Fault = serial::HostCharacter::Fault;
+  std::vector<HostTransmission> all;
+  for (const Character& one : characters_) {
+    const bool follows = !all.empty() && one.from == all.back().to && one.format == all.back().format;
+    if (!follows) all.push_back({.from = one.from, .format = one.format});
+    all.back().frame.push_back({one.byte, one.fault == Fault::WrongParity});
+    all.back().lacks_stop_bit |= one.fault == Fault::NoStopBit;
+    all.back().to = one.to;
+  }
+  return all;
 }
 
 }  // namespace s7200::tools

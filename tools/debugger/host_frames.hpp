@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "serial_sim/line/frame.hpp"
 #include "serial_sim/peers/host_port.hpp"
 
 namespace s7200::tools {
@@ -15,6 +16,14 @@ struct SentByHost {
   SerialFormat format{};
 };
 
+/// Characters that it sent back to back, with what is wrong with them.
+struct HostTransmission {
+  Time from = 0, to = 0;
+  serial::Frame frame{};
+  SerialFormat format{};
+  bool lacks_stop_bit = false;  ///< one of them
+};
+
 class HostFrames {
  public:
   /// Must be told the calls of the port in their order, with their moments.
@@ -23,9 +32,12 @@ class HostFrames {
   /// Pieces that follow each other within kNextPiece are one, unless the first of them are a whole Modbus RTU frame.
   std::vector<SentByHost> frames() const;
 
+  std::vector<HostTransmission> transmissions() const;
+
  private:
   struct Character {
     std::uint8_t byte = 0;
+    serial::HostCharacter::Fault fault{};
     std::uint64_t sender = 0;
     SerialFormat format{};
     Time from = 0, to = 0;

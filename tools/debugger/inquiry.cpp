@@ -74,7 +74,12 @@ void Inquiry::add(Time at, std::string text, const Keeper& keeper) {
 void find_what_the_line_lost(Inquiry& inquiry) {
   inquiry.here_at_start();
   if (auto lost = inquiry.request() ? inquiry.witness().line.lost(*inquiry.request()) : std::nullopt)
-    inquiry.add_first(std::move(*lost));
+    inquiry.add_lost(std::move(*lost));
+}
+
+void Inquiry::add_lost(TraceLine line) {
+  if (in_main_) answers.lost_on_line = line.at;
+  add_first(std::move(line));
 }
 
 void Inquiry::note_left(const TraceReasons::Cause& cause) {

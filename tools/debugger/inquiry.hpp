@@ -56,6 +56,8 @@ class Inquiry {
   /// What decided about a frame is where to go back to in the main program, unless that is known already.
   void add(Time at, std::string text, const Keeper& keeper);
   void add_first(TraceLine line) { answers.unanswered.insert(answers.unanswered.begin(), std::move(line)); }
+  /// What the line has lost or damaged.
+  void add_lost(TraceLine line);
   void note_left(const TraceReasons::Cause& cause);
 
   /// What a program hears that has asked itself is no request.

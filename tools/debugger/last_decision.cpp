@@ -1,8 +1,11 @@
 #include "tools/debugger/last_decision.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "tools/debugger/inquiry.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 
@@ -24,6 +27,12 @@ DecisionSearch find_last_decision(History& history, std::size_t station, Time ho
   }
   history.go_to(start);
   return std::move(inquiry.answers);
+}
+
+std::string DecisionSearch::why_no_origin() const {
+  if (!lost_on_line) return "no instruction is named that it could go back to";
+  return fmt::format("it was lost on the line, which no instruction has decided; 'at {}' leads to that moment",
+                     moment_text(*lost_on_line));
 }
 
 }  // namespace s7200::tools

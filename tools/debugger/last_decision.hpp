@@ -28,10 +28,16 @@ struct DecisionSearch {
   std::vector<TraceLine> unanswered{};
   /// What decided about the last of them; nothing if there is none, or if that is not known.
   std::optional<LastDecision> left{};
+  /// When the line had lost or damaged the request or its answer; nothing if it did not, or it was asked in an interrupt
+  /// routine.
+  std::optional<Time> lost_on_line{};
   bool interrupted = false;
 
-  /// Where to go back to: in the main program to what left a frame, if one was.
-  const std::optional<LastDecision>& origin() const { return left ? left : decision; }
+  /// Where to go back to: in the main program to what left a frame, if one was; to nothing if the line alone is to blame.
+  std::optional<LastDecision> origin() const { return left || lost_on_line ? left : decision; }
+
+  /// Why there is nothing to go back to.
+  std::string why_no_origin() const;
 };
 
 inline constexpr std::string_view kNothingDecided =

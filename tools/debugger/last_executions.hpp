@@ -5,13 +5,14 @@
 #include <map>
 
 #include "tools/debugger/history.hpp"
+#include "tools/views/execution_text.hpp"
 
 namespace s7200::tools {
 
 struct LastExecutions {
-  std::map<std::uint32_t, InstructionRecord> of;  ///< by instruction; those that were not executed are not there
-  Time since = 0;                                 ///< how far back it was looked for them
-  bool interrupted = false;                       ///< by a stop request: what is not there may have been executed
+  std::map<std::uint32_t, Execution> of;  ///< by instruction; those that were not executed are not there
+  Time since = 0;                         ///< how far back it was looked for them
+  bool interrupted = false;               ///< by a stop request: what is not there may have been executed
 };
 
 /// How far back it is worth looking.

@@ -7,28 +7,30 @@ namespace {
 
 class Collector final : public Reader {
  public:
-  using Reader::Reader;
+  Collector(const Cpu& cpu, std::size_t station, const std::atomic<bool>* stop_request)
+      : Reader(station, stop_request), cpu_(cpu) {}
 
   /// An earlier part is going to be played.
   void begin() {
     all.insert(all.begin(), part_.begin(), part_.end());
     part_.clear();
   }
-  void instruction(const InstructionRecord& record) override { part_.push_back(record); }
+  void instruction(const InstructionRecord& record) override { part_.push_back(execution_of(record, cpu_)); }
   std::size_t size() const { return all.size() + part_.size(); }
 
-  std::vector<InstructionRecord> all;
+  std::vector<Execution> all;
 
  private:
-  std::vector<InstructionRecord> part_;  ///< of what is being played
+  const Cpu& cpu_;
+  std::vector<Execution> part_;  ///< of what is being played
 };
 
 }  // namespace
 
-std::optional<std::vector<InstructionRecord>> last_instructions(History& history, std::size_t station, std::size_t count,
-                                                                const std::atomic<bool>* stop_request) {
+std::optional<std::vector<Execution>> last_instructions(History& history, std::size_t station, std::size_t count,
+                                                        const std::atomic<bool>* stop_request) {
   const Moment start = history.now();
-  Collector collector(station, stop_request);
+  Collector collector(history.station(station).cpu(), station, stop_request);
   const auto search = history.search_back(
       collector, start, [&] { collector.begin(); }, [&] { return collector.size() >= count; });
   history.go_to(start);

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "tools/debugger/history.hpp"
+#include "tools/views/execution_text.hpp"
 
 namespace s7200::tools {
 
 /// Those of a station before now, oldest first, at most `count`; nothing after a stop request. The simulation stands where
 /// it stood.
-std::optional<std::vector<InstructionRecord>> last_instructions(History& history, std::size_t station, std::size_t count,
-                                                                const std::atomic<bool>* stop_request);
+std::optional<std::vector<Execution>> last_instructions(History& history, std::size_t station, std::size_t count,
+                                                        const std::atomic<bool>* stop_request);
 
 }  // namespace s7200::tools

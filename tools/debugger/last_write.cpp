@@ -129,7 +129,7 @@ WriteSearch find_last_write(History& history, std::size_t station, const MemoryR
   const Moment start = history.now();
   WriteFinder finder(history, station, range, stop_request);
   const auto search = history.search_back(
-      finder, start, [&] { finder.begin(); }, [&] { return finder.found(); });
+      finder, start, [&] { finder.begin(); }, [&] { return finder.found(); }, history.may_have_written(station, range));
   history.go_to(start);
   return {search == History::Search::Found ? finder.last() : std::nullopt, search == History::Search::Interrupted};
 }

@@ -38,9 +38,10 @@ struct SessionRecord {
     std::uint16_t fatal_code = 0;
   };
 
-  Recording session;                       ///< up to its `now`
-  std::vector<Station> stations;           ///< all
-  std::optional<serial::Exchange> last{};  ///< if it is over
+  Recording session;                                        ///< up to its `now`
+  std::vector<Station> stations;                            ///< all
+  std::vector<std::optional<std::size_t>> host_stations{};  ///< by host port, one on its line; nothing if there is none
+  std::optional<serial::Exchange> last{};                   ///< if it is over
 };
 
 struct SessionFile {

@@ -125,9 +125,6 @@ class HeadReader {
       return values_.wrong(node, fmt::format("{}:{}: {}", path, first.position.line, first.message),
                            fmt::format("'s7200 run {}' shows all that is wrong", path));
     }
-    if (!file.plan.bridges.empty())
-      return values_.wrong(node, fmt::format("bridge '{}' of {} follows the clock", file.plan.bridges.front().name, path),
-                           "a scenario runs as fast as it can: leave bridges out");
     if (file.plan.plcs.empty() && !first_askable_line(file.plan))
       return values_.wrong(node, fmt::format("{} has no line with a PLC and room for a master", path),
                            "a scenario talks to PLCs");

@@ -28,7 +28,7 @@ const ScenarioKey kBeforeActions[] = {
 
     {Where::Scenario, "name", "", "TEXT", "one line, for reports; the name of the file if left out"},
     {Where::Scenario, "program", kOfOneProgram, "PATH", "STL file or published document, from the folder of this file, or `\"-\"` for standard input; `--target` comes before it"},
-    {Where::Scenario, "system", "", "PATH", "instead of a program, a system file: PLCs and lines, and what happens to them when. What it says of records, `memory` among them, is left aside"},
+    {Where::Scenario, "system", "", "PATH", "instead of a program, a system file: PLCs and lines, and what happens to them when. What it says of records, `memory` among them, is left aside, and nobody is at its bridges"},
     {Where::Scenario, "on", "", "NAME", "of a system: the line or PLC that steps are about unless they say so themselves; the only line if left out"},
     {Where::Scenario, "with", kOfOneProgram, "LIST", "paths of the other files of the program's project: symbol tables, data blocks, blocks"},
     {Where::Scenario, "repair", kOfOneProgram, "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2`, `all` or `none`"},
@@ -81,7 +81,7 @@ const ScenarioKey kModifiers[] = {
     {Where::Modifier, "listen", kReceptions, "SPAN", "the silence that ends what comes; `3.5 characters` if left out"},
     {Where::Modifier, "timeout", "send request read write receive wait_until", "TIME", "instead of the scenario's"},
     {Where::Modifier, "power_off", "power_cycle", "TIME", "how long power was off; 0 if left out. The clock goes on, unless the memory is lost"},
-    {Where::Modifier, "on", "send request read write receive wait wait_until set memory interrupts mode fatal errors fault", "NAME", "of a system: the PLC it is about (`gateway.1` is its port 1), or a line, there with its first PLC; the master sends on that line"},
+    {Where::Modifier, "on", "send request read write receive wait wait_until set force unforce set_mode memory interrupts mode fatal errors fault", "NAME", "of a system: the PLC it is about (`gateway.1` is its port 1), or a line, there with its first PLC; the master sends on that line"},
     {Where::Modifier, "after", "cut", "NAME", "the last station on the first part, in the order of the file's `stations`; the master is on the part of the line's first PLC, or of the one that the scenario's `on` names"},
     {Where::Modifier, "needs", "", "LIST", "as of a scenario; if one does not hold, the step is left out"},
     {Where::Modifier, "note", "", "TEXT", "shown when the step fails"},

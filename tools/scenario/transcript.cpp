@@ -40,6 +40,15 @@ std::string assignments_text(const std::vector<Assignment>& assignments) {
   return "{" + text + "}";
 }
 
+std::string unforce_text(const std::vector<MemoryRange>& places) {
+  if (places.empty()) return "all";
+  std::string text;
+  for (const MemoryRange& place : places)
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", place.name_of(0),
+                        place.count > 1 ? fmt::format(":{}", place.count) : "");
+  return "[" + text + "]";
+}
+
 TranscriptWriter::TranscriptWriter(const Transcript& transcript)
     : transcript_(transcript), folder_(std::filesystem::path(transcript.path).parent_path()) {}
 

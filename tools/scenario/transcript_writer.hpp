@@ -70,4 +70,7 @@ std::string in_quotes(std::string_view text);
 /// `{VW20: 16#1234}`: in their order, but each place once, with the last value that it is given, where it is given it.
 std::string assignments_text(const std::vector<Assignment>& assignments);
 
+/// `[VW20, VB0:4]`, as `unforce` takes them; `all` for none.
+std::string unforce_text(const std::vector<MemoryRange>& places);
+
 }  // namespace s7200::tools

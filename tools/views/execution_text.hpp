@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "interpreter/cpu/cpu.hpp"
 #include "interpreter/program/program.hpp"
 #include "interpreter/trace/trace.hpp"
 
@@ -12,7 +13,20 @@ namespace s7200::tools {
 /// `  // of the line  [Q0.0 Pump // contactor]`: its comment, and the symbols of its addresses.
 std::string remark_on(std::uint32_t op, const Program& program);
 
-/// `line 42    =       Q0.0   S0=1 Q0.0=1  // of the line  [Q0.0 Pump // contactor]`
+/// An executed instruction with what no record has room for.
+struct Execution {
+  InstructionRecord record{};
+  std::string parameters{};  ///< of a CALL: those it has handed over, ` VW10=16#0005`
+};
+
+/// Of the instruction that the CPU has just executed.
+Execution execution_of(const InstructionRecord& record, const Cpu& cpu);
+
+/// `line 42    =       Q0.0   S0=1 Q0.0=1`
+std::string describe(const Execution& execution, const Program& program);
+
+/// The same with what the program says about it: `  // of the line  [Q0.0 Pump // contactor]`
 std::string execution_text(const InstructionRecord& record, const Program& program);
+std::string execution_text(const Execution& execution, const Program& program);
 
 }  // namespace s7200::tools

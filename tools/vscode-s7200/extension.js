@@ -94,15 +94,22 @@ async function ask(request, argument, prompt, placeHolder) {
   return undefined;
 }
 
+const WRITTEN = ["expression", "An address, or an event: who wrote it, or attached it", "VW3300, or event 8"];
+
 const COMMANDS = {
   reverseStepOver: [],
   reverseStepOut: [],
   stepScan: [],
   reverseStepScan: [],
-  reverseToLastWrite: ["expression", "An address, or an event: who wrote it, or attached it", "VW3300, or event 8"],
+  stepInterrupt: [],
+  reverseStepInterrupt: [],
+  lastWrite: WRITTEN,
+  reverseToLastWrite: WRITTEN,
+  lastDecision: [],
   reverseToLastDecision: [],
   goToMoment: ["time", "A moment since power-up", "15.193ms, -5ms, start, end"],
   sendFrame: ["frame", "A frame in hex, or text in quotation marks", "01 03 00 0a 00 01 crc"],
+  fault: ["fault", "A fault of the line from now on, as of --fault, or none", "flip:character=3,bit=5, or none"],
   force: ["values", "What is to hold a value across scans", "I0.3=1 VW10=5"],
   unforce: ["places", "What is to be released", "I0.3, or all"],
   timeline: [],

@@ -51,6 +51,7 @@ class Editor {
   explicit Editor(std::shared_ptr<const Program> program)
       : debuggee(std::make_shared<BareDebuggee>(std::move(program))),
         session({.launch = [this](const Json&) { return debuggee; },
+                 .attachable = debuggee,
                  .stop_request = &stop,
                  .patience = std::chrono::milliseconds(0)},
                 [this](const Json& message) { messages.push_back(message); }) {}

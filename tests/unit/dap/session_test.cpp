@@ -39,6 +39,19 @@ TEST(DapSession, EveryRequestHasOneResponseAndNumbersRise) {
   }
 }
 
+TEST(DapSession, AnAttachThatIsRefusedLeavesTheLaunchThatFollowsALaunch) {
+  Editor editor(kNested);
+  editor("initialize", {{"adapterID", "s7200"}});
+  EXPECT_EQ(editor.error_of("attach", {{"station", 999}}), "station: 999 is not from 0 to 255");
+  editor("launch");
+  editor.lines({6});
+  editor("configurationDone");
+  EXPECT_EQ(editor.stopped(), "breakpoint") << "not at the entry, as after an attach";
+  editor("terminate");
+  EXPECT_EQ(editor.last("exited")["exitCode"], 0);
+  EXPECT_EQ(editor.debuggee->finished, 1);
+}
+
 TEST(DapSession, WhatIsNotOfferedIsRefusedByNameAndNotAnnounced) {
   Editor editor(kNested);
   EXPECT_TRUE(has(editor.error_of("frobnicate"), "'frobnicate' is not a request that is offered"));
@@ -352,7 +365,12 @@ TEST(DapSession, InstructionBreakpointsStopAtInstructionsOfTheDisassembly) {
   EXPECT_TRUE(has(list[1]["instruction"], "LD      SM0.1"));
   EXPECT_EQ(list[1]["symbol"], "main");
   EXPECT_EQ(list[4]["line"], 6);
-  editor("setInstructionBreakpoints", {{"breakpoints", Json::array({{{"instructionReference", list[4]["address"]}}})}});
+  const Json placed =
+      editor("setInstructionBreakpoints",
+             {{"breakpoints", Json::array({{{"instructionReference", list[4]["address"]}},
+                                           {{"instructionReference", list[5]["address"]}}})}})["breakpoints"];
+  EXPECT_EQ(placed[0]["message"], "stops without power flow, too") << "INCW is a box";
+  EXPECT_FALSE(placed[1].contains("message")) << "MEND has nothing to do with power flow";
   editor("continue", {{"threadId", 1}});
   EXPECT_EQ(editor.stopped(), "instruction breakpoint");
   EXPECT_EQ(editor.line(), 6);
@@ -533,7 +551,7 @@ TEST(DapSession, GoingBackToADecisionIsRefusedWhereNoInstructionIsNamed) {
   const std::size_t messages = editor.messages.size();
   const std::string refused = editor.error_of("reverseToLastDecision", {{"threadId", 1}});
   EXPECT_TRUE(has(refused, "missing")) << "why nothing came is said all the same";
-  EXPECT_TRUE(has(refused, "\nno instruction is named that it could go back to"));
+  EXPECT_TRUE(has(refused, "\nit was lost on the line, which no instruction has decided; 'at "));
   EXPECT_EQ(editor.messages.size(), messages + 1) << "nothing but the response";
 }
 

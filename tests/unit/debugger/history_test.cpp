@@ -135,6 +135,64 @@ TEST(History, StateAtEveryEventOfASessionIsThatOfARunThatOnlyWentForward) {
 }
 
 /// S7200_WALKS sets how many.
+/// One that was replayed knows nothing of what was written where, and plays everything.
+TEST(History, PartsThatCannotHoldALastWriteAreNotPlayedForItAndItIsTheSame) {
+  const auto program = slave();
+  std::size_t told = 0, told_of_all = 0;
+  Recorded session(program, {.interval = 20 * kMillisecond, .progress = [&] { ++told; }});
+  session.live_through_it();
+  Recorded replayed(program, {.interval = 20 * kMillisecond, .progress = [&] { ++told_of_all; }});
+  ASSERT_TRUE(replayed.history->replay(session.history->recording()));
+  std::size_t found = 0;
+  told = told_of_all = 0;
+  for (const char* const address : {"SMB30", "SMB34", "VW20", "VB100", "VB3570", "VD3570", "VW3300", "VB3301", "VB3580",
+                                    "VB3590", "M31.7", "MB0", "VB4090"}) {
+    std::string why;
+    const auto range = parse_range(address, *program, why);
+    ASSERT_TRUE(range) << why;
+    for (const Time at : {5 * kMillisecond, 800 * kMillisecond, kNever}) {
+      session.history->go_to(at);
+      replayed.history->go_to(at);
+      const auto write = find_last_write(*session.history, 0, *range, nullptr).write;
+      const auto expected = find_last_write(*replayed.history, 0, *range, nullptr).write;
+      ASSERT_EQ(write.has_value(), expected.has_value()) << address;
+      if (!write) continue;
+      ++found;
+      EXPECT_EQ(write->moment, expected->moment) << address;
+      EXPECT_EQ(write->at, expected->at);
+      EXPECT_EQ(write->action, expected->action);
+      EXPECT_EQ(write->by ? write->by->op : 0, expected->by ? expected->by->op : 0);
+      EXPECT_EQ(write->after, expected->after);
+    }
+  }
+  EXPECT_GT(found, 12U);
+  EXPECT_LT(told, told_of_all * 2 / 3);
+}
+
+TEST(WrittenMemory, WhereAPointerACountOrAParameterLedIsKept) {
+  const auto writes = [](std::string_view text, const char* address) {
+    Recorded session(check_text(text, "test.stl", cpu224(), default_times(cpu224())).program,
+                     {.interval = 20 * kMillisecond});
+    StopAt stop(session.simulation.cpu(), 4000);
+    session.history->run(stop);
+    std::string why;
+    const auto range = parse_range(address, cpu224(), why);
+    return session.history->may_have_written(0, *range)(2);
+  };
+  constexpr std::string_view kPointer = "LD SM0.0\nMOVD &VB100, VD0\nMOVB 7, *VD0\nMEND\n";
+  EXPECT_TRUE(writes(kPointer, "VB100"));
+  EXPECT_TRUE(writes(kPointer, "VD0"));
+  EXPECT_FALSE(writes(kPointer, "VB300"));
+  EXPECT_TRUE(writes(kPointer, "VB101")) << "the same block";
+  EXPECT_TRUE(writes("LD SM0.0\nBMB VB0, VB200, 100\nMEND\n", "VB290"));
+  EXPECT_FALSE(writes("LD SM0.0\nBMB VB0, VB200, 100\nMEND\n", "VB400"));
+  EXPECT_FALSE(writes("LD SM0.1\nMOVB 7, VB0\nMEND\n", "VB0")) << "without power flow";
+  EXPECT_TRUE(writes("LD SM0.0\nATT VW0, VW100\nMEND\n", "VB900")) << "the entries of a table are not looked at";
+  EXPECT_TRUE(writes("LD SM0.0\nRCV VB0, 0\nMEND\n", "VB900")) << "what comes is stored as it comes";
+  EXPECT_TRUE(writes("LD SM0.0\nMOVB 7, VB0\nMEND\n", "SMB0")) << "the system writes it";
+  EXPECT_FALSE(writes("LD SM0.0\nMOVB 7, VB0\nMEND\n", "SMB30"));
+}
+
 TEST(History, RandomWalksForwardsAndBackwardsStandWhereAPlainRunStands) {
   const char* const asked = std::getenv("S7200_WALKS");
   const int walks = asked ? std::atoi(asked) : 10'000;

@@ -15,6 +15,21 @@ TEST(Seeing, HistoryListsTheLastInstructionsWithOperandsAndCommentsWithoutGoingT
   EXPECT_TRUE(session("history 10000").starts_with("      0.200000  main    line 1 "));
 }
 
+TEST(Seeing, TheParametersOfACallHaveTheirValuesInStepsHistoryAndStatus) {
+  constexpr std::string_view kScale =
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL Scale, M0.0, VW10, 5, VD30, VW20\nINCW VW10\n"
+      "= M0.0\nMOVR 2.5, VD30\nEND_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK Scale:SBR0\nVAR_INPUT\non : BOOL; raw : INT; add : INT; by : REAL;\nEND_VAR\n"
+      "VAR_OUTPUT\nresult : INT;\nEND_VAR\nBEGIN\nNETWORK 1\nLD SM0.0\nMOVW #raw, #result\nEND_SUBROUTINE_BLOCK\n";
+  Session session(check_text(kScale, "test.awl", cpu224(), default_times(cpu224())).program);
+  const std::string values = "S0=1 M0.0=1 VW10=16#0003 VD30=16#40200000 (2.5)";
+  const std::string stepped = session("scan 3; step 2");
+  EXPECT_TRUE(has(stepped, values)) << "constants and results have none";
+  EXPECT_FALSE(has(stepped, "VW20="));
+  EXPECT_TRUE(has(session("history 1"), values + "\n"));
+  EXPECT_TRUE(has(session("scan; status"), "S0=1 M0.0=1 VW10=16#0003"));
+}
+
 TEST(Seeing, WhoKnowsWhichInstructionAttachedAnEvent) {
   Session session(kNested);
   EXPECT_TRUE(has(session("continue 50ms; who event 10"),
@@ -112,6 +127,20 @@ TEST(Seeing, CompletionOffersTheNumbersOfEventsWhoseRoutineIsAskedFor) {
   EXPECT_EQ(offered("who ev"), std::vector<std::string>{"event"});
   EXPECT_EQ(offered("who event 1"), offered("break event 1"));
   EXPECT_EQ(offered("rwho event 10"), std::vector<std::string>{"10"});
+}
+
+TEST(Seeing, CompletionOffersMomentsAtWhichSomethingWasDone) {
+  Session session(kNested);
+  session("continue 10ms");
+  const Time done = session.simulation.time();
+  session("set VW20=5");
+  const std::vector<std::string> offered = session.debugger->completions("at ").candidates;
+  ASSERT_EQ(offered.size(), 3U);
+  EXPECT_EQ(offered[0], "start");
+  EXPECT_EQ(offered[1], "end");
+  EXPECT_EQ(parse_duration(offered[2]), done);
+  session("continue 10ms; at " + offered[2]);
+  EXPECT_EQ(session.simulation.time(), done);
 }
 
 TEST(Seeing, LabelsArePlacesAndAreCompleted) {

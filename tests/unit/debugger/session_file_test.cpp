@@ -209,6 +209,23 @@ TEST_F(SavedSession, ThatIsAsNoneIsWrittenIsRefusedThoughItsCheckSumIsRight) {
   }
 }
 
+TEST_F(SavedSession, ThatTookMoreThanAWeekIsRunAgainOnlyIfThatIsAskedFor) {
+  using Json = nlohmann::ordered_json;
+  std::atomic<bool> stop = false;
+  Session session(program_of(kEcho), &stop);
+  session("scan 2; save " + file("a.json"));
+  Json json = Json::parse(read("a.json"));
+  json.erase("sum");
+  json["end"].back() = 100'000'000 * kSecond;
+  json["sum"] = digest_of(std::string_view(json.dump()));
+  write("b.json", json.dump(2) + "\n");
+  EXPECT_TRUE(
+      has(session.error_of("load " + file("b.json")),
+          "of simulated time are run again, which may take long; 'load " + file("b.json") + " !' does it all the same"));
+  stop = true;
+  EXPECT_TRUE(has(session.error_of("load " + file("b.json") + " !"), "nothing is loaded"));
+}
+
 TEST_F(SavedSession, ReplacesItsOwnKindOfFileAndOthersOnlyWhenToldTo) {
   Session session(kNested);
   session("save " + file("a.json") + "; scan; save " + file("a.json"));

@@ -569,6 +569,34 @@ TEST(SystemDebugger, WhySaysWhoGaveAWrongAnswer) {
   EXPECT_TRUE(has(program("why"), "the request was for station 2; slave1 is station 1; station 2 is slave2: "));
 }
 
+TEST(SystemDebugger, PowerOfOnePlcCutsNothingOffThePast) {
+  SystemSession session(kPolled, kSlave1);
+  const auto is_powered = [&] { return session.stations[kSlave1]->plc().powered(); };
+  session("continue 100ms; set VW20=7; power off; continue 20ms");
+  const auto dark = session.system().snapshot();
+  const std::string then = fmt::format("at {}ns", session.system().time());
+  session("continue 20ms; power on; continue 50ms");
+  const auto last = session.system().snapshot();
+  EXPECT_TRUE(has(session("past"), ", where this session powered the CPU up, to ")) << "not where power came back";
+  session(then);
+  EXPECT_FALSE(is_powered());
+  EXPECT_TRUE(session.system().snapshot() == dark);
+  session("at 50ms");
+  EXPECT_TRUE(is_powered());
+  EXPECT_TRUE(has(session("at end; who VW20"), "by 'set VW20', from outside"));
+  EXPECT_TRUE(session.system().snapshot() == last);
+}
+
+TEST(SystemDebugger, NoInstructionIsBlamedForAnAnswerThatTheLineLost) {
+  SystemSession session(polled_second("events: [{at: 700ms, line: bus, fault: 'missing:of=answer,character=each'}]\n"), 1);
+  session("break unanswered; continue 5s");
+  const Time here = session.stations[1]->time();
+  const std::string said = session("rwhy");
+  EXPECT_TRUE(has(said, ", and scada heard none of them: fault missing:character=each,of=answer: 7×\n")) << said;
+  EXPECT_TRUE(has(said, "rwhy goes nowhere: it was lost on the line, which no instruction has decided; 'at ")) << said;
+  EXPECT_EQ(session.stations[1]->time(), here);
+}
+
 TEST(SystemDebugger, WhyOfAPlcWithoutPowerSaysSinceWhenAndByWhat) {
   SystemSession session(polled_second("events: [{at: 700ms, power_off: slave2}]\n"), 1);
   EXPECT_TRUE(has(session("continue 5s; why"),

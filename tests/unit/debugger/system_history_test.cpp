@@ -33,7 +33,9 @@ const std::vector<Deed>& deeds() {
                                         {9'000, kMaster, assignment("VB100=7")},
                                         {9'000, kSlave2, assignment("VW20=5")},
                                         {30'000, kSlave1, InjectFault{serial::parse_fault("flip:character=3,bit=5").fault}},
-                                        {40'000, kSlave2, InjectFault{}}};
+                                        {40'000, kSlave2, InjectFault{}},
+                                        {45'000, kSlave1, SetPower{false}},
+                                        {52'000, kSlave1, SetPower{true}}};
   return kDeeds;
 }
 constexpr std::uint64_t kEnd = 90'000;

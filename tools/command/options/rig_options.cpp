@@ -120,7 +120,7 @@ void RigOptions::add_place_to(CLI::App& app) {
 }
 
 void RigOptions::add_first_station_to(CLI::App& app) {
-  app.add_option("--at", at_, "of a system: the PLC to look at first, gateway.1 at its port 1, or a line [the only line]")
+  app.add_option("--at", at_, "of a system: the PLC to look at first, gateway.1 at its port 1, or a line [the first PLC]")
       ->type_name("NAME");
 }
 
@@ -139,6 +139,7 @@ bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& 
 }
 
 bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
+  looks_at_all_ = true;
   if (!load_one(verb, program, exit_code)) return false;
   if (!plan_) return true;
   if (without_s7200()) {
@@ -152,6 +153,22 @@ bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, i
   stations_ = spots_of_plcs(*plan_);
   stations_[spot_.plc] = spot_;
   return true;
+}
+
+/// Who looks at all PLCs on several lines begins with the first one.
+std::optional<Spot> RigOptions::place_in_system(std::string& why) const {
+  if (without_s7200()) {
+    const auto line = find_line(*plan_, at_, why);
+    return line ? std::optional(Spot{.line = *line}) : std::nullopt;
+  }
+  if (looks_at_all_ && at_.empty() && plan_->lines.size() > 1) return spots_of_plcs(*plan_).front();
+  return find_spot(*plan_, at_, why);
+}
+
+std::string RigOptions::note_on_first_station() const {
+  if (!plan_ || !at_.empty() || plan_->lines.size() < 2) return {};
+  return fmt::format("{} is in view, the first of {} PLCs on {} lines; 'station NAME' goes over to another one",
+                     stl::printable(plan_->plcs[spot_.plc].name), plan_->plcs.size(), plan_->lines.size());
 }
 
 std::vector<serial::Simulation*> RigOptions::stations(Rig& rig) const {
@@ -197,12 +214,7 @@ bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program
   if (!plan_) return false;
   exit_code = kUnusable;
   std::string why;
-  std::optional<Spot> spot;
-  if (without_s7200()) {
-    if (const auto line = find_line(*plan_, at_, why)) spot = Spot{.line = *line};
-  } else {
-    spot = find_spot(*plan_, at_, why);
-  }
+  const auto spot = place_in_system(why);
   if (!spot) return print_error(fmt::format("{}: {} (--at NAME)", program.path, why)), false;
   spot_ = *spot;
   if (!without_s7200()) program_ = plan_->plcs[spot_.plc].program;

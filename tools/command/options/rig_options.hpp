@@ -46,6 +46,9 @@ class RigOptions {
   /// The simulations of a rig of what load_all() has loaded, by PLC; and the one that is looked at first.
   std::vector<serial::Simulation*> stations(Rig& rig) const;
   std::size_t first_station() const { return spot_.plc; }
+
+  /// Which one that is, of several lines without --at; otherwise empty.
+  std::string note_on_first_station() const;
   std::size_t line() const { return spot_.line; }
 
   /// A PLC of a system, as it is looked at.
@@ -111,6 +114,7 @@ class RigOptions {
  private:
   bool load_one(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
   bool load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
+  std::optional<Spot> place_in_system(std::string& why) const;
   std::unique_ptr<Rig> keep_why(std::unique_ptr<Rig> rig, const std::vector<std::string>& problems);
 
   std::vector<std::string> set_;
@@ -119,6 +123,7 @@ class RigOptions {
   std::optional<SystemPlan> plan_;  ///< of a system
   Spot spot_;
   std::vector<Spot> stations_;  ///< of a system, if it is about all PLCs: where each is looked at from
+  bool looks_at_all_ = false;
   bool strict_ = false;
   bool only_interrupted_ = false;  ///< while a record waited for its reader
   FaultOptions faults_;
