@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <memory>
 
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tools/command/commands.hpp"
@@ -10,12 +9,10 @@
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/send_band.hpp"
+#include "tools/command/send_slave.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/rig/first_scans.hpp"
 #include "tools/rig/system_reader.hpp"
-#include "tools/slave/line_of_other_plcs.hpp"
-#include "tools/slave/simulated_slave.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
@@ -23,23 +20,6 @@
 
 namespace s7200::tools {
 namespace {
-
-/// Whoever answers, and whether the first frame can be sent; if not, after messages.
-std::unique_ptr<SlaveInSimulation> slave_of(const SendOptions& options, Rig& rig, bool& ready) {
-  if (options.rig.without_s7200()) {
-    auto others = std::make_unique<LineOfOtherPlcs>(rig, options.rig.line(), options.master, options.rig.target());
-    ready = others->wait_until_ready(options.after);
-    return others;
-  }
-  // In STOP its port speaks PPI.
-  auto program = std::make_unique<SimulatedSlave>(rig.simulation(), options.master, options.rig.target(), true);
-  if (options.after == kNever) run_first_scans(rig, kReadyWithin);
-  std::string why;
-  ready = program->wait_until_ready(options.after, why);
-  if (ready) print_note_if_any(program->note_on_port());
-  if (!why.empty()) print_error(why);
-  return program;
-}
 
 int run_send(const CLI::App& verb, SendOptions& options) {
   if (options.band.wanted() && !is_system_file(options.program.path)) return run_send_band(options);
@@ -59,7 +39,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
 
   StreamedResults results(results_of("send"), "exchanges");
   bool ready = false;
-  const std::unique_ptr<SlaveInSimulation> slave = slave_of(options, *rig, ready);
+  const std::unique_ptr<SlaveInSimulation> slave = slave_to_send_to(options, *rig, ready);
   std::size_t answered = 0, damaged = 0;
   for (const serial::Frame& frame : *frames) {
     if (!ready || interrupted() || failed_strictly()) break;

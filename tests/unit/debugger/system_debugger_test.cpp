@@ -614,7 +614,7 @@ TEST(SystemDebugger, WhyNamesAnotherMasterThatAskedAtTheSameTime) {
       "peers:\n"
       "  panel: {polls: [{station: 7, read: 40001, count: 2}], every: 150ms, timeout: 120ms}\n"
       "  recorder: {polls: [{station: 7, read: 40001, count: 10}], every: 710ms, timeout: 300ms}\n"
-      "lines: {field: {stations: [panel, pump, recorder]}}\n";
+      "lines: {field: {stations: [panel, pump, recorder], contention: space}}\n";
   constexpr std::string_view kSpan = " sent 8 characters from 1000.000000 ms to 1009.166664 ms";
   SystemSession session(system, 0);
   EXPECT_TRUE(has(session("break unanswered; continue 5s"), "asked by panel\n"));
