@@ -541,6 +541,17 @@ for (const { name: of, program } of PROGRAMS)
     assert.equal(text, fs.readFileSync(file, "utf8"));
   });
 
+test("the README lists every request that the protocol has not", () => {
+  const words = (text, pattern) => [...text.matchAll(pattern)].map(([, word]) => word);
+  const source = (file) => fs.readFileSync(path.join(SOURCE, "tools/dap", file), "utf8");
+  const of_protocol = words(fs.readFileSync(require.resolve("@vscode/debugprotocol/lib/debugProtocol.d.ts"), "utf8"), /command: '(\w+)'/g);
+  const offered = words(source("session.cpp"), /\{"(\w+)", &Session::/g);
+  const rows = /\| request \|[^]*?\n\n/.exec(source("README.md"))[0].split("\n").slice(2);
+  const listed = rows.flatMap((row) => words(row.split("|")[1] || "", /`(\w+)`/g));
+  assert.ok(of_protocol.includes("stepIn") && offered.includes("stepIn"));
+  assert.deepEqual(listed.sort(), offered.filter((one) => !of_protocol.includes(one)).sort());
+});
+
 test("the session in the README is one of the transcripts", () => {
   const shown = /```text\n(-> launch[^]*?)```/.exec(fs.readFileSync(path.join(SOURCE, "README.md"), "utf8"))[1];
   assert.ok(fs.readFileSync(path.join(SOURCE, "tests/dap/unanswered_frame.transcript"), "utf8").includes(shown));

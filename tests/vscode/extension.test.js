@@ -205,7 +205,7 @@ test("every command of package.json does what the session offers", async () => {
   const registered = stand_in();
   const commands = manifest.contributes.commands.map((one) => one.command);
   assert.deepEqual(Object.keys(registered.commands).sort(), commands.sort());
-  assert.deepEqual(manifest.contributes.menus.commandPalette.map((one) => one.command).sort(), commands);
+  for (const { command, enablement } of manifest.contributes.commands) assert.equal(enablement, "debugType == s7200", command);
   const offered = fs.readFileSync(path.join(SOURCE, "tools/dap/session.cpp"), "utf8");
   for (const [name, run] of Object.entries(registered.commands)) {
     await run();
