@@ -84,7 +84,7 @@ void add_dap(CLI::App& app, int& exit_code) {
       R"(An editor starts it and launches a program: the attributes of a launch are the options of 's7200 debug' without their
 dashes. With a PROGRAM here, editors attach to that one, which stays as it stands when they leave. Without a bridge,
 --realtime or --speed programs run as fast as the computer can; with one as fast as the clock, and masters outside wait
-while it stands still. tools/dap/README.md has all requests, tools/vscode-s7200 is the extension for VS Code.
+while it stands still. tools/dap/README.md lists the requests of our own, tools/vscode-s7200 is the extension for VS Code.
 Example: s7200 dap)");
   verb->callback([options, &exit_code, verb] { exit_code = run_dap(*verb, *options); });
 }
