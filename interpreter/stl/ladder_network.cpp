@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/ladder_graph.hpp"
 
@@ -209,10 +210,6 @@ class NetworkReader {
     std::size_t end = rows_[row].cells.size();
     while (end > 0 && is_blank_cell(rows_[row].cells[end - 1])) --end;
     return end;
-  }
-
-  static std::string counted(std::size_t count, std::string_view what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   }
 
   void add_pin(Placed& box, const std::string& name, bool output, const Span& operand, std::size_t row, std::size_t side) {

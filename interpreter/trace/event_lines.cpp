@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/model/area.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
@@ -57,7 +58,7 @@ std::string wanted_text(const TraceRecord& r) {
   if (wire == s7::kWireAreas.end()) return fmt::format("area 16#{:02X}, address {}.{}", r.routine, r.op / 8, bit);
   const std::uint32_t number = info(wire->area).element != 0 ? r.op : r.op / 8;
   const std::string address = address_text(wire->area, bit == 0 ? Width::Byte : Width::Bit, number, bit);
-  return fmt::format("{}, {} byte{}", address, r.count, r.count == 1 ? "" : "s");
+  return fmt::format("{}, {}", address, counted(r.count, "byte"));
 }
 
 std::string unmodelled_ppi_text(const TraceRecord& r) {
@@ -167,7 +168,7 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::Detach:
       return add("DTCH: ", event(r.event));
     case TraceKind::Transmit:
-      return r.count ? add("XMT: ", r.count, " characters") : add("XMT: break");
+      return r.count ? add("XMT: ", counted(r.count, "character")) : add("XMT: break");
     case TraceKind::TransmitEnd:
       return add("transmit complete");
     case TraceKind::CharacterSent:
@@ -179,16 +180,16 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::CharacterIgnored:
       add("ignored  ");
       append_character(text, r);
-      if (Ignored{r.code} == Ignored::NoPpiFrame) add(", and what follows until there is silence");
+      if (Ignored{r.code} == Ignored::NoPpiFrame) add(" and the rest up to the next pause");
       return add(": ", ignored_because(r));
     case TraceKind::CharacterDropped:
       add("dropped  ");
       append_character(text, r);
       return add(": ", ignored_because(r));
     case TraceKind::Receive:
-      return add("RCV: at most ", r.count, " characters");
+      return add("RCV: at most ", counted(r.count, "character"));
     case TraceKind::ReceiveEnd:
-      return add("RCV ends: ", r.count, " characters, ", status_text(r.byte));
+      return add("RCV ends: ", counted(r.count, "character"), ", ", status_text(r.byte));
     case TraceKind::PortControl:
       add("SMB", kPorts[r.port].control - image::kSM, " = ");
       return append_hex(text, r.byte, 2);
@@ -212,7 +213,7 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::PpiNotModelled:
       return add(unmodelled_ppi_text(r));
     case TraceKind::PpiIgnored:
-      return add("PPI frame of ", r.count, " characters ignored: its check sum or end is wrong");
+      return add("PPI frame of ", counted(r.count, "character"), " ignored: its check sum or end is wrong");
   }
 }
 

@@ -13,7 +13,7 @@
 
 namespace s7200 {
 
-/// What happened, in words, without the reason.
+/// What happened, in words, without what made the program do it.
 class EventText {
  public:
   /// The program must live as long as this.

@@ -21,11 +21,10 @@ TextTrace::TextTrace(TakeLine take, std::shared_ptr<const Program> program, Trac
 
 bool TextTrace::wants(const TraceRecord& record) const {
   if (record.kind == TraceKind::ScanBegin) return detail_ == TraceDetail::Instructions;
-  return record.kind != TraceKind::CharacterIgnored || record.count == 0;  // the line of the first speaks for what follows
+  return is_shown(record);
 }
 
 void TextTrace::record(const TraceRecord& record) {
-  if (passes_without_power(record)) return;
   const bool wanted = wants(record);
   if (detail_ == TraceDetail::Events) {
     line_.clear();

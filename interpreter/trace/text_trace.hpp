@@ -21,8 +21,8 @@ enum class TraceDetail : std::uint8_t {
   Instructions  ///< and every instruction
 };
 
-/// Writes each record as it comes, with its reasons, and the way of the main program when it changes; but not what passes a
-/// PLC by while it has no power. Does not own the stream.
+/// Writes each record that is_shown() as it comes, with its reasons, and the way of the main program when it changes. Does
+/// not own the stream.
 class TextTrace final : public TraceSink {
  public:
   static constexpr std::string_view kFirstLine = "# time in ms   what";

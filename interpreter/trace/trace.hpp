@@ -43,7 +43,7 @@ enum class TraceKind : std::uint8_t {
   PpiNotModelled,  ///< a right frame from station `event` to `byte` of which nothing comes here; code: PpiUnmodelled
 };
 
-/// Why a character is.
+/// Why a character is ignored.
 enum class Ignored : std::uint16_t {
   NotAttached,   ///< its receive event
   NoPpiFrame,    ///< in PPI mode; count: 1 after another
@@ -95,8 +95,8 @@ class TraceSink {
   virtual void instruction(const InstructionRecord&) {}
   /// Whether before() and instruction() are to be called at all.
   virtual bool wants_instructions() const { return false; }
-  /// Whether every scan matters, because the begin of each is recorded. Otherwise scans that are all alike may be passed
-  /// over.
+  /// Whether each scan matters, because its beginning is recorded or something in it is looked for. Otherwise scans that
+  /// are all alike may be passed over.
   virtual bool wants_scans() const { return true; }
 };
 

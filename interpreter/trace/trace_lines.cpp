@@ -12,6 +12,11 @@ bool is_trouble(TraceKind kind) {
 
 }  // namespace
 
+bool is_shown(const TraceRecord& record) {
+  if (record.kind != TraceKind::CharacterIgnored) return true;
+  return Ignored{record.code} != Ignored::NoPower && record.count == 0;
+}
+
 std::string characters_text(std::size_t count) { return count == 1 ? "a character" : fmt::format("{} characters", count); }
 
 std::string unanswered_text(const TraceReasons::Unanswered& frame) {

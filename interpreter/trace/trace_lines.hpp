@@ -13,6 +13,10 @@
 
 namespace s7200 {
 
+/// Not what passes a PLC by while it has no power; of what is ignored up to a silence the line of the first character
+/// speaks for what follows.
+bool is_shown(const TraceRecord& record);
+
 /// `8 characters`
 std::string characters_text(std::size_t count);
 

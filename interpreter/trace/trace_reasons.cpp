@@ -101,17 +101,13 @@ std::uint8_t passed_transmits(const Program& program, std::uint32_t number) {
 
 }  // namespace
 
-bool passes_without_power(const TraceRecord& record) {
-  return record.kind == TraceKind::CharacterIgnored && Ignored{record.code} == Ignored::NoPower;
-}
-
 std::string ignored_because(const TraceRecord& record) {
   if (record.kind == TraceKind::CharacterDropped) return "RCV waits for the start of a message";
   switch (Ignored{record.code}) {
     case Ignored::NotAttached:
       return fmt::format("event {} is not attached", kPorts[record.port].received);
     case Ignored::NoPpiFrame:
-      return "in PPI mode, and no PPI frame";
+      return "the port is in PPI mode, and this is not a PPI frame";
     case Ignored::WhileSending:
       return "the receiver is off while the port sends";
     case Ignored::NoPower:

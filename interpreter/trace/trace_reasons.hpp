@@ -24,9 +24,6 @@ namespace s7200 {
 /// Of a CharacterIgnored or CharacterDropped: why nobody wanted it.
 std::string ignored_because(const TraceRecord& record);
 
-/// A character that a PLC without power did not hear.
-bool passes_without_power(const TraceRecord& record);
-
 class TraceReasons {
  public:
   /// An instruction that takes longer is named wherever an interrupt has waited for it.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/exit_code.hpp"
@@ -28,10 +29,6 @@
 
 namespace s7200::tools {
 namespace {
-
-std::string counted(std::size_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
 
 /// `2 PLCs, 1 master, 2 lines`; a PLC of another make is one too.
 std::string who_there_was(const SystemPlan& plan) {

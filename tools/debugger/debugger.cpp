@@ -351,7 +351,7 @@ void Debugger::print_trace(std::size_t station, const TraceRecord& record) {
   TraceLines& lines = stations_[station].trace_lines;
   if (!tracing_) return lines.note(record);
   const std::vector<TraceLine> of_record = lines.of(record);
-  if (record.kind != TraceKind::ScanBegin) print_trace_lines(station, of_record);
+  if (record.kind != TraceKind::ScanBegin && is_shown(record)) print_trace_lines(station, of_record);
 }
 
 /// CPUs of a system end their instructions at different times, and the way of a program is told at its end: lines wait until

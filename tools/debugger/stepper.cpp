@@ -520,8 +520,10 @@ bool Stepper::is_meant(const StopPoint& stop, const TraceRecord& record) {
       return stop.on == On::EventServed && event;
     case TraceKind::EventLost:
       return stop.on == On::QueueOverflow || (stop.on == On::LostCharacter && is_receive_event(record.event));
+    case TraceKind::EventDropped:
+      return stop.on == On::LostCharacter && is_receive_event(record.event);
     case TraceKind::CharacterIgnored:
-      return stop.on == On::LostCharacter;
+      return stop.on == On::LostCharacter && Ignored{record.code} != Ignored::NoPower;
     case TraceKind::Transmit:
       return stop.on == On::Transmit;
     case TraceKind::TransmitEnd:

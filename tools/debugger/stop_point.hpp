@@ -26,8 +26,7 @@ struct StopPoint {
     ReceiveEnd,     ///< RCV ends
     RuntimeError,
     QueueOverflow,
-    LostCharacter,  ///< the program does not get it: its queue is full, its event is not attached, the port is in PPI mode
-                    ///< or sends
+    LostCharacter,  ///< a PLC with power has ignored it, or the interrupt for it was lost or dropped
     ModeChange,
     Unanswered,   ///< a request of any master on a line of the station
     WrongAnswer,  ///< the same; an answer came that it cannot take

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/operands.hpp"
 
@@ -58,9 +59,7 @@ std::vector<std::string_view> names_of(const std::vector<const CpuModel*>& model
   return names;
 }
 
-std::string counted(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
+using s7200::counted;
 
 /// `208 errors with 7 causes`
 std::string counted(stl::Severity severity, const stl::Diagnostics& all) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/ports.hpp"
@@ -106,7 +107,7 @@ class Timeline::Reader {
       case TraceKind::ServiceEnd:
         return end_service(r);
       case TraceKind::Transmit:
-        add(r, Kind::Transmit, r.count ? fmt::format("XMT {} characters", r.count) : "XMT break");
+        add(r, Kind::Transmit, r.count ? "XMT " + counted(r.count, "character") : "XMT break");
         rows_.back().place = place_of(r);
         rows_.back().why = stl::trim(why);
         return;

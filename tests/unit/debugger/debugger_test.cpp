@@ -380,7 +380,7 @@ TEST(Debugger, StopsAtFramesReceivedAndSentAndAtXmt) {
   Session session(kEcho);
   const std::string text = session("scan 3; send 5a; break received; break sent; break xmt; continue; continue; continue");
   EXPECT_TRUE(has(text, "breakpoint 3, xmt, hit for the first time\n"));
-  EXPECT_TRUE(has(text, "XMT: 1 characters"));
+  EXPECT_TRUE(has(text, "XMT: 1 character"));
   EXPECT_TRUE(has(text, "breakpoint 2, sent, hit for the first time\n"));
   Session listening("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n");
   EXPECT_TRUE(has(listening("scan 3; send 01 02 03; break received; break lost; continue; delete 2; continue"),

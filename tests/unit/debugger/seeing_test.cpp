@@ -301,6 +301,13 @@ TEST(Seeing, WhatIsDoneFromOutsideIsInTheTrace) {
   EXPECT_TRUE(has(text, "SMB30 = 16#49"));
 }
 
+TEST(Seeing, OfCharactersIgnoredUpToASilenceATraceHasTheFirst) {
+  Session session("LD SM0.0\nMEND\n");
+  const std::string text = session("continue 20ms; trace on; send 01 03 00 0a; continue 100ms");
+  EXPECT_TRUE(has(text, "ignored  01"));
+  EXPECT_EQ(text.find("ignored"), text.rfind("ignored")) << text;
+}
+
 TEST(Seeing, ACounterHasThePresetOfItsInstruction) {
   Session session("LD I0.0\nLD I0.1\nCTU C1, 3\nMEND\n");
   EXPECT_TRUE(has(session("print C1"), "C1: bit 0, preset 3\n"));

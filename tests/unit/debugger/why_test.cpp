@@ -56,7 +56,7 @@ TEST(Why, APortInPpiModeLeadsToTheInstructionThatLeftFreeportMode) {
   session("continue 50ms; input I0.1=1; scan 3; break unanswered; send 41 42; continue");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "no answer to 2 characters since 5"));
-  EXPECT_TRUE(has(text, ": in PPI mode, and no PPI frame; SMB30 was set at 51."));
+  EXPECT_TRUE(has(text, ": the port is in PPI mode, and this is not a PPI frame; SMB30 was set at 51."));
   EXPECT_TRUE(has(text, " by MOVB 16#8, SMB30 in line 3\n"));
   session("rwhy");
   EXPECT_EQ(session.line(), 3u);
@@ -65,7 +65,8 @@ TEST(Why, APortInPpiModeLeadsToTheInstructionThatLeftFreeportMode) {
 TEST(Why, APortThatWasNeverInFreeportModeIsNamedAlsoIfPpiTakesTheCharactersForItsOwn) {
   Session session("LD SM0.0\nMOVW 1, VW2\nMEND\n");
   session("continue 50ms; break unanswered; send 41; continue");
-  EXPECT_TRUE(has(session("why"), "in PPI mode, and no PPI frame; nothing has written SMB30 since power-up\n"));
+  EXPECT_TRUE(has(session("why"),
+                  "the port is in PPI mode, and this is not a PPI frame; nothing has written SMB30 since power-up\n"));
   session("continue 200ms; send 68 05 05 68; continue");  // the head of a PPI frame
   EXPECT_TRUE(has(session("why"), "no answer: port 0 is in PPI mode; nothing has written SMB30 since power-up\n"));
 }
@@ -73,7 +74,8 @@ TEST(Why, APortThatWasNeverInFreeportModeIsNamedAlsoIfPpiTakesTheCharactersForIt
 TEST(Why, SMB30SetFromOutsideIsNamed) {
   Session session(kStopsListening);
   session("continue 50ms; set SMB30=8; scan 3; break unanswered; send 41; continue");
-  EXPECT_TRUE(has(session("why"), "in PPI mode, and no PPI frame; SMB30 was set from outside at 50."));
+  EXPECT_TRUE(
+      has(session("why"), "the port is in PPI mode, and this is not a PPI frame; SMB30 was set from outside at 50."));
 }
 
 /// The slave of a scenario that is asked with a fault of the line.
@@ -437,7 +439,7 @@ TEST(Why, WhatChangedWithinTheFirstCharacterIsNamed) {
     for (const std::string& send : {"continue " + wait + "; send 'mn'; continue 1100us", "send 'mn'; continue " + wait}) {
       Session ppi(kTurns), detached(kTurns);
       ppi("continue 20ms; break unanswered; input I0.4=1; " + send + "; continue");
-      EXPECT_TRUE(has(ppi("why"), "in PPI mode, and no PPI frame; SMB30 was set at 2")) << send;
+      EXPECT_TRUE(has(ppi("why"), "the port is in PPI mode, and this is not a PPI frame; SMB30 was set at 2")) << send;
       EXPECT_TRUE(has(ppi.out.str(), " by MOVB 8, SMB30 in line 7  // to PPI\n"));
       detached("continue 20ms; break unanswered; input I0.5=1; " + send + "; continue");
       EXPECT_TRUE(has(detached("why"), "event 8 is not attached; detached at 2")) << send;

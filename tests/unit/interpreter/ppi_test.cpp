@@ -143,8 +143,9 @@ TEST(Ppi, TheTraceHasOneLineForADamagedFrame) {
   for (const TraceRecord& record : plc.records.of(TraceKind::CharacterIgnored)) trace.record(record);
   const std::string lines = text.str();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 2) << lines;
-  EXPECT_NE(lines.find("ignored  68, and what follows until there is silence: in PPI mode, and no PPI frame\n"),
-            std::string::npos)
+  EXPECT_NE(
+      lines.find("ignored  68 and the rest up to the next pause: the port is in PPI mode, and this is not a PPI frame\n"),
+      std::string::npos)
       << lines;
 }
 

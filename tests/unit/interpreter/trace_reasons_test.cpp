@@ -154,7 +154,7 @@ TEST(TraceReasons, ACharacterThatNobodyWantedSaysWhy) {
   const auto ignored = plc.records.of(TraceKind::CharacterIgnored);
   ASSERT_EQ(ignored.size(), 1U);
   EXPECT_EQ(describe(ignored[0], plc.cpu.program()),
-            "ignored  41, and what follows until there is silence: in PPI mode, and no PPI frame");
+            "ignored  41 and the rest up to the next pause: the port is in PPI mode, and this is not a PPI frame");
 }
 
 TEST(TraceReasons, ARoutineThatIsAttachedAlreadyIsNoSignThatTheProgramLeavesAFrame) {

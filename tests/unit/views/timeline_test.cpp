@@ -144,7 +144,7 @@ TEST_F(TimelineOf, WhatRcvDropsIsARowOfItsOwn) {
   EXPECT_EQ(report.rows[0].characters.size(), 2U);
   const std::string text = to_text(report, {}, false);
   EXPECT_NE(text.find("RCV waits for the start of a message"), std::string::npos) << text;
-  EXPECT_NE(text.find("RCV ends: 1 characters, status 16#02"), std::string::npos) << text;
+  EXPECT_NE(text.find("RCV ends: 1 character, status 16#02"), std::string::npos) << text;
   EXPECT_EQ(to_json(report, {})[0]["kind"], "dropped");
 }
 
