@@ -7,6 +7,7 @@
 #include <ostream>
 #include <utility>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/past_words.hpp"
@@ -69,6 +70,9 @@ History::Settings settings_of(const DebuggerOptions& options, std::function<void
   settings.progress = std::move(progress);
   return settings;
 }
+
+/// Ends what escape_of() begins.
+constexpr std::string_view kPlain = "\x1b[0m";
 
 /// By then whatever belongs to an instant has been told.
 constexpr Time kTold = kSecond;
@@ -321,11 +325,6 @@ std::string Debugger::op_text(const Listing& listing, std::uint32_t op) {
   return fmt::format("{} line {}: {}", listing.routine_of(op), listing.line_of(op), listing.text_of(op));
 }
 
-std::string Debugger::routine_text(std::uint32_t op) const {
-  const std::string& network = listing().network_of(op);
-  return listing().routine_of(op) + (network.empty() ? "" : ", ") + network;
-}
-
 void Debugger::print_answer(std::size_t station, const serial::Exchange& exchange) {
   hide_progress();
   out_ << exchange_text(exchange, master(station).timeout) << not_an_answer_text(history_, station, exchange);
@@ -395,6 +394,31 @@ void Debugger::print_instruction(std::size_t station, const InstructionRecord& r
   const Cpu& cpu = of.simulation->cpu();
   out_ << fmt::format("   {}  {}\n", describe(execution_of(record, cpu), cpu.program()),
                       format_duration(record.end - record.at));
+}
+
+std::string_view Debugger::escape_of(Paint paint) {
+  switch (paint) {
+    case Paint::Red:
+      return "\x1b[31m";
+    case Paint::Yellow:
+      return "\x1b[33m";
+    case Paint::Bold:
+      return "\x1b[1m";
+  }
+  return {};
+}
+
+std::string Debugger::painted(std::string text, Paint paint) const {
+  if (text.empty() || !options_.colour) return text;
+  return fmt::format("{}{}{}", escape_of(paint), text, kPlain);
+}
+
+std::string Debugger::memory_text(std::size_t station, const MemoryRange& range) const {
+  const Cpu& cpu = stations_[station].simulation->cpu();
+  const std::string forced = forced_text(cpu, {bits_of(range)});
+  const std::string symbol = symbol_text(cpu.program(), range);
+  return dump_text(cpu, range) + (forced.empty() ? "" : "       " + forced + "\n") +
+         (symbol.empty() ? "" : "         " + symbol + "\n");
 }
 
 std::optional<std::uint32_t> Debugger::current_op() const {

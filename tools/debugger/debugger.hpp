@@ -24,6 +24,7 @@
 #include "tools/debugger/history.hpp"
 #include "tools/debugger/last_decision.hpp"
 #include "tools/debugger/last_executions.hpp"
+#include "tools/debugger/print_forms.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/stepper.hpp"
 #include "tools/debugger/words.hpp"
@@ -131,197 +132,9 @@ class Debugger {
  private:
   using Arguments = std::vector<std::string>;
 
-  /// What the words after a command may become.
-  enum class Takes : std::uint8_t {
-    Nothing,
-    Addresses,
-    Break,
-    Watch,
-    Forced,
-    Places,
-    Files,
-    Sessions,
-    Faults,
-    Commands,
-    Switch,
-    Mode,
-    Moments,
-    Power,
-    Frame,
-    Stations
-  };
-  struct Command {
-    std::string_view name, short_form, syntax, meaning, more;
-    Error (Debugger::*run)(const Arguments& arguments);
-    Takes takes = Takes::Nothing;
-    bool repeats = false;
-  };
-  static const std::vector<Command>& commands();
-  static const Command* find_command(std::string_view word, std::string& why);
-  Error execute_line(std::string_view line);
-  Error execute_one(std::string_view text);
-  void report_undone();
-  void show_progress();
-  void hide_progress();
-
-  /// What may take long: how far it has come is shown meanwhile.
-  auto at_length(const auto& work) {
-    if (options_.progress) progress_at_ = host_time() + options_.patience;
-    auto result = work();
-    hide_progress();
-    return result;
-  }
-  bool stop_requested() const;
-
-  Error station(const Arguments& arguments);
-  Error list(const Arguments& arguments);
-  Error step(const Arguments& arguments);
-  Error over(const Arguments& arguments);
-  Error out(const Arguments& arguments);
-  Error network(const Arguments& arguments);
-  Error interrupt(const Arguments& arguments);
-  Error scan(const Arguments& arguments);
-  Error continue_run(const Arguments& arguments);
-  Error until(const Arguments& arguments);
-  Error set_break(const Arguments& arguments);
-  Error watch(const Arguments& arguments);
-  Error delete_stop(const Arguments& arguments);
-  Error registers(const Arguments& arguments);
-  Error stack(const Arguments& arguments);
-  Error status(const Arguments& arguments);
-  Error expect(const Arguments& arguments);
-  Error print(const Arguments& arguments);
-  Error set(const Arguments& arguments);
-  Error input(const Arguments& arguments);
-  Error force(const Arguments& arguments);
-  Error unforce(const Arguments& arguments);
-  Error mode(const Arguments& arguments);
-  Error send(const Arguments& arguments);
-  Error fault(const Arguments& arguments);
-  Error port(const Arguments& arguments);
-  Error errors(const Arguments& arguments);
-  Error back(const Arguments& arguments);
-  Error back_step(const Arguments& arguments);
-  Error back_over(const Arguments& arguments);
-  Error back_out(const Arguments& arguments);
-  Error back_network(const Arguments& arguments);
-  Error back_interrupt(const Arguments& arguments);
-  Error back_scan(const Arguments& arguments);
-  Error back_continue(const Arguments& arguments);
-  Error back_until(const Arguments& arguments);
-  Error at(const Arguments& arguments);
-  Error who(const Arguments& arguments);
-  Error back_to_write(const Arguments& arguments);
-  Error why(const Arguments& arguments);
-  Error back_to_decision(const Arguments& arguments);
-  Error list_faults();
-  const LineStation* without_program(std::string_view name) const;
-  Error history(const Arguments& arguments);
-  Error timeline(const Arguments& arguments);
-  Error branch(const Arguments& arguments);
-  Error past(const Arguments& arguments);
-  Error save(const Arguments& arguments);
-  Error load(const Arguments& arguments);
-  Error record(const Arguments& arguments);
-  Error power(const Arguments& arguments);
-  Error display(const Arguments& arguments);
-  Error trace(const Arguments& arguments);
-  Error layout(const Arguments& arguments);
-  Error restart(const Arguments& arguments);
-  Error help(const Arguments& arguments);
-  Error quit(const Arguments& arguments);
-
-  /// Which executed instructions a run shows.
-  enum class Show : std::uint8_t { None, Started, All };
-  struct Run {
-    Stepper::Goal goal;
-    Time limit = kDefaultLimit;  ///< from now on
-    bool stop_at_answer = false;
-    Show show = Show::None;
-    bool of_all = false;  ///< of all stations, and not of the one that it looks at
-  };
-  void go(const Run& run);
-  void go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
-  void remember();
-  void note_going_elsewhere();
-  void act(Action action) { act(std::move(action), focus()); }
-  void act(Action action, std::size_t station);
-  Error cancel_request();
-  std::size_t station_of_request() const;
-  Error switch_power(bool on);
-  Error without_power(std::string_view command) const;
-  void say_without_power();
-  void look_at(std::size_t station);
-  void note_new_branch();
-  void note_the_past();
-  std::optional<Writer> report_writer(const MemoryRange& range, std::string_view name);
-  std::optional<Writer> report_attachment(std::uint8_t event);
-  std::optional<Writer> reported(const WriterSearch& search, const std::vector<Bits>& places);
-  Error report_writer_of(const Arguments& arguments, std::string_view command, std::optional<Writer>& writer);
-  DecisionSearch find_decision();
-  void go_to(const Moment& moment);
   struct Named {
     MemoryRange range;
     std::string name;
-  };
-  std::optional<Named> find_range(const std::string& text, std::string& why);
-  std::optional<Named> one_range(const Arguments& arguments, std::string_view command, std::string& why);
-  void report(const Stop& stop, const Run& run, std::uint64_t errors);
-  void report_reason(const Stop& stop, const Run& run);
-  void report_hits(const Stop& stop);
-  void report_breakpoint(const Hit& hit);
-  std::string asked_by(const Hit& hit) const;
-  void report_access(const Hit& hit);
-  void print_message(const StopPoint& stop, const Hit& hit);
-  void report_cpu_stop();
-  void report_standstill();
-  void report_uncounted();
-  void print_unasked(const SentByPlc& sent);
-  void print_answer(std::size_t station, const serial::Exchange& exchange);
-  void print_trace(std::size_t station, const TraceRecord& record);
-  void print_trace_lines(std::size_t station, const std::vector<TraceLine>& lines);
-  void print_instruction(std::size_t station, const InstructionRecord& record, bool started_at);
-
-  std::string name_of(const MemoryRange& range, std::string_view written) const;
-  static std::string name_of(const MemoryRange& range, std::string_view written, const Program& program);
-  void print_bad_pointer(const std::string& name, const MemoryRange& pointer);
-  void print_bad_pointers(std::uint32_t op);
-  void print_place(const Place& place, const std::string& name, char form);
-  void list_stops();
-  std::optional<StopPoint> stop_of(const Arguments& words, std::string& why);
-  std::vector<SessionFile::SavedStop> saved_stops() const;
-  std::optional<StopPoint> stop_of(const SessionFile::SavedStop& saved, std::string& why) const;
-  std::optional<std::vector<StopPoint>> stops_of(const SessionFile& file, std::string& why) const;
-  std::size_t add_loaded(std::vector<StopPoint> stops);
-  static std::string value_of(const Cpu& cpu, const MemoryRange& range);
-  std::vector<Bits> operands_of(std::uint32_t op) const;
-  enum class Paint : std::uint8_t { Red, Yellow, Bold };
-  std::string painted(std::string text, Paint paint) const;  ///< on a terminal that is to have colours
-  std::string bold(std::string text) const { return painted(std::move(text), Paint::Bold); }
-  std::vector<SessionOption> session_conditions() const;
-  std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
-                                         std::string& why) const;
-  std::string memory_text(std::size_t station, const MemoryRange& range) const;  ///< with what of it is forced
-  std::vector<std::string> status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last);
-  bool is_in_view() const { return layout_.shown && layout_.shown(); }
-  std::pair<std::uint32_t, std::uint32_t> ops_in_view() const;
-  LastExecutions last_executions_of(std::uint32_t first, std::uint32_t end);
-  void begin_live_status();
-  void note_live_status(const InstructionRecord& record);
-  std::string forced_text(const Cpu& cpu, const std::vector<Bits>& places) const;  ///< `  forced: VW10=5`, or nothing
-  std::string op_text(std::uint32_t op) const { return op_text(listing(), op); }
-  static std::string op_text(const Listing& listing, std::uint32_t op);  ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
-  std::string routine_text(std::uint32_t op) const;  ///< `SBR 51, network 6 "SBR 51: is it undisturbed?"`
-  std::optional<std::uint32_t> current_op() const;
-  std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);
-  std::string mark_of(std::uint32_t op) const;
-  Error assign_all(const Arguments& arguments, bool inputs_only);
-  Error ranges_of(const Arguments& arguments, std::string_view command, std::vector<Named>& ranges);
-
-  struct Kept {
-    std::string command;
-    History::Place place;
-    std::size_t station = 0;  ///< that it looked at
   };
 
   /// What belongs to one PLC.
@@ -337,6 +150,234 @@ class Debugger {
     std::optional<std::uint32_t> last_op{};  ///< executed last
   };
 
+  std::size_t focus() const { return stepper_.looks_at(); }
+  serial::Simulation& simulation() { return *stations_[focus()].simulation; }
+  const serial::Simulation& simulation() const { return *stations_[focus()].simulation; }
+  const Listing& listing() const { return stations_[focus()].listing; }
+  bool is_system() const { return !options_.stations.empty(); }
+  const serial::MasterSettings& master(std::size_t station) const {
+    return is_system() ? options_.stations[station].master : options_.master;
+  }
+
+  // Lines of commands, runs, and what is said meanwhile (debugger.cpp).
+  Error execute_line(std::string_view line);
+  Error execute_one(std::string_view text);
+  void report_undone();
+  void show_progress();
+  void hide_progress();
+
+  /// What may take long: how far it has come is shown meanwhile.
+  auto at_length(const auto& work) {
+    if (options_.progress) progress_at_ = host_time() + options_.patience;
+    auto result = work();
+    hide_progress();
+    return result;
+  }
+  bool stop_requested() const;
+
+  /// Which executed instructions a run shows.
+  enum class Show : std::uint8_t { None, Started, All };
+  struct Run {
+    Stepper::Goal goal;
+    Time limit = kDefaultLimit;  ///< from now on
+    bool stop_at_answer = false;
+    Show show = Show::None;
+    bool of_all = false;  ///< of all stations, and not of the one that it looks at
+  };
+  void go(const Run& run);
+  void go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
+  void act(Action action) { act(std::move(action), focus()); }
+  void act(Action action, std::size_t station);
+  void remember();
+  void note_going_elsewhere();
+  void note_new_branch();
+  void note_the_past();
+  void report(const Stop& stop, const Run& run, std::uint64_t errors);
+  void report_reason(const Stop& stop, const Run& run);
+  void report_cpu_stop();
+  void report_standstill();
+  void print_answer(std::size_t station, const serial::Exchange& exchange);
+  void print_unasked(const SentByPlc& sent);
+  void print_trace(std::size_t station, const TraceRecord& record);
+  void print_trace_lines(std::size_t station, const std::vector<TraceLine>& lines);
+  void write_trace(Time until);
+  void write_trace_line(const TraceLine& line);
+  void print_instruction(std::size_t station, const InstructionRecord& record, bool started_at);
+  std::string op_text(std::uint32_t op) const { return op_text(listing(), op); }
+  static std::string op_text(const Listing& listing, std::uint32_t op);  ///< `INT 123 line 40: MOVB SMB2, VB1 // …`
+  std::optional<std::uint32_t> current_op() const;
+  std::string memory_text(std::size_t station, const MemoryRange& range) const;  ///< with what of it is forced
+  enum class Paint : std::uint8_t { Red, Yellow, Bold };
+  static std::string_view escape_of(Paint paint);
+  std::string painted(std::string text, Paint paint) const;  ///< on a terminal that is to have colours
+  std::string bold(std::string text) const { return painted(std::move(text), Paint::Bold); }
+
+  // The table of the commands, and those that run forwards, look at the PLC or do something to it (debugger_commands.cpp).
+  /// What the words after a command may become.
+  enum class Takes : std::uint8_t {
+    Nothing,
+    Addresses,
+    Writers,  ///< what has a last write, or an attachment
+    Break,
+    Watch,
+    Forced,     ///< what can be forced
+    ForcedNow,  ///< what is forced
+    Places,
+    Files,
+    Sessions,
+    Faults,
+    Commands,
+    Moments,
+    Power,
+    Stations
+  };
+  struct Command {
+    std::string_view name, short_form, syntax, meaning, more;
+    Error (Debugger::*run)(const Arguments& arguments);
+    Takes takes = Takes::Nothing;
+    bool repeats = false;
+    std::string_view words = "";  ///< besides, that the first of them may be
+  };
+  static const std::vector<Command>& commands();
+  static const Command* find_command(std::string_view word, std::string& why);
+  Error step(const Arguments& arguments);
+  Error over(const Arguments& arguments);
+  Error out(const Arguments& arguments);
+  Error network(const Arguments& arguments);
+  Error interrupt(const Arguments& arguments);
+  Error scan(const Arguments& arguments);
+  Error continue_run(const Arguments& arguments);
+  Error until(const Arguments& arguments);
+  Error list(const Arguments& arguments);
+  Error registers(const Arguments& arguments);
+  Error stack(const Arguments& arguments);
+  Error display(const Arguments& arguments);
+  Error port(const Arguments& arguments);
+  Error errors(const Arguments& arguments);
+  Error trace(const Arguments& arguments);
+  Error layout(const Arguments& arguments);
+  Error help(const Arguments& arguments);
+  Error quit(const Arguments& arguments);
+  Error set(const Arguments& arguments);
+  Error input(const Arguments& arguments);
+  Error mode(const Arguments& arguments);
+  Error send(const Arguments& arguments);
+  Error fault(const Arguments& arguments);
+  Error cancel_request();
+  std::size_t station_of_request() const;
+  Error assign_all(const Arguments& arguments, bool inputs_only);
+  std::optional<std::uint32_t> find_place(const Arguments& arguments, std::string_view command, std::string& why);
+  std::optional<Named> find_range(const std::string& text, std::string& why);
+  Error ranges_of(const Arguments& arguments, std::string_view command, std::vector<Named>& ranges);
+
+  // What a word may become (debugger_completion.cpp).
+  static Arguments command_names();
+  Arguments words_after(const Command& command, const Arguments& given, std::string_view last) const;
+
+  // Where to stop (debugger_stops.cpp).
+  Error set_break(const Arguments& arguments);
+  Error watch(const Arguments& arguments);
+  Error delete_stop(const Arguments& arguments);
+  void list_stops();
+  std::string mark_of(std::uint32_t op) const;
+  std::optional<StopPoint> stop_of(const Arguments& words, std::string& why);
+  std::vector<SessionFile::SavedStop> saved_stops() const;
+  std::optional<StopPoint> stop_of(const SessionFile::SavedStop& saved, std::string& why) const;
+  std::optional<std::vector<StopPoint>> stops_of(const SessionFile& file, std::string& why) const;
+  std::size_t add_loaded(std::vector<StopPoint> stops);
+  void report_hits(const Stop& stop);
+  void report_breakpoint(const Hit& hit);
+  std::string asked_by(const Hit& hit) const;
+  void report_access(const Hit& hit);
+  void report_uncounted();
+  void print_message(const StopPoint& stop, const Hit& hit);
+  static std::string value_of(const Cpu& cpu, const MemoryRange& range);
+
+  // Back in time, and what has happened (debugger_past.cpp).
+  Error back(const Arguments& arguments);
+  Error back_step(const Arguments& arguments);
+  Error back_over(const Arguments& arguments);
+  Error back_out(const Arguments& arguments);
+  Error back_network(const Arguments& arguments);
+  Error back_interrupt(const Arguments& arguments);
+  Error back_scan(const Arguments& arguments);
+  Error back_continue(const Arguments& arguments);
+  Error back_until(const Arguments& arguments);
+  Error at(const Arguments& arguments);
+  Error who(const Arguments& arguments);
+  Error back_to_write(const Arguments& arguments);
+  Error why(const Arguments& arguments);
+  Error back_to_decision(const Arguments& arguments);
+  Error history(const Arguments& arguments);
+  Error timeline(const Arguments& arguments);
+  Error fork(const Arguments& arguments);
+  Error past(const Arguments& arguments);
+  Error restart(const Arguments& arguments);
+  void go_to(const Moment& moment);
+  std::optional<Named> one_range(const Arguments& arguments, std::string_view command, std::string& why);
+  std::optional<Writer> reported(const WriterSearch& search, const std::vector<Bits>& places);
+  std::optional<Writer> report_writer(const MemoryRange& range, std::string_view name);
+  std::optional<Writer> report_attachment(std::uint8_t event);
+  Error report_writer_of(const Arguments& arguments, std::string_view command, std::optional<Writer>& writer);
+  DecisionSearch find_decision();
+
+  // Memory and expressions (debugger_print.cpp).
+  Error print(const Arguments& arguments);
+  Error expect(const Arguments& arguments);
+  void print_place(const Place& place, const std::string& name, const PrintForm* form);
+  void print_bad_pointer(const std::string& name, const MemoryRange& pointer);
+  void print_bad_pointers(std::uint32_t op);
+  std::string name_of(const MemoryRange& range, std::string_view written) const;
+  static std::string name_of(const MemoryRange& range, std::string_view written, const Program& program);
+
+  // The program with what it last did (debugger_status.cpp).
+  Error status(const Arguments& arguments);
+  std::vector<std::string> status_lines(std::uint32_t first, std::uint32_t end, const LastExecutions& last);
+  LastExecutions last_executions_of(std::uint32_t first, std::uint32_t end);
+  std::vector<Bits> operands_of(std::uint32_t op) const;
+  bool is_in_view() const { return layout_.shown && layout_.shown(); }
+  std::pair<std::uint32_t, std::uint32_t> ops_in_view() const;
+  void begin_live_status();
+  void note_live_status(const InstructionRecord& record);
+
+  // What is forced (debugger_forcing.cpp).
+  Error force(const Arguments& arguments);
+  Error unforce(const Arguments& arguments);
+  std::string forced_text(const Cpu& cpu, const std::vector<Bits>& places) const;  ///< `  forced: VW10=5`, or nothing
+
+  // The stations of a system (debugger_stations.cpp).
+  Error station(const Arguments& arguments);
+  const LineStation* without_program(std::string_view name) const;
+  void look_at(std::size_t station);
+  Error without_power(std::string_view command) const;
+  void say_without_power();
+  std::string name_of(std::size_t station) const;
+  std::string said_of(std::size_t station) const;  ///< `slave: `; nothing if there is but one PLC
+  std::string place_line(std::size_t station) const;
+  std::uint64_t errors_of_all() const;
+
+  // Sessions in files, and power (debugger_session.cpp).
+  Error save(const Arguments& arguments);
+  Error load(const Arguments& arguments);
+  Error record(const Arguments& arguments);
+  Error power(const Arguments& arguments);
+  Error switch_power(bool on);
+  std::vector<SessionOption> session_conditions() const;
+  std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
+                                         std::string& why) const;
+  SessionFile session_file() const;
+  bool has_come_to(const SessionFile& file) const;
+  std::optional<serial::Exchange> last_exchange() const;
+  std::string requests_under_way();
+  SessionRecord::Station record_of(std::size_t station) const;
+  std::optional<std::size_t> station_at_host(std::size_t host) const;
+
+  struct Kept {
+    std::string command;
+    History::Place place;
+    std::size_t station = 0;  ///< that it looked at
+  };
+
   /// Memory of a station.
   struct Displayed {
     std::size_t station = 0;
@@ -348,27 +389,6 @@ class Debugger {
     std::size_t station = 0;
     TraceRecord record{};
   };
-
-  std::size_t focus() const { return stepper_.looks_at(); }
-  serial::Simulation& simulation() { return *stations_[focus()].simulation; }
-  const serial::Simulation& simulation() const { return *stations_[focus()].simulation; }
-  const Listing& listing() const { return stations_[focus()].listing; }
-  bool is_system() const { return !options_.stations.empty(); }
-  const serial::MasterSettings& master(std::size_t station) const {
-    return is_system() ? options_.stations[station].master : options_.master;
-  }
-  std::string name_of(std::size_t station) const;
-  std::string said_of(std::size_t station) const;  ///< `slave: `; nothing if there is but one PLC
-  std::string place_line(std::size_t station) const;
-  std::uint64_t errors_of_all() const;
-  SessionFile session_file() const;
-  bool has_come_to(const SessionFile& file) const;
-  std::optional<serial::Exchange> last_exchange() const;
-  std::string requests_under_way();
-  SessionRecord::Station record_of(std::size_t station) const;
-  std::optional<std::size_t> station_at_host(std::size_t host) const;
-  void write_trace(Time until);
-  void write_trace_line(const TraceLine& line);
 
   std::ostream& out_;
   DebuggerOptions options_;

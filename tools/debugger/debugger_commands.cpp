@@ -16,7 +16,6 @@
 #include "tools/debugger/line_words.hpp"
 #include "tools/debugger/stop_words.hpp"
 #include "tools/debugger/two_masters.hpp"
-#include "tools/views/faults.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -29,7 +28,7 @@ constexpr std::size_t kListed = 15, kListedBefore = 6;
 
 constexpr std::string_view kAboutCommands =
     R"(A name may be cut short while it stays clear. ';' separates commands, '#' begins a comment.
-On a terminal an empty line repeats step, over, out, scan, continue and until; the tab key completes commands, addresses,
+On a terminal an empty line repeats the last step or run, forwards or backwards; the tab key completes commands, addresses,
 places and files.
 Examples:
   continue 2s; send 01 03 00 0a 00 01 crc; continue      what a slave answers
@@ -44,9 +43,19 @@ Examples:
 constexpr std::string_view kBackwards =
     "It stops at breakpoints and watches on the way, also before they were set unless they wait for a number of hits.";
 
+constexpr std::string_view kMoreAboutPrint =
+    R"(. What a pointer points to is a byte unless :word, :dword or :real
+is asked for; of one that points nowhere it says who wrote it. &VB100 is a pointer to VB100, as in VD20 = &VB100. SMB30
+is shown in words, timers with bit, preset and base. A double word that the program uses as a real is shown as one too.
+In expressions words and double words have a sign, and beside them a constant above 32767 or 2147483647 stands for its
+bits: VW20 = 16#FFFF is VW20 = -1. For example: print VD20:real:4 SMB30 T37, print /x VW100:8, print VW2 * 2 + 1.)";
+
 }  // namespace
 
 const std::vector<Debugger::Command>& Debugger::commands() {
+  static const std::string kPrintSyntax = fmt::format("print [{}] ADDRESS… | EXPRESSION", print_forms_text(" | "));
+  static const std::string kPrintWords = print_forms_text(" ");
+  static const std::string kAboutPrint = print_forms_meanings() + std::string(kMoreAboutPrint);
   static const std::vector<Command> kTable{
       {"step", "s", "step [n]", "execute one instruction, or n, going into CALL and interrupt routines",
        R"(Each executed instruction is shown with its operands (inputs before it, results after it), S0 after it, and its
@@ -60,12 +69,12 @@ time. For example: break INT 123; continue; step 5.)",
        &Debugger::network, Takes::Nothing, true},
       {"interrupt", "int", "interrupt [begins | ends]", "run until the next interrupt routine begins, or the next one ends",
        "It stands in front of its first instruction, or in front of the first one after it.", &Debugger::interrupt,
-       Takes::Nothing, true},
+       Takes::Nothing, true, "begins ends"},
       {"scan", "n", "scan [n]", "run to the start of the next scan's program, or of the nth",
        "For example: input I0.3=1; scan 2; print Q0.0.", &Debugger::scan, Takes::Nothing, true},
       {"continue", "c", "continue [TIME]", "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
-       R"(TIME is simulated, in ns, us, ms, s, min or h: 250ms, 1.5s, 20min. It ends in front of the first instruction after
-it. Ctrl-C stops it too.)",
+       R"(TIME is simulated, in ns, us, ms, s, min or h: 250ms, 1.5s, 20min. The run ends before the first instruction after
+that time. Ctrl-C stops it too.)",
        &Debugger::continue_run, Takes::Nothing, true},
       {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n", "run to a place", "", &Debugger::until, Takes::Places,
        true},
@@ -82,7 +91,7 @@ the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
       {"rnetwork", "rnw", "rnetwork", "back to the start of this network, or of the one before", kBackwards,
        &Debugger::back_network, Takes::Nothing, true},
       {"rinterrupt", "ri", "rinterrupt [begins | ends]", "back to where an interrupt routine last began, or ended",
-       kBackwards, &Debugger::back_interrupt, Takes::Nothing, true},
+       kBackwards, &Debugger::back_interrupt, Takes::Nothing, true, "begins ends"},
       {"rscan", "rn", "rscan [n]", "back to the start of the scan's program, then of the one before, or of the nth",
        kBackwards, &Debugger::back_scan, Takes::Nothing, true},
       {"rcontinue", "rc", "rcontinue", "back to the last breakpoint, change of a watch, or end of an answer", kBackwards,
@@ -92,16 +101,16 @@ the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
       {"at", "", "at TIME | -TIME | start | end", "to a moment: at 15.193ms, or so long before now: at -5ms",
        R"(TIME is in ns, us, ms, s, min or h. It stands in front of the first instruction at or after it. start is the oldest
 moment, which is power-up as long as nothing is forgotten, end the newest one.)",
-       &Debugger::at, Takes::Moments},
+       &Debugger::at, Takes::Moments, false, "start end"},
       {"who", "", "who ADDRESS | event N",
        "the instruction that wrote an address last, or attached an event, without going there",
        R"(With its operands, the interrupt and the time; also if the value stayed the same. Entries of tables, strings and
 messages only if they changed it. What an event of a system file has set is named as what a command has. who *VD3570
 takes the address that the pointer holds now. 'rwho' goes there.)",
-       &Debugger::who, Takes::Addresses},
+       &Debugger::who, Takes::Writers, false, "event"},
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
-       &Debugger::back_to_write, Takes::Addresses, true},
+       &Debugger::back_to_write, Takes::Writers, true, "event"},
       {"why", "", "why", "what decided that it has come here: contacts, a jump or a conditional return, without going there",
        R"(The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.
 While a master or a program waits for an answer, and where it gives up: also what has left the request without one,
@@ -120,7 +129,7 @@ the first.)",
 began. For example: send 01 03 00 0a 00 01 crc; continue; timeline, or timeline 50ms.)",
        &Debugger::timeline},
       {"fork", "", "fork", "forget what has run after this moment: going forward is new from here on",
-       "What was done to the PLC later is not done again. back takes it back.", &Debugger::branch},
+       "What was done to the PLC later is not done again. back takes it back.", &Debugger::fork},
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
       {"power", "", "power [all] [TIME] [lost] | off | on",
        "switch power off and on again: the CPU begins with what it has kept",
@@ -147,10 +156,10 @@ more than a week of simulated time, which is run again.)",
 one; boxes and coils stop only with power flow, or 'always'.
 WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a
 queue), lost (a character), mode, unanswered (a request on a line of this PLC), wrong (an answer to one, which it
-cannot take: wrong parity or CRC, cut short, of another station or function; an exception is an answer). It hears
-'send' and the masters that poll, which know their time-outs; masters on bridges and PLCs that ask in Modbus RTU,
-with one XMT a request: then nobody has sent anything within --timeout, or before the next request. It hears no
-requests of PPI. To a request that is not Modbus RTU an answer is wrong if its characters are damaged.
+cannot take: wrong parity or CRC, cut short, of another station or function; an exception is an answer). 'send' and
+polling masters use their own time-outs. A request from a bridge, or from a PLC (Modbus RTU, one XMT each), counts as
+unanswered if nothing is sent within --timeout or before the next request. PPI requests are not covered. To a request
+that is not Modbus RTU an answer is wrong if its characters are damaged.
 CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7; a constant that an operand can never be is refused.
 hits N stops from the Nth time on since it was set: moments before that do not count when 'back' or 'at' lead there.
 log prints a line and goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.)",
@@ -158,10 +167,11 @@ log prints a line and goes on: break INT 123 log '{SMB2} at {time}'; also {scan}
       {"watch", "w", "watch ADDRESS[:COUNT]… [read | write | read write | change] [if …] [hits N] [log …]",
        "stop after the instruction that changes M31.7, VB100, VW100, AC0 …, or reads or writes it; alone: list",
        R"(Interrupt routines too. The system changes memory as well: inputs, SM bits, SMB2 before INT of event 8. 'read' and
-'write' are for instructions alone, and 'write' stops also if the value stays the same. Entries of tables, strings and messages count only if they change. watch
-*VD3570 takes the address that the pointer holds now, and stays there.)",
+'write' are for instructions alone, and 'write' stops also if the value stays the same. Entries of tables, strings and
+messages count only if they change. watch *VD3570 takes the address that the pointer holds now, and stays there.)",
        &Debugger::watch, Takes::Watch},
-      {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop},
+      {"delete", "d", "delete N… | all", "remove breakpoints and watches", "", &Debugger::delete_stop, Takes::Nothing, false,
+       "all"},
       {"station", "", "station [NAME]", "the stations of a system: where each stands; or go over to another one",
        R"(PLCs first, then the peers and bridges on their lines, which have no program to step through. Steps, addresses, places
 and 'send' are about one station at a time; all of them run, and breakpoints and watches stay with the station that
@@ -182,30 +192,25 @@ given up within its answer, 'goto' and the logic stack of an editor. 'power all'
 cannot be recorded.)",
        &Debugger::record, Takes::Files},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
-      {"print", "p", "print [/x | /d | /b | /c] ADDRESS… | EXPRESSION",
-       "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T37, HC0, *VD3570:8, *AC1:word; or VW2 * 2 + 1",
-       R"(/x hex, /d decimal, /b binary, /c characters. What a pointer points to is a byte unless :word, :dword or :real
-is asked for; of one that points nowhere it says who wrote it. &VB100 is a pointer to VB100, as in VD20 = &VB100. SMB30
-is shown in words, timers with bit, preset and base. A double word that the program uses as a real is shown as one too.
-In expressions words and double words have a sign, and beside them a constant above 32767 or 2147483647 stands for its
-bits: VW20 = 16#FFFF is VW20 = -1. For example: print VD20:real:4 SMB30 T37, print /x VW100:8, print VW2 * 2 + 1.)",
-       &Debugger::print, Takes::Addresses},
+      {"print", "p", kPrintSyntax,
+       "memory: VB100:16, VW100, VD20:real, M31.7, AC0, T37, HC0, *VD3570:8, *AC1:word; or VW2 * 2 + 1", kAboutPrint,
+       &Debugger::print, Takes::Addresses, false, kPrintWords},
       {"expect", "", "expect EXPRESSION", "a failure unless it holds: a script with such lines is a test",
        "expect VW20 = 5 and M0.1. A script ends at the first that does not hold, with exit code 1.", &Debugger::expect,
        Takes::Addresses},
       {"display", "", "display [ADDRESS[:COUNT]… | off]", "print memory after each stop",
        R"(Further ones are added. Alone: print them now. display *VD3570 takes the address that the pointer holds now, and
 stays there.)",
-       &Debugger::display, Takes::Addresses},
+       &Debugger::display, Takes::Addresses, false, "off"},
       {"port", "", "port", "SMB30 in words, receiver, transmitter, and the master on the line",
        "For example, in the middle of a frame: send 01 03 00 0a 00 01 crc; continue 3ms; port.", &Debugger::port},
       {"errors", "e", "errors", "run-time and fatal errors up to now", "", &Debugger::errors},
       {"trace", "", "trace on | off", "print interrupts, characters and errors while running", "", &Debugger::trace,
-       Takes::Switch},
+       Takes::Nothing, false, "on off"},
       {"layout", "", "layout on | off", "keep program, status and memory in view, in the upper part of a terminal",
        R"(It needs 80×24 or more. Above: where it stands, the instructions around it with their last execution, and the
 memory that 'display' names, or the registers. Below: the prompt.)",
-       &Debugger::layout, Takes::Switch},
+       &Debugger::layout, Takes::Nothing, false, "on off"},
       {"set", "", "set ADDRESS=VALUE…",
        "write memory: set VW100=5 M0.3=1 VB4=16#FF VD8=&VB100; I addresses are the input points",
        "SMB28 and SMB29 are the potentiometers; the rest of SM0.0 to SM29.7 only the CPU writes.", &Debugger::set,
@@ -221,22 +226,22 @@ counters see the terminal. The CPU keeps it without power; going back undoes it.
        &Debugger::force, Takes::Forced},
       {"unforce", "", "unforce ADDRESS… | all", "release what is forced",
        "Inputs follow their terminals again, outputs their image; memory keeps what it has.", &Debugger::unforce,
-       Takes::Forced},
+       Takes::ForcedNow, false, "all"},
       {"mode", "", "mode run | stop", "switch the CPU to RUN or STOP, as a programming device does",
-       "After a fatal error only 'restart' or 'power' bring it back.", &Debugger::mode, Takes::Mode},
+       "After a fatal error only 'restart' or 'power' bring it back.", &Debugger::mode, Takes::Nothing, false, "run stop"},
       {"send", "", "send HEX… | 'TEXT' [crc] | read ADDRESS[:COUNT] | write ADDRESS=VALUE… [station n] | cancel",
-       "put a frame on the line from now on, with crc its Modbus CRC; or give it up",
+       "send a frame, with its Modbus CRC if crc is given; cancel abandons the request",
        R"(p after a byte sends it with wrong parity. TEXT is ASCII, with \r \n \t \\ \' and \xHH. 'continue' runs while it
-arrives and stops when the answer is complete. cancel: the master gives the request up, wherever it is. A character
-that has begun is still sent; then the master is ready for the next request.)",
-       &Debugger::send, Takes::Frame},
+arrives and stops when the answer is complete. After cancel a character that has begun is still sent; then the master is
+ready for the next request.)",
+       &Debugger::send, Takes::Nothing, false, "read write cancel"},
       {"fault", "", "fault KIND[:PARAMETER=VALUE,…] [station=NAME] | none",
-       "a fault of the line from now on, or none any more",
+       "inject a fault on the line, or clear all faults",
        R"(As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:ber=0.001, fault cut:from=2ms. It counts
 exchanges and times from now; 's7200 run --help' has all kinds. In a system station=NAME says whose characters it
 strikes, as 'station' of a system file: fault parity:character=2 station=slave2. Going back undoes it. Alone: the
 faults in force, and how often each has happened.)",
-       &Debugger::fault, Takes::Faults},
+       &Debugger::fault, Takes::Faults, false, "none"},
       {"help", "h", "help [COMMAND]", "this list, or more about a command", "", &Debugger::help, Takes::Commands},
       {"quit", "q", "quit", "end", "", &Debugger::quit},
   };
@@ -559,21 +564,11 @@ Debugger::Error Debugger::send(const Arguments& arguments) {
   return {};
 }
 
-/// With how often each has happened.
-Debugger::Error Debugger::list_faults() {
-  const auto name = [&](int driver) {
-    for (const LineStation& one : history_.line_stations())
-      if (one.line == &simulation().line() && one.driver == driver) return stl::printable(one.name);
-    return std::string();
-  };
-  const std::vector<std::string> notes = fault_notes(simulation().faults(), name);
-  if (notes.empty()) out_ << "the line has no fault now; this would be one: fault flip:character=3,bit=5\n";
-  for (const std::string& note : notes) out_ << note << '\n';
-  return {};
-}
-
 Debugger::Error Debugger::fault(const Arguments& arguments) {
-  if (arguments.empty()) return list_faults();
+  if (arguments.empty()) {
+    out_ << faults_text(history_, focus());
+    return {};
+  }
   std::string why;
   const auto inject = fault_of(joined(arguments), history_, focus(), why);
   if (!inject) return why;

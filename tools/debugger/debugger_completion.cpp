@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <set>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/cpu/forcing.hpp"
-#include "interpreter/stl/printer.hpp"
+#include "tools/debugger/address_words.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/force_words.hpp"
 #include "tools/debugger/stop_words.hpp"
@@ -21,22 +20,6 @@ using Words = std::vector<std::string>;
 
 bool begins(std::string_view word, std::string_view with) {
   return word.size() >= with.size() && stl::upper_case(word.substr(0, with.size())) == stl::upper_case(with);
-}
-
-/// Symbols, the addresses that the program uses, and the areas of the CPU.
-Words addresses_of(const Program& program) {
-  std::set<std::string> words;
-  for (const stl::Symbol& symbol : program.source.symbols)
-    if (symbol.value && std::holds_alternative<stl::Address>(*symbol.value) && symbol.name.find(' ') == std::string::npos)
-      words.insert(symbol.name);
-  for (const stl::Statement& statement : program.statements)
-    for (const stl::Operand& operand : statement.operands) {
-      if (const auto* address = std::get_if<stl::Address>(&operand.value))
-        words.insert(stl::to_text(stl::Operand{.value = *address}));
-      if (const auto* pointer = std::get_if<stl::Indirect>(&operand.value))
-        words.insert(stl::to_text(stl::Operand{.value = *pointer}));
-    }
-  return {words.begin(), words.end()};
 }
 
 /// Files and folders that begin so; folders end with `/`.
@@ -93,20 +76,20 @@ Words sessions_of(std::string_view word) {
 
 /// Each kind with the colon before its parameters.
 Words fault_words() {
-  Words words{"none"};
+  Words words;
   for (const serial::FaultKindInfo& kind : serial::fault_kinds()) words.push_back(std::string(kind.name) + ":");
   return words;
 }
 
-/// The ends of the past, and when something was done from outside, the latest first.
+/// When something was done from outside, the latest first.
 Words moments_of(const History& history) {
   constexpr std::size_t kMost = 20;
-  Words words{"start", "end"};
+  Words words;
   const std::vector<Moment>& done = history.action_moments();
   for (auto moment = done.rbegin(); moment != done.rend() && words.size() < kMost; ++moment) {
     std::string time = format_duration(moment->time, 9);
     std::erase(time, ' ');
-    if (words.back() != time) words.push_back(std::move(time));
+    if (words.empty() || words.back() != time) words.push_back(std::move(time));
   }
   return words;
 }
@@ -117,84 +100,78 @@ bool is_in_condition(const std::string& before) { return before == "IF" || befor
 }  // namespace
 
 Debugger::Offers Debugger::completions(std::string_view line) const {
-  const Words words = words_of(line);
+  const Arguments words = words_of(line);
   const std::string& last = words.back();
-  const Program& program = simulation().cpu().program();
-  Words all;
-  const auto add_commands = [&] {
-    for (const Command& command : commands()) all.emplace_back(command.name);
-  };
   std::string why;
-  const Command* command = words.size() > 1 ? find_command(words.front(), why) : nullptr;
-  Takes takes = words.size() == 1 ? Takes::Commands : command ? command->takes : Takes::Nothing;
-  const Words given = words.size() > 1 ? Words(words.begin() + 1, words.end() - 1) : Words();
-  const std::string before = given.empty() ? "" : stl::upper_case(given.back());
-  const bool asks_who = command && (command->name == "who" || command->name == "rwho");
-  const bool stops = takes == Takes::Break || takes == Takes::Watch;
-  if (stops && is_in_condition(before)) takes = Takes::Addresses;
-  switch (takes) {
+  const Command* const command = words.size() > 1 ? find_command(words.front(), why) : nullptr;
+  Arguments all = words.size() == 1 ? command_names() : Arguments();
+  if (command) all = words_after(*command, {words.begin() + 1, words.end() - 1}, last);
+  std::erase_if(all, [&](const std::string& word) { return !begins(word, last); });
+  return {last.size(), all};
+}
+
+Debugger::Arguments Debugger::command_names() {
+  Arguments names;
+  for (const Command& command : commands()) names.emplace_back(command.name);
+  return names;
+}
+
+Debugger::Arguments Debugger::words_after(const Command& command, const Arguments& given, std::string_view last) const {
+  const Program& program = simulation().cpu().program();
+  const bool is_first = given.empty();
+  const std::string before = is_first ? "" : stl::upper_case(given.back());
+  Arguments all = is_first ? stl::split_words(command.words) : Arguments();
+  const auto add = [&all](const Arguments& more) { all.insert(all.end(), more.begin(), more.end()); };
+  switch (command.takes) {
     case Takes::Nothing:
       break;
     case Takes::Commands:
-      add_commands();
-      break;
-    case Takes::Switch:
-      all = {"on", "off"};
-      break;
-    case Takes::Mode:
-      all = {"run", "stop"};
+      add(command_names());
       break;
     case Takes::Moments:
-      if (given.empty()) all = moments_of(history_);
+      if (is_first) add(moments_of(history_));
       break;
     case Takes::Power:
-      if (!is_system() || !given.empty()) all = {"lost"};
-      if (is_system() && given.empty()) all = {"all", "off", "on"};
-      break;
-    case Takes::Frame:
-      if (given.empty()) all = {"read", "write", "cancel"};
+      if (!is_system() || !is_first) add({"lost"});
+      if (is_system() && is_first) add({"all", "off", "on"});
       break;
     case Takes::Stations:
       for (const DebuggedStation& station : options_.stations) all.push_back(station.name);
       break;
     case Takes::Files:
-      all = files_of(last);
+      add(files_of(last));
       break;
     case Takes::Sessions:
-      all = sessions_of(last);
+      add(sessions_of(last));
       break;
     case Takes::Faults:
-      all = given.empty() ? fault_words() : Words();
+      if (is_first) add(fault_words());
       for (const LineStation& one : history_.line_stations())
-        if (given.size() == 1 && given[0] != "none" && one.line == &simulation().line() && !one.name.empty())
+        if (given.size() == 1 && before != "NONE" && one.line == &simulation().line() && !one.name.empty())
           all.push_back("station=" + one.name);
       break;
     case Takes::Addresses:
-      if (asks_who && before == "EVENT") {
-        all = words_after_break(given, program);
-        break;
-      }
-      all = addresses_of(program);
-      if (asks_who) all.emplace_back("event");
+      add(address_words(program));
+      break;
+    case Takes::Writers:
+      add(before == "EVENT" ? words_after_break(given, program) : address_words(program));
       break;
     case Takes::Forced:
-      all = forceable(addresses_of(program), program);
-      if (command->name == "unforce") {
-        all = {"all"};
-        for (const Forced& forced : forced_in(simulation().cpu())) all.push_back(forced.place.name_of(0));
-      }
+      add(forceable(address_words(program), program));
+      break;
+    case Takes::ForcedNow:
+      for (const Forced& forced : forced_in(simulation().cpu())) all.push_back(forced.place.name_of(0));
       break;
     case Takes::Break:
-      all = words_after_break(given, program);
+      add(is_in_condition(before) ? address_words(program) : words_after_break(given, program));
       break;
     case Takes::Watch:
-      all = given.empty() ? addresses_of(program) : words_after_watch(given);
+      add(is_first || is_in_condition(before) ? address_words(program) : words_after_watch(given));
       break;
     case Takes::Places:
-      all = given.empty() ? place_words() : given.size() == 1 ? numbers_of(before, program) : Words();
+      if (given.size() < 2) add(is_first ? place_words() : numbers_of(before, program));
   }
-  std::erase_if(all, [&](const std::string& word) { return !begins(word, last); });
-  return {last.size(), all};
+  return all;
 }
 
 }  // namespace s7200::tools

@@ -1,8 +1,7 @@
-// The commands force and unforce, and how what is forced is shown.
+// The commands force and unforce.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <ostream>
 
 #include "tools/debugger/debugger.hpp"
@@ -11,12 +10,6 @@
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
-namespace {
-
-constexpr std::array<std::string_view, 3> kPaints{"\x1b[31m", "\x1b[33m", "\x1b[1m"};
-constexpr std::string_view kPlain = "\x1b[0m";
-
-}  // namespace
 
 std::string Debugger::forced_text(const Cpu& cpu, const std::vector<Bits>& places) const {
   std::string text;
@@ -26,19 +19,6 @@ std::string Debugger::forced_text(const Cpu& cpu, const std::vector<Bits>& place
     text += fmt::format("{} {}={}", text.empty() ? "  forced:" : ",", forced.place.name_of(0), forced.value);
   }
   return red(std::move(text));
-}
-
-std::string Debugger::painted(std::string text, Paint paint) const {
-  if (text.empty() || !options_.colour) return text;
-  return fmt::format("{}{}{}", kPaints.at(static_cast<std::size_t>(paint)), text, kPlain);
-}
-
-std::string Debugger::memory_text(std::size_t station, const MemoryRange& range) const {
-  const Cpu& cpu = stations_[station].simulation->cpu();
-  const std::string forced = forced_text(cpu, {bits_of(range)});
-  const std::string symbol = symbol_text(cpu.program(), range);
-  return dump_text(cpu, range) + (forced.empty() ? "" : "       " + forced + "\n") +
-         (symbol.empty() ? "" : "         " + symbol + "\n");
 }
 
 Debugger::Error Debugger::force(const Arguments& arguments) {

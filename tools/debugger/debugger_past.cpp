@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
@@ -160,9 +161,9 @@ Debugger::Error Debugger::report_writer_of(const Arguments& arguments, std::stri
 }
 
 Debugger::Error Debugger::history(const Arguments& arguments) {
-  constexpr std::uint32_t kShown = 10, kMost = 10'000;
-  const auto count = arguments.empty() ? kShown : parse_count(arguments);
-  if (!count || *count > kMost) return expects("history", "how many instructions, up to 10000, for example: history 30");
+  const auto count = arguments.empty() ? kUsualInstructions : parse_count(arguments);
+  if (!count || *count > kMostInstructions)
+    return expects("history", fmt::format("how many instructions, up to {}, for example: history 30", kMostInstructions));
   const auto found = at_length([&] { return last_instructions(history_, focus(), *count, options_.stop_request); });
   if (!found) {
     out_ << interruption_text() << '\n';
@@ -196,15 +197,8 @@ Debugger::Error Debugger::timeline(const Arguments& arguments) {
 DecisionSearch Debugger::find_decision() {
   const DecisionSearch search =
       at_length([&] { return find_last_decision(history_, focus(), stepper_.host_timeout(), options_.stop_request); });
-  for (const TraceLine& line : search.unanswered) out_ << fmt::format("{}  {}\n", moment_text(line.at), line.text);
-  if (search.interrupted)
-    out_ << interruption_text() << '\n';
-  else if (search.decision)
-    out_ << fmt::format("{}  {}{}: {}\n", moment_text(search.decision->by.at),
-                        search.unanswered.empty() ? "" : "what led here: ", routine_text(search.decision->by.op),
-                        search.decision->text);
-  else if (search.unanswered.empty())
-    out_ << kNothingDecided << '\n';
+  for (const std::string& line : to_lines(search, listing())) out_ << line << '\n';
+  if (search.interrupted) out_ << interruption_text() << '\n';
   return search;
 }
 
@@ -244,7 +238,7 @@ Debugger::Error Debugger::back_to_write(const Arguments& arguments) {
   return {};
 }
 
-Debugger::Error Debugger::branch(const Arguments& arguments) {
+Debugger::Error Debugger::fork(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("fork");
   if (!history_.in_the_past()) {
     out_ << "this is the newest moment: nothing has run after it\n";

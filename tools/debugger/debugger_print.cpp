@@ -1,4 +1,4 @@
-// The command print: memory, what pointers point to, and expressions.
+// The commands print and expect: memory, what pointers point to, and expressions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,41 +10,12 @@
 #include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/element_text.hpp"
+#include "tools/debugger/print_forms.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
 namespace {
-
-constexpr std::string_view kForms = "xdbc";
-
-std::string binary_text(std::uint32_t value, unsigned bits) {
-  std::string text = "2#";
-  for (unsigned bit = bits; bit-- > 0;)
-    text.append(value >> bit & 1 ? "1" : "0").append(bit % 4 == 0 && bit != 0 ? "_" : "");
-  return text;
-}
-
-std::string printable_character(std::uint8_t byte) {
-  return byte >= 0x20 && byte < 0x7F ? std::string(1, static_cast<char>(byte)) : fmt::format("\\x{:02x}", byte);
-}
-
-std::string character_text(std::uint32_t value, unsigned bytes) {
-  std::string text = "'";
-  for (unsigned i = bytes; i-- > 0;) text += printable_character(static_cast<std::uint8_t>(value >> 8 * i));
-  return text + "'";
-}
-
-/// `x` hex, `d` decimal with a sign where there is one, `b` binary, `c` characters.
-std::string number_text(std::uint32_t value, Width width, char form) {
-  const unsigned bytes = s7200::bytes_of(width);
-  if (width == Width::Bit) return fmt::format("{}", value);
-  if (form == 'x') return fmt::format("16#{:0{}X}", value, 2 * bytes);
-  if (form == 'b') return binary_text(value, 8 * bytes);
-  if (form == 'c') return character_text(value, bytes);
-  if (width == Width::Byte) return fmt::format("{}", value);
-  return fmt::format("{}", width == Width::Word ? static_cast<std::int16_t>(value) : static_cast<std::int32_t>(value));
-}
 
 std::uint32_t object_of(const State& state, const MemoryRange& range, std::uint32_t i) {
   const std::uint32_t step = range.area == Area::AC ? 4 : s7200::bytes_of(range.width);
@@ -67,12 +38,13 @@ std::string characters_text(const Cpu& cpu, const MemoryRange& range) {
   return text;
 }
 
-std::string range_text(const Cpu& cpu, const MemoryRange& range, char form) {
-  if (form == 0) return dump_text(cpu, range);
-  if (form == 'c' && range.width == Width::Byte) return characters_text(cpu, range);
+std::string range_text(const Cpu& cpu, const MemoryRange& range, const PrintForm* form) {
+  if (!form) return dump_text(cpu, range);
+  if (form->joins_bytes && range.width == Width::Byte) return characters_text(cpu, range);
   std::string text;
   for (std::uint32_t i = 0; i < range.count; ++i)
-    text += fmt::format("{:<8} {}\n", range.name_of(i), number_text(object_of(cpu.state(), range, i), range.width, form));
+    text +=
+        fmt::format("{:<8} {}\n", range.name_of(i), form->text(object_of(cpu.state(), range, i), range.width, range.real));
   return text;
 }
 
@@ -86,12 +58,12 @@ std::string elements_text(const Cpu& cpu, const MemoryRange& range) {
   return text;
 }
 
-std::string number_text(const Value& value, char form) {
+std::string number_text(const Value& value, const PrintForm* form) {
   if (value.real) return number_text(value);
   const auto bits = double_word_of(value);
   if (!bits) return number_text(value) + " (more than a double word)";
-  const std::string text = number_text(*bits, Width::Double, form == 0 ? 'x' : form);
-  return form == 0 ? fmt::format("{} ({})", number_text(value), text) : text;
+  return form ? form->text(*bits, Width::Double, false)
+              : fmt::format("{} ({})", number_text(value), hex_text(*bits, Width::Double));
 }
 
 }  // namespace
@@ -119,7 +91,7 @@ std::string Debugger::name_of(const MemoryRange& range, std::string_view written
   return fmt::format("{} ({})", range.name_of(0), stl::printable(symbol->name));
 }
 
-void Debugger::print_place(const Place& place, const std::string& name, char form) {
+void Debugger::print_place(const Place& place, const std::string& name, const PrintForm* form) {
   const Cpu& cpu = simulation().cpu();
   const auto range = range_now(place, cpu);
   if (!range) {
@@ -136,10 +108,10 @@ void Debugger::print_place(const Place& place, const std::string& name, char for
 
 Debugger::Error Debugger::print(const Arguments& arguments) {
   Arguments words = arguments;
-  char form = 0;
+  const PrintForm* form = nullptr;
   if (!words.empty() && words[0].size() == 2 && words[0][0] == '/') {
-    form = stl::lower_case(words[0])[1];
-    if (kForms.find(form) == std::string_view::npos) return expects("print", "/x, /d, /b or /c, then addresses");
+    form = find_print_form(words[0]);
+    if (!form) return expects("print", fmt::format("a form ({}), then addresses", print_forms_meanings()));
     words.erase(words.begin());
   }
   if (words.empty()) return expects("print", "addresses or an expression, for example: print VB100:16 M31.7 *AC1");
@@ -160,6 +132,19 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   out_ << fmt::format("{} {}\n", stl::printable(expression->text()),
                       value ? "= " + number_text(*value, form) : "cannot be computed: " + why);
   return {};
+}
+
+Debugger::Error Debugger::expect(const Arguments& arguments) {
+  std::string why;
+  if (arguments.empty()) return expects("expect", "what must hold, for example: expect VW20 = 5 and M0.1");
+  const auto expression = Expression::parse(joined(arguments), simulation().cpu().program(), why);
+  if (!expression) return why;
+  const auto value = expression->value(simulation().cpu(), why);
+  if (value && value->truth()) return {};
+  expectation_failed_ = true;
+  std::string found = expression->places_text(simulation().cpu());
+  if (!value && found.find(why) == std::string::npos) found += fmt::format("{}{}", found.empty() ? "" : "; ", why);
+  return fmt::format("expected {}, which does not hold here{}{}", expression->text(), found.empty() ? "" : ": ", found);
 }
 
 }  // namespace s7200::tools

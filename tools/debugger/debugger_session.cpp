@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/debugger/debugger.hpp"

@@ -108,17 +108,4 @@ std::vector<Bits> Debugger::operands_of(std::uint32_t number) const {
   return all;
 }
 
-Debugger::Error Debugger::expect(const Arguments& arguments) {
-  std::string why;
-  if (arguments.empty()) return expects("expect", "what must hold, for example: expect VW20 = 5 and M0.1");
-  const auto expression = Expression::parse(joined(arguments), simulation().cpu().program(), why);
-  if (!expression) return why;
-  const auto value = expression->value(simulation().cpu(), why);
-  if (value && value->truth()) return {};
-  expectation_failed_ = true;
-  std::string found = expression->places_text(simulation().cpu());
-  if (!value && found.find(why) == std::string::npos) found += fmt::format("{}{}", found.empty() ? "" : "; ", why);
-  return fmt::format("expected {}, which does not hold here{}{}", expression->text(), found.empty() ? "" : ": ", found);
-}
-
 }  // namespace s7200::tools

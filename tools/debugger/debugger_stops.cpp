@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
@@ -23,13 +24,9 @@ namespace {
 using On = StopPoint::On;
 using Words = std::vector<std::string>;
 
-bool is_option(const std::string& word) {
-  return std::ranges::find(kStopOptions, stl::lower_case(word)) != std::end(kStopOptions);
-}
-
 /// The words up to the next option.
 Words take_words(Words& words) {
-  const auto end = std::find_if(words.begin(), words.end(), is_option);
+  const auto end = std::ranges::find_if(words, find_stop_option);
   Words taken(words.begin(), end);
   words.erase(words.begin(), end);
   return taken;
@@ -63,7 +60,10 @@ bool read_options(Words words, const Program& program, StopPoint& stop, std::str
     words.erase(words.begin());
     if (std::ranges::find(options, option) != options.end())
       return why = fmt::format("'{}' is there twice; give it once", option), false;
-    if (is_option(option)) options.push_back(option);
+    if (const StopOption* const known = find_stop_option(option)) {
+      if (why = refused_option(*known, stop); !why.empty()) return false;
+      options.push_back(option);
+    }
     const Words given = option == "log" ? take_text(words) : take_words(words);
     if (option == "always" && given.empty()) {
       stop.needs_power = false;
@@ -81,7 +81,7 @@ bool read_options(Words words, const Program& program, StopPoint& stop, std::str
       if (stop.log.empty()) return why = expects(option, "a text, for example: log '{VW100} at {time}'"), false;
       if (!check_message(stop.log, program, why)) return false;
     } else {
-      why = "after what it stops at come: always, if CONDITION, hits N, log 'TEXT'";
+      why = fmt::format("after what it stops at come: {}", stop_options_text());
       return false;
     }
   }
@@ -101,9 +101,6 @@ const AccessWord* take_access(Words& words) {
   }
   return nullptr;
 }
-
-std::string times_text(std::uint64_t n) { return n == 1 ? "for the first time" : fmt::format("{} times", n); }
-std::string times_once(std::uint64_t n) { return n == 1 ? "once" : fmt::format("{} times", n); }
 
 std::string options_text(const StopPoint& stop) {
   std::string text;
@@ -200,8 +197,8 @@ void Debugger::list_stops() {
       const Station& of = stations_[s.station];
       std::string what = said_of(s.station) + (s.on == On::Place ? op_text(of.listing, s.op) : s.name);
       if (watches) what += " is " + value_of(of.simulation->cpu(), *s.range);
-      out_ << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, watches ? "watch" : "break",
-                          fmt::format("{} hit{}", s.hits, s.hits == 1 ? "" : "s"), what, options_text(s));
+      out_ << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, watches ? "watch" : "break", counted(s.hits, "hit"), what,
+                          options_text(s));
     }
   if (stepper_.stops.empty()) out_ << "no breakpoints and no watches\n";
 }
@@ -315,13 +312,10 @@ std::size_t Debugger::add_loaded(std::vector<StopPoint> stops) {
 void Debugger::report_hits(const Stop& stop) {
   for (const Hit& hit : stop.hits) hit.stop.is_watch() ? report_access(hit) : report_breakpoint(hit);
   for (const StopPoint& s : stepper_.stops)
-    if (s.skipped != 0)
-      out_ << fmt::format("breakpoint {} was passed {} without power flow; 'break {} always{}' stops there then too\n",
-                          s.number, times_once(s.skipped), s.name, option_words(s));
+    if (const std::string skipped = skipped_text(s); !skipped.empty())
+      out_ << fmt::format("{}; 'break {} always{}' stops there then too\n", skipped, s.name, option_words(s));
   for (const StopPoint& s : stepper_.stops)
-    if (s.unknown != 0)
-      out_ << fmt::format("the condition of {} {} could not be computed {}: {}\n", s.is_watch() ? "watch" : "breakpoint",
-                          s.number, times_once(s.unknown), s.why_unknown);
+    if (const std::string unknown = unknown_text(s); !unknown.empty()) out_ << unknown << '\n';
 }
 
 /// At the oldest moment: what waits for a number of hits has none before it was set.
@@ -334,7 +328,9 @@ void Debugger::report_uncounted() {
 
 void Debugger::report_breakpoint(const Hit& hit) {
   const Program& program = stations_[hit.stop.station].simulation->cpu().program();
-  const std::string hits = hit.stop.hits == 0 ? "" : ", hit " + times_text(hit.stop.hits);
+  const std::string hits = hit.stop.hits == 0   ? ""
+                           : hit.stop.hits == 1 ? ", hit for the first time"
+                                                : fmt::format(", hit {} times", hit.stop.hits);
   const std::string name = hit.stop.on == On::Place ? "" : ", " + hit.stop.name;
   out_ << said_of(hit.stop.station) << bold(fmt::format("breakpoint {}{}{}", hit.stop.number, name, hits)) << '\n';
   if (hit.record) out_ << fmt::format("  {}  {}\n", moment_text(hit.record->at), describe(*hit.record, program));
@@ -355,12 +351,7 @@ void Debugger::report_access(const Hit& hit) {
   const Station& station = stations_[hit.stop.station];
   const Cpu& cpu = station.simulation->cpu();
   const Program& program = cpu.program();
-  const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
-  const std::string is = value_text(program, *hit.stop.range, hit.value);
-  out_ << said_of(hit.stop.station);
-  out_ << bold(was == is ? fmt::format("watch {}: {} is {} as before", hit.stop.number, hit.stop.name, is)
-                         : fmt::format("watch {}: {} was {}, is {}", hit.stop.number, hit.stop.name, was, is))
-       << '\n';
+  out_ << said_of(hit.stop.station) << bold(fmt::format("watch {}: {}", hit.stop.number, value_text(hit, program))) << '\n';
   if (hit.by)
     out_ << fmt::format("  by {} {}\n", station.listing.routine_of(hit.by->op),
                         execution_text(execution_of(*hit.by, cpu), program));

@@ -57,4 +57,16 @@ std::string fault_text(const InjectFault& inject) {
                      serial::to_text(*inject.fault), described(whatever));
 }
 
+std::string faults_text(const History& history, std::size_t station) {
+  const serial::Simulation& simulation = history.station(station);
+  const auto name = [&](int driver) {
+    for (const LineStation& one : history.line_stations())
+      if (one.line == &simulation.line() && one.driver == driver) return stl::printable(one.name);
+    return std::string();
+  };
+  std::string text;
+  for (const std::string& note : fault_notes(simulation.faults(), name)) text += note + '\n';
+  return text.empty() ? "the line has no fault now; this would be one: fault flip:character=3,bit=5\n" : text;
+}
+
 }  // namespace s7200::tools

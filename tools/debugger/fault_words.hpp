@@ -15,4 +15,7 @@ std::optional<InjectFault> fault_of(const std::string& text, const History& hist
 /// `on the line from now on, of what slave2 sends: parity:character=2`, and a line that describes it.
 std::string fault_text(const InjectFault& inject);
 
+/// The faults in force on the line of PLC `station`, and how often each has happened, a line for each.
+std::string faults_text(const History& history, std::size_t station);
+
 }  // namespace s7200::tools

@@ -8,6 +8,25 @@
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
+namespace {
+
+/// `SBR 51, network 6 "SBR 51: is it undisturbed?"`
+std::string routine_text(const Listing& listing, std::uint32_t op) {
+  const std::string& network = listing.network_of(op);
+  return listing.routine_of(op) + (network.empty() ? "" : ", ") + network;
+}
+
+}  // namespace
+
+std::vector<std::string> to_lines(const DecisionSearch& search, const Listing& listing) {
+  std::vector<std::string> lines;
+  for (const TraceLine& line : search.unanswered) lines.push_back(fmt::format("{}  {}", moment_text(line.at), line.text));
+  if (search.decision)
+    lines.push_back(fmt::format("{}  {}{}: {}", moment_text(search.decision->by.at), lines.empty() ? "" : "what led here: ",
+                                routine_text(listing, search.decision->by.op), search.decision->text));
+  if (lines.empty() && !search.interrupted) lines.emplace_back(kNothingDecided);
+  return lines;
+}
 
 DecisionSearch find_last_decision(History& history, std::size_t station, Time host_timeout,
                                   const std::atomic<bool>* stop_request) {

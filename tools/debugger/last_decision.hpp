@@ -9,6 +9,7 @@
 
 #include "interpreter/trace/trace_lines.hpp"
 #include "tools/debugger/history.hpp"
+#include "tools/views/listing.hpp"
 
 namespace s7200::tools {
 
@@ -42,6 +43,9 @@ struct DecisionSearch {
 
 inline constexpr std::string_view kNothingDecided =
     "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far";
+
+/// A line for each frame without an answer and for the decision, or kNothingDecided; what was found if it was interrupted.
+std::vector<std::string> to_lines(const DecisionSearch& search, const Listing& listing);
 
 /// Of a station: the contacts of the rung so far, or the last jump, conditional end or conditional call before it. The
 /// simulation stands where it stood. `host_timeout`: as of OpenRequests.

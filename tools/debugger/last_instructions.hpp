@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "tools/views/execution_text.hpp"
 
 namespace s7200::tools {
+
+/// How many are asked for at most, and if nothing is said.
+inline constexpr std::uint32_t kMostInstructions = 10'000, kUsualInstructions = 10;
 
 /// Those of a station before now, oldest first, at most `count`; nothing after a stop request. The simulation stands where
 /// it stood.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/debugger/words.hpp"

@@ -11,19 +11,33 @@
 namespace s7200::tools {
 namespace {
 
-std::optional<std::string> word_text(std::string_view word, const Cpu& cpu, Time now, const InstructionRecord* by) {
-  const State& state = cpu.state();
-  if (word == "time") return moment_text(std::max(state.time, now));
-  if (word == "scan") return fmt::format("{}", state.scans + 1);
-  if (word == "line") {
-    const auto op = by ? std::optional(by->op) : standing_at(state);
-    return op ? fmt::format("{}", cpu.program().statement(*op).position.line) : "-";
-  }
-  if (word == "event") return state.in_interrupt ? fmt::format("{}", state.serving_event) : "-";
-  return {};
+std::string time_text(const Cpu& cpu, Time now, const InstructionRecord*) {
+  return moment_text(std::max(cpu.state().time, now));
 }
 
-constexpr std::string_view kWords[] = {"time", "scan", "line", "event"};
+std::string scan_text(const Cpu& cpu, Time, const InstructionRecord*) { return fmt::format("{}", cpu.state().scans + 1); }
+
+std::string line_text(const Cpu& cpu, Time, const InstructionRecord* by) {
+  const auto op = by ? std::optional(by->op) : standing_at(cpu.state());
+  return op ? fmt::format("{}", cpu.program().statement(*op).position.line) : "-";
+}
+
+std::string event_text(const Cpu& cpu, Time, const InstructionRecord*) {
+  return cpu.state().in_interrupt ? fmt::format("{}", cpu.state().serving_event) : "-";
+}
+
+/// Of a message, besides expressions.
+struct MessageWord {
+  std::string_view word;
+  std::string (*text)(const Cpu& cpu, Time now, const InstructionRecord* by);
+};
+constexpr MessageWord kWords[] = {{"time", time_text}, {"scan", scan_text}, {"line", line_text}, {"event", event_text}};
+
+/// Null: it is none.
+const MessageWord* find_word(std::string_view word) {
+  const auto found = std::ranges::find(kWords, word, &MessageWord::word);
+  return found == std::end(kWords) ? nullptr : found;
+}
 
 /// Each piece of text outside braces, and of those inside.
 void split(const std::string& text, const std::function<void(std::string_view)>& outside,
@@ -46,11 +60,14 @@ std::string filled_in(const std::string& text, const Cpu& cpu, Time now, const I
   split(
       text, [&](std::string_view part) { filled += part; },
       [&](std::string_view part) {
+        if (const MessageWord* const word = find_word(part)) {
+          filled += word->text(cpu, now, by);
+          return;
+        }
         std::string why;
-        const auto word = word_text(part, cpu, now, by);
-        const auto expression = word ? std::nullopt : Expression::parse(part, cpu.program(), why);
+        const auto expression = Expression::parse(part, cpu.program(), why);
         const auto value = expression ? expression->value(cpu, why) : std::nullopt;
-        filled += word ? *word : value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);
+        filled += value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);
       });
   return filled;
 }
@@ -60,8 +77,7 @@ bool check_message(const std::string& text, const Program& program, std::string&
   split(
       text, [](std::string_view) {},
       [&](std::string_view part) {
-        for (const std::string_view word : kWords)
-          if (part == word) return;
+        if (find_word(part)) return;
         good = good && Expression::parse(part, program, why).has_value();
       });
   const std::size_t open = text.rfind('{');

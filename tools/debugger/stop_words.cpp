@@ -13,6 +13,7 @@
 #include "interpreter/model/instruction.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -104,6 +105,8 @@ bool is_word_of_place(std::string_view lower) {
   return begins("NETWORK") || std::ranges::any_of(kMarks, begins, &Mark::word) || parse_decimal<std::uint32_t>(word);
 }
 
+std::string times_text(std::uint64_t n) { return n == 1 ? "once" : fmt::format("{} times", n); }
+
 std::string happenings_text() {
   std::string text = "event n";
   for (const Happening& happening : kHappenings) text += fmt::format(", {}", happening.word);
@@ -111,17 +114,34 @@ std::string happenings_text() {
 }
 
 /// Those that are not among the words; none where an option has not got what it needs.
-std::vector<std::string> options_after(const std::vector<std::string>& words) {
+std::vector<std::string> options_after(const std::vector<std::string>& words, bool of_place) {
   std::vector<std::string> options;
-  const std::string last = stl::lower_case(words.back());
-  if (last == "if" || last == "hits" || last == "log") return options;
-  for (const std::string_view option : kStopOptions)
-    if (std::ranges::none_of(words, [&](const std::string& word) { return stl::lower_case(word) == option; }))
-      options.emplace_back(option);
+  if (const StopOption* const last = find_stop_option(words.back()); last && !last->takes.empty()) return options;
+  for (const StopOption& option : kStopOptions)
+    if ((of_place || !option.for_places_only) &&
+        std::ranges::none_of(words, [&](const std::string& word) { return find_stop_option(word) == &option; }))
+      options.emplace_back(option.word);
   return options;
 }
 
 }  // namespace
+
+const StopOption* find_stop_option(std::string_view word) {
+  const auto found = std::ranges::find(kStopOptions, stl::lower_case(word), &StopOption::word);
+  return found == std::end(kStopOptions) ? nullptr : found;
+}
+
+std::string refused_option(const StopOption& option, const StopPoint& stop) {
+  if (!option.for_places_only || stop.on == On::Place) return {};
+  return fmt::format("'{}' is for places; what happens has no power flow", option.word);
+}
+
+std::string stop_options_text() {
+  std::string text;
+  for (const StopOption& option : kStopOptions)
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", option.word, option.takes.empty() ? "" : " ", option.takes);
+  return text;
+}
 
 std::optional<std::uint16_t> error_code_of(std::string_view text, std::string& why) {
   constexpr RunError kNone{};
@@ -196,6 +216,24 @@ std::string wrong_answer_text(const Hit& hit) {
   return hit.answer.empty() ? hit.wrong : fmt::format("answered {}: {}", serial::to_hex(hit.answer), hit.wrong);
 }
 
+std::string value_text(const Hit& hit, const Program& program) {
+  const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
+  const std::string is = value_text(program, *hit.stop.range, hit.value);
+  return was == is ? fmt::format("{} is {} as before", hit.stop.name, is)
+                   : fmt::format("{} was {}, is {}", hit.stop.name, was, is);
+}
+
+std::string skipped_text(const StopPoint& stop) {
+  if (stop.skipped == 0) return {};
+  return fmt::format("breakpoint {} was passed {} without power flow", stop.number, times_text(stop.skipped));
+}
+
+std::string unknown_text(const StopPoint& stop) {
+  if (stop.unknown == 0) return {};
+  return fmt::format("the condition of {} {} could not be computed {}: {}", stop.is_watch() ? "watch" : "breakpoint",
+                     stop.number, times_text(stop.unknown), stop.why_unknown);
+}
+
 std::vector<std::string> words_after_break(const std::vector<std::string>& words, const Program& program) {
   std::vector<std::string> all;
   if (words.empty()) {
@@ -212,8 +250,7 @@ std::vector<std::string> words_after_break(const std::vector<std::string>& words
   if (first == "event" && words.size() == 2) all = {"occurs", "served"};
   const std::vector<std::string_view> happenings = happening_words();
   const bool is_place = std::ranges::find(happenings, first) == happenings.end();
-  for (const std::string& option : options_after(words))
-    if (is_place || option != "always") all.push_back(option);
+  std::ranges::copy(options_after(words, is_place), std::back_inserter(all));
   return all;
 }
 
@@ -225,8 +262,7 @@ std::vector<std::string> words_after_watch(const std::vector<std::string>& words
   const bool waits_for = has("read") || has("write") || has("change");
   for (const AccessWord& access : kAccesses)
     if (!waits_for && access.word.find(' ') == std::string_view::npos) all.emplace_back(access.word);
-  for (const std::string& option : options_after(words))
-    if (option != "always") all.push_back(option);
+  std::ranges::copy(options_after(words, false), std::back_inserter(all));
   return all;
 }
 

@@ -13,7 +13,21 @@
 namespace s7200::tools {
 
 /// What may follow what a stop is set on.
-inline constexpr std::string_view kStopOptions[] = {"always", "if", "hits", "log"};
+struct StopOption {
+  std::string_view word, takes;
+  bool for_places_only = false;
+};
+inline constexpr StopOption kAlways{"always", "", true};
+inline constexpr StopOption kStopOptions[] = {kAlways, {"if", "CONDITION"}, {"hits", "N"}, {"log", "'TEXT'"}};
+
+/// Null: the word is no option.
+const StopOption* find_stop_option(std::string_view word);
+
+/// `always, if CONDITION, …`
+std::string stop_options_text();
+
+/// Why a stop cannot have an option; empty if it can.
+std::string refused_option(const StopOption& option, const StopPoint& stop);
 
 /// What a watch may wait for.
 struct AccessWord {
@@ -52,6 +66,14 @@ std::vector<std::string_view> happening_words();
 
 /// `answered 01 83 02 c0: wrong CRC`, of a hit of WrongAnswer.
 std::string wrong_answer_text(const Hit& hit);
+
+/// `VW20 was 1, is 2`, or `VW20 is 2 as before`, of a hit of a watch.
+std::string value_text(const Hit& hit, const Program& program);
+
+/// `breakpoint 2 was passed 3 times without power flow` in the last run, and the same of a condition that could not be
+/// computed; empty if it was not.
+std::string skipped_text(const StopPoint& stop);
+std::string unknown_text(const StopPoint& stop);
 
 /// What may come after the words of `break` or `watch`, for completion.
 std::vector<std::string> words_after_break(const std::vector<std::string>& words, const Program& program);

@@ -20,10 +20,6 @@ std::string list_text(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string counted(std::size_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> texts;
   bool open = false;
@@ -61,14 +57,16 @@ std::string expects_event(std::string_view command, const std::vector<std::strin
   std::uint8_t last = kEvents - 1;
   while (!find_event(last)) --last;
   const auto number = words.size() == 2 ? parse_decimal<std::uint64_t>(words[1]) : std::nullopt;
-  return fmt::format("{}{} expects one address, or event and a number up to {}, for example: {} event 8",
-                     number ? fmt::format("there is no event {}; ", *number) : "", command, last, command);
+  return fmt::format("{}{} one address, or event and a number up to {}, for example: {}{}event 8",
+                     number ? fmt::format("there is no event {}; ", *number) : "",
+                     command.empty() ? "expected" : fmt::format("{} expects", command), last, command,
+                     command.empty() ? "" : " ");
 }
 
 std::optional<bool> wants_end(const std::vector<std::string>& arguments) {
   const std::string word = arguments.empty() ? "begins" : stl::lower_case(joined(arguments));
-  if (word != "begins" && word != "ends") return {};
-  return word == "ends";
+  if (word == "begins" || word == "begin") return false;
+  return word == "ends" || word == "end" ? std::optional(true) : std::nullopt;
 }
 
 }  // namespace s7200::tools

@@ -15,9 +15,6 @@ std::string joined(const std::vector<std::string>& words);
 /// `panel`, `panel and recorder`, `panel, recorder and pump`
 std::string list_text(const std::vector<std::string>& names);
 
-/// `1 action`, `2 actions`
-std::string counted(std::size_t count, std::string_view thing);
-
 /// `VW100 = 5` is written with or without blanks.
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments);
 
@@ -39,7 +36,7 @@ std::optional<std::uint32_t> parse_count(const std::vector<std::string>& argumen
 /// The number in `event 8`; nothing if the words are something else.
 std::optional<std::uint8_t> event_of(const std::vector<std::string>& words);
 
-/// What `who event …` says without the number of an event.
+/// What `who event …` says without the number of an event; the command is left out if it has no name.
 std::string expects_event(std::string_view command, const std::vector<std::string>& words);
 
 /// Of a step by interrupts: whether to its end. Its begin is meant if nothing is said; nothing for other words.

@@ -122,7 +122,7 @@ TEST(Debugger, InterruptRunsToWhereTheNextOneBeginsOrEndsAndBack) {
   EXPECT_TRUE(has(session("interrupt"), "INT 0 for event 10"));
   EXPECT_EQ(session.line(), 19u);
   const Time begun = session.simulation.time();
-  session("interrupt ends");
+  session("interrupt end");
   EXPECT_FALSE(session.state().in_interrupt);
   EXPECT_EQ(session.vw(30), 1u);
   session("interrupt; interrupt");

@@ -49,6 +49,9 @@ TEST(Seeing, PrintTakesPointersFormsAndExpressions) {
   EXPECT_TRUE(has(session("print /b VB100:2"), "VB100    2#0100_0001\nVB101    2#0100_0010\n"));
   EXPECT_TRUE(has(session("print /x VW100"), "VW100    16#4142\n"));
   EXPECT_TRUE(has(session("print /d VW100"), "VW100    16706\n"));
+  EXPECT_EQ(session("print /b V100.6"), "V100.6   2#1\n");
+  EXPECT_EQ(session("print /x V100.6"), "V100.6   16#1\n");
+  EXPECT_EQ(session("set VD104:real=1.5; print /d VD104:real"), "VD104    1.5\n");
   EXPECT_TRUE(has(session("print VB100 * 2 + 1"), "VB100 * 2 + 1 = 131 (16#00000083)\n"));
   EXPECT_TRUE(has(session("print *AC1 = 16#43 and SM0.0"), " = 1 (16#00000001)\n"));
   EXPECT_TRUE(has(session("print T37"), "T37: bit 0, preset 50, counts 100 ms\n"));
@@ -118,6 +121,13 @@ TEST(Seeing, CompletionOffersCommandsAddressesPlacesAndFiles) {
   EXPECT_EQ(offered("until i"), Words{"INT"});
   EXPECT_EQ(offered("trace o"), (Words{"on", "off"}));
   EXPECT_EQ(offered("help unf"), Words{"unforce"});
+  EXPECT_EQ(offered("interrupt "), (Words{"begins", "ends"}));
+  EXPECT_EQ(offered("rinterrupt e"), Words{"ends"});
+  EXPECT_EQ(offered("at s"), Words{"start"});
+  EXPECT_EQ(offered("delete a"), Words{"all"});
+  EXPECT_EQ(offered("display o"), Words{"off"});
+  EXPECT_EQ(offered("display VW10 o"), Words{});
+  EXPECT_EQ(offered("print /"), (Words{"/x", "/d", "/b", "/c"}));
   EXPECT_EQ(offered("step 1"), Words{});
 }
 
@@ -206,7 +216,8 @@ TEST(Seeing, WrongCommandsTellWhatIsExpected) {
   Session session(kNested);
   EXPECT_TRUE(has(session.error_of("status 99"), "the last instruction is in line 22"));
   EXPECT_TRUE(has(session.error_of("expect"), "expect expects what must hold"));
-  EXPECT_TRUE(has(session.error_of("print /q VB0"), "print expects /x, /d, /b or /c"));
+  EXPECT_TRUE(has(session.error_of("print /q VB0"),
+                  "print expects a form (/x hex, /d decimal, /b binary, /c characters), then addresses"));
   EXPECT_TRUE(has(session.error_of("print *VW0"), "a pointer is *VD100"));
   EXPECT_TRUE(has(session.error_of("print VB0 +"), "column 6: an address or a number is missing"));
   EXPECT_TRUE(has(session.error_of("history x"), "history expects how many"));

@@ -179,6 +179,21 @@ TEST(Stops, OptionsComeInAnyOrderAfterATextInQuotesTooAndOnce) {
   EXPECT_TRUE(has(session.error_of("break 4 log 'x' frob"), "always, if CONDITION, hits N, log 'TEXT'"));
 }
 
+TEST(Stops, AnOptionOfPlacesIsRefusedForWhatHappensAndForMemory) {
+  Session session(kNested);
+  for (const char* const command : {"break xmt always", "break event 10 hits 2 ALWAYS", "watch VW20 always"})
+    EXPECT_EQ(session.error_of(command), "'always' is for places; what happens has no power flow") << command;
+  EXPECT_TRUE(has(session("break INT 0 always; break"), "always"));
+}
+
+TEST(Stops, ACharacterDroppedFromItsQueueIsLost) {
+  Session session(
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI\nLD I0.0\nEU\nDTCH 8\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
+  session("continue 50ms; break lost; send 41; continue 50ms; input I0.0=1");
+  EXPECT_TRUE(has(session("continue"), "breakpoint 1, lost, hit for the first time\n"));
+  EXPECT_TRUE(has(session.out.str(), " ms dropped: detached while it waited\n"));
+}
+
 TEST(Stops, WhatRunsWithoutPowerFlowTooStopsWithoutIt) {
   Session session(
       "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nCALL 1\nFOR VW0, 1, 2\nLD I0.0\nNEXT\nLD I0.0\nLBL 3\nLD I0.0\n"
