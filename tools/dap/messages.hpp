@@ -4,11 +4,25 @@
 #include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 namespace s7200::tools::dap {
 
 using Json = nlohmann::ordered_json;
+
+/// A request that cannot be done, and why.
+class Refused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What an argument says; refused without it.
+inline const Json& required(const Json& arguments, const char* key) {
+  const auto found = arguments.find(key);
+  if (found == arguments.end()) throw Refused(std::string(key) + " is missing");
+  return *found;
+}
 
 /// Empty if it is not there, or not a text.
 inline std::string text_in(const Json& message, const char* key) {

@@ -72,14 +72,14 @@ Session::Session(SessionSettings settings, Send send) : settings_(std::move(sett
 Session::~Session() = default;
 
 const std::vector<Session::Request>& Session::requests() {
-  static const std::vector<Request> kTable{{"initialize", &Session::initialize, false},
-                                           {"launch", &Session::launch, false},
-                                           {"attach", &Session::attach, false},
+  static const std::vector<Request> kTable{{"initialize", &Session::initialize, Needs::Nothing},
+                                           {"launch", &Session::launch, Needs::Nothing},
+                                           {"attach", &Session::attach, Needs::Nothing},
                                            {"configurationDone", &Session::configuration_done},
                                            {"restart", &Session::restart},
                                            {"terminate", &Session::terminate},
-                                           {"disconnect", &Session::disconnect, false},
-                                           {"cancel", &Session::cancel, false},
+                                           {"disconnect", &Session::disconnect, Needs::Nothing},
+                                           {"cancel", &Session::cancel, Needs::Nothing},
                                            {"setBreakpoints", &Session::set_breakpoints},
                                            {"setFunctionBreakpoints", &Session::set_function_breakpoints},
                                            {"setDataBreakpoints", &Session::set_data_breakpoints},
@@ -88,23 +88,23 @@ const std::vector<Session::Request>& Session::requests() {
                                            {"breakpointLocations", &Session::breakpoint_locations},
                                            {"dataBreakpointInfo", &Session::data_breakpoint_info},
                                            {"exceptionInfo", &Session::exception_info},
-                                           {"continue", &Session::go_on, true, true},
-                                           {"next", &Session::next, true, true},
-                                           {"stepIn", &Session::step_in, true, true},
-                                           {"stepOut", &Session::step_out, true, true},
-                                           {"stepScan", &Session::step_scan, true, true},
-                                           {"stepInterrupt", &Session::step_interrupt, true, true},
+                                           {"continue", &Session::go_on, Needs::Standstill},
+                                           {"next", &Session::next, Needs::Standstill},
+                                           {"stepIn", &Session::step_in, Needs::Standstill},
+                                           {"stepOut", &Session::step_out, Needs::Standstill},
+                                           {"stepScan", &Session::step_scan, Needs::Standstill},
+                                           {"stepInterrupt", &Session::step_interrupt, Needs::Standstill},
                                            {"pause", &Session::pause},
-                                           {"stepBack", &Session::step_back, true, true},
-                                           {"reverseContinue", &Session::reverse_continue, true, true},
-                                           {"reverseStepOver", &Session::reverse_step_over, true, true},
-                                           {"reverseStepOut", &Session::reverse_step_out, true, true},
-                                           {"reverseStepScan", &Session::reverse_step_scan, true, true},
-                                           {"reverseStepInterrupt", &Session::reverse_step_interrupt, true, true},
+                                           {"stepBack", &Session::step_back, Needs::Standstill},
+                                           {"reverseContinue", &Session::reverse_continue, Needs::Standstill},
+                                           {"reverseStepOver", &Session::reverse_step_over, Needs::Standstill},
+                                           {"reverseStepOut", &Session::reverse_step_out, Needs::Standstill},
+                                           {"reverseStepScan", &Session::reverse_step_scan, Needs::Standstill},
+                                           {"reverseStepInterrupt", &Session::reverse_step_interrupt, Needs::Standstill},
                                            {"gotoTargets", &Session::goto_targets},
-                                           {"goto", &Session::go_to, true, true},
-                                           {"goToMoment", &Session::go_to_moment, true, true},
-                                           {"threads", &Session::threads, false},
+                                           {"goto", &Session::go_to, Needs::Standstill},
+                                           {"goToMoment", &Session::go_to_moment, Needs::Standstill},
+                                           {"threads", &Session::threads, Needs::Nothing},
                                            {"stackTrace", &Session::stack_trace},
                                            {"scopes", &Session::scopes},
                                            {"variables", &Session::variables},
@@ -122,9 +122,9 @@ const std::vector<Session::Request>& Session::requests() {
                                            {"unforce", &Session::unforce},
                                            {"timeline", &Session::timeline},
                                            {"lastWrite", &Session::last_write},
-                                           {"reverseToLastWrite", &Session::reverse_to_last_write, true, true},
+                                           {"reverseToLastWrite", &Session::reverse_to_last_write, Needs::Standstill},
                                            {"lastDecision", &Session::last_decision},
-                                           {"reverseToLastDecision", &Session::reverse_to_last_decision, true, true},
+                                           {"reverseToLastDecision", &Session::reverse_to_last_decision, Needs::Standstill},
                                            {"lastInstructions", &Session::last_instructions},
                                            {"stlStatus", &Session::stl_status}};
   return kTable;
@@ -144,8 +144,6 @@ void Session::handle(const Json& message) {
     respond(message, true, dispatch(*found, object_in(message, "arguments")));
   } catch (const Refused& refused) {
     respond(message, false, {}, refused.what());
-  } catch (const Json::out_of_range&) {
-    respond(message, false, {}, fmt::format("the arguments of {} are not as the protocol says: one is missing", command));
   } catch (const Json::exception&) {
     respond(message, false, {},
             fmt::format("the arguments of {} are not as the protocol says: one is of another type", command));
@@ -154,9 +152,10 @@ void Session::handle(const Json& message) {
 }
 
 Json Session::dispatch(const Request& request, const Json& arguments) {
-  if (request.needs_program && !debuggee_) throw Refused("there is no program yet: launch or attach comes first");
-  if (request.needs_program && terminated_ && request.command != "disconnect") throw Refused("the session has ended");
-  if (request.needs_standstill && runs()) throw Refused("the program runs: pause it first");
+  const bool needs_program = request.needs != Needs::Nothing, needs_standstill = request.needs == Needs::Standstill;
+  if (needs_program && !debuggee_) throw Refused("there is no program yet: launch or attach comes first");
+  if (needs_program && terminated_) throw Refused("the session has ended");
+  if (needs_standstill && runs()) throw Refused("the program runs: pause it first");
   if (!debuggee_) return (this->*request.handler)(arguments);
   Json of_station = arguments;
   const auto station = take_station(of_station);
@@ -165,7 +164,7 @@ Json Session::dispatch(const Request& request, const Json& arguments) {
     const LookAt look(*this, station.value_or(looks_at()));
     body = (this->*request.handler)(of_station);
   }
-  if (station && request.needs_standstill) stepper_->look_at(*station);  // there it runs, unless it was refused
+  if (station && needs_standstill) stepper_->look_at(*station);  // there it runs, unless it was refused
   return body;
 }
 
@@ -259,7 +258,7 @@ Json Session::client_place(std::uint32_t op) const {
 
 /// As the client counts lines.
 std::uint32_t Session::client_line_in(const Json& arguments, const char* key) const {
-  const auto line = arguments.at(key).get<std::int64_t>();
+  const auto line = required(arguments, key).get<std::int64_t>();
   if (line < std::int64_t{line_base_} || line >= std::numeric_limits<std::uint32_t>::max())
     throw Refused(fmt::format("there is no line {}: lines are counted from {}", line, line_base_));
   return static_cast<std::uint32_t>(line);
@@ -279,7 +278,7 @@ Json Session::initialize(const Json& arguments) {
 
 Json Session::launch(const Json& arguments) {
   if (debuggee_) throw Refused("a program is being debugged already");
-  read_wishes(arguments, false);
+  read_attributes(arguments, false);
   begin(settings_.launch(arguments));
   return {};
 }
@@ -290,14 +289,14 @@ Json Session::attach(const Json& arguments) {
     throw Refused(
         "there is no PLC to attach to: it is the one that s7200 dap is started with, for example s7200 dap --listen 4711 "
         "PROGRAM; launch brings its own");
-  read_wishes(arguments, true);
+  read_attributes(arguments, true);
   begin(settings_.attachable);
   attached_ = true;
   return {};
 }
 
 /// What a launch or an attach says to the session itself.
-void Session::read_wishes(const Json& arguments, bool stops_on_entry) {
+void Session::read_attributes(const Json& arguments, bool stops_on_entry) {
   stop_on_entry_ = arguments.value("stopOnEntry", stops_on_entry);
   no_debug_ = arguments.value("noDebug", false);
   const std::string unit = arguments.value("step", "line");
@@ -342,7 +341,7 @@ void Session::read_frames(const Json& arguments) {
   const Json wanted = arguments.value("send", Json::array());
   frames_.clear();
   for (const Json& frame : wanted.is_array() ? wanted : Json::array({wanted}))
-    frames_.push_back(frame_of(frame.get<std::string>()));
+    frames_.push_back(parsed_frame(frame.get<std::string>()));
   const std::string after = arguments.value("sendAfter", "");
   const auto time = after.empty() ? std::optional(kSendAfter) : parse_duration(after);
   if (!time) throw Refused(fmt::format("sendAfter: '{}' is not a duration; write for example 250ms", stl::shortened(after)));

@@ -19,7 +19,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,12 +35,6 @@ namespace s7200::tools::dap {
 
 /// From the numbers of a station's frames to those of the next one; and of what has variables.
 inline constexpr std::int64_t kFramesOfAStation = 1 << 16, kContainersOfAStation = 1 << 23;
-
-/// A request that cannot be done, and why.
-class Refused : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct SessionSettings {
   /// Powers up what a launch asks for; throws Refused.
@@ -77,11 +70,11 @@ class Session {
 
  private:
   using Handler = Json (Session::*)(const Json& arguments);
+  enum class Needs : std::uint8_t { Nothing, Program, Standstill };
   struct Request {
     std::string_view command;
     Handler handler;
-    bool needs_program = true;
-    bool needs_standstill = false;
+    Needs needs = Needs::Program;
   };
   static const std::vector<Request>& requests();
   Json dispatch(const Request& request, const Json& arguments);
@@ -96,10 +89,10 @@ class Session {
   Json terminate(const Json& arguments);
   Json disconnect(const Json& arguments);
   Json cancel(const Json& arguments);
-  void read_wishes(const Json& arguments, bool stops_on_entry);
+  void read_attributes(const Json& arguments, bool stops_on_entry);
   void begin(std::shared_ptr<Debuggee> debuggee);
   void read_frames(const Json& arguments);
-  serial::Frame frame_of(const std::string& text) const;
+  serial::Frame parsed_frame(const std::string& text) const;
   void start();
   void end_debuggee();
   void leave();
@@ -132,7 +125,7 @@ class Session {
   std::vector<StopPoint> data_stops(const Json& wanted);
   std::vector<StopPoint> exception_stops(const Json& wanted) const;
   std::size_t first_on(std::size_t line) const;
-  std::vector<StopPoint> at_all_stations(StopPoint stop) const;
+  std::vector<StopPoint> at_each_station(StopPoint stop) const;
 
   // Running (session_steps.cpp).
   struct Run {
@@ -167,6 +160,7 @@ class Session {
   Json body_of(const Stop& stop, const std::string& reason);
   Json body_of_hits(const Stop& stop);
   Json body_of_hit(const Hit& hit);
+  static std::string_view reason_of(StopKind kind);
   Json body_of_fatal_error();
   bool has_gone_back_to(std::uint32_t op);
   std::string text_of(const Hit& hit) const;
@@ -182,7 +176,7 @@ class Session {
   Json evaluate(const Json& arguments);
   Json completions(const Json& arguments);
   Json disassemble(const Json& arguments);
-  Json frame_of(std::uint32_t number, std::uint32_t op, const std::string& name) const;
+  Json stack_frame(std::uint32_t number, std::uint32_t op, const std::string& name) const;
   Json evaluated(const std::string& expression, bool hex);
   std::string text_of_bad_pointer(const std::string& name, const MemoryRange& pointer);
   std::string resolved_text(std::uint32_t op) const;
@@ -227,14 +221,14 @@ class Session {
   static std::string console_help();
   std::string set_in_console(const std::string& rest);
   std::string history_in_console(const std::string& rest);
-  struct Written {
+  struct Found {
     std::optional<Moment> moment;  ///< nothing: nothing was found that it could go back to
     Json body;
     std::string why_no_moment{};
   };
-  Written find_writer(const std::string& expression);
+  Found find_writer(const std::string& expression);
   Json named(const InstructionRecord& record) const;
-  Written find_decision();
+  Found find_decision();
 
   // Sending.
   void send_event(const std::string& event, Json body);

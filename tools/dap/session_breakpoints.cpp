@@ -34,10 +34,9 @@ std::uint64_t first_hit(const std::string& text) {
 
 /// `always`, `always if VW2 > 8`: with or without power flow. What is left of the condition.
 bool take_always(std::string& condition) {
-  constexpr std::string_view kAlways = "always";
   const std::string_view text = stl::trim(condition);
-  if (stl::lower_case(text.substr(0, text.find(' '))) != kAlways) return false;
-  std::string_view rest = stl::trim(text.substr(kAlways.size()));
+  if (stl::lower_case(text.substr(0, text.find(' '))) != kAlways.word) return false;
+  std::string_view rest = stl::trim(text.substr(kAlways.word.size()));
   if (stl::lower_case(rest).starts_with("if ")) rest = stl::trim(rest.substr(3));
   condition = std::string(rest);
   return true;
@@ -62,7 +61,10 @@ StopPoint Session::with_conditions(StopPoint stop, const Json& wanted) const {
   std::string why;
   if (is_wanted(wanted, "condition")) {
     auto condition = wanted["condition"].get<std::string>();
-    if (take_always(condition)) stop.needs_power = false;
+    if (take_always(condition)) {
+      if (why = refused_option(kAlways, stop); !why.empty()) throw Refused(why);
+      stop.needs_power = false;
+    }
     if (!condition.empty()) {
       const auto expression = Expression::parse(condition, program, why);
       if (!expression) throw Refused(why);
@@ -109,7 +111,7 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
     } catch (const Refused& refused) {
       refuse(refused.what());
     } catch (const Json::exception&) {
-      refuse("it is not as the protocol says: something is missing, or of another type");
+      refuse("it is not as the protocol says: something is of another type");
     }
     placed_[number] = {kind, group, one, answer};
     answers.push_back(std::move(answer));
@@ -160,14 +162,14 @@ std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& 
 }
 
 Json Session::set_breakpoints(const Json& arguments) {
-  const std::string path = arguments.at("source").value("path", "");
+  const std::string path = required(arguments, "source").value("path", "");
   return place(StopKind::Line, path, arguments.value("breakpoints", Json::array()),
                [&](const Json& wanted, Json& answer) { return line_stops(path, wanted, answer); });
 }
 
 /// `SBR 51`, `INT 123`, `NETWORK 4`, `event 8 occurs`, `received` …, or what causes an event: `port 0: character received`.
 std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer) {
-  const auto name = wanted.at("name").get<std::string>();
+  const auto name = required(wanted, "name").get<std::string>();
   std::vector<std::string> words = stl::split_words(name);
   if (words.empty()) throw Refused("the name is empty; write for example SBR 51, INT 123, event 8 or received");
   for (const InterruptEvent& event : all_events())
@@ -184,13 +186,13 @@ std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer)
 }
 
 Json Session::set_function_breakpoints(const Json& arguments) {
-  return place(StopKind::Function, "", arguments.at("breakpoints"),
+  return place(StopKind::Function, "", required(arguments, "breakpoints"),
                [&](const Json& wanted, Json& answer) { return function_stops(wanted, answer); });
 }
 
 Json Session::set_instruction_breakpoints(const Json& arguments) {
-  return place(StopKind::Instruction, "", arguments.at("breakpoints"), [&](const Json& wanted, Json& answer) {
-    const auto reference = wanted.at("instructionReference").get<std::string>();
+  return place(StopKind::Instruction, "", required(arguments, "breakpoints"), [&](const Json& wanted, Json& answer) {
+    const auto reference = required(wanted, "instructionReference").get<std::string>();
     const auto of = find_station(reference, stations());
     const LookAt look(*this, of ? of->station : looks_at());
     const auto number = of ? find_instruction_number(of->reference) : std::nullopt;
@@ -207,7 +209,7 @@ Json Session::set_instruction_breakpoints(const Json& arguments) {
 }
 
 Json Session::breakpoint_locations(const Json& arguments) {
-  const std::string path = arguments.at("source").value("path", "");
+  const std::string path = required(arguments, "source").value("path", "");
   const LookAt look(*this, station_with(path));
   const auto first = client_line_in(arguments);
   const auto last = std::min(arguments.contains("endLine") ? client_line_in(arguments, "endLine") : first,
@@ -224,7 +226,7 @@ Json Session::breakpoint_locations(const Json& arguments) {
 // --- data ---
 
 Json Session::data_breakpoint_info(const Json& arguments) {
-  const auto name = arguments.at("name").get<std::string>();
+  const auto name = required(arguments, "name").get<std::string>();
   std::string text = name.substr(0, name.find(' '));
   if (arguments.value("asAddress", false)) {
     const auto place = find_memory(text, cpu().program());
@@ -253,7 +255,7 @@ Json Session::data_breakpoint_info(const Json& arguments) {
 
 /// `write` stops when the value changes, whoever changes it; with `write` in the name at each write of an instruction.
 std::vector<StopPoint> Session::data_stops(const Json& wanted) {
-  const auto id = wanted.at("dataId").get<std::string>();
+  const auto id = required(wanted, "dataId").get<std::string>();
   const auto of = find_station(id.substr(0, id.find(' ')), stations());
   if (!of) throw Refused(fmt::format("'{}' is of no station of this system", stl::shortened(id)));
   const LookAt look(*this, of->station);
@@ -269,7 +271,7 @@ std::vector<StopPoint> Session::data_stops(const Json& wanted) {
 }
 
 Json Session::set_data_breakpoints(const Json& arguments) {
-  return place(StopKind::Data, "", arguments.at("breakpoints"),
+  return place(StopKind::Data, "", required(arguments, "breakpoints"),
                [&](const Json& wanted, Json&) { return data_stops(wanted); });
 }
 
@@ -303,7 +305,7 @@ std::size_t Session::first_on(std::size_t line) const {
 }
 
 /// At each PLC; on each line once, for the first PLC on it.
-std::vector<StopPoint> Session::at_all_stations(StopPoint stop) const {
+std::vector<StopPoint> Session::at_each_station(StopPoint stop) const {
   const bool of_lines = stop.is_of_requests();
   const std::size_t count = of_lines ? debuggee_->history().requests().lines().size() : stations();
   std::vector<StopPoint> stops;
@@ -320,7 +322,7 @@ Json Session::set_exception_breakpoints(const Json& arguments) {
   for (const Json& filter : arguments.value("filters", Json::array())) wanted.push_back({{"filterId", filter}});
   return place(StopKind::Exception, "", wanted, [&](const Json& one, Json&) {
     std::vector<StopPoint> stops;
-    for (const StopPoint& stop : exception_stops(one)) std::ranges::copy(at_all_stations(stop), std::back_inserter(stops));
+    for (const StopPoint& stop : exception_stops(one)) std::ranges::copy(at_each_station(stop), std::back_inserter(stops));
     return stops;
   });
 }

@@ -8,6 +8,8 @@
 #include "interpreter/base/text.hpp"
 #include "tools/dap/messages.hpp"
 #include "tools/dap/session.hpp"
+#include "tools/debugger/fault_words.hpp"
+#include "tools/debugger/last_instructions.hpp"
 
 namespace s7200::tools::dap {
 
@@ -20,14 +22,18 @@ std::span<const Session::ConsoleCommand> Session::console_commands() {
       {"mode", "mode run | stop        what a programming device asks the CPU for\n",
        [](Session& session, Rest rest) { return session.change_mode(rest), std::string(); }},
       {"send",
-       "send HEX… | 'TEXT' [crc]  puts a frame on the line from now on\n"
-       "send read 40011:2 | write 00003=on [station n]  a Modbus request\n",
+       "send HEX… | 'TEXT' [crc]  sends a frame, with its Modbus CRC if crc is given\n"
+       "send read 40011:2 | write 00003=on [station n]  a Modbus request\n"
+       "send cancel            abandons the request\n",
        [](Session& session, Rest rest) {
          return session.send_frame({{"frame", rest}}), std::string();
        }},
-      {"fault", "fault KIND[:PARAMETER=VALUE,…] | none  a fault of the line from now on\n",
+      {"fault",
+       "fault KIND[:PARAMETER=VALUE,…] [station=NAME] | none  injects a fault on the line, or clears all; alone lists "
+       "them\n",
        [](Session& session, Rest rest) {
-         return text_in(session.inject_fault({{"fault", rest}}), "text");
+         return rest.empty() ? faults_text(session.debuggee_->history(), session.looks_at())
+                             : text_in(session.inject_fault({{"fault", rest}}), "text");
        }},
       {"force", "force [ADDRESS=VALUE…]  holds values across scans; alone lists what is forced\n",
        [](Session& session, Rest rest) {
@@ -58,7 +64,7 @@ std::string Session::console_help() {
 
 const Session::ConsoleCommand* Session::console_command(std::string_view word) {
   const auto commands = console_commands();
-  const auto found = std::ranges::find(commands, word, &ConsoleCommand::word);
+  const auto found = std::ranges::find(commands, stl::lower_case(word), &ConsoleCommand::word);
   return found == commands.end() ? nullptr : &*found;
 }
 
@@ -70,7 +76,7 @@ std::string Session::set_in_console(const std::string& rest) {
 }
 
 std::string Session::history_in_console(const std::string& rest) {
-  const auto count = rest.empty() ? std::optional<std::int64_t>(10) : parse_decimal<std::int64_t>(rest);
+  const auto count = rest.empty() ? std::optional(std::int64_t{kUsualInstructions}) : parse_decimal<std::int64_t>(rest);
   const Json all = last_instructions({{"count", count.value_or(0)}});
   std::string text;
   for (const Json& one : all["instructions"])

@@ -40,7 +40,7 @@ std::vector<std::string> words_in(const Json& arguments, const char* key) {
 
 }  // namespace
 
-serial::Frame Session::frame_of(const std::string& text) const {
+serial::Frame Session::parsed_frame(const std::string& text) const {
   std::string why;
   const auto frame = parse_frame(text, station_, why);
   if (!frame) throw Refused(fmt::format("'{}': {}", stl::shortened(text), why));
@@ -49,14 +49,14 @@ serial::Frame Session::frame_of(const std::string& text) const {
 
 Json Session::send_frame(const Json& arguments) {
   std::string why;
-  if (stl::lower_case(arguments.at("frame").get<std::string>()) == "cancel") {
+  if (stl::lower_case(required(arguments, "frame").get<std::string>()) == "cancel") {
     const auto cancel = cancel_of(simulation(), why);
     if (!cancel) throw Refused(why);
     print(cancelled_text(*cancel, simulation()));
     act(*cancel);
     return {{"frame", serial::to_hex(simulation().master().exchange().request)}};
   }
-  const serial::Frame frame = frame_of(arguments.at("frame").get<std::string>());
+  const serial::Frame frame = parsed_frame(required(arguments, "frame").get<std::string>());
   const auto send = send_of(frame, simulation(), master(), why);
   if (!send) throw Refused(why);
   act(*send);
@@ -66,7 +66,7 @@ Json Session::send_frame(const Json& arguments) {
 
 Json Session::inject_fault(const Json& arguments) {
   std::string why;
-  const auto inject = fault_of(arguments.at("fault").get<std::string>(), debuggee_->history(), looks_at(), why);
+  const auto inject = fault_of(required(arguments, "fault").get<std::string>(), debuggee_->history(), looks_at(), why);
   if (!inject) throw Refused(why);
   act(*inject);
   return {{"text", fault_text(*inject)}};
@@ -121,7 +121,7 @@ Json Session::timeline(const Json& arguments) {
   Time from = exchange.request_start;
   if (arguments.contains("from")) {
     const auto time = parse_duration(arguments["from"].get<std::string>());
-    if (!time) throw Refused("from: a moment, for example 15.193ms");
+    if (!time) throw Refused("from must be a time, such as 15.193ms");
     from = *time;
   }
   const auto report = timeline_of_past(debuggee_->history(), looks_at(), program(), from, settings_.stop_request);
@@ -132,12 +132,12 @@ Json Session::timeline(const Json& arguments) {
 // --- who ---
 
 /// Of an address, or of `event 8`.
-Session::Written Session::find_writer(const std::string& expression) {
+Session::Found Session::find_writer(const std::string& expression) {
   History& history = debuggee_->history();
   const auto words = stl::split_words(expression);
   const bool of_event = !words.empty() && stl::lower_case(words[0]) == "event";
   const auto event = event_of(words);
-  if (of_event && !event) throw Refused(expects_event("who", words));
+  if (of_event && !event) throw Refused(expects_event("", words));
   const WriterSearch search =
       event ? tools::find_writer(history, looks_at(), listing(), *event, settings_.stop_request)
             : tools::find_writer(history, looks_at(), listing(), range_for(expression), expression, settings_.stop_request);
@@ -155,10 +155,12 @@ Json Session::named(const InstructionRecord& record) const {
   return body;
 }
 
-Json Session::last_write(const Json& arguments) { return find_writer(arguments.at("expression").get<std::string>()).body; }
+Json Session::last_write(const Json& arguments) {
+  return find_writer(required(arguments, "expression").get<std::string>()).body;
+}
 
 Json Session::reverse_to_last_write(const Json& arguments) {
-  const Written written = find_writer(arguments.at("expression").get<std::string>());
+  const Found written = find_writer(required(arguments, "expression").get<std::string>());
   if (!written.moment) throw Refused(written.body["text"].get<std::string>());
   after_response([this, written] {
     print(written.body["text"].get<std::string>());
@@ -170,18 +172,12 @@ Json Session::reverse_to_last_write(const Json& arguments) {
 
 // --- why ---
 
-Session::Written Session::find_decision() {
+Session::Found Session::find_decision() {
   const DecisionSearch search =
       find_last_decision(debuggee_->history(), looks_at(), stepper_->host_timeout(), settings_.stop_request);
   if (search.interrupted) refuse_interrupted();
   std::string text;
-  const auto say = [&](Time at, std::string_view what) {
-    text += fmt::format("{}{}  {}", text.empty() ? "" : "\n", moment_text(at), what);
-  };
-  for (const TraceLine& line : search.unanswered) say(line.at, line.text);
-  if (search.decision)
-    say(search.decision->by.at, (search.unanswered.empty() ? "" : "what led here: ") + search.decision->text);
-  if (text.empty()) text = kNothingDecided;
+  for (const std::string& line : to_lines(search, listing())) text += (text.empty() ? "" : "\n") + line;
   if (!search.origin()) return {std::nullopt, {{"text", text}}, search.why_no_origin()};
   const LastDecision found = *search.origin();
   Json body{{"text", text}};
@@ -192,7 +188,7 @@ Session::Written Session::find_decision() {
 Json Session::last_decision(const Json&) { return find_decision().body; }
 
 Json Session::reverse_to_last_decision(const Json&) {
-  const Written found = find_decision();
+  const Found found = find_decision();
   if (!found.moment) throw Refused(found.body["text"].get<std::string>() + "\n" + found.why_no_moment);
   after_response([this, found] {
     print(found.body["text"].get<std::string>());
@@ -203,9 +199,9 @@ Json Session::reverse_to_last_decision(const Json&) {
 }
 
 Json Session::last_instructions(const Json& arguments) {
-  constexpr std::int64_t kUsual = 10, kMost = 10'000;
-  const auto count = arguments.value("count", kUsual);
-  if (count < 1 || count > kMost) throw Refused("count: how many instructions, up to 10000");
+  const auto count = arguments.value("count", std::int64_t{kUsualInstructions});
+  if (count < 1 || count > kMostInstructions)
+    throw Refused(fmt::format("count must be a number from 1 to {}", kMostInstructions));
   const auto found =
       tools::last_instructions(debuggee_->history(), looks_at(), static_cast<std::size_t>(count), settings_.stop_request);
   if (!found) refuse_interrupted();
@@ -222,7 +218,7 @@ Json Session::last_instructions(const Json& arguments) {
 
 /// What each instruction of some lines did when it was last executed.
 Json Session::stl_status(const Json& arguments) {
-  const std::string path = arguments.at("source").value("path", "");
+  const std::string path = required(arguments, "source").value("path", "");
   const LookAt look(*this, station_with(path));
   const auto first_line = sources().line_in(path, line_of_client(client_line_in(arguments)));
   const auto last_line = sources().line_in(path, line_of_client(client_line_in(arguments, "endLine")));

@@ -16,7 +16,7 @@ namespace s7200::tools::dap {
 namespace {
 
 MemoryPlace memory_at(const Json& arguments, const Program& program) {
-  const auto reference = arguments.at("memoryReference").get<std::string>();
+  const auto reference = required(arguments, "memoryReference").get<std::string>();
   const auto place = find_memory(reference, program);
   if (!place)
     throw Refused(fmt::format("'{}' is not memory of this CPU; write for example V, VB100, AC0", stl::shortened(reference)));
@@ -83,7 +83,7 @@ void Session::write_levels(const MemoryPlace& place, std::uint32_t first, const 
 
 Json Session::write_memory(const Json& arguments) {
   const MemoryPlace place = memory_at(arguments, cpu().program());
-  auto bytes = from_base64(arguments.at("data").get<std::string>());
+  auto bytes = from_base64(required(arguments, "data").get<std::string>());
   if (!bytes) throw Refused("data is not base64");
   if (place.owner == Owner::SavedAccumulators)
     throw Refused("the accumulators that an interrupted routine will find again cannot be set");
@@ -136,18 +136,18 @@ Json Session::set_level(const Variable& level, const std::string& value) {
 }
 
 Json Session::set_variable(const Json& arguments) {
-  const auto name = arguments.at("name").get<std::string>();
-  const auto container = arguments.at("variablesReference").get<Container>();
+  const auto name = required(arguments, "name").get<std::string>();
+  const auto container = required(arguments, "variablesReference").get<Container>();
   for (const Variable& variable : variables_of(simulation(), debuggee_->history(), container))
     if (variable.name == name && variable.settable) {
-      const auto value = arguments.at("value").get<std::string>();
+      const auto value = required(arguments, "value").get<std::string>();
       return variable.expression.empty() ? set_level(variable, value) : assign(variable.expression, value);
     }
   throw Refused(fmt::format("'{}' cannot be set", stl::shortened(name)));
 }
 
 Json Session::set_expression(const Json& arguments) {
-  return assign(arguments.at("expression").get<std::string>(), arguments.at("value").get<std::string>());
+  return assign(required(arguments, "expression").get<std::string>(), required(arguments, "value").get<std::string>());
 }
 
 /// There is no command for its power: it comes back when the system file says so.

@@ -9,6 +9,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "tools/dap/addresses.hpp"
 #include "tools/dap/session.hpp"
+#include "tools/debugger/address_words.hpp"
 #include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/call_stack.hpp"
 #include "tools/debugger/stop_words.hpp"
@@ -64,8 +65,6 @@ std::string words_of(const Cpu& cpu, const MemoryRange& range) {
   return words;
 }
 
-constexpr std::string_view kForms[] = {"VB", "VW", "VD", "MB", "MW", "MD", "IB", "IW", "QB", "QW", "SMB", "SMW", "AC", "LB"};
-
 }  // namespace
 
 Json Session::threads(const Json&) {
@@ -79,7 +78,7 @@ Json Session::threads(const Json&) {
   return {{"threads", threads}};
 }
 
-Json Session::frame_of(std::uint32_t number, std::uint32_t op, const std::string& name) const {
+Json Session::stack_frame(std::uint32_t number, std::uint32_t op, const std::string& name) const {
   Json frame{{"id", static_cast<std::int64_t>(looks_at()) * kFramesOfAStation + number + 1}, {"name", name}};
   frame.update(client_place(op));
   frame["instructionPointerReference"] = at_station(instruction_reference(op), looks_at());
@@ -90,7 +89,7 @@ Json Session::stack_trace(const Json& arguments) {
   const State& state = cpu().state();
   Json frames = Json::array();
   const auto add = [&](std::uint32_t op, const std::string& name) {
-    frames.push_back(frame_of(static_cast<std::uint32_t>(frames.size()), op, name));
+    frames.push_back(stack_frame(static_cast<std::uint32_t>(frames.size()), op, name));
   };
   const bool powered = simulation().plc().powered();
   for (const OpenRoutine& open : powered ? open_routines(state) : std::vector<OpenRoutine>{}) {
@@ -109,7 +108,7 @@ Json Session::stack_trace(const Json& arguments) {
 }
 
 Json Session::scopes(const Json& arguments) {
-  const auto frame = arguments.at("frameId").get<std::uint32_t>();
+  const auto frame = required(arguments, "frameId").get<std::uint32_t>();
   if (frame > std::max<std::size_t>(open_routines(cpu().state()).size(), 1))
     throw Refused(fmt::format("there is no frame {}", frame));
   Json scopes = Json::array();
@@ -123,7 +122,7 @@ Json Session::scopes(const Json& arguments) {
 }
 
 Json Session::variables(const Json& arguments) {
-  const auto container = arguments.at("variablesReference").get<Container>();
+  const auto container = required(arguments, "variablesReference").get<Container>();
   const auto all = variables_of(simulation(), debuggee_->history(), container);
   const auto start = std::min(arguments.value("start", std::size_t{0}), all.size());
   const auto count = arguments.value("count", std::size_t{0});
@@ -181,7 +180,7 @@ Json Session::evaluated(const std::string& expression, bool hex) {
 }
 
 Json Session::evaluate(const Json& arguments) {
-  const std::string expression(stl::trim(arguments.at("expression").get<std::string>()));
+  const std::string expression(stl::trim(required(arguments, "expression").get<std::string>()));
   const bool console = arguments.value("context", "") == "repl";
   const std::string word = expression.substr(0, expression.find(' '));
   if (const ConsoleCommand* const command = console ? console_command(word) : nullptr) {
@@ -193,8 +192,8 @@ Json Session::evaluate(const Json& arguments) {
 
 /// What the last word before the cursor may become.
 Json Session::completions(const Json& arguments) {
-  const auto text = arguments.at("text").get<std::string>();
-  const auto column = arguments.at("column").get<std::size_t>();
+  const auto text = required(arguments, "text").get<std::string>();
+  const auto column = required(arguments, "column").get<std::size_t>();
   const std::string before = first_units(text, column - std::min<std::size_t>(column, column_base_));
   const std::size_t begin = before.find_last_of(" (*=<>+-/") + 1;
   const std::size_t start = units_of(before.substr(0, begin)) + column_base_;
@@ -205,9 +204,8 @@ Json Session::completions(const Json& arguments) {
   };
   if (begin == 0)
     for (const ConsoleCommand& command : console_commands()) offer(command.word);
-  std::ranges::for_each(kForms, offer);
-  for (const std::string& address : addresses_in(cpu().program())) offer(address.substr(0, address.find(':')));
-  for (const stl::Symbol& symbol : cpu().program().source.symbols) offer(symbol.name);
+  std::ranges::for_each(area_words(*cpu().program().model), offer);
+  std::ranges::for_each(address_words(cpu().program()), offer);
   Json targets = Json::array();
   for (const std::string& label : found) targets.push_back({{"label", label}, {"start", start}, {"length", units_of(word)}});
   return {{"targets", targets}};
@@ -236,7 +234,7 @@ std::string Session::resolved_text(std::uint32_t number) const {
 }
 
 Json Session::disassemble(const Json& arguments) {
-  const auto reference = arguments.at("memoryReference").get<std::string>();
+  const auto reference = required(arguments, "memoryReference").get<std::string>();
   const auto number = find_instruction_number(reference);
   if (!number) throw Refused(fmt::format("'{}' is not an instruction of this program", stl::shortened(reference)));
   const std::int64_t first = *number + amount_in(arguments, "offset", 0) + amount_in(arguments, "instructionOffset", 0);

@@ -23,7 +23,7 @@ namespace {
 
 std::uint64_t count_in(const Json& arguments) {
   const auto count = arguments.value("count", std::int64_t{1});
-  if (count < 1) throw Refused("count: a number above 0");
+  if (count < 1) throw Refused("count must be a number above 0");
   return static_cast<std::uint64_t>(count);
 }
 
@@ -195,8 +195,9 @@ Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count) {
 // --- elsewhere ---
 
 Json Session::goto_targets(const Json& arguments) {
-  const LookAt look(*this, station_with(arguments.at("source").value("path", "")));
-  const auto line = sources().line_in(arguments.at("source").value("path", ""), line_of_client(client_line_in(arguments)));
+  const LookAt look(*this, station_with(required(arguments, "source").value("path", "")));
+  const auto line =
+      sources().line_in(required(arguments, "source").value("path", ""), line_of_client(client_line_in(arguments)));
   const auto op = line ? listing().op_from_line(*line) : std::nullopt;
   const auto here = standing_at(cpu().state());
   Json targets = Json::array();
@@ -213,7 +214,7 @@ Json Session::goto_targets(const Json& arguments) {
 }
 
 Json Session::go_to(const Json& arguments) {
-  const auto target = goto_targets_.find(arguments.at("targetId").get<std::int64_t>());
+  const auto target = goto_targets_.find(required(arguments, "targetId").get<std::int64_t>());
   const auto here = standing_at(cpu().state());
   if (target == goto_targets_.end() || !here || target->second.first != looks_at() ||
       listing().routine_of(target->second.second) != listing().routine_of(*here))
@@ -225,7 +226,7 @@ Json Session::go_to(const Json& arguments) {
 
 Json Session::go_to_moment(const Json& arguments) {
   std::string why;
-  const auto time = parse_moment(arguments.at("time").get<std::string>(), debuggee_->history(), why);
+  const auto time = parse_moment(required(arguments, "time").get<std::string>(), debuggee_->history(), why);
   if (!time) throw Refused(why);
   after_response([this, to = *time] {
     go_to_parsed(debuggee_->history(), to);
@@ -241,14 +242,10 @@ void Session::report(const Stop& stop, const std::string& reason) {
   pause_asked_ = false;
   stepper_->look_at(stop.station);
   if (first_error_) report_error(first_error_->first, first_error_->second);
-  for (const StopPoint& skipped : stepper_->stops)
-    if (skipped.skipped != 0)
-      print(fmt::format("breakpoint {} was passed {} without power flow; with the condition 'always' it stops there too",
-                        skipped.number, skipped.skipped == 1 ? "once" : fmt::format("{} times", skipped.skipped)));
   for (const StopPoint& one : stepper_->stops)
-    if (one.unknown != 0)
-      print(fmt::format("the condition of breakpoint {} could not be computed {}: {}", one.number,
-                        one.unknown == 1 ? "once" : fmt::format("{} times", one.unknown), one.why_unknown));
+    if (const std::string skipped = skipped_text(one); !skipped.empty())
+      print(skipped + "; with the condition 'always' it stops there too");
+  for (const StopPoint& one : stepper_->stops) print(unknown_text(one));
   report_stopped(body_of(stop, reason));
 }
 
@@ -328,11 +325,25 @@ Json Session::body_of_hits(const Stop& stop) {
   return body;
 }
 
+/// As the protocol calls it.
+std::string_view Session::reason_of(StopKind kind) {
+  switch (kind) {
+    case StopKind::Line:
+      return "breakpoint";
+    case StopKind::Function:
+      return "function breakpoint";
+    case StopKind::Data:
+      return "data breakpoint";
+    case StopKind::Instruction:
+      return "instruction breakpoint";
+    case StopKind::Exception:
+      return "exception";
+  }
+  return {};
+}
+
 Json Session::body_of_hit(const Hit& hit) {
-  static constexpr const char* kReasons[] = {"breakpoint", "function breakpoint", "data breakpoint",
-                                             "instruction breakpoint", "exception"};
-  const StopKind kind = placed_[hit.stop.number].kind;
-  return {{"reason", kReasons[static_cast<std::size_t>(kind)]}, {"description", hit.stop.name}, {"text", text_of(hit)}};
+  return {{"reason", reason_of(placed_[hit.stop.number].kind)}, {"description", hit.stop.name}, {"text", text_of(hit)}};
 }
 
 /// `slave: breakpoint 2: unanswered, 01 03 …, asked by pump`, `watch 3: VW20 was …, is …, by …`
@@ -340,7 +351,9 @@ std::string Session::text_of(const Hit& hit) const {
   const Program& program = *debuggee_->program(hit.stop.station);
   const Listing& listing = stations_[hit.stop.station].listing;
   std::string text = said_of(hit.stop.station);
-  text += fmt::format("{} {}: {}", hit.stop.is_watch() ? "watch" : "breakpoint", hit.stop.number, hit.stop.name);
+  const bool is_watch = hit.stop.is_watch();
+  text += fmt::format("{} {}: {}", is_watch ? "watch" : "breakpoint", hit.stop.number,
+                      is_watch ? value_text(hit, program) : hit.stop.name);
   if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) text += ", " + serial::to_hex(hit.frame);
   if (hit.asker && hit.asker->kind == Asker::Kind::Send) {
@@ -355,13 +368,9 @@ std::string Session::text_of(const Hit& hit) const {
   }
   if (!hit.wrong.empty()) text += ", " + wrong_answer_text(hit);
   if (const std::string mixed = not_an_answer_text(debuggee_->history(), hit); !mixed.empty()) text += ", " + mixed;
-  if (hit.stop.is_watch()) {
-    const std::string was = value_text(program, *hit.stop.range, hit.stop.value);
-    const std::string is = value_text(program, *hit.stop.range, hit.value);
-    text += was == is ? fmt::format(" is {} as before", is) : fmt::format(" was {}, is {}", was, is);
+  if (is_watch)
     text += ", by " + (hit.by ? fmt::format("{} {}", listing.routine_of(hit.by->op), describe(*hit.by, program))
                               : changer_text(debuggee_->history(), hit.action, hit.planned));
-  }
   return text;
 }
 

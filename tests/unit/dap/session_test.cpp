@@ -66,12 +66,12 @@ TEST(DapSession, WhatIsNotOfferedIsRefusedByNameAndNotAnnounced) {
 TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   Editor editor(kNested);
   editor.begin();
-  EXPECT_EQ(editor.error_of("evaluate"), "the arguments of evaluate are not as the protocol says: one is missing");
+  EXPECT_EQ(editor.error_of("evaluate"), "expression is missing");
   EXPECT_EQ(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}),
             "the arguments of readMemory are not as the protocol says: one is of another type");
   EXPECT_EQ(editor.breakpoint({{"line", -3}})["message"], "there is no line -3: lines are counted from 1");
-  EXPECT_TRUE(
-      has(editor.error_of("lastWrite", {{"expression", "event 99"}}), "there is no event 99; who expects one address"));
+  EXPECT_TRUE(has(editor.error_of("lastWrite", {{"expression", "event 99"}}),
+                  "there is no event 99; expected one address, or event and a number"));
   EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "'1 / 0', column 5: a division by 0");
   EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / VW40"}}), "cannot be computed: a division by 0");
   EXPECT_FALSE(editor.breakpoint({{"line", 4}, {"condition", "1/0 = 1"}})["verified"]);
@@ -273,6 +273,16 @@ TEST(DapSession, BoxesWithoutPowerFlowAreSkippedUnlessAlways) {
   editor("continue", {{"threadId", 1}});
   EXPECT_EQ(editor.line(), 2);
   EXPECT_EQ(editor.value("VW2"), "16#0001 (1)");
+}
+
+TEST(DapSession, AlwaysIsRefusedForWhatHasNoPowerFlow) {
+  constexpr std::string_view kWhy = "'always' is for places; what happens has no power flow";
+  Editor editor(kNested);
+  editor.begin();
+  const Json data{{"dataId", "VW30"}, {"condition", "always"}},
+      event{{"name", "event 10"}, {"condition", "always if VW30 = 1"}};
+  EXPECT_EQ(editor("setDataBreakpoints", {{"breakpoints", Json::array({data})}})["breakpoints"][0]["message"], kWhy);
+  EXPECT_EQ(editor("setFunctionBreakpoints", {{"breakpoints", Json::array({event})}})["breakpoints"][0]["message"], kWhy);
 }
 
 TEST(DapSession, ASymbolThatBeginsWithAlwaysIsOne) {
@@ -732,6 +742,21 @@ TEST(DapSession, CompletionsKnowTheAddressesOfTheProgram) {
   EXPECT_EQ(targets[0]["length"], 3);
 }
 
+TEST(DapSession, CompletionsKnowTheAreasOfTheCpu) {
+  Editor editor("LD SM0.0\nINCW VW10\nMEND\n");
+  editor.begin();
+  const auto offered = [&](const std::string& text) {
+    const Json targets = editor("completions", {{"text", text}, {"column", text.size() + 1}})["targets"];
+    std::vector<std::string> labels;
+    for (const Json& target : targets) labels.push_back(target["label"]);
+    return labels;
+  };
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(offered("V"), (Words{"VB", "VD", "VW", "VW10"}));
+  EXPECT_EQ(offered("1 + A"), (Words{"AC", "AIW", "AQW"}));
+  EXPECT_EQ(offered("1 + T"), Words{"T"});
+}
+
 // --- doing ---
 
 TEST(DapSession, VariablesAndExpressionsAreSet) {
@@ -896,6 +921,10 @@ TEST(DapSession, TheConsoleHasWordsForWhatTheEditorHasNone) {
   EXPECT_TRUE(has(console("history 3"), "line 6"));
   EXPECT_EQ(console("set VW40=5"), "16#0005 (5)");
   EXPECT_TRUE(has(console("help"), "who ADDRESS"));
+  EXPECT_EQ(console("Help"), console("help"));
+  EXPECT_TRUE(has(console("fault"), "the line has no fault now"));
+  console("fault flip:character=3,bit=5");
+  EXPECT_TRUE(has(console("fault"), "flip"));
   EXPECT_EQ(console("VW40 = 5"), "1");
   editor("reverseToLastWrite", {{"expression", "VB20"}});
   EXPECT_EQ(editor.line(), 18);
@@ -1106,10 +1135,9 @@ TEST(DapSession, ABreakpointThatIsNotAsTheProtocolSaysIsRefusedAloneAndTheOthers
              {{"breakpoints", Json::array({{{"name", "INT 0"}}, {{"name", 5}}, Json::object()})}})["breakpoints"];
   ASSERT_EQ(answers.size(), 3U);
   EXPECT_EQ(answers[0]["verified"], true);
-  for (const std::size_t wrong : {1U, 2U}) {
-    EXPECT_EQ(answers[wrong]["verified"], false);
-    EXPECT_TRUE(has(answers[wrong]["message"].get<std::string>(), "not as the protocol says"));
-  }
+  for (const std::size_t wrong : {1U, 2U}) EXPECT_EQ(answers[wrong]["verified"], false);
+  EXPECT_TRUE(has(answers[1]["message"].get<std::string>(), "not as the protocol says"));
+  EXPECT_EQ(answers[2]["message"], "name is missing");
 }
 
 TEST(DapSession, AHitConditionThatNoNumberCanMeetIsRefused) {
