@@ -81,7 +81,7 @@ StopPoint Session::with_conditions(StopPoint stop, const Json& wanted) const {
 
 void Session::take_away(int number) {
   placed_.erase(number);
-  std::erase_if(stepper_->stops, [&](const StopPoint& stop) { return stop.number == number; });
+  stepper_->remove(number);
 }
 
 /// Replaces those of a kind and group. One that was wanted before in the same way stays, with its hits.

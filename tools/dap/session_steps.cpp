@@ -242,10 +242,10 @@ void Session::report(const Stop& stop, const std::string& reason) {
   pause_asked_ = false;
   stepper_->look_at(stop.station);
   if (first_error_) report_error(first_error_->first, first_error_->second);
-  for (const StopPoint& one : stepper_->stops)
+  for (const StopPoint& one : stepper_->stops())
     if (const std::string skipped = skipped_text(one); !skipped.empty())
       print(skipped + "; with the condition 'always' it stops there too");
-  for (const StopPoint& one : stepper_->stops) print(unknown_text(one));
+  for (const StopPoint& one : stepper_->stops()) print(unknown_text(one));
   report_stopped(body_of(stop, reason));
 }
 
@@ -303,10 +303,7 @@ Json Session::body_of(const Stop& stop, const std::string& reason) {
 
 /// Past all that it would stop for on the way. False after a stop request.
 bool Session::has_gone_back_to(std::uint32_t op) {
-  auto stops = std::exchange(stepper_->stops, {});
-  const Stop stop = stepper_->run_back(goal::place(op), 1, false);
-  stepper_->stops = std::move(stops);
-  return stop.reason == StopReason::Goal;
+  return stepper_->run_back_past_stops(goal::place(op)).reason == StopReason::Goal;
 }
 
 Json Session::body_of_hits(const Stop& stop) {

@@ -140,7 +140,7 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   if (place.empty()) return expects("break", "a place or what happens first, for example: break 40 if VW2 > 8");
   auto stop = stop_of(place, why);
   if (!stop || !read_options(words, simulation().cpu().program(), *stop, why)) return why;
-  const std::vector<SetStop>& all = stepper_.stops;
+  const std::vector<SetStop>& all = stepper_.stops();
   const auto same = std::ranges::find_if(
       all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op && s.station == focus(); });
   if (stop->on == On::Place && same != all.end() && words.empty()) {
@@ -192,7 +192,7 @@ std::string Debugger::value_of(const Cpu& cpu, const MemoryRange& range) {
 void Debugger::list_stops() {
   stepper_.count_hits();
   for (const bool watches : {false, true})
-    for (const StopPoint& s : stepper_.stops) {
+    for (const StopPoint& s : stepper_.stops()) {
       if (s.is_watch() != watches) continue;
       const Station& of = stations_[s.station];
       std::string what = said_of(s.station) + (s.on == On::Place ? op_text(of.listing, s.op) : s.name);
@@ -200,19 +200,19 @@ void Debugger::list_stops() {
       out_ << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, watches ? "watch" : "break", counted(s.hits, "hit"), what,
                           options_text(s));
     }
-  if (stepper_.stops.empty()) out_ << "no breakpoints and no watches\n";
+  if (stepper_.stops().empty()) out_ << "no breakpoints and no watches\n";
 }
 
 Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
   if (arguments.empty()) return expects("delete", "numbers that 'break' lists, or all");
   if (arguments.size() == 1 && stl::lower_case(arguments[0]) == "all") {
-    stepper_.stops.clear();
+    stepper_.remove_all();
     return {};
   }
   for (const std::string& argument : arguments) {
     const auto number = parse_decimal<std::uint32_t>(argument);
     if (!number) return expects("delete", "numbers that 'break' lists, or all");
-    if (std::erase_if(stepper_.stops, [&](const StopPoint& s) { return s.number == static_cast<int>(*number); }) == 0)
+    if (!stepper_.remove(static_cast<int>(*number)))
       return fmt::format("there is no breakpoint or watch {}; 'break' lists them", *number);
   }
   return {};
@@ -220,7 +220,7 @@ Debugger::Error Debugger::delete_stop(const Arguments& arguments) {
 
 std::string Debugger::mark_of(std::uint32_t op) const {
   const bool breakpoint = std::ranges::any_of(
-      stepper_.stops, [&](const StopPoint& s) { return s.on == On::Place && s.op == op && s.station == focus(); });
+      stepper_.stops(), [&](const StopPoint& s) { return s.on == On::Place && s.op == op && s.station == focus(); });
   return std::string(breakpoint ? "*" : " ") + (op == current_op() ? bold(">") : " ");
 }
 
@@ -249,7 +249,7 @@ SessionFile::SavedStop saved(const StopPoint& stop) {
 
 std::vector<SessionFile::SavedStop> Debugger::saved_stops() const {
   std::vector<SessionFile::SavedStop> all;
-  for (const StopPoint& stop : stepper_.stops) all.push_back(saved(stop));
+  for (const StopPoint& stop : stepper_.stops()) all.push_back(saved(stop));
   return all;
 }
 
@@ -297,8 +297,8 @@ std::size_t Debugger::add_loaded(std::vector<StopPoint> stops) {
       its.number = stop.number;
       return its == saved(stop);
     };
-    if (std::ranges::any_of(stepper_.stops, is_same)) continue;
-    if (std::ranges::find(stepper_.stops, stop.number, &StopPoint::number) != stepper_.stops.end())
+    if (std::ranges::any_of(stepper_.stops(), is_same)) continue;
+    if (std::ranges::find(stepper_.stops(), stop.number, &StopPoint::number) != stepper_.stops().end())
       stop.number = next_number_;
     next_number_ = std::max(next_number_, stop.number + 1);
     stepper_.add(std::move(stop));
@@ -311,16 +311,16 @@ std::size_t Debugger::add_loaded(std::vector<StopPoint> stops) {
 
 void Debugger::report_hits(const Stop& stop) {
   for (const Hit& hit : stop.hits) hit.stop.is_watch() ? report_access(hit) : report_breakpoint(hit);
-  for (const StopPoint& s : stepper_.stops)
+  for (const StopPoint& s : stepper_.stops())
     if (const std::string skipped = skipped_text(s); !skipped.empty())
       out_ << fmt::format("{}; 'break {} always{}' stops there then too\n", skipped, s.name, option_words(s));
-  for (const StopPoint& s : stepper_.stops)
+  for (const StopPoint& s : stepper_.stops())
     if (const std::string unknown = unknown_text(s); !unknown.empty()) out_ << unknown << '\n';
 }
 
 /// At the oldest moment: what waits for a number of hits has none before it was set.
 void Debugger::report_uncounted() {
-  for (const SetStop& s : stepper_.stops)
+  for (const SetStop& s : stepper_.stops())
     if (s.from_hit > 1)
       out_ << fmt::format("{} {} counts its hits from {} on, where it was set\n", s.is_watch() ? "watch" : "breakpoint",
                           s.number, moment_text(stepper_.counts_since(s)));

@@ -79,9 +79,16 @@ Stop Stepper::run_back(const Goal& goal, std::uint64_t count, bool stop_at_answe
   return arrive(result, start);
 }
 
+Stop Stepper::run_back_past_stops(const Goal& goal) {
+  std::vector<SetStop> stops = std::exchange(stops_, {});
+  const Stop stop = run_back(goal, 1, false);
+  stops_ = std::move(stops);
+  return stop;
+}
+
 void Stepper::begin_search(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
   count_hits();
-  for (StopPoint& stop : stops) stop.skipped = stop.unknown = 0;
+  for (StopPoint& stop : stops_) stop.skipped = stop.unknown = 0;
   goal_ = goal;
   limit_ = kNever;
   stop_at_answer_ = stop_at_answer;
@@ -112,7 +119,7 @@ bool Stepper::end_part() {
   for (auto last = search_.found.rbegin(); last != search_.found.rend() && !search_.there; ++last)
     if (last->stop || --search_.count == 0) search_.there = std::move(*last);
   const std::size_t before = search_.there ? search_.there->skipped : 0;
-  for (std::size_t i = before; i < search_.skipped.size(); ++i) ++stops[search_.skipped[i]].skipped;
+  for (std::size_t i = before; i < search_.skipped.size(); ++i) ++stops_[search_.skipped[i]].skipped;
   return search_.there.has_value();
 }
 
@@ -180,7 +187,7 @@ void Stepper::begin_watching() {
   requests_.await_no_masters();
   requests_.await_masters();
   if (!backwards_)
-    for (StopPoint& stop : stops) stop.skipped = stop.unknown = 0;
+    for (StopPoint& stop : stops_) stop.skipped = stop.unknown = 0;
   read_values();
 }
 
@@ -190,11 +197,11 @@ bool Stepper::wants_scans() const {
   const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == On::Place || stop.is_watch(); };
   const bool waits = requests_.has_patient_one() || frames_.next_end() != kNever;
   const bool ends = station(0).time() >= limit_;
-  return goal_ || backwards_ || waits || ends || std::ranges::any_of(stops, is_within_a_scan);
+  return goal_ || backwards_ || waits || ends || std::ranges::any_of(stops_, is_within_a_scan);
 }
 
 void Stepper::read_values() {
-  for (StopPoint& stop : stops)
+  for (StopPoint& stop : stops_)
     if (stop.range) stop.value = stop.range->bytes_in(station(stop.station).cpu().state().image);
 }
 
@@ -290,13 +297,13 @@ void Stepper::acted() {
 
 /// A change is noted in front of the next instruction.
 void Stepper::planned_done(std::size_t number) {
-  for (StopPoint& stop : stops)
+  for (StopPoint& stop : stops_)
     if (stop.range && stop.range->bytes_in(station(stop.station).cpu().state().image) != stop.value) stop.planned = number;
 }
 
 /// They are no hits that count: only what the CPU does is.
 void Stepper::note_changes_from_outside() {
-  for (StopPoint& stop : stops) {
+  for (StopPoint& stop : stops_) {
     if (!stop.range) continue;
     std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);
     const bool meant = value != stop.value && stop.on != On::Read && stop.from_hit == 1 && holds(stop);
@@ -404,8 +411,12 @@ void Stepper::instruction(const InstructionRecord& record) {
 }
 
 void Stepper::add(StopPoint stop) {
-  stops.push_back({std::move(stop), {}});
+  stops_.push_back({std::move(stop), {}});
   count_hits();
+}
+
+bool Stepper::remove(int number) {
+  return std::erase_if(stops_, [&](const StopPoint& stop) { return stop.number == number; }) != 0;
 }
 
 void Stepper::count_hits() {
@@ -413,7 +424,7 @@ void Stepper::count_hits() {
   const SetStop::Instant now{here.moment.instructions, here.moment.time};
   const bool same_beginning =
       counted_on_ && counted_on_->checkpoints.front() == here.branch->checkpoints.front();  // it has forked
-  for (SetStop& stop : stops) {
+  for (SetStop& stop : stops_) {
     std::erase_if(stop.counted, [](const auto& entry) { return entry.first.expired(); });
     const auto before = stop.counted.find(counted_on_);
     const auto [counted, is_new] = stop.counted.try_emplace(here.branch, SetStop::Counted{.since = now});
@@ -479,7 +490,7 @@ void Stepper::hit(SetStop& stop, Hit with) {
 
 void Stepper::hit_places(std::uint32_t op) {
   const Cpu& cpu = station(history_.told_of()).cpu();
-  for (SetStop& stop : stops) {
+  for (SetStop& stop : stops_) {
     if (stop.station != history_.told_of() || stop.on != On::Place || stop.op != op) continue;
     const bool idle = stop.needs_power && depends_on_power_flow(cpu.program().ops[op]) && !cpu.state().stack.top();
     if (!idle)
@@ -492,18 +503,18 @@ void Stepper::hit_places(std::uint32_t op) {
 /// Backwards it counts only from where it comes to a stop.
 void Stepper::note_skipped(SetStop& stop) {
   if (backwards_)
-    search_.skipped.push_back(static_cast<std::size_t>(&stop - stops.data()));
+    search_.skipped.push_back(static_cast<std::size_t>(&stop - stops_.data()));
   else
     ++stop.skipped;
 }
 
 void Stepper::note_accesses(std::uint32_t op) {
   accessed_.clear();
-  for (std::size_t i = 0; i < stops.size(); ++i) {
-    const auto on = stops[i].on;
-    if (stops[i].station != history_.told_of() || !stops[i].range) continue;
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    const auto on = stops_[i].on;
+    if (stops_[i].station != history_.told_of() || !stops_[i].range) continue;
     const auto is_accessed = [&](Access access) {
-      return accesses(station(stops[i].station).cpu(), op, access, bits_of(*stops[i].range));
+      return accesses(station(stops_[i].station).cpu(), op, access, bits_of(*stops_[i].range));
     };
     const bool read = (on == On::Read || on == On::ReadWrite) && is_accessed(Access::Read);
     const bool written = (on == On::Write || on == On::ReadWrite) && is_accessed(Access::Write);
@@ -544,7 +555,7 @@ void Stepper::note_record(const TraceRecord& record) {
   requests_.note_record(number, record);
   const std::vector<std::uint8_t> frame = note_sent(number, record);
   frames_.note(number, record);
-  for (SetStop& stop : stops)
+  for (SetStop& stop : stops_)
     if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record, .frame = frame});
 }
 
@@ -570,7 +581,7 @@ bool Stepper::is_unasked(std::size_t number) const {
 /// Backwards its beginning may lie in a part that was not played yet.
 void Stepper::note_frame(HeardFrames::Frame frame) {
   if (backwards_) frame.bytes.clear();
-  for (SetStop& stop : stops)
+  for (SetStop& stop : stops_)
     if (stop.station == frame.station && stop.on == On::FrameReceived && station(frame.station).plc().powered())
       hit(stop, {.frame = frame.bytes});
   requests_.note_frame(frame);
@@ -584,7 +595,7 @@ void Stepper::look_at_lines(std::size_t number, Time now) {
 
 void Stepper::note_ended(const EndedRequest& request) {
   const On on = request.wrong.empty() ? On::Unanswered : On::WrongAnswer;
-  for (SetStop& stop : stops)
+  for (SetStop& stop : stops_)
     if (stop.on == on && hears(stop, request.line))
       hit(stop, {.frame = request.frame, .asker = request.asker, .wrong = request.wrong, .answer = request.answer});
 }
@@ -605,8 +616,8 @@ bool Stepper::answer_complete() {
 
 /// By an instruction of a station; or between two, also of those that execute none.
 void Stepper::note_changes(std::size_t number, const InstructionRecord* by) {
-  for (std::size_t i = 0; i < stops.size(); ++i) {
-    SetStop& stop = stops[i];
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    SetStop& stop = stops_[i];
     const bool is_turn = stop.station == number || (!by && !station(stop.station).plc().executes());
     if (!stop.range || !is_turn) continue;
     std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);

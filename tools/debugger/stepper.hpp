@@ -54,16 +54,22 @@ class Stepper final : public Observer {
   /// To the oldest moment if there is nothing of the kind; nowhere after a stop request.
   Stop run_back(const Goal& goal, std::uint64_t count, bool stop_at_answer);
 
+  /// The same of the first time before now, whatever there is to stop for on the way.
+  Stop run_back_past_stops(const Goal& goal);
+
+  /// In the order in which they were set.
+  const std::vector<SetStop>& stops() const { return stops_; }
   /// One more, whose hits count from where it stands.
   void add(StopPoint stop);
+  /// Those with a number, of which a system may have several; false if there are none.
+  bool remove(int number);
+  void remove_all() { stops_.clear(); }
 
   /// Counts the hits of all stops up to where it stands: someone may have gone there.
   void count_hits();
 
   /// From when on hits count on the branch where it stands.
   Time counts_since(const SetStop& stop) const;
-
-  std::vector<SetStop> stops;
 
   /// How long a master on a bridge and a program wait for an answer.
   Time host_timeout() const { return requests_.host_timeout(); }
@@ -172,6 +178,7 @@ class Stepper final : public Observer {
   History& history_;
   const std::atomic<bool>* stop_request_;
   std::size_t focus_ = 0;
+  std::vector<SetStop> stops_;
 
   // Of the run under way.
   Goal goal_;

@@ -595,8 +595,8 @@ TEST(History, AStopForgetsItsHitsOfBranchesThatNobodyCanReturnTo) {
     session.history->act(assignment("VW4=7"));
     stepper.count_hits();
   }
-  EXPECT_GT(stepper.stops[0].hits, 20U);
-  EXPECT_LE(stepper.stops[0].counted.size(), 2U);
+  EXPECT_GT(stepper.stops()[0].hits, 20U);
+  EXPECT_LE(stepper.stops()[0].counted.size(), 2U);
 }
 
 TEST(History, ScansThatAreAllAlikeTakeNoCheckpointsAndAreReachedAgainBitByBit) {
