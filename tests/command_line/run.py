@@ -2743,6 +2743,7 @@ class Times(Case):
         self.assertEqual(listed("216"), ["cpu215", "cpu214_from_22x"])
         self.assertEqual((listed("224r1"), listed("224")), (["cpu22x_release1"], ["cpu22x"]))
         self.assertIn("cpu214_from_22x", self.ends(FINE, "times").stdout)
+        self.assertRegex(s7200("run", "--help").stdout, r"--times TABLE +table of execution times: a name that `s7200 times` lists")
 
     def test_tables_stand_side_by_side(self):
         mine = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\nMOVB,,37,,,measured\n", "mine.csv")
