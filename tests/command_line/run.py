@@ -2967,7 +2967,7 @@ class Times(Case):
         self.assertEqual({line["mnemonic"] for line in parts},
                          {"CALL", "RET", "CRET", "LSCR", "SCRE", "LPS", "LPP", "(interrupt entry)", "RETI", "CRETI", "(scan overhead)", "MEND"})
         self.assertRegex(done.stderr, r"(?m)^RET \+ CALL \+ SBR = \d+\.\d\d us ± \d\.\d\d, divided as the estimates are: RET \d+\.\d\d \(± \d+%\), CALL ")
-        reasons = dict(line.strip().split(": ", 1) for line in done.stderr.split("not measured", 1)[1].splitlines()[1:])
+        reasons = dict(line.strip().split(": ", 1) for line in done.stderr.split("not measured separately; estimated as ", 1)[1].splitlines()[1:])
         self.assertEqual({why: names.split() for why, names in reasons.items() if not names.startswith("(")},
                          {"it uses the line": ["XMT", "NETR", "NETW"], "it sets up hardware that may be wired": ["HDEF", "HSC", "PLS"],
                           "it sets the clock": ["TODW"], "it ends the measurement": ["STOP"],
@@ -3028,7 +3028,7 @@ class Times(Case):
 
     def test_a_cpu_that_smb6_tells_to_be_another_is_refused_before_its_loops_are_measured(self):
         done = self.ends(UNUSABLE, "calibrate", self.measured_cpu("226"), "-o", self.folder / "x.csv")
-        self.assertIn("SMB6 = 16#90 is not that of CPU 214 but of CPU 216, 226r1, 226XM, 226: call again with --cpu", done.stderr)
+        self.assertIn("SMB6 = 16#90 belongs to CPU 216, 226r1, 226XM, 226, not to CPU 214: run again with --cpu", done.stderr)
         self.assertFalse((self.folder / "x.csv").exists())
 
     def test_what_was_measured_before_an_interruption_is_written(self):
@@ -3053,7 +3053,7 @@ class Times(Case):
     def test_a_cpu_that_smb6_does_not_tell_is_named_in_a_note(self):
         link = self.measured_cpu("224")
         done = self.ends(FINE, "calibrate", link, "--each", "1s", "-o", self.folder / "x.csv")
-        self.assertIn("SMB6 = 16#20 is that of CPU 214, 224r1, 224, 224XP; CPU 214 was taken", done.stderr)
+        self.assertIn("SMB6 = 16#20 belongs to CPU 214, 224r1, 224, 224XP; the times of CPU 214 were used", done.stderr)
 
     def test_a_cpu_that_stops_while_it_is_measured_says_why(self):
         slow = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\nSQRT,,100000,,,measured\n", "slow.csv")
