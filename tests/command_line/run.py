@@ -3005,6 +3005,8 @@ class Times(Case):
     def test_what_calibrate_cannot_use_is_refused_before_it_measures(self):
         for option in (["--times", "cpu214"], ["--no-skip"], ["--ppi-baud", "9600"]):
             self.assertIn(f"{option[0]} needs a PROGRAM to run in simulation", self.ends(UNUSABLE, "calibrate", "tcp://127.0.0.1:1", *option).stderr)
+        self.assertNotIn("needs a PROGRAM", self.ends(UNUSABLE, "calibrate", "tcp://127.0.0.1:1", "--cpu", "224", "--each", "1s").stderr)
+        self.assertRegex(s7200("calibrate", "--help").stdout, "--cpu TYPE.* CPU that is measured")
         self.assertIn("does not go into a table", self.ends(UNUSABLE, "calibrate", MEASURE, "--firmware", "1\n2").stderr)
         quoted = self.folder / "quoted.csv"
         self.ends(FINE, "calibrate", MEASURE, "--each", "1s", "--firmware", 'the "2"', "-o", quoted)
