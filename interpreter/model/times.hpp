@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "interpreter/base/time.hpp"
@@ -31,6 +32,8 @@ struct TimeRow {
   Time per_unit = 0;  ///< for each `unit`: bit shifted, byte moved …
   std::string unit, marker, source;
   double uncertainty = 0;  ///< percent
+
+  bool operator==(const TimeRow&) const = default;
 };
 
 struct Cost {
@@ -45,6 +48,9 @@ std::string_view name_of(SystemTime what);
 
 class TimeTable {
  public:
+  TimeTable() = default;
+  explicit TimeTable(std::vector<TimeRow> rows) : rows_(std::move(rows)) {}
+
   /// Adds lines before those already there: a corrected file replaces the figures it has and leaves the others.
   /// Returns errors, each `name:line: what`: unreadable figures, times that are not above 0 (labels and routine heads may be
   /// 0), unknown markers, missing columns, quotes that are not closed. A text with errors changes nothing.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -198,12 +197,6 @@ std::string line_of(const TimeRow& row) {
   return fmt::format("{}\n", fmt::join(field, ","));
 }
 
-std::string text_of(const std::vector<TimeRow>& rows) {
-  std::string text = header(kColumns.size()) + '\n';
-  for (const TimeRow& row : rows) text += line_of(row);
-  return text;
-}
-
 }  // namespace
 
 TimesFile read_times(std::string_view csv, const std::string& name, std::vector<std::string>& errors) {
@@ -244,14 +237,6 @@ TimesFile read_times(std::string_view csv, const std::string& name, std::vector<
   return file;
 }
 
-TimeTable table_of(const std::vector<TimeRow>& rows) {
-  TimeTable table;
-  if (rows.empty()) return table;
-  [[maybe_unused]] const auto errors = table.add(text_of(rows), "times");
-  assert(errors.empty());
-  return table;
-}
-
 std::string cpu_line(std::string_view cpu) { return fmt::format("{}{}\n", kCpu, cpu); }
 
 std::vector<std::string> hidden_lines(const TimesFile& file, const std::string& name) {
@@ -284,6 +269,10 @@ std::string names_of(Areas areas) {
   return names;
 }
 
-std::string to_csv(const TimeTable& times) { return text_of(times.rows()); }
+std::string to_csv(const TimeTable& times) {
+  std::string text = header(kColumns.size()) + '\n';
+  for (const TimeRow& row : times.rows()) text += line_of(row);
+  return text;
+}
 
 }  // namespace s7200

@@ -262,7 +262,7 @@ TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& ow
            own.find(row.mnemonics.front(), area_named(row.form));
   };
   TimeTable table = known.filtered(is_known).with([&](TimeRow& row) { estimate(row, ratio); });
-  table.add(table_of(measured_rows(fit, source)));
+  table.add(TimeTable(measured_rows(fit, source)));
   return in_use(table);
 }
 

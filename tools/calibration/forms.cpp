@@ -194,6 +194,7 @@ TimeTable told_apart(const CpuModel& model) {
     for (const Kind& kind : kinds) {
       rows.push_back(*kind.lines.front());
       rows.back().mnemonics = {std::string(instruction.mnemonic)};
+      rows.back().areas = kind.areas;
       rows.back().form = names_of(kind.areas);
     }
   }
@@ -202,7 +203,7 @@ TimeTable told_apart(const CpuModel& model) {
            !own.find(row.mnemonics.front(), area_named(row.form));
   };
   for (const TimeTable* table : tables) std::ranges::copy_if(table->rows(), std::back_inserter(rows), adds_more);
-  own.add(table_of(rows));
+  own.add(TimeTable(std::move(rows)));
   return in_use(own);
 }
 

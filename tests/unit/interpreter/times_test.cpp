@@ -57,13 +57,7 @@ TEST(Times, WhatIsWrittenReadsBackAsItself) {
   EXPECT_TRUE(times.add(kHeader + "MOVB,\"V, M\",37,,,manual,\"page 9, table \"\"A\"\"\"\n", "mine.csv").empty());
   TimeTable again;
   EXPECT_TRUE(again.add(to_csv(times), "again.csv").empty());
-  ASSERT_EQ(again.rows().size(), times.rows().size());
-  for (std::size_t i = 0; i < times.rows().size(); ++i) {
-    const TimeRow &a = times.rows()[i], &b = again.rows()[i];
-    EXPECT_EQ(a.mnemonics, b.mnemonics);
-    EXPECT_EQ(std::tie(a.form, a.areas, a.base, a.per_unit, a.unit, a.marker, a.source, a.uncertainty),
-              std::tie(b.form, b.areas, b.base, b.per_unit, b.unit, b.marker, b.source, b.uncertainty));
-  }
+  EXPECT_TRUE(again.rows() == times.rows());
 }
 
 TEST(Times, WhatCannotBeReadIsNamedWithItsLine) {
