@@ -1,6 +1,7 @@
 // Execution times as data with their origin: read from CSV and corrected by CSV, never fixed in code.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,8 @@ struct Cost {
 /// What takes time without being an instruction; the tables use these names. OperandArea: what an operand in the areas of
 /// the line adds, unless it is the first one and the instruction has a line for its area.
 enum class SystemTime { NoPowerFlow, IndirectOperand, OperandArea, InterruptEntry, ScanOverhead, EepromSave };
+inline constexpr std::array kSystemTimes{SystemTime::NoPowerFlow,    SystemTime::IndirectOperand, SystemTime::OperandArea,
+                                         SystemTime::InterruptEntry, SystemTime::ScanOverhead,    SystemTime::EepromSave};
 std::string_view name_of(SystemTime what);
 
 class TimeTable {

@@ -18,9 +18,7 @@ namespace {
 const std::vector<std::string_view>& timed_names() {
   static const auto kNames = [] {
     std::vector<std::string_view> names;
-    for (const SystemTime what : {SystemTime::NoPowerFlow, SystemTime::IndirectOperand, SystemTime::OperandArea,
-                                  SystemTime::InterruptEntry, SystemTime::ScanOverhead, SystemTime::EepromSave})
-      names.push_back(name_of(what));
+    for (const SystemTime what : kSystemTimes) names.push_back(name_of(what));
     for (const Instruction& instruction : all_instructions()) names.push_back(instruction.mnemonic);
     return names;
   }();

@@ -76,8 +76,7 @@ std::vector<Area> areas_of(const Instruction& instruction, const CpuModel& model
 
 std::vector<Line> lines_of_all(const CpuModel& model, const std::vector<TitledTimes>& tables) {
   std::vector<Line> lines;
-  for (const SystemTime what : {SystemTime::NoPowerFlow, SystemTime::IndirectOperand, SystemTime::OperandArea,
-                                SystemTime::InterruptEntry, SystemTime::ScanOverhead, SystemTime::EepromSave}) {
+  for (const SystemTime what : kSystemTimes) {
     std::vector<Area> areas;
     if (what == SystemTime::OperandArea)
       for (const AreaInfo& area : all_areas())
