@@ -12,6 +12,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/model/embedded_times.hpp"
 
 namespace s7200 {
@@ -83,11 +84,14 @@ const NamedTimes* find_times(std::string_view name) {
   return found == named_times().end() ? nullptr : &*found;
 }
 
-std::string names_of_times(const CpuModel& model) {
-  std::string names;
-  for (const NamedTimes& times : named_times())
-    if (times.cpus & model.self) names.append(names.empty() ? "" : ", ").append(times.name);
-  return names;
+std::vector<const NamedTimes*> times_of(const CpuModel& model) {
+  std::vector<const NamedTimes*> tables;
+  for (const bool own : {true, false})
+    for (const NamedTimes& times : named_times())
+      if (times.own == own && (times.cpus & model.self)) tables.push_back(&times);
+  return tables;
 }
+
+std::string names_of_times(const CpuModel& model) { return stl::joined(times_of(model), &NamedTimes::name); }
 
 }  // namespace s7200

@@ -23,6 +23,9 @@ const std::vector<NamedTimes>& named_times();
 /// Null for a name that no table has.
 const NamedTimes* find_times(std::string_view name);
 
+/// Those for a CPU, its own first.
+std::vector<const NamedTimes*> times_of(const CpuModel& model);
+
 /// `cpu214, cpu214_from_22x`: those for a CPU.
 std::string names_of_times(const CpuModel& model);
 

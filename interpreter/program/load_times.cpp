@@ -28,10 +28,9 @@ const std::vector<std::string_view>& timed_names() {
 /// The lines for a name in the tables of the CPU.
 std::vector<const TimeRow*> known_lines(const CpuModel& model, const std::string& name) {
   std::vector<const TimeRow*> lines;
-  for (const NamedTimes& times : named_times())
-    if (times.cpus & model.self)
-      for (const TimeRow& row : times.table().rows())
-        if (std::ranges::find(row.mnemonics, name) != row.mnemonics.end()) lines.push_back(&row);
+  for (const NamedTimes* times : times_of(model))
+    for (const TimeRow& row : times->table().rows())
+      if (std::ranges::find(row.mnemonics, name) != row.mnemonics.end()) lines.push_back(&row);
   return lines;
 }
 

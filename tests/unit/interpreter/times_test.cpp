@@ -121,10 +121,10 @@ TEST(Times, TheMarkerSaysHowSureAFigureIsIfItsLineDoesNot) {
 
 TEST(NamedTimes, ACpuRunsWithTheTableThatIsItsOwn) {
   for (const CpuModel* model : all_cpus()) {
-    const auto own = std::ranges::find_if(named_times(),
-                                          [&](const NamedTimes& times) { return times.own && (times.cpus & model->self); });
-    ASSERT_NE(own, named_times().end()) << model->name;
-    EXPECT_EQ(to_csv(own->table()), to_csv(default_times(*model))) << model->name;
+    const auto tables = times_of(*model);
+    EXPECT_EQ(std::ranges::count(tables, true, &NamedTimes::own), 1) << model->name;
+    ASSERT_TRUE(tables.front()->own) << model->name << ": its own first";
+    EXPECT_EQ(to_csv(tables.front()->table()), to_csv(default_times(*model))) << model->name;
   }
 }
 
