@@ -20,11 +20,10 @@ namespace s7200 {
 ///   = ,I Q,0.8,,,estimate,…,330
 ///
 /// `mnemonic`: one or more, separated by blanks, all with the same time; or a name of a SystemTime, which is in brackets.
-/// A trailing `(and A O)` adds the A and O forms of each LD form. `form`: the areas of the first operand for which the line
-/// holds, or words that say what the figure means. `marker`: manual, measured (on a real CPU), calibrated, remembered (from
-/// the manual, but not read there again), or estimate. `uncertainty_percent`: with 25, the true figures lie between those of
-/// the line / 1.25 and × 1.25; left out, as `source` may be, the marker says how sure they are. Lines that begin with # are
-/// comments; `# CPU 224` says whose times these are.
+/// `form`: the areas of the first operand for which the line holds, or words that say what the figure means. `marker`:
+/// manual, measured (on a real CPU), calibrated, remembered (from the manual, but not read there again), or estimate.
+/// `uncertainty_percent`: with 25, the true figures lie between those of the line / 1.25 and × 1.25; left out, as `source`
+/// may be, the marker says how sure they are. Lines that begin with # are comments; `# CPU 224` says whose times these are.
 struct TimeRow {
   std::vector<std::string> mnemonics;
   std::string form;

@@ -98,15 +98,9 @@ Areas areas_of(std::string_view form) {
   return areas;
 }
 
+/// The name of a system time has blanks in its brackets.
 std::vector<std::string> mnemonics_of(const std::string& text) {
-  static constexpr std::string_view kAlso = "(and A O)";
-  if (text.starts_with('(')) return {text};
-  if (!text.ends_with(kAlso)) return stl::split_words(text);
-  std::vector<std::string> result = stl::split_words(text.substr(0, text.size() - kAlso.size()));
-  const std::vector<std::string> loads = result;
-  for (const char* prefix : {"A", "O"})
-    for (const std::string& load : loads) result.push_back(prefix + load.substr(std::min<std::size_t>(2, load.size())));
-  return result;
+  return text.starts_with('(') ? std::vector{text} : stl::split_words(text);
 }
 
 bool may_be_free(const TimeRow& row) {
