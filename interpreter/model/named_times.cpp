@@ -51,9 +51,7 @@ TimeTable cpu214_from_22x_times() {
     row.source = fmt::format("{:g} × CPU 22x of release 1, {} = 690 ms; {}", kSlower, kFirstScanOfTip41, row.source);
     row.marker = "remembered";
   };
-  TimeTable table = cpu22x_release1_times().filtered(is_of_22x).with(scale);
-  add(table, embedded::kCpu214From22xTimes);
-  return table;
+  return cpu22x_release1_times().filtered(is_of_22x).with(scale);
 }
 
 template <auto read>
@@ -70,8 +68,8 @@ const std::vector<NamedTimes>& named_times() {
        read_once<cpu214_times>},
       {"cpu215", "those of cpu214, and estimates of what the CPU 214 lacks", kCpu215 | kCpu216, true,
        read_once<cpu215_times>},
-      {"cpu214_from_22x", "the remembered figures of cpu22x_release1 times 1.906, over those of the CPU", kCpu21x, false,
-       read_once<cpu214_from_22x_times>},
+      {"cpu214_from_22x", "the figures of cpu22x_release1 that are not estimates, times one factor, over the CPU's own",
+       kCpu21x, false, read_once<cpu214_from_22x_times>},
       {"cpu22x_release1", "an edition of 2002: some pages, mostly from memory", kCpu22xRelease1, true,
        read_once<cpu22x_release1_times>},
       {"cpu22x", "an edition of 2004: some pages, mostly from memory", kCpu22xRelease2, true, read_once<cpu22x_times>}};

@@ -3105,7 +3105,7 @@ class Readme(Case):
     TOOLS = ("sigrok-cli", "tshark", "mbpoll", "pytest-3")  # of others; skipped where they are not installed
     # What is in commands that find something wrong, or get no answer: their exit code is 1, and that of all others 0.
     NOT_RIGHT = ("import --compare", "wrong_answer.yaml", "send stl_programs/modbus_slave.stl 0103000a00010000", "--baud 19200", "pointers.stl",
-                 "broken.awl", "--fault flip:", "tip41_modbus_rtu_slave.txt --crc 0106000a1234", "freeport_pc_protocol_zh.txt --cpu 224", "4006381333931",
+                 "broken.awl", "--fault flip:", "freeport_pc_protocol_zh.txt --cpu 224", "4006381333931",
                  "--only 'wrong quantity'", "--conformance tests/conformance/tip41.yaml")
 
     def test_the_five_commands_of_the_readme_end_where_its_table_says(self):
