@@ -43,7 +43,7 @@ class Cpu {
   /// Simulated time in scans that were passed over so far.
   Time passed_over() const { return steady_scans_.passed_over(); }
   /// Until when the CPU does nothing but the same scan again, unless something comes from outside; time() if that is not
-  /// known. Of use to who wants to know how long nothing will be sent.
+  /// known. Until then it sends nothing.
   Time alike_until() const { return steady_scans_.alike_until(core_); }
 
   /// Whether run() stops at the end of each scan.

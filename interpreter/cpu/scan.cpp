@@ -66,8 +66,7 @@ void end(Core& core) {
   begin(core);
 }
 
-/// `part` numbers the parts of the scan other than the program.
-void begin_phase(Core& core, Phase phase, std::size_t part) {
+void begin_phase(Core& core, Phase phase, Program::ScanPart part) {
   core.s.phase = phase;
   core.s.phase_left = core.program().scan_phase[part];
 }
@@ -85,7 +84,7 @@ void begin_program(Core& core) {
   local_memory::take_up(core);
 }
 
-void begin_communication(Core& core) { begin_phase(core, Phase::Communication, 1); }
+void begin_communication(Core& core) { begin_phase(core, Phase::Communication, Program::kCommunication); }
 
 void communicate(Core& core) {
   const Mode before = core.s.mode;
@@ -93,7 +92,7 @@ void communicate(Core& core) {
   ppi::communicate(core);
   if (core.s.mode != before) return;
   forcing::apply(core);
-  begin_phase(core, Phase::SelfTest, 2);
+  begin_phase(core, Phase::SelfTest, Program::kSelfTest);
 }
 
 void read_inputs(Core& core) {
@@ -136,7 +135,7 @@ void advance_in_order(Core& core) {
       [[fallthrough]];
     case Phase::SelfTest:
       if (!spend_phase(core)) return;
-      begin_phase(core, Phase::WriteOutputs, 3);
+      begin_phase(core, Phase::WriteOutputs, Program::kWriteOutputs);
       [[fallthrough]];
     case Phase::WriteOutputs:
     case Phase::SaveToEeprom:
@@ -196,7 +195,7 @@ void change_mode(Core& core, Mode wanted) {
 
 void begin(Core& core) {
   State& s = core.s;
-  begin_phase(core, Phase::ReadInputs, 0);
+  begin_phase(core, Phase::ReadInputs, Program::kReadInputs);
   s.scan_begin = s.time;
   s.watchdog = s.mode == Mode::Run ? s.time + core.model().watchdog : kNever;
   if (core.sink()) core.trace({.at = s.time, .kind = TraceKind::ScanBegin, .count = s.scans + 1});

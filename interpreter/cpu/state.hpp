@@ -300,11 +300,11 @@ struct State {
   std::array<PpiPort, kPorts.size()> ppi{};
   std::array<NetworkPort, kPorts.size()> network{};
 
-  std::array<TimerState, 256> timer{};
+  std::array<TimerState, image::kTimers> timer{};
   Time previous_scan_begin = 0;
-  Time next_tick_1ms = kNever;                     ///< of the 1 ms timers; kNever if none is enabled
-  std::int16_t ticks_100ms = 0;                    ///< of the previous scan
-  std::array<std::uint8_t, 256> counter_inputs{};  ///< at the last execution: bit 0 up, bit 1 down
+  Time next_tick_1ms = kNever;                                  ///< of the 1 ms timers; kNever if none is enabled
+  std::int16_t ticks_100ms = 0;                                 ///< of the previous scan
+  std::array<std::uint8_t, image::kCounters> counter_inputs{};  ///< at the last execution: bit 0 up, bit 1 down
 
   std::array<HighSpeedCounter, kCounters.size()> counter{};
   std::array<PulseOutput, 2> pulse{};

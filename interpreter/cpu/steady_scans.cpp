@@ -63,7 +63,7 @@ void SteadyScans::move_on(const Program& program, State& s, std::uint64_t pairs)
 }
 
 Time SteadyScans::go_on(Core& core, Time limit) {
-  if (core.s.phase_left != core.program().scan_phase[1]) return 0;  // a run ended in the middle of it
+  if (core.s.phase_left != core.program().scan_phase[Program::kCommunication]) return 0;  // a run ended in the middle of it
   if (!may_pass(core)) {
     known_ = Known::Nothing;
     expected_.reset();
@@ -74,7 +74,8 @@ Time SteadyScans::go_on(Core& core, Time limit) {
   if (expected_) check(core);
   const Time change = next_change(core);
   const Time horizon = std::min({limit, core.next_event(), change, core.s.time + kFurthest});
-  // It has come: scans before it are not like those after it. A timer that is reset in each scan has counted in one.
+  // The expected change has happened, so the pair no longer describes the scans after it. A timer that is reset in every
+  // scan shifts the change without ever reaching it.
   if (known_ != Known::Nothing && change != change_) known_ = Known::Nothing;
   switch (known_) {
     case Known::Nothing:

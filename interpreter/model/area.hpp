@@ -24,26 +24,28 @@ constexpr std::uint32_t bytes_of(Width width) { return width == Width::Double ? 
 
 namespace image {
 
+inline constexpr std::uint32_t kTimers = 256, kCounters = 256;
+
 // Largest size of each area over all S7-200 CPUs (facts 1.1, 1.2), in bytes.
-inline constexpr std::uint32_t kI = 0;                   // 16: image register
-inline constexpr std::uint32_t kQ = kI + 16;             // 16: image register
-inline constexpr std::uint32_t kM = kQ + 16;             // 32
-inline constexpr std::uint32_t kSM = kM + 32;            // 552
-inline constexpr std::uint32_t kS = kSM + 552;           // 32
-inline constexpr std::uint32_t kAI = kS + 32;            // 64
-inline constexpr std::uint32_t kAQ = kAI + 64;           // 64
-inline constexpr std::uint32_t kT = kAQ + 64;            // 256 current values
-inline constexpr std::uint32_t kC = kT + 512;            // 256 current values
-inline constexpr std::uint32_t kHC = kC + 512;           // 6 current values of 32 bits
-inline constexpr std::uint32_t kAC = kHC + 24;           // 4 cells of 4 bytes: byte at +3, word at +2
-inline constexpr std::uint32_t kTBits = kAC + 16;        // 256 timer bits
-inline constexpr std::uint32_t kCBits = kTBits + 32;     // 256 counter bits
-inline constexpr std::uint32_t kInputs = kCBits + 32;    // 16: the input points themselves
-inline constexpr std::uint32_t kOutputs = kInputs + 16;  // 16: the output points themselves
-inline constexpr std::uint32_t kEdges = kOutputs + 16;   // 512: one memory bit for each EU and ED
-inline constexpr std::uint32_t kV = kEdges + 512;        // 10240
-inline constexpr std::uint32_t kL = kV + 10240;          // 64: local memory of the routine that runs
-inline constexpr std::uint32_t kConstants = kL + 64;     // the program's constants
+inline constexpr std::uint32_t kI = 0;                            // 16: image register
+inline constexpr std::uint32_t kQ = kI + 16;                      // 16: image register
+inline constexpr std::uint32_t kM = kQ + 16;                      // 32
+inline constexpr std::uint32_t kSM = kM + 32;                     // 552
+inline constexpr std::uint32_t kS = kSM + 552;                    // 32
+inline constexpr std::uint32_t kAI = kS + 32;                     // 64
+inline constexpr std::uint32_t kAQ = kAI + 64;                    // 64
+inline constexpr std::uint32_t kT = kAQ + 64;                     // current values
+inline constexpr std::uint32_t kC = kT + 2 * kTimers;             // current values
+inline constexpr std::uint32_t kHC = kC + 2 * kCounters;          // 6 current values of 32 bits
+inline constexpr std::uint32_t kAC = kHC + 24;                    // 4 cells of 4 bytes: byte at +3, word at +2
+inline constexpr std::uint32_t kTBits = kAC + 16;                 // timer bits
+inline constexpr std::uint32_t kCBits = kTBits + kTimers / 8;     // counter bits
+inline constexpr std::uint32_t kInputs = kCBits + kCounters / 8;  // 16: the input points themselves
+inline constexpr std::uint32_t kOutputs = kInputs + 16;           // 16: the output points themselves
+inline constexpr std::uint32_t kEdges = kOutputs + 16;            // 512: one memory bit for each EU and ED
+inline constexpr std::uint32_t kV = kEdges + 512;                 // 10240
+inline constexpr std::uint32_t kL = kV + 10240;                   // 64: local memory of the routine that runs
+inline constexpr std::uint32_t kConstants = kL + 64;              // the program's constants
 inline constexpr std::uint32_t kSize = 20 * 1024;
 
 inline constexpr std::uint32_t kPointBytes = 16;  // of input points, of output points, and of their images

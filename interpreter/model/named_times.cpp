@@ -12,6 +12,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/model/embedded_times.hpp"
 
 namespace s7200 {
@@ -47,13 +48,10 @@ TimeTable cpu214_from_22x_times() {
   const auto scale = [&](TimeRow& row) {
     row.base = slower(row.base);
     row.per_unit = slower(row.per_unit);
-    row.source =
-        fmt::format("{:g} × CPU 22x of release 1, first scan of Application Tip 41 = 690 ms; {}", kSlower, row.source);
+    row.source = fmt::format("{:g} × CPU 22x of release 1, {} = 690 ms; {}", kSlower, kFirstScanOfTip41, row.source);
     row.marker = "remembered";
   };
-  TimeTable table = cpu22x_release1_times().filtered(is_of_22x).with(scale);
-  add(table, embedded::kCpu214From22xTimes);
-  return table;
+  return cpu22x_release1_times().filtered(is_of_22x).with(scale);
 }
 
 template <auto read>
@@ -70,8 +68,8 @@ const std::vector<NamedTimes>& named_times() {
        read_once<cpu214_times>},
       {"cpu215", "those of cpu214, and estimates of what the CPU 214 lacks", kCpu215 | kCpu216, true,
        read_once<cpu215_times>},
-      {"cpu214_from_22x", "the remembered figures of cpu22x_release1 times 1.906, over those of the CPU", kCpu21x, false,
-       read_once<cpu214_from_22x_times>},
+      {"cpu214_from_22x", "the figures of cpu22x_release1 that are not estimates, times one factor, over the CPU's own",
+       kCpu21x, false, read_once<cpu214_from_22x_times>},
       {"cpu22x_release1", "an edition of 2002: some pages, mostly from memory", kCpu22xRelease1, true,
        read_once<cpu22x_release1_times>},
       {"cpu22x", "an edition of 2004: some pages, mostly from memory", kCpu22xRelease2, true, read_once<cpu22x_times>}};
@@ -83,11 +81,14 @@ const NamedTimes* find_times(std::string_view name) {
   return found == named_times().end() ? nullptr : &*found;
 }
 
-std::string names_of_times(const CpuModel& model) {
-  std::string names;
-  for (const NamedTimes& times : named_times())
-    if (times.cpus & model.self) names.append(names.empty() ? "" : ", ").append(times.name);
-  return names;
+std::vector<const NamedTimes*> times_of(const CpuModel& model) {
+  std::vector<const NamedTimes*> tables;
+  for (const bool own : {true, false})
+    for (const NamedTimes& times : named_times())
+      if (times.own == own && (times.cpus & model.self)) tables.push_back(&times);
+  return tables;
 }
+
+std::string names_of_times(const CpuModel& model) { return stl::joined(times_of(model), &NamedTimes::name); }
 
 }  // namespace s7200

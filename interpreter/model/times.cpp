@@ -30,9 +30,9 @@ std::vector<std::string> TimeTable::add(std::string_view csv, const std::string&
   std::vector<std::string> errors;
   TimesFile read = read_times(csv, name, errors);
   if (!errors.empty()) return errors;
-  TimeTable correction;
-  for (TimesFile::Line& line : read.lines) correction.rows_.push_back(std::move(line.row));
-  add(correction);
+  std::vector<TimeRow> rows;
+  for (TimesFile::Line& line : read.lines) rows.push_back(std::move(line.row));
+  add(TimeTable(std::move(rows)));
   return {};
 }
 

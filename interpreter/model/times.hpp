@@ -1,10 +1,12 @@
 // Execution times as data with their origin: read from CSV and corrected by CSV, never fixed in code.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "interpreter/base/time.hpp"
@@ -18,11 +20,10 @@ namespace s7200 {
 ///   = ,I Q,0.8,,,estimate,…,330
 ///
 /// `mnemonic`: one or more, separated by blanks, all with the same time; or a name of a SystemTime, which is in brackets.
-/// A trailing `(and A O)` adds the A and O forms of each LD form. `form`: the areas of the first operand for which the line
-/// holds, or words that say what the figure means. `marker`: manual, measured (on a real CPU), calibrated, remembered (from
-/// the manual, but not read there again), or estimate. `uncertainty_percent`: with 25, the true figures lie between those of
-/// the line / 1.25 and × 1.25; left out, as `source` may be, the marker says how sure they are. Lines that begin with # are
-/// comments; `# CPU 224` says whose times these are.
+/// `form`: the areas of the first operand for which the line holds, or words that say what the figure means. `marker`:
+/// manual, measured (on a real CPU), calibrated, remembered (from the manual, but not read there again), or estimate.
+/// `uncertainty_percent`: with 25, the true figures lie between those of the line / 1.25 and × 1.25; left out, as `source`
+/// may be, the marker says how sure they are. Lines that begin with # are comments; `# CPU 224` says whose times these are.
 struct TimeRow {
   std::vector<std::string> mnemonics;
   std::string form;
@@ -31,6 +32,8 @@ struct TimeRow {
   Time per_unit = 0;  ///< for each `unit`: bit shifted, byte moved …
   std::string unit, marker, source;
   double uncertainty = 0;  ///< percent
+
+  bool operator==(const TimeRow&) const = default;
 };
 
 struct Cost {
@@ -41,10 +44,15 @@ struct Cost {
 /// What takes time without being an instruction; the tables use these names. OperandArea: what an operand in the areas of
 /// the line adds, unless it is the first one and the instruction has a line for its area.
 enum class SystemTime { NoPowerFlow, IndirectOperand, OperandArea, InterruptEntry, ScanOverhead, EepromSave };
+inline constexpr std::array kSystemTimes{SystemTime::NoPowerFlow,    SystemTime::IndirectOperand, SystemTime::OperandArea,
+                                         SystemTime::InterruptEntry, SystemTime::ScanOverhead,    SystemTime::EepromSave};
 std::string_view name_of(SystemTime what);
 
 class TimeTable {
  public:
+  TimeTable() = default;
+  explicit TimeTable(std::vector<TimeRow> rows) : rows_(std::move(rows)) {}
+
   /// Adds lines before those already there: a corrected file replaces the figures it has and leaves the others.
   /// Returns errors, each `name:line: what`: unreadable figures, times that are not above 0 (labels and routine heads may be
   /// 0), unknown markers, missing columns, quotes that are not closed. A text with errors changes nothing.

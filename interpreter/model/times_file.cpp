@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -99,15 +98,9 @@ Areas areas_of(std::string_view form) {
   return areas;
 }
 
+/// The name of a system time has blanks in its brackets.
 std::vector<std::string> mnemonics_of(const std::string& text) {
-  static constexpr std::string_view kAlso = "(and A O)";
-  if (text.starts_with('(')) return {text};
-  if (!text.ends_with(kAlso)) return stl::split_words(text);
-  std::vector<std::string> result = stl::split_words(text.substr(0, text.size() - kAlso.size()));
-  const std::vector<std::string> loads = result;
-  for (const char* prefix : {"A", "O"})
-    for (const std::string& load : loads) result.push_back(prefix + load.substr(std::min<std::size_t>(2, load.size())));
-  return result;
+  return text.starts_with('(') ? std::vector{text} : stl::split_words(text);
 }
 
 bool may_be_free(const TimeRow& row) {
@@ -198,12 +191,6 @@ std::string line_of(const TimeRow& row) {
   return fmt::format("{}\n", fmt::join(field, ","));
 }
 
-std::string text_of(const std::vector<TimeRow>& rows) {
-  std::string text = header(kColumns.size()) + '\n';
-  for (const TimeRow& row : rows) text += line_of(row);
-  return text;
-}
-
 }  // namespace
 
 TimesFile read_times(std::string_view csv, const std::string& name, std::vector<std::string>& errors) {
@@ -244,14 +231,6 @@ TimesFile read_times(std::string_view csv, const std::string& name, std::vector<
   return file;
 }
 
-TimeTable table_of(const std::vector<TimeRow>& rows) {
-  TimeTable table;
-  if (rows.empty()) return table;
-  [[maybe_unused]] const auto errors = table.add(text_of(rows), "times");
-  assert(errors.empty());
-  return table;
-}
-
 std::string cpu_line(std::string_view cpu) { return fmt::format("{}{}\n", kCpu, cpu); }
 
 std::vector<std::string> hidden_lines(const TimesFile& file, const std::string& name) {
@@ -284,6 +263,10 @@ std::string names_of(Areas areas) {
   return names;
 }
 
-std::string to_csv(const TimeTable& times) { return text_of(times.rows()); }
+std::string to_csv(const TimeTable& times) {
+  std::string text = header(kColumns.size()) + '\n';
+  for (const TimeRow& row : times.rows()) text += line_of(row);
+  return text;
+}
 
 }  // namespace s7200

@@ -31,9 +31,6 @@ TimesFile read_times(std::string_view csv, const std::string& name, std::vector<
 /// Each line that gives no time because earlier ones do, `name:line: what`.
 std::vector<std::string> hidden_lines(const TimesFile& file, const std::string& name);
 
-/// A table with these lines.
-TimeTable table_of(const std::vector<TimeRow>& rows);
-
 /// The line that says whose times follow.
 std::string cpu_line(std::string_view cpu);
 

@@ -1,6 +1,7 @@
 #include "interpreter/program/chains.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "interpreter/model/times_file.hpp"
@@ -46,6 +47,7 @@ void add_contacts(Program& program) {
   for (Op& op : program.ops) {
     const ChainPart part = part_of(op);
     if (part.kind == Kind::None) continue;
+    assert(op.power_mask == 0 && op.unit_cost == 0);
     op.target = static_cast<std::uint32_t>(program.contacts.size());
     program.contacts.push_back({op[0].at, static_cast<std::uint8_t>(1u << op[0].bit), part.inverted});
   }

@@ -579,10 +579,9 @@ std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {
 }
 
 TimeTable default_times(const CpuModel& model) {
-  const auto own =
-      std::ranges::find_if(named_times(), [&](const NamedTimes& named) { return named.own && (named.cpus & model.self); });
-  assert(own != named_times().end());
-  return own->table();
+  const auto tables = times_of(model);
+  assert(!tables.empty() && tables.front()->own);
+  return tables.front()->table();
 }
 
 }  // namespace s7200

@@ -18,9 +18,7 @@ namespace {
 const std::vector<std::string_view>& timed_names() {
   static const auto kNames = [] {
     std::vector<std::string_view> names;
-    for (const SystemTime what : {SystemTime::NoPowerFlow, SystemTime::IndirectOperand, SystemTime::OperandArea,
-                                  SystemTime::InterruptEntry, SystemTime::ScanOverhead, SystemTime::EepromSave})
-      names.push_back(name_of(what));
+    for (const SystemTime what : kSystemTimes) names.push_back(name_of(what));
     for (const Instruction& instruction : all_instructions()) names.push_back(instruction.mnemonic);
     return names;
   }();
@@ -30,10 +28,9 @@ const std::vector<std::string_view>& timed_names() {
 /// The lines for a name in the tables of the CPU.
 std::vector<const TimeRow*> known_lines(const CpuModel& model, const std::string& name) {
   std::vector<const TimeRow*> lines;
-  for (const NamedTimes& times : named_times())
-    if (times.cpus & model.self)
-      for (const TimeRow& row : times.table().rows())
-        if (std::ranges::find(row.mnemonics, name) != row.mnemonics.end()) lines.push_back(&row);
+  for (const NamedTimes* times : times_of(model))
+    for (const TimeRow& row : times->table().rows())
+      if (std::ranges::find(row.mnemonics, name) != row.mnemonics.end()) lines.push_back(&row);
   return lines;
 }
 

@@ -14,8 +14,7 @@ struct Bytes {
   bool contain(std::uint32_t at) const { return at >= from && at < to; }
 };
 
-constexpr std::uint32_t kTimers = 256;
-constexpr Bytes kValues{image::kT, image::kT + 2 * kTimers}, kBits{image::kTBits, image::kTBits + kTimers / 8};
+constexpr Bytes kValues{image::kT, image::kC}, kBits{image::kTBits, image::kCBits};
 
 class Finder {
  public:
@@ -82,7 +81,7 @@ class Finder {
 
   /// Of one timer or, in a block, of all from there on.
   void every_tick(std::uint32_t first, bool is_block) {
-    const std::uint32_t end = is_block ? kTimers : first + 1;
+    const std::uint32_t end = is_block ? image::kTimers : first + 1;
     for (std::uint32_t timer = first; timer < end; ++timer) looks_.every_tick.set(timer);
   }
 
@@ -90,8 +89,8 @@ class Finder {
 
   const Program& program_;
   Looks looks_;
-  std::bitset<kTimers> seen_;  // executed so far
-  bool may_branch_ = false;    // somewhere before
+  std::bitset<image::kTimers> seen_;  // executed so far
+  bool may_branch_ = false;           // somewhere before
 };
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <bitset>
 #include <memory>
 
+#include "interpreter/model/area.hpp"
+
 namespace s7200 {
 
 struct Program;
@@ -15,7 +17,7 @@ struct Looks {
   bool every_scan = false;  ///< the CPU's own milliseconds, by BITIM or CITIM; or every scan is wanted
   /// Timers of which every tick may matter: their value is read, something else writes them, or they are not certain to be
   /// executed exactly once in each scan. Of the others only the moment matters when they reach their preset.
-  std::bitset<256> every_tick;
+  std::bitset<image::kTimers> every_tick;
 
   bool operator==(const Looks&) const = default;
 };

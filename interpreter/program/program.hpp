@@ -126,7 +126,9 @@ struct Program {
 
   // Times that the CPU needs while running, taken from `times`.
   Time no_power_flow = 0, interrupt_entry = 0, eeprom_save = 0;
-  std::array<Time, 4> scan_phase{};  ///< input read, communication, self-test, output write
+  /// Parts of a scan other than the program, in order.
+  enum ScanPart : std::size_t { kReadInputs, kCommunication, kSelfTest, kWriteOutputs };
+  std::array<Time, kWriteOutputs + 1> scan_phase{};  ///< by ScanPart
 
   const stl::Statement& statement(std::uint32_t op) const { return statements[op]; }
 

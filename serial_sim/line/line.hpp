@@ -65,8 +65,8 @@ class Line {
   /// that would.
   void drive(int driver, unsigned levels, const BitTimes& times, Time at);
 
-  /// What listeners have heard before this was called stands: `from` should not lie before now. Every listener is told. One
-  /// that ends as it begins is none.
+  /// What listeners have heard before this was called stands: `from` should not lie before now. Every listener is told. Does
+  /// nothing if from >= to.
   void disturb(const Disturbance& disturbance);
 
   /// Every disturbance ends at `at`, whoever made it; those to come do not come.

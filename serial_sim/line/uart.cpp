@@ -120,7 +120,7 @@ void Uart::put_character_with_mishaps(unsigned levels, Time at) {
   sends_until(at);
 }
 
-/// Back with its end. A character without stop bit takes a bit longer, at mark.
+/// Returns its end. A character without stop bit takes a bit longer, at mark.
 Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
   const BitTimes& times = times_of(clock, sending_times_);
   line_.drive(driver_, levels, times, at);

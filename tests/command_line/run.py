@@ -2743,6 +2743,7 @@ class Times(Case):
         self.assertEqual(listed("216"), ["cpu215", "cpu214_from_22x"])
         self.assertEqual((listed("224r1"), listed("224")), (["cpu22x_release1"], ["cpu22x"]))
         self.assertIn("cpu214_from_22x", self.ends(FINE, "times").stdout)
+        self.assertRegex(s7200("run", "--help").stdout, r"--times TABLE +table of execution times: a name that `s7200 times` lists")
 
     def test_tables_stand_side_by_side(self):
         mine = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\nMOVB,,37,,,measured\n", "mine.csv")
@@ -2966,7 +2967,7 @@ class Times(Case):
         self.assertEqual({line["mnemonic"] for line in parts},
                          {"CALL", "RET", "CRET", "LSCR", "SCRE", "LPS", "LPP", "(interrupt entry)", "RETI", "CRETI", "(scan overhead)", "MEND"})
         self.assertRegex(done.stderr, r"(?m)^RET \+ CALL \+ SBR = \d+\.\d\d us ± \d\.\d\d, divided as the estimates are: RET \d+\.\d\d \(± \d+%\), CALL ")
-        reasons = dict(line.strip().split(": ", 1) for line in done.stderr.split("not measured", 1)[1].splitlines()[1:])
+        reasons = dict(line.strip().split(": ", 1) for line in done.stderr.split("not measured separately; estimated as ", 1)[1].splitlines()[1:])
         self.assertEqual({why: names.split() for why, names in reasons.items() if not names.startswith("(")},
                          {"it uses the line": ["XMT", "NETR", "NETW"], "it sets up hardware that may be wired": ["HDEF", "HSC", "PLS"],
                           "it sets the clock": ["TODW"], "it ends the measurement": ["STOP"],
@@ -3004,6 +3005,8 @@ class Times(Case):
     def test_what_calibrate_cannot_use_is_refused_before_it_measures(self):
         for option in (["--times", "cpu214"], ["--no-skip"], ["--ppi-baud", "9600"]):
             self.assertIn(f"{option[0]} needs a PROGRAM to run in simulation", self.ends(UNUSABLE, "calibrate", "tcp://127.0.0.1:1", *option).stderr)
+        self.assertNotIn("needs a PROGRAM", self.ends(UNUSABLE, "calibrate", "tcp://127.0.0.1:1", "--cpu", "224", "--each", "1s").stderr)
+        self.assertRegex(s7200("calibrate", "--help").stdout, "--cpu TYPE.* CPU that is measured")
         self.assertIn("does not go into a table", self.ends(UNUSABLE, "calibrate", MEASURE, "--firmware", "1\n2").stderr)
         quoted = self.folder / "quoted.csv"
         self.ends(FINE, "calibrate", MEASURE, "--each", "1s", "--firmware", 'the "2"', "-o", quoted)
@@ -3027,7 +3030,7 @@ class Times(Case):
 
     def test_a_cpu_that_smb6_tells_to_be_another_is_refused_before_its_loops_are_measured(self):
         done = self.ends(UNUSABLE, "calibrate", self.measured_cpu("226"), "-o", self.folder / "x.csv")
-        self.assertIn("SMB6 = 16#90 is not that of CPU 214 but of CPU 216, 226r1, 226XM, 226: call again with --cpu", done.stderr)
+        self.assertIn("SMB6 = 16#90 belongs to CPU 216, 226r1, 226XM, 226, not to CPU 214: run again with --cpu", done.stderr)
         self.assertFalse((self.folder / "x.csv").exists())
 
     def test_what_was_measured_before_an_interruption_is_written(self):
@@ -3052,7 +3055,7 @@ class Times(Case):
     def test_a_cpu_that_smb6_does_not_tell_is_named_in_a_note(self):
         link = self.measured_cpu("224")
         done = self.ends(FINE, "calibrate", link, "--each", "1s", "-o", self.folder / "x.csv")
-        self.assertIn("SMB6 = 16#20 is that of CPU 214, 224r1, 224, 224XP; CPU 214 was taken", done.stderr)
+        self.assertIn("SMB6 = 16#20 belongs to CPU 214, 224r1, 224, 224XP; the times of CPU 214 were used", done.stderr)
 
     def test_a_cpu_that_stops_while_it_is_measured_says_why(self):
         slow = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\nSQRT,,100000,,,measured\n", "slow.csv")
@@ -3102,7 +3105,7 @@ class Readme(Case):
     TOOLS = ("sigrok-cli", "tshark", "mbpoll", "pytest-3")  # of others; skipped where they are not installed
     # What is in commands that find something wrong, or get no answer: their exit code is 1, and that of all others 0.
     NOT_RIGHT = ("import --compare", "wrong_answer.yaml", "send stl_programs/modbus_slave.stl 0103000a00010000", "--baud 19200", "pointers.stl",
-                 "broken.awl", "--fault flip:", "tip41_modbus_rtu_slave.txt --crc 0106000a1234", "freeport_pc_protocol_zh.txt --cpu 224", "4006381333931",
+                 "broken.awl", "--fault flip:", "freeport_pc_protocol_zh.txt --cpu 224", "4006381333931",
                  "--only 'wrong quantity'", "--conformance tests/conformance/tip41.yaml")
 
     def test_the_five_commands_of_the_readme_end_where_its_table_says(self):

@@ -16,14 +16,6 @@
 namespace s7200::tools {
 namespace {
 
-/// The tables of a CPU, its own first.
-std::vector<const TimeTable*> tables_of(const CpuModel& model, const TimeTable& own) {
-  std::vector<const TimeTable*> tables{&own};
-  for (const NamedTimes& named : named_times())
-    if (!named.own && (named.cpus & model.self)) tables.push_back(&named.table());
-  return tables;
-}
-
 /// First operands that have the same line in each of the tables.
 struct Kind {
   std::vector<const TimeRow*> lines;
@@ -32,14 +24,15 @@ struct Kind {
 
 /// Those of an instruction. What an area adds to any instruction is no kind of its own.
 std::vector<Kind> kinds_of(const Instruction& instruction, const CpuModel& model,
-                           const std::vector<const TimeTable*>& tables) {
+                           const std::vector<const NamedTimes*>& tables) {
+  const TimeTable& own_table = tables.front()->table();
   std::vector<Kind> kinds;
   for (const AreaInfo& area : all_areas()) {
     if (!contains(instruction.operand[0].areas, area.area) || model.size_of(area.area) == 0) continue;
     std::vector<const TimeRow*> lines;
-    for (const TimeTable* table : tables) lines.push_back(table->find(instruction.mnemonic, area.area));
+    for (const NamedTimes* each : tables) lines.push_back(each->table().find(instruction.mnemonic, area.area));
     const TimeRow* own = lines.front();
-    if (!own || (own->areas == 0 && tables.front()->find(name_of(SystemTime::OperandArea), area.area))) continue;
+    if (!own || (own->areas == 0 && own_table.find(name_of(SystemTime::OperandArea), area.area))) continue;
     const auto known = std::ranges::find(kinds, lines, &Kind::lines);
     if (known == kinds.end())
       kinds.push_back({lines, set_of(area.area)});
@@ -185,7 +178,7 @@ std::shared_ptr<const Program> measuring_program(const CpuModel& model, const Ti
 
 TimeTable told_apart(const CpuModel& model) {
   TimeTable own = default_times(model);
-  const std::vector<const TimeTable*> tables = tables_of(model, own);
+  const auto tables = times_of(model);
   std::vector<TimeRow> rows;
   for (const Instruction& instruction : all_instructions()) {
     if (!instruction.modelled() || !(instruction.cpus & model.self) || instruction.rules().empty()) continue;
@@ -194,6 +187,7 @@ TimeTable told_apart(const CpuModel& model) {
     for (const Kind& kind : kinds) {
       rows.push_back(*kind.lines.front());
       rows.back().mnemonics = {std::string(instruction.mnemonic)};
+      rows.back().areas = kind.areas;
       rows.back().form = names_of(kind.areas);
     }
   }
@@ -201,8 +195,8 @@ TimeTable told_apart(const CpuModel& model) {
     return row.mnemonics.front() == name_of(SystemTime::OperandArea) &&
            !own.find(row.mnemonics.front(), area_named(row.form));
   };
-  for (const TimeTable* table : tables) std::ranges::copy_if(table->rows(), std::back_inserter(rows), adds_more);
-  own.add(table_of(rows));
+  for (const NamedTimes* each : tables) std::ranges::copy_if(each->table().rows(), std::back_inserter(rows), adds_more);
+  own.add(TimeTable(std::move(rows)));
   return in_use(own);
 }
 

@@ -85,7 +85,7 @@ std::string source_of(const CpuModel& model, const Measurement& measurement, con
 std::string not_measured_text(const Fit& fit, const CpuModel& model) {
   std::string text;
   for (std::size_t sum = 0; sum < fit.sums.size(); ++sum) text += sum_text(fit, sum);
-  text += fmt::format("not measured, so {:.2f} times the figures of the CPU's own table (the EEPROM's as it is there):",
+  text += fmt::format("not measured separately; estimated as {:.2f} × the CPU's own table (EEPROM save unchanged):",
                       ratio_to_known(fit));
   std::vector<NotMeasured> missing = not_measured(fit, model);
   while (!missing.empty()) {
@@ -101,17 +101,20 @@ std::string not_measured_text(const Fit& fit, const CpuModel& model) {
 void refuse_another_cpu(const CpuModel& model, std::uint8_t identification) {
   const auto alike = cpus_of_type(identification);
   if (type_in(model.identification) == type_in(identification) || alike.empty()) return;
-  throw WrongCpu(fmt::format("SMB6 = 16#{:02X} is not that of CPU {} but of CPU {}: call again with --cpu", identification,
-                             model.name, fmt::join(alike, ", ")));
+  throw WrongCpu(fmt::format("SMB6 = 16#{:02X} belongs to CPU {}, not to CPU {}: run again with --cpu", identification,
+                             fmt::join(alike, ", "), model.name));
 }
 
 std::string doubt_about_cpu(const CpuModel& model, std::uint8_t identification, bool known) {
   const auto alike = cpus_of_type(identification);
   const std::string of = fmt::format("{}", fmt::join(alike, ", "));
-  if (alike.empty()) return fmt::format("SMB6 = 16#{:02X} is that of no CPU; CPU {} was taken", identification, model.name);
+  if (alike.empty())
+    return fmt::format("SMB6 = 16#{:02X} belongs to no known CPU; the times of CPU {} were used", identification,
+                       model.name);
   if (known || alike.size() == 1) return {};
-  return fmt::format("SMB6 = 16#{:02X} is that of CPU {}; CPU {} was taken: if it is another, measure again with --cpu",
-                     identification, of, model.name);
+  return fmt::format(
+      "SMB6 = 16#{:02X} belongs to CPU {}; the times of CPU {} were used: if it is another, run again with --cpu",
+      identification, of, model.name);
 }
 
 std::string interruption_note(const Measurement& measurement, std::size_t loops) {

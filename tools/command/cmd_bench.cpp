@@ -75,7 +75,7 @@ int run_bench(const BenchOptions& options) {
     fmt::print("{}", lines_of(results));
     return kFine;
   }
-  fmt::print("{}: best of five rounds on one core\n", stl::printable(program->source.name));
+  fmt::print("{}: best of {} rounds on one core\n", stl::printable(program->source.name), kRounds);
   for (const Figure& f : figures) print_line(f, *before);
   return kFine;
 }

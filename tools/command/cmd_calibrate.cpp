@@ -100,14 +100,15 @@ void add_calibrate(CLI::App& app, int& exit_code) {
       ->type_name("TEXT");
   const std::size_t before = verb->get_options().size();
   options->program.CpuOptions::add_to(*verb);
-  options->cpu = verb->get_option("--cpu");
-  for (CLI::Option* option : verb->get_options())
-    if (option != options->cpu) options->of_programs.push_back(option);
-  options->of_programs.erase(options->of_programs.begin(),
-                             options->of_programs.begin() + static_cast<std::ptrdiff_t>(before));
+  options->cpu = verb->get_option("--cpu")->description("CPU that is measured");
+  const auto all = verb->get_options();
+  for (std::size_t i = before; i < all.size(); ++i)
+    if (all[i] != options->cpu) options->of_programs.push_back(all[i]);
   verb->add_flag("--json", options->json, "print what was found as JSON");
   verb->footer(
-      fmt::format("{}\n{}Example: s7200 calibrate stl_programs/measure_times.stl --each 1s", how_to_measure("\n"),
+      fmt::format("{}\n{}Exit code 1 if it was interrupted, with what was measured until then; 2 if the CPU does not answer "
+                  "or is not that of --cpu.\nExample: s7200 calibrate stl_programs/measure_times.stl --each 1s",
+                  how_to_measure("\n"),
                   slave_targets_help({SlaveTarget::Kind::System, SlaveTarget::Kind::ModbusTcp, SlaveTarget::Kind::Peer},
                                      "a serial line at 9600 8E1")));
   verb->callback([options, &exit_code] { exit_code = run_calibrate(*options); });

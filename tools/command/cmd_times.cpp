@@ -79,23 +79,24 @@ void add_times(CLI::App& app, int& exit_code) {
   auto* tables = verb->add_option("TABLE", options->tables, "names of tables, or CSV files, to show side by side");
   tables->check(refuse_no_name);
   options->cpu.add_cpu_and_times_to(*verb, "CPU whose times these are");
-  auto* check = verb->add_option("--check", options->checked, "say which statements known from real CPUs hold with a table")
+  auto* check = verb->add_option("--check", options->checked, "check a table against what is known of real CPUs")
                     ->check(refuse_no_name)
                     ->type_name("TABLE");
   verb->add_option("--tip41", options->tip41, "with --check: the document of Application Tip 41, for what it says of itself")
       ->type_name("FILE")
       ->needs(check);
   auto* random = add_whole_number(*verb, "--band-table", options->band_table, {1, 100'000},
-                                  "show that random table of --times-band, by the number that send, master or test name")
+                                  "show this random table of --times-band, by the number that send, master or test name")
                      ->excludes(tables);
-  add_whole_number(*verb, "--band-seed", options->band_seed, {0, UINT32_MAX}, "its seed", "1")->needs(random);
+  add_whole_number(*verb, "--band-seed", options->band_seed, {0, UINT32_MAX}, "seed of the random table", "1")
+      ->needs(random);
   for (CLI::Option* other : {tables, verb->get_option("--times"), random}) check->excludes(other);
   verb->get_option("--times")->excludes(tables);
   auto* csv =
       verb->add_flag("--csv", options->csv, "print as CSV, the form --times reads")->excludes(tables)->excludes(check);
   verb->add_flag("--json", options->json, "print as JSON")->excludes(csv);
   verb->footer(
-      "A figure is within so many percent: the true one lies between it / 1.25 and it × 1.25 if that says 25%.\n"
+      "'within 25%': the true time lies between figure / 1.25 and figure × 1.25.\n"
       "Example: s7200 times --cpu 224 --csv > my_times.csv\n"
       "         s7200 times cpu214 cpu214_from_22x my_times.csv\n"
       "         s7200 times --check cpu214_from_22x --tip41 tip41.txt\n"

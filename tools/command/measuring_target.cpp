@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "interpreter/base/text.hpp"
+#include "tools/calibration/measure_protocol.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
@@ -20,17 +21,13 @@
 namespace s7200::tools {
 namespace {
 
-/// Of an answer of measure_times.stl.
-constexpr std::size_t kAnswerLength = 11;
-
+/// Lines of whole sentences.
 constexpr std::array<std::string_view, 4> kHowTo{
-    "measure_times.stl must be in the CPU, and the CPU in RUN. To put it there: s7200 convert "
-    "stl_programs/measure_times.stl",
-    "--to microwin, paste the blocks into Micro/WIN, download them to a CPU whose outputs are not wired to a plant, and set "
-    "the",
-    "switch to RUN; then connect port 0 and call this again. It answers at 9600 baud, 8 data bits, even parity. A CPU does "
-    "not",
-    "say whether it is, for example, a 214 or a 224, whose SMB6 are alike: say it with --cpu."};
+    "measure_times.stl must be in the CPU, the CPU in RUN, and its port 0 connected.",
+    "To put it there: s7200 convert stl_programs/measure_times.stl --to microwin, paste the blocks into Micro/WIN and "
+    "download them.",
+    "Take a CPU whose outputs are not wired to a plant. The program answers at 9600 baud, 8 data bits, even parity.",
+    "SMB6 is the same for a 214 and a 224, so name the CPU with --cpu."};
 
 void show_progress(std::size_t done, std::size_t all) {
   if (!can_redraw(stderr)) return;
@@ -59,7 +56,7 @@ std::unique_ptr<MeasuringTarget> MeasuringTarget::open(const std::string& name, 
   auto result = std::make_unique<MeasuringTarget>();
   if (target.kind != SlaveTarget::Kind::Program) {
     result->slave_ = connect(target, {.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1},
-                             [](std::span<const std::uint8_t> answer) { return answer.size() == kAnswerLength; });
+                             [](std::span<const std::uint8_t> answer) { return answer.size() == measuring::kAnswerLength; });
     return result;
   }
   options.path = name;

@@ -20,12 +20,10 @@ TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable
   if (!table.empty()) return TimesBand({{table, std::move(times)}}, settings);
   std::vector<TimesBand::Named> tables;
   std::vector<std::string> errors;  // there are none in tables that have a name
-  for (const bool own : {true, false})
-    for (const NamedTimes& named : named_times())
-      if (named.own == own && (named.cpus & model.self)) {
-        const std::string name(named.name);
-        tables.push_back({name, *load_times(model, name, errors)});
-      }
+  for (const NamedTimes* named : times_of(model)) {
+    const std::string name(named->name);
+    tables.push_back({name, *load_times(model, name, errors)});
+  }
   return TimesBand(std::move(tables), settings);
 }
 

@@ -1,5 +1,6 @@
 #include "tools/measuring/measure.hpp"
 
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -51,13 +52,13 @@ Lap timed(Work work) {
   return {done, HostClock::now() - begin};
 }
 
-/// Best of five rounds: what the machine can do, not what else it was doing.
+/// Of the best round: what the machine can do, not what else it was doing.
 template <class Round>
 double best_rate(Time each, Round round) {
   double best = 0;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < kRounds; ++i) {
     Lap sum;
-    for (const auto begin = HostClock::now(); HostClock::now() - begin < std::chrono::nanoseconds(each / 5);) {
+    for (const auto begin = HostClock::now(); HostClock::now() - begin < std::chrono::nanoseconds(each / kRounds);) {
       const Lap lap = round();
       sum.work += lap.work;
       sum.time += lap.time;
@@ -285,18 +286,15 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
 }
 
 std::vector<Figure> measure_mixed(Time each) {
-  const CpuModel& model = *find_cpu("226XM");
+  const CpuModel& model = cpu226xm();
   std::vector<Figure> figures;
-  const auto mixed = [&](std::string_view name, std::uint32_t instructions) {
+  for (const std::uint32_t instructions : kMixedLengths) {
     serial::Simulation simulation(check_text(mixed_program(instructions), "mixed.stl", model, default_times(model)).program);
     simulation.cpu().use_steady_scans(SteadyScansUse::Off);
     simulation.power_up();
-    figures.push_back(
-        {name, "instructions", best_rate(each, [&] { return timed([&] { return mixed_scans(simulation); }); })});
-  };
-  constexpr std::array<std::string_view, kMixedLengths.size()> kNames{"340 instructions, mixed", "1900 instructions, mixed",
-                                                                      "4000 instructions, mixed"};
-  for (std::size_t i = 0; i < kNames.size(); ++i) mixed(kNames[i], kMixedLengths[i]);
+    figures.push_back({fmt::format("{} instructions, mixed", instructions), "instructions",
+                       best_rate(each, [&] { return timed([&] { return mixed_scans(simulation); }); })});
+  }
   return figures;
 }
 
@@ -351,7 +349,7 @@ RETI
 std::vector<Figure> measure_files(Time each) {
   constexpr std::uint32_t kLines = 100'000;
   const std::string listing = long_listing(kLines);
-  const CpuModel& model = *find_cpu("226XM");
+  const CpuModel& model = cpu226xm();
   const TimeTable times = default_times(model);
   const auto check_listing = [&] {
     std::string why;

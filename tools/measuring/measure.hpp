@@ -13,7 +13,8 @@
 namespace s7200::tools {
 
 struct Figure {
-  std::string_view name, unit;
+  std::string name;
+  std::string_view unit;
   double per_second = 0;
   double takes = 0;  ///< instead of a rate, and the less the better
 
@@ -21,7 +22,10 @@ struct Figure {
   double speed() const { return takes > 0 ? 1 / takes : per_second; }
 };
 
-/// The best of five rounds on one core, each figure for `each` of the host's time. The program is a Modbus slave at address
+/// How many rounds share the time of a figure; the best one counts.
+inline constexpr int kRounds = 5;
+
+/// The best round on one core, each figure for `each` of the host's time. The program is a Modbus slave at address
 /// 1; throws std::runtime_error if it does not answer.
 std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time each);
 

@@ -76,8 +76,7 @@ std::vector<Area> areas_of(const Instruction& instruction, const CpuModel& model
 
 std::vector<Line> lines_of_all(const CpuModel& model, const std::vector<TitledTimes>& tables) {
   std::vector<Line> lines;
-  for (const SystemTime what : {SystemTime::NoPowerFlow, SystemTime::IndirectOperand, SystemTime::OperandArea,
-                                SystemTime::InterruptEntry, SystemTime::ScanOverhead, SystemTime::EepromSave}) {
+  for (const SystemTime what : kSystemTimes) {
     std::vector<Area> areas;
     if (what == SystemTime::OperandArea)
       for (const AreaInfo& area : all_areas())
@@ -146,16 +145,15 @@ nlohmann::ordered_json table_json(const TimeTable& times) {
 
 std::string tables_text(const CpuModel& model) {
   std::string text = fmt::format("Tables for CPU {}, for --times:\n", model.name);
-  for (const NamedTimes& times : named_times())
-    if (times.cpus & model.self)
-      text += fmt::format("  {:<18} {}{}\n", times.name, times.about, times.own ? "; the CPU's own" : "");
+  for (const NamedTimes* times : times_of(model))
+    text += fmt::format("  {:<18} {}{}\n", times->name, times->about, times->own ? "; the CPU's own" : "");
   return text;
 }
 
 nlohmann::ordered_json tables_json(const CpuModel& model) {
   auto tables = nlohmann::ordered_json::array();
-  for (const NamedTimes& times : named_times())
-    if (times.cpus & model.self) tables.push_back({{"name", times.name}, {"about", times.about}, {"own", times.own}});
+  for (const NamedTimes* times : times_of(model))
+    tables.push_back({{"name", times->name}, {"about", times->about}, {"own", times->own}});
   return tables;
 }
 

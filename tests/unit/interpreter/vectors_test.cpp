@@ -107,7 +107,7 @@ class Execution {
     if (!checked_.program) return "the checker refuses it: " + checked_.diagnostics.at(0).message + "\n";
     Cpu cpu(checked_.program, queue_, EventOwner{}, {&port_});
     cpu.power_up();
-    cpu.run(checked_.program->scan_phase[0]);
+    cpu.run(checked_.program->scan_phase[Program::kReadInputs]);
     prepare(cpu);
     const Time start = cpu.time();
     const Image before = cpu.state().image;

@@ -20,7 +20,7 @@ unsigned BandOptions::every_core() { return std::max(1U, std::thread::hardware_c
 
 void BandOptions::add_tables_to(CLI::App& app) {
   auto* band = add_whole_number(app, "--times-band", settings_.random, {1, 100'000},
-                                "how sure it is: with every table of times and N random ones around them");
+                                "show how far results depend on the times: run with every named table and N random ones");
   add_whole_number(app, "--band-seed", settings_.seed, {0, UINT32_MAX}, "seed of the random tables", "1")->needs(band);
 }
 

@@ -71,10 +71,10 @@ void CpuOptions::add_cpu_and_times_to(CLI::App& app, const std::string& meaning)
   add_cpu_option(app, cpu, meaning);
   std::vector<std::string> tables;
   for (const NamedTimes& times : named_times()) tables.emplace_back(times.name);
-  offer_beside_files(app.add_option("--times", times_table,
-                                    "execution times: the name of a table, or a CSV file; both as `s7200 times` has them"),
-                     tables)
-      ->type_name("FILE");
+  offer_beside_files(
+      app.add_option("--times", times_table, "table of execution times: a name that `s7200 times` lists, or a CSV file"),
+      tables)
+      ->type_name("TABLE");
 }
 
 void CpuOptions::add_to(CLI::App& app) {
