@@ -222,6 +222,9 @@ TEST(SystemFile, PlcsOfOneLineThatMayAnswerAtTheSamePpiStationAreNamed) {
           "plcs: {{a: {{program: {0}, cpu: 226}}}}\nlines: {{one: {{stations: [a]}}, two: {{stations: [a.1]}}}}\n", ppi)),
       Warnings{})
       << "two lines";
+  EXPECT_EQ(
+      warnings_of(fmt::format("plcs: {{a: {{program: {}, cpu: 226}}}}\nlines: {{bus: {{stations: [a, a.1]}}}}\n", ppi)),
+      Warnings{"PPI station 2 on line 'bus' is a, a.1: they answer at the same time, and the answers collide"});
 }
 
 TEST(SystemFile, PlcsOfOneLineThatAnswerAtTheSameModbusStationAreNamed) {
@@ -240,6 +243,8 @@ TEST(SystemFile, PlcsOfOneLineThatAnswerAtTheSameModbusStationAreNamed) {
   EXPECT_EQ(warnings(", station: 5", ", station: 5", kOneLine), both(5));
   EXPECT_EQ(warnings(", station: 5", "", kOneLine), std::vector<std::string>{});
   EXPECT_EQ(warnings("", "", kTwo), std::vector<std::string>{});
+  EXPECT_EQ(warnings(", cpu: 226", "", "bus: {stations: [a, a.1]}, other: {stations: [b]}"), std::vector<std::string>{})
+      << "it answers at one of its ports";
 }
 
 TEST(SystemFile, PowerThatStaysAsItIsIsNamed) {
