@@ -302,7 +302,7 @@ class Verbs(Case):
                         answers = answers.split(exchange["response"], 1)[1]
                     if protocol == "pc500-loader":
                         texts = [frame["text"] for frame in decoded["frames"]]
-                        self.assertEqual((texts.count("begin of a session"), texts.count("session closed")), (len(exchanges), len(exchanges)))
+                        self.assertEqual((texts.count("start of a session"), texts.count("session closed")), (len(exchanges), len(exchanges)))
 
     def test_a_capture_has_every_attempt_as_a_request_and_none_as_its_answer(self):
         for protocol, (_, words, silent) in self.RECORDED.items():
