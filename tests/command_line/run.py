@@ -1763,7 +1763,7 @@ lines:
                           if re.search("power|cable|fault|programming device", line)],
                          ["bus 1000.000000 cable cut after slave1", "bus 1100.000000 cable whole again",
                           "bus 1200.000000 fault parity:character=2 of slave1", "bus 1250.000000 no fault any more",
-                          "slave2 1300.000000 power off", "slave2 1350.000000 a programming device sets VW0 to 16#0005, SMB30 to 16#09: nothing, for there is no power",
+                          "slave2 1300.000000 power off", "slave2 1350.000000 a programming device sets VW0 to 16#0005, SMB30 to 16#09: no effect, the PLC has no power",
                           "slave2 1800.000000 power on", "slave2 1850.000000 a programming device sets VW0 to 16#0005",
                           "slave2 1850.000000 a programming device sets VW0 to 16#0006",
                           "slave2 1850.000000 a programming device sets VW0 to 16#0005, I0.3 to 16#1", "master 1900.000000 power off"])
