@@ -1983,8 +1983,16 @@ lines:
         done = self.ends(UNUSABLE, "test", scenario, "--target", SLAVE)
         self.assertIn("which --target cannot replace", done.stdout)
 
+    def test_a_slow_cpu_is_polled_for_a_second_and_the_latency_is_that_of_its_answer(self):
+        slow = SOURCE / "tests/programs/long_scan.stl"
+        asked = self.json(FINE, "master", "--protocol", "ppi", slow, "--cpu", "226", "--ppi-baud", "187500", "status", "write", "VB100=7", "read", "VB100",
+                          "--json")["exchanges"]
+        self.assertEqual([each["attempts"] for each in asked], [1, 1, 1])
+        self.assertAlmostEqual(asked[0]["latency_us"], 58.667)
+        self.assertGreater(asked[1]["latency_us"] + asked[2]["latency_us"], 60_000, "a scan takes 73 ms, and a request waits for its end")
+
     def test_ports_in_ppi_mode_have_the_rate_of_the_system_block(self):
-        ask = ["master", "--protocol", "ppi", SLAVE, "--cpu", "226", "--port", "1", "write", "VW20=4660", "read", "VW20"]
+        ask = ["master", "--protocol", "ppi", SLAVE, "--cpu", "226", "--port", "1", "status", "write", "VW20=4660", "read", "VW20"]
         self.assertIn("after 1.146 ms", self.ends(FINE, *ask).stdout)
         for rates in ("187500", "9600,187500"):
             shown = self.ends(FINE, *ask, "--ppi-baud", rates).stdout
@@ -1999,7 +2007,7 @@ lines:
             self.assertIn(why, self.ends(UNUSABLE, "run", SLAVE, *arguments, "--scans", "1").stderr)
         system = self.program(f"plcs: {{a: {{program: {SLAVE}, cpu: 226, ppi_baud: \"9600,187500\"}}}}\nlines: {{l: {{stations: [a.1]}}}}\n",
                               "system.yaml")
-        self.assertIn("after 58.667 us", self.ends(FINE, "master", "--protocol", "ppi", system, "read", "VW20").stdout)
+        self.assertIn("after 58.667 us", self.ends(FINE, "master", "--protocol", "ppi", system, "status").stdout)
         for option in ("--ppi-baud", "--ppi-station"):
             self.assertIn(f"{option} is about one PLC", self.ends(UNUSABLE, "run", system, option, "19").stderr)
 
