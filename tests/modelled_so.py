@@ -2,7 +2,8 @@
 """The page of choices: what no manual says, and how it is modelled.
 
 The choices stand where they are made, in comments that begin with "Not documented, modelled so:". Each ends with the test
-that pins it, in brackets. This script puts them together as MODELLED_SO.md.
+that pins it, in brackets. This script puts them together as MODELLED_SO.md. Choices about the Westinghouse PLCs are settings and
+options with the mark of their reference, `L7`: the name of a test that pins one begins with it.
 
     tests/modelled_so.py          compare the committed page with the comments, and look for each test; exit code 1 if either fails
     tests/modelled_so.py --write  write the page
@@ -69,6 +70,14 @@ def collected():
                 yield path.relative_to(ROOT), found, broken
 
 
+def marks():
+    """Those of settings, `{"coils", "M10",`, and of a master's options, `"--timeout [L10]"`."""
+    for path in sorted((ROOT / "serial_sim" / "westinghouse").glob("*.[ch]pp")):
+        yield from re.findall(r'(?:\{"\w+"|settings\(\s*rows),\s*"([A-Z]\d+)"', path.read_text(encoding="utf-8"))
+    for path in sorted((ROOT / "tools" / "master").glob("*.cpp")):
+        yield from re.findall(r'\[([A-Z]\d+)\]"', path.read_text(encoding="utf-8"))
+
+
 def main():
     page, tests, problems = HEAD, [], []
     for path, items, broken in collected():
@@ -90,6 +99,9 @@ def main():
         known = name in vectors if suite == "Vectors" else re.search(rf"TEST(_F|_P)?\({suite},\s*{name}\)", sources)
         if not known:
             problems.append(f"there is no test {test}")
+    for mark in sorted(set(marks())):
+        if not re.search(rf"TEST(_F|_P)?\(\w+,\s*{mark}[A-Z]", sources):
+            problems.append(f"there is no test whose name begins with {mark}")
     if "--write" in sys.argv[1:]:
         PAGE.write_text(page, encoding="utf-8")
     elif not PAGE.exists() or PAGE.read_text(encoding="utf-8") != page:

@@ -12,10 +12,8 @@ namespace {
 using Phase = NetworkPort::Phase;
 using Span = std::span<const std::uint8_t>;
 
-constexpr Time kTimeOutTime = 150 * kMillisecond;  // and three tries: what clients give a CPU (facts 10.9)
+constexpr Time kReplyTimeout = 150 * kMillisecond;  // and three tries: what clients give a CPU (facts 10.9)
 constexpr int kTries = 3;
-
-constexpr Time kLongestWork = kSecond;  // a choice: network.hpp
 
 // Places in a table.
 constexpr std::uint32_t kStation = 1, kPointer = 2, kLength = 6, kData = 7;
@@ -86,7 +84,7 @@ void send(Core& core, std::uint8_t number, std::uint8_t function, const Bytes& d
   const Bytes frame = ppi::to_frame({core.s.network[number].jobs.front().station, core.s.station[number], function, data});
   ppi::send(core, number, frame, at);
   const Time end = at + static_cast<Time>(frame.size()) * ppi::format_of(core.program(), number).character_time();
-  core.schedule(end + kTimeOutTime, timer_of(number));
+  core.schedule(end + kReplyTimeout, timer_of(number));
 }
 
 void ask(Core& core, std::uint8_t number, Time at) {
@@ -199,7 +197,7 @@ void heard(Core& core, std::uint8_t number, Span frame, Time at) {
   if (const auto body = ppi::body_of(frame)) return take_reply(core, number, *body);
   if (frame.size() != 1 || frame[0] != ppi::kAccepted) return;
   if (port.phase == Phase::Asked) port.accepted = at;
-  if (at - port.accepted > kLongestWork) return end(core, number, failed(NetworkError::TimeOut));
+  if (at - port.accepted > s7::kLongestWork) return end(core, number, failed(NetworkError::TimeOut));
   port.frame_count = port.phase == Phase::Polled && !port.frame_count;
   port.tries = 1;
   poll(core, number, at);

@@ -14,17 +14,6 @@ namespace {
 using namespace s7;
 using Span = std::span<const std::uint8_t>;
 
-/// A variable of a request.
-struct Variable {
-  std::uint8_t type, area;
-  std::uint16_t count, block;
-  std::uint32_t address;
-};
-
-Variable variable_at(Span bytes) {
-  return {bytes[3], bytes[8], load16(&bytes[4]), load16(&bytes[6]), load32(&bytes[8]) & 0xFF'FFFF};
-}
-
 /// Where a variable is, or why it is nowhere.
 struct Place {
   ReturnCode code = kDone;
@@ -42,7 +31,7 @@ std::uint32_t bytes_of_type(std::uint8_t type) {
 }
 
 /// T, C and HC go by number; their type has the code of their area.
-Place find_element(const Core& core, const Variable& variable, const AreaInfo& area) {
+Place find_element(const Core& core, const WireVariable& variable, const AreaInfo& area) {
   if (variable.type != variable.area) return {.code = kWrongType};
   if (variable.count == 0 || variable.address + variable.count > core.model().size_of(area.area)) return {.code = kOutside};
   return {.area = area.area,
@@ -52,7 +41,7 @@ Place find_element(const Core& core, const Variable& variable, const AreaInfo& a
 }
 
 /// All others go by bits.
-Place find_bytes(const Core& core, const Variable& variable, const AreaInfo& area) {
+Place find_bytes(const Core& core, const WireVariable& variable, const AreaInfo& area) {
   const std::uint32_t first = variable.address / 8;
   const auto bit = static_cast<std::uint8_t>(variable.address % 8);
   const bool is_bit = variable.type == kBit;
@@ -63,7 +52,7 @@ Place find_bytes(const Core& core, const Variable& variable, const AreaInfo& are
   return {.area = area.area, .at = area.base + first, .bytes = bytes, .bit = is_bit ? std::optional(bit) : std::nullopt};
 }
 
-Place find_in_identification(const Variable& variable) {
+Place find_in_identification(const WireVariable& variable) {
   const std::uint32_t first = variable.address / 8, bytes = variable.count * bytes_of_type(variable.type);
   if (variable.type == kBit || bytes_of_type(variable.type) == 0 || variable.address % 8 != 0) return {.code = kWrongType};
   if (bytes == 0 || first + bytes > kIdentificationBytes) return {.code = kOutside};
@@ -75,7 +64,7 @@ const WireArea* find_area(std::uint8_t code) {
   return found == kWireAreas.end() ? nullptr : &*found;
 }
 
-Place find(const Core& core, const Variable& variable) {
+Place find(const Core& core, const WireVariable& variable) {
   if (variable.area == kSystemInformation) return find_in_identification(variable);
   const WireArea* found = find_area(variable.area);
   if (found == nullptr || (found->area == Area::V && variable.block != kBlockOfV)) return {.code = kNoArea};
@@ -84,7 +73,7 @@ Place find(const Core& core, const Variable& variable) {
 }
 
 /// How many bytes are asked for, wherever they are.
-std::uint32_t bytes_wanted(const Variable& variable) {
+std::uint32_t bytes_wanted(const WireVariable& variable) {
   const WireArea* wire = find_area(variable.area);
   const std::uint32_t element = wire == nullptr ? 0 : info(wire->area).element;
   if (element != 0) return variable.count * element;
@@ -162,7 +151,7 @@ class Request {
     core_.trace(record);
   }
 
-  void trace(const Variable& variable, const Place& place) const {
+  void trace(const WireVariable& variable, const Place& place) const {
     const bool found = place.code == kDone;
     core_.trace({.at = core_.s.time,
                  .kind = TraceKind::PpiAccess,
@@ -188,8 +177,8 @@ class Request {
   }
 
   /// The variables that the parameters list; none if they are not what they should be.
-  std::vector<Variable> variables() const {
-    std::vector<Variable> found;
+  std::vector<WireVariable> variables() const {
+    std::vector<WireVariable> found;
     if (parameters_.size() < 2 || parameters_.size() != 2 + parameters_[1] * kVariableBytes) return found;
     for (std::size_t at = 2; at < parameters_.size(); at += kVariableBytes) {
       const Span bytes = parameters_.subspan(at, kVariableBytes);
@@ -200,10 +189,10 @@ class Request {
   }
 
   Reply read() {
-    const std::vector<Variable> wanted = variables();
+    const std::vector<WireVariable> wanted = variables();
     if (wanted.empty()) return refused(Refusal::Malformed);
     Reply reply{.parameters = {kRead, parameters_[1]}};
-    for (const Variable& variable : wanted) {
+    for (const WireVariable& variable : wanted) {
       const Place place = find(core_, variable);
       if (reply.data.size() + std::max(place.bytes, place.in_data) > kLongestPdu) return refused(Refusal::TooLong);
       if (reply.data.size() % 2 != 0) reply.data.push_back(0);
@@ -247,7 +236,7 @@ class Request {
 
   /// All of them are there, or nothing is written.
   Reply write() {
-    const std::vector<Variable> wanted = variables();
+    const std::vector<WireVariable> wanted = variables();
     const std::vector<Span> values = values_of(wanted.size());
     if (values.empty()) return refused(Refusal::Malformed);
     Reply reply{.parameters = {kWrite, parameters_[1]}};
@@ -275,8 +264,7 @@ class Request {
 
   std::optional<Span> value_at(std::size_t at) const {
     if (at + 4 > data_.size()) return {};
-    const std::size_t length = load16(&data_[at + 2]);
-    const std::size_t bytes = data_[at + 1] == kInBitsOfBytes ? length / 8 : length;
+    const std::size_t bytes = data_bytes(data_[at + 1], load16(&data_[at + 2]));
     if (at + 4 + bytes > data_.size()) return {};
     return data_.subspan(at + 4, bytes);
   }

@@ -75,6 +75,14 @@ void append(Bytes& to, const Variable& variable) {
   append(to, variable.type, variable.count, variable.area == Area::V ? 1 : 0, code_of(variable.area), variable.first);
 }
 
+WireVariable variable_at(std::span<const std::uint8_t> bytes) {
+  return {bytes[3], bytes[8], load16(&bytes[4]), load16(&bytes[6]), load32(&bytes[8]) & 0xFF'FFFF};
+}
+
+std::size_t data_bytes(std::uint8_t type, std::size_t length) {
+  return type == kInBits || type == kInBitsOfBytes ? (length + 7) / 8 : length;
+}
+
 void append_identification(Bytes& to) { append(to, kByte, kIdentificationBytes, 0, kSystemInformation, 0); }
 
 Bytes pdu(Kind kind, std::uint16_t number, const Bytes& parameters, const Bytes& data) {

@@ -30,6 +30,7 @@
 #include <string_view>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/time.hpp"
 #include "interpreter/model/area.hpp"
 
 namespace s7200::s7 {
@@ -37,6 +38,9 @@ namespace s7200::s7 {
 inline constexpr std::uint8_t kProtocol = 0x32;
 enum Kind : std::uint8_t { kRequest = 1, kAnswer = 3, kUserData = 7 };
 inline constexpr std::size_t kRequestHead = 10, kAnswerHead = 12, kLongestPdu = 240;
+
+/// How long a master asks for the answer to a request that was accepted (a choice: interpreter/cpu/network.hpp).
+inline constexpr Time kLongestWork = kSecond;
 
 enum Function : std::uint8_t { kRead = 0x04, kWrite = 0x05, kRun = 0x28, kStop = 0x29, kSetup = 0xF0 };
 
@@ -57,6 +61,9 @@ std::optional<Width> width_of(std::uint8_t type);
 
 /// What the length of its data counts.
 enum DataType : std::uint8_t { kInBits = 3, kInBitsOfBytes = 4, kInBytes = 9 };
+
+/// How many bytes a value has whose data say this.
+std::size_t data_bytes(std::uint8_t type, std::size_t length);
 
 struct WireArea {
   std::uint8_t code;
@@ -108,6 +115,15 @@ struct Variable {
   std::uint32_t first;  ///< bit of the area, 24 bits; of T, C and HC their number
 };
 void append(Bytes& to, const Variable& variable);
+
+/// The same as it stands there, whatever it is: not every type and area is known.
+struct WireVariable {
+  std::uint8_t type, area;
+  std::uint16_t count, block;
+  std::uint32_t address;  ///< as Variable::first
+};
+/// Of kVariableBytes.
+WireVariable variable_at(std::span<const std::uint8_t> bytes);
 
 /// The identification as a variable, to read.
 void append_identification(Bytes& to);

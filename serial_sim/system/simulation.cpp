@@ -33,7 +33,7 @@ void Simulation::let_master_follow(std::function<SerialFormat(const SerialFormat
   const auto follow = [this, of = std::move(of)](const SerialFormat& port, Time at) {
     if (!master().asks()) master_uart().configure(of(port), at);
   };
-  follow(freeport().format, time());
+  follow(port_format(), time());
   plc_->when_configured(follow, port_);
 }
 

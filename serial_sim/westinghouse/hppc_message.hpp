@@ -21,6 +21,7 @@ namespace s7200::westinghouse {
 
 /// Both are CCITT's but for one entry of the document's table, which is not a misprint according to its text.
 enum class FcsTable : std::uint8_t { Document, Polynomial };
+inline constexpr std::array<std::string_view, 2> kFcsWords{"document", "polynomial"};  ///< in its order
 
 std::uint16_t hppc_fcs(std::span<const std::uint8_t> bytes, FcsTable table);
 

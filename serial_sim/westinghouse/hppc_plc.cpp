@@ -221,21 +221,26 @@ const std::vector<Setting<HppcPlc>>& HppcPlc::settings() {
     };
     add({"port", "", "where the computer is plugged in", Word, {"sim0", "iop"}}, &S::port);
     add({"run", "", "whether the processor runs", Word, {"running", "stopped"}}, &S::run);
-    add({"fcs", "", "frame check: with the odd entry of the document's table, or without", Word, {"document", "polynomial"}},
+    add({"fcs",
+         "",
+         "frame check: with the odd entry of the document's table, or without",
+         Word,
+         {kFcsWords.begin(), kFcsWords.end()}},
         &S::fcs);
     add({"edit_lo", "H8", "register in error responses", Hex, {}, 0, UINT16_MAX}, &S::edit_lo);
     add({"answer_after", "", "characters of silence before an answer", Decimal, {}, 1, 200}, &S::answer_after);
     add_line_settings(
         rows, "H1", [](auto& plc) -> auto& { return plc.settings_.line; });
-    add({"search_ms", "H2", "how long after power-up it looks for its line", Decimal, {}, 0, 10'000}, &S::search_ms);
+    add({"search_ms", "H2", "milliseconds after power-up that it looks for its line", Decimal, {}, 0, 10'000},
+        &S::search_ms);
     add({"zero_byte", "H3", "the fifth byte of a message", Word, {"ignored", "checked"}}, &S::zero_byte);
     add_to_layout({"read_request", "H4", "operands of a read", Word, {"address_and_number", "number"}}, &L::read_request);
     add_to_layout({"bit_write", "H5", "order of the words of a bit write", Word, {"pattern_first", "mask_first"}},
                   &L::bit_write);
-    add_to_layout({"monitor_address_bytes", "H6", "of each address of a monitor", Decimal, {}, 3, 4},
+    add_to_layout({"monitor_address_bytes", "H6", "bytes of each address of a monitor", Decimal, {}, 3, 4},
                   &L::monitor_address_bytes);
-    add({"status", "H7", "of a monitor; FF: as the processor and the networks are"}, &S::status);
-    add({"errors", "H8", "what is wrong", Word, {"answered", "ignored"}}, &S::errors);
+    add({"status", "H7", "status in the answer to a monitor; FF: as the processor and the networks are"}, &S::status);
+    add({"errors", "H8", "what it does with a request that is wrong", Word, {"answered", "ignored"}}, &S::errors);
     rows.push_back(
         {{"table", "H10", "parameter table as in section 6.6, or as in the printed example", Word, {"section66", "example"}},
          [](const HppcPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.table); },

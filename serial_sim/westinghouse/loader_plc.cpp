@@ -201,14 +201,16 @@ const std::vector<Setting<LoaderPlc>>& LoaderPlc::settings() {
     };
     add_line_settings(
         rows, "", [](auto& plc) -> auto& { return plc.settings_.line; });
-    add({"latency_us", "", "of an answer", Decimal, {}, 0, 10'000}, &S::latency_us);
+    add({"latency_us", "", "microseconds from a request to its answer", Decimal, {}, 0, 10'000}, &S::latency_us);
     add({"directory", "S1", "block whose address is the first of the directory", Word, {"db0", "db1"}}, &S::directory);
-    add({"head_bytes", "S2", "00 before the pointers of the system parameters", Decimal, {}, 0, 16}, &S::head_bytes);
-    add({"tail_bytes", "S2", "00 after them", Decimal, {}, 0, 64}, &S::tail_bytes);
-    add({"dle", "S3", "a byte 10 in data of the PLC", Word, {"doubled", "plain"}}, &S::dle);
-    add({"timeout_ms", "S4", "for each byte within a session", Decimal, {}, 1, 10'000}, &S::timeout_ms);
-    add({"nak", "S4", "10 15 to what does not fit", Word, {"sent", "silent"}}, &S::nak);
-    add({"writable", "S5", "all of memory, or user memory and images only", Word, {"all", "areas"}}, &S::writable);
+    add({"head_bytes", "S2", "bytes 00 before the pointers of the system parameters", Decimal, {}, 0, 16}, &S::head_bytes);
+    add({"tail_bytes", "S2", "bytes 00 after the pointers of the system parameters", Decimal, {}, 0, 64}, &S::tail_bytes);
+    add({"dle", "S3", "how the PLC sends a byte 10 in data", Word, {kDleWords.begin(), kDleWords.end()}}, &S::dle);
+    add({"timeout_ms", "S4", "milliseconds that it waits for each byte within a session", Decimal, {}, 1, 10'000},
+        &S::timeout_ms);
+    add({"nak", "S4", "whether it answers what does not fit with 10 15", Word, {"sent", "silent"}}, &S::nak);
+    add({"writable", "S5", "what can be written: all of memory, or user memory and images only", Word, {"all", "areas"}},
+        &S::writable);
     return rows;
   }();
   return kSettings;

@@ -13,10 +13,6 @@ namespace {
 
 using Data = std::span<const std::uint8_t>;
 
-bool begins_with(Data text, Data beginning) {
-  return text.size() >= beginning.size() && std::ranges::equal(text.first(beginning.size()), beginning);
-}
-
 }  // namespace
 
 LoaderStep after(LoaderStep step, bool with_data) {
@@ -88,6 +84,19 @@ Bytes stuffed(Data bytes) {
     all.push_back(byte);
   }
   return all;
+}
+
+Bytes unstuffed(Data bytes) {
+  Bytes plain;
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    plain.push_back(bytes[at]);
+    if (bytes[at] == kDle && at + 1 < bytes.size() && bytes[at + 1] == kDle) ++at;
+  }
+  return plain;
+}
+
+bool begins_with(Data text, Data beginning) {
+  return text.size() >= beginning.size() && std::ranges::equal(text.first(beginning.size()), beginning);
 }
 
 Bytes LoaderSteps::first() {

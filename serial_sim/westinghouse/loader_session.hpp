@@ -1,4 +1,4 @@
-// Sessions of the PC500 and PC2000 loader port: one operation, byte by byte in a hand-shake.
+// Sessions of the PC500 and PC2000 loader port: one operation, byte by byte in a handshake.
 //
 //   computer  02        opcode    DLE ACK          DLE ACK, arguments, DLE EOT            DLE ACK
 //   PLC          DLE ACK       02         16 DLE ETX                           DLE ACK 02
@@ -23,6 +23,7 @@ enum class LoaderOpcode : std::uint8_t { Write = 0x03, Read = 0x04, Pointers = 0
 
 /// Whether the PLC doubles a data byte 10 in its answers [S3]; the computer does always.
 enum class Dle : std::uint8_t { Doubled, Plain };
+inline constexpr std::array<std::string_view, 2> kDleWords{"doubled", "plain"};  ///< in its order
 
 inline constexpr std::uint8_t kStx = 0x02, kEtx = 0x03, kEot = 0x04, kAck = 0x06, kDle = 0x10, kNak = 0x15;
 inline constexpr std::uint8_t kHeader = 0x16, kEnd = 0x12;
@@ -78,6 +79,11 @@ LoaderOperation loader_directory();
 
 /// `bytes`, with each 10 doubled.
 Bytes stuffed(std::span<const std::uint8_t> bytes);
+
+/// The same taken back; a 10 that is not doubled stays.
+Bytes unstuffed(std::span<const std::uint8_t> bytes);
+
+bool begins_with(std::span<const std::uint8_t> text, std::span<const std::uint8_t> beginning);
 
 /// The computer's part of a session, step by step.
 class LoaderSteps {

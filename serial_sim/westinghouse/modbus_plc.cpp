@@ -27,13 +27,16 @@ constexpr std::uint8_t kOfPc2000[]{1, 2, 3, 4, 5, 6, 8, 16};
 constexpr std::uint8_t kOfNcmz[]{1, 2, 3, 4, 5, 6, 7, 8, 16};
 constexpr std::uint8_t kOfHppc[]{1, 2, 3, 4, 5, 6, 8, 15, 16};
 
-/// In the order of Model. [M1] is in supports().
+/// [M1] is in supports().
 struct ModelRow {
+  Model model;
   std::string_view word;
   std::span<const std::uint8_t> functions;
 };
-constexpr std::array kModels{ModelRow{"pc503", kOfPc503},   ModelRow{"pc1200", kOfPc1200}, ModelRow{"pc1250", kOfPc1200},
-                             ModelRow{"pc2000", kOfPc2000}, ModelRow{"ncmz", kOfNcmz},     ModelRow{"hppc", kOfHppc}};
+constexpr std::array kModels{ModelRow{Model::Pc503, "pc503", kOfPc503},    ModelRow{Model::Pc1200, "pc1200", kOfPc1200},
+                             ModelRow{Model::Pc1250, "pc1250", kOfPc1200}, ModelRow{Model::Pc2000, "pc2000", kOfPc2000},
+                             ModelRow{Model::Ncmz, "ncmz", kOfNcmz},       ModelRow{Model::Hppc, "hppc", kOfHppc}};
+static_assert(std::ranges::is_sorted(kModels, {}, &ModelRow::model), "the setting `plc` is a place among the words");
 
 Bytes exception(std::span<const std::uint8_t> pdu, std::uint8_t code) {
   return {static_cast<std::uint8_t>(pdu[0] | modbus::kExceptionFlag), code};
@@ -294,45 +297,61 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
     for (const ModelRow& row : kModels) models.push_back(row.word);
     add({"slave", "", "its address, in hex", Hex, {}, 1, UINT8_MAX}, &S::slave);
     add({"plc", "", "model, which decides on its functions", Word, models}, &S::plc);
-    add({"slv_id", "", "of function 17"}, &S::slv_id);
-    add({"run", "", "of function 17: FF runs, 00 does not"}, &S::run);
-    add({"mode", "", "of function 17"}, &S::mode);
-    add({"version", "", "of function 17"}, &S::version);
-    add({"err", "", "of function 17", Hex, {}, 0, UINT16_MAX}, &S::err);
-    add({"mode_chg", "", "of function 17", Hex, {}, 0, UINT16_MAX}, &S::mode_chg);
+    add({"slv_id", "", "its identity in the answer to function 17"}, &S::slv_id);
+    add({"run", "", "run indicator in the answer to function 17: FF runs, 00 does not"}, &S::run);
+    add({"mode", "", "its mode in the answer to function 17"}, &S::mode);
+    add({"version", "", "its version in the answer to function 17"}, &S::version);
+    add({"err", "", "error register in the answer to function 17", Hex, {}, 0, UINT16_MAX}, &S::err);
+    add({"mode_chg", "", "mode change register in the answer to function 17", Hex, {}, 0, UINT16_MAX}, &S::mode_chg);
     add({"exception", "M8", "answered to all that could be done: 04, 06; 00 for none"}, &S::exception);
     add({"function_7", "M1", "section of the document that says which models have it", Word, {"section422", "section41"}},
         &S::function_7);
     add_line_settings(
         rows, "M2", [](auto& plc) -> auto& { return plc.settings_.line; });
-    add({"silence", "M2", "that ends a frame, in tenths of a character", Decimal, {}, 1, 200}, &S::silence);
+    add({"silence", "M2", "silence that ends a frame, in tenths of a character", Decimal, {}, 1, 200}, &S::silence);
     add({"broadcasts", "M3", "functions carried out for all: 5, 6, 16; or 15 and 21 as well", Word, {"three", "writes"}},
         &S::broadcasts);
     add({"ncmz_preset", "M4", "what function 6 reaches on NCMZ", Word, {"registers", "memory"}}, &S::ncmz_preset);
-    add({"status_coil", "M5", "bit 0 of function 7", Decimal, {}, 1, UINT16_MAX}, &S::status_coil);
-    add({"loopback_length", "M6", "a loopback of another length than 8", Word, {"silent", "refused"}}, &S::loopback_length);
-    add({"most_registers", "", "in one request", Decimal, {}, 1, 125}, &S::most_registers);
-    add({"most_read_bits", "M7", "in one request", Decimal, {}, 1, 2000}, &S::most_read_bits);
-    add({"most_written_coils", "M7", "in one request", Decimal, {}, 1, 1968}, &S::most_written_coils);
+    add({"status_coil", "M5", "coil that is bit 0 in the answer to function 7", Decimal, {}, 1, UINT16_MAX},
+        &S::status_coil);
+    add({"loopback_length", "M6", "what it does with a loopback of another length than 8", Word, {"silent", "refused"}},
+        &S::loopback_length);
+    add({"most_registers", "", "registers that one request reads or writes at most", Decimal, {}, 1, 125},
+        &S::most_registers);
+    add({"most_read_bits", "M7", "coils or inputs that one request reads at most", Decimal, {}, 1, 2000},
+        &S::most_read_bits);
+    add({"most_written_coils", "M7", "coils that one request writes at most", Decimal, {}, 1, 1968}, &S::most_written_coils);
     add({"checks", "M8", "which fault counts if both are there", Word, {"quantity_first", "address_first"}}, &S::checks);
-    add({"first_address", "M9", "of the first coil, input or register on the wire", Decimal, {}, 0, 1}, &S::first_address);
-    add({"coils", "M10", "how many", Decimal, {}, 0, UINT16_MAX}, &S::coils);
-    add({"inputs", "M10", "how many", Decimal, {}, 0, UINT16_MAX}, &S::inputs);
-    add({"input_registers", "M10", "how many", Decimal, {}, 0, UINT16_MAX}, &S::input_registers);
-    add({"holding_registers", "M10", "how many", Decimal, {}, 0, UINT16_MAX}, &S::holding_registers);
+    add({"first_address", "M9", "address of the first coil, input or register on the wire", Decimal, {}, 0, 1},
+        &S::first_address);
+    add({"coils", "M10", "how many coils it has", Decimal, {}, 0, UINT16_MAX}, &S::coils);
+    add({"inputs", "M10", "how many inputs it has", Decimal, {}, 0, UINT16_MAX}, &S::inputs);
+    add({"input_registers", "M10", "how many input registers it has", Decimal, {}, 0, UINT16_MAX}, &S::input_registers);
+    add({"holding_registers", "M10", "how many holding registers it has", Decimal, {}, 0, UINT16_MAX},
+        &S::holding_registers);
     add({"holding_word", "M11", "word of the memory that HR1 is", Hex, {}, 0, UINT16_MAX}, &S::holding_word);
     add({"slave_id_layout",
          "M12",
-         "of function 17: with a byte before the error register or without",
+         "answer to function 17: with a byte before the error register or without",
          Word,
          {"packed", "aligned"}},
         &S::slave_id_layout);
-    add({"slave_id_order", "M12", "of the words of function 17", Word, {"high_first", "low_first"}}, &S::slave_id_order);
-    add({"read_answer", "M13", "of function 20: as Modbus has it, or a byte count and data", Word, {"record", "plain"}},
+    add({"slave_id_order",
+         "M12",
+         "order of the bytes of words in the answer to function 17",
+         Word,
+         {"high_first", "low_first"}},
+        &S::slave_id_order);
+    add({"read_answer",
+         "M13",
+         "answer to function 20: as Modbus has it, or a byte count and data",
+         Word,
+         {"record", "plain"}},
         &S::read_answer);
-    add({"segment_bytes", "M14", "from one segment to the next", Decimal, {}, 1, UINT16_MAX}, &S::segment_bytes);
-    add({"memory_order", "M14", "of the bytes of a word", Word, {"high_first", "low_first"}}, &S::memory_order);
-    add({"most_bytes", "M15", "of functions 20 and 21", Decimal, {}, 1, 244}, &S::most_bytes);
+    add({"segment_bytes", "M14", "bytes from one segment to the next", Decimal, {}, 1, UINT16_MAX}, &S::segment_bytes);
+    add({"memory_order", "M14", "order of the bytes of a word", Word, {"high_first", "low_first"}}, &S::memory_order);
+    add({"most_bytes", "M15", "bytes that function 20 reads or function 21 writes at most", Decimal, {}, 1, 244},
+        &S::most_bytes);
     return rows;
   }();
   return kSettings;

@@ -1,7 +1,7 @@
 // The Modbus personality: what PLCs of this family answer as slaves of Modbus RTU.
 //
-// [M1] … [M15] name the choices of ../shared/reference/westinghouse_protocols.md where the document is silent. Each is a
-// setting; its default is what the reference says.
+// [M1], [M2] and so on name the choices of ../shared/reference/westinghouse_protocols.md where the document is silent. Each
+// is a setting; its default is what the reference says.
 #pragma once
 
 #include <span>

@@ -105,7 +105,7 @@ void add_pc1000_settings(std::vector<Setting<Self>>& rows, Pc pc) {
   add({"key", "", "keyswitch", Word, {"stop", "protect", "modify"}}, &S::key);
   add({"fault", "", "the fault register", Hex, {}, 0, UINT16_MAX}, &S::fault);
   add({"lasting_fault", "", "what comes back into it after a retest", Hex, {}, 0, UINT16_MAX}, &S::lasting_fault);
-  add({"data_check", "L4", "of a block of data", Word, {"sum", "xor"}}, &S::data_check);
+  add({"data_check", "L4", "check of a block of data", Word, {"sum", "xor"}}, &S::data_check);
   add({"key_upper_bits", "L5", "bits 4 to 7 of the keyswitch byte", Hex, {}, 0, 15}, &S::key_upper_bits);
   add({"set_nibble", "L6", "high nibble of a bit write that sets the bit; 0 resets it", Hex, {}, 1, 15}, &S::set_nibble);
   add({"addresses", "L7", "what addresses of blocks count; those of bits are words", Word, {"words", "bytes"}},

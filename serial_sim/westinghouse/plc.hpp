@@ -49,9 +49,10 @@ void add_line_settings(std::vector<Setting<Self>>& rows, std::string_view choice
   using enum SettingForm::Notation;
   const auto add = [&](SettingForm form, auto member) { rows.push_back(setting_of<Self>(std::move(form), line, member)); };
   add({"baud", choice, "rate of its port", Decimal, {}, 50, 1'000'000}, &SerialFormat::baud);
-  add({"parity", choice, "of its characters", Word, {kParityWords.begin(), kParityWords.end()}}, &SerialFormat::parity);
-  add({"data_bits", choice, "of its characters", Decimal, {}, 7, 8}, &SerialFormat::data_bits);
-  add({"stop_bits", choice, "of its characters", Decimal, {}, 1, 2}, &SerialFormat::stop_bits);
+  add({"parity", choice, "parity of its characters", Word, {kParityWords.begin(), kParityWords.end()}},
+      &SerialFormat::parity);
+  add({"data_bits", choice, "data bits of a character", Decimal, {}, 7, 8}, &SerialFormat::data_bits);
+  add({"stop_bits", choice, "stop bits of a character", Decimal, {}, 1, 2}, &SerialFormat::stop_bits);
 }
 
 /// `Self` has `static const std::vector<Setting<Self>>& settings()`, `static const std::vector<Cells<Self>>& cells()`, and

@@ -302,7 +302,7 @@ class Verbs(Case):
                         answers = answers.split(exchange["response"], 1)[1]
                     if protocol == "pc500-loader":
                         texts = [frame["text"] for frame in decoded["frames"]]
-                        self.assertEqual((texts.count("begin of a session"), texts.count("session closed")), (len(exchanges), len(exchanges)))
+                        self.assertEqual((texts.count("start of a session"), texts.count("session closed")), (len(exchanges), len(exchanges)))
 
     def test_a_capture_has_every_attempt_as_a_request_and_none_as_its_answer(self):
         for protocol, (_, words, silent) in self.RECORDED.items():
@@ -1763,7 +1763,7 @@ lines:
                           if re.search("power|cable|fault|programming device", line)],
                          ["bus 1000.000000 cable cut after slave1", "bus 1100.000000 cable whole again",
                           "bus 1200.000000 fault parity:character=2 of slave1", "bus 1250.000000 no fault any more",
-                          "slave2 1300.000000 power off", "slave2 1350.000000 a programming device sets VW0 to 16#0005, SMB30 to 16#09: nothing, for there is no power",
+                          "slave2 1300.000000 power off", "slave2 1350.000000 a programming device sets VW0 to 16#0005, SMB30 to 16#09: no effect, the PLC has no power",
                           "slave2 1800.000000 power on", "slave2 1850.000000 a programming device sets VW0 to 16#0005",
                           "slave2 1850.000000 a programming device sets VW0 to 16#0006",
                           "slave2 1850.000000 a programming device sets VW0 to 16#0005, I0.3 to 16#1", "master 1900.000000 power off"])
@@ -1983,8 +1983,16 @@ lines:
         done = self.ends(UNUSABLE, "test", scenario, "--target", SLAVE)
         self.assertIn("which --target cannot replace", done.stdout)
 
+    def test_a_slow_cpu_is_polled_for_a_second_and_the_latency_is_that_of_its_answer(self):
+        slow = SOURCE / "tests/programs/long_scan.stl"
+        asked = self.json(FINE, "master", "--protocol", "ppi", slow, "--cpu", "226", "--ppi-baud", "187500", "status", "write", "VB100=7", "read", "VB100",
+                          "--json")["exchanges"]
+        self.assertEqual([each["attempts"] for each in asked], [1, 1, 1])
+        self.assertAlmostEqual(asked[0]["latency_us"], 58.667)
+        self.assertGreater(asked[1]["latency_us"] + asked[2]["latency_us"], 60_000, "a scan takes 73 ms, and a request waits for its end")
+
     def test_ports_in_ppi_mode_have_the_rate_of_the_system_block(self):
-        ask = ["master", "--protocol", "ppi", SLAVE, "--cpu", "226", "--port", "1", "write", "VW20=4660", "read", "VW20"]
+        ask = ["master", "--protocol", "ppi", SLAVE, "--cpu", "226", "--port", "1", "status", "write", "VW20=4660", "read", "VW20"]
         self.assertIn("after 1.146 ms", self.ends(FINE, *ask).stdout)
         for rates in ("187500", "9600,187500"):
             shown = self.ends(FINE, *ask, "--ppi-baud", rates).stdout
@@ -1999,7 +2007,7 @@ lines:
             self.assertIn(why, self.ends(UNUSABLE, "run", SLAVE, *arguments, "--scans", "1").stderr)
         system = self.program(f"plcs: {{a: {{program: {SLAVE}, cpu: 226, ppi_baud: \"9600,187500\"}}}}\nlines: {{l: {{stations: [a.1]}}}}\n",
                               "system.yaml")
-        self.assertIn("after 58.667 us", self.ends(FINE, "master", "--protocol", "ppi", system, "read", "VW20").stdout)
+        self.assertIn("after 58.667 us", self.ends(FINE, "master", "--protocol", "ppi", system, "status").stdout)
         for option in ("--ppi-baud", "--ppi-station"):
             self.assertIn(f"{option} is about one PLC", self.ends(UNUSABLE, "run", system, option, "19").stderr)
 

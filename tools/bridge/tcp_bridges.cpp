@@ -14,6 +14,7 @@
 #include "serial_sim/modbus/rtu_stream.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tools/bridge/tcp_server.hpp"
+#include "tools/rig/bridge_kinds.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -31,7 +32,7 @@ void put_on_line(LiveLine& line, std::span<const std::uint8_t> bytes, Client sen
 /// What all three have in common: a server, and the line in the PLC's own format.
 class TcpBridge : public Bridge, protected TcpServer::Protocol {
  public:
-  TcpBridge(std::string_view kind, const ListenAddress& address) : kind_(kind), address_(address) {}
+  TcpBridge(BridgeKind kind, const ListenAddress& address) : kind_(row_of(kind).word()), address_(address) {}
 
   bool start(LiveLine& line, boost::asio::io_context& context, std::string& why) override {
     line_ = &line;
@@ -90,7 +91,7 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
   TcpServer& server() const { return *server_; }
 
  private:
-  std::string kind_;
+  std::string_view kind_;
   ListenAddress address_;
   LiveLine* line_ = nullptr;
   std::optional<Time> up_since_;
@@ -100,7 +101,7 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
 
 class RawBridge final : public TcpBridge {
  public:
-  explicit RawBridge(const ListenAddress& address) : TcpBridge("tcp", address) {}
+  explicit RawBridge(const ListenAddress& address) : TcpBridge(BridgeKind::Tcp, address) {}
 
   void received(std::span<const ReceivedCharacter> characters) override {
     std::vector<std::uint8_t> bytes;
@@ -129,7 +130,7 @@ class RawBridge final : public TcpBridge {
 class RtuBridge final : public TcpBridge {
  public:
   bool carries_ppi() const override { return false; }
-  RtuBridge(const ListenAddress& address, Time timeout) : TcpBridge("rtu-over-tcp", address), turns_(timeout) {}
+  RtuBridge(const ListenAddress& address, Time timeout) : TcpBridge(BridgeKind::RtuOverTcp, address), turns_(timeout) {}
 
   void received(std::span<const ReceivedCharacter> characters) override {
     for (const ReceivedCharacter& character : characters) turns_.received(character, line().format());
@@ -260,7 +261,7 @@ class RtuBridge final : public TcpBridge {
 class GatewayBridge final : public TcpBridge {
  public:
   bool carries_ppi() const override { return false; }
-  GatewayBridge(const ListenAddress& address, Time timeout) : TcpBridge("modbus-tcp", address), gateway_(timeout) {}
+  GatewayBridge(const ListenAddress& address, Time timeout) : TcpBridge(BridgeKind::ModbusTcp, address), gateway_(timeout) {}
 
   void received(std::span<const ReceivedCharacter> characters) override {
     for (const ReceivedCharacter& character : characters) gateway_.received(character, line().format());

@@ -158,7 +158,7 @@ SystemPlan plan_of_other_plc(RunOptions& options, const std::vector<serial::Faul
         "no bridge carries the sync signal that this PLC needs to hear anything: give --plc sync=ignored");
   SystemPlan plan;
   plan.peers.push_back({.name = model, .automaton = std::move(plc)});
-  plan.bridges.push_back({.name = "bridge", .kind = "", .where = ""});
+  plan.bridges.push_back({.name = "bridge", .where = ""});
   plan.lines.push_back({.name = "line",
                         .settings = options.bridge.line(),
                         .faults = of_anyone(faults),
@@ -168,9 +168,9 @@ SystemPlan plan_of_other_plc(RunOptions& options, const std::vector<serial::Faul
 }
 
 int run_system(const CLI::App& verb, const RunOptions& options) {
-  if (!refuse_options_of_one_plc(verb, options.program,
-                                 {"--scans", "--pty", "--tcp", "--rtu-over-tcp", "--modbus-tcp", "--device", "--timeout"}))
-    return kUnusable;
+  std::vector<std::string_view> of_one_plc{"--scans", "--timeout"};
+  for (const BridgeRow& bridge : kBridges) of_one_plc.push_back(bridge.option);
+  if (!refuse_options_of_one_plc(verb, options.program, of_one_plc)) return kUnusable;
   if (options.json && options.rig.settings().trace == "-")
     return print_error("--trace - and --json cannot both have standard output; write one to a file"), kUnusable;
   int exit_code = kFine;

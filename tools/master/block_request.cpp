@@ -96,12 +96,9 @@ void BlockParser::write(const Words& operands) {
     text_ = "write " + operand;
     const std::uint16_t first = word_address(parts->first);
     Bytes data;
-    for (std::optional rest{parts->second}; rest;) {
-      const auto next = split_at(*rest, ',');
-      const auto value = parse_number(next ? next->first : *rest, INT16_MIN, UINT16_MAX, "value");
+    for (const std::int64_t value : values_of(parts->second, INT16_MIN, UINT16_MAX)) {
       data.push_back(static_cast<std::uint8_t>(value & 0xFF));
       data.push_back(static_cast<std::uint8_t>(value >> 8 & 0xFF));
-      rest = next ? std::optional(next->second) : std::nullopt;
     }
     const std::size_t count = data.size() / 2;
     check_range(text_, first, count);

@@ -154,12 +154,7 @@ void Parser::write(const Words& operands) {
     const auto parts = split_at(operand, '=');
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example VB100=65", stl::shortened(operand)));
     text_ = "write " + operand;
-    Bytes data;
-    for (std::optional rest{parts->second}; rest;) {
-      const auto next = split_at(*rest, ',');
-      data.push_back(static_cast<std::uint8_t>(parse_number(next ? next->first : *rest, INT8_MIN, UINT8_MAX, "value")));
-      rest = next ? std::optional(next->second) : std::nullopt;
-    }
+    Bytes data = byte_values_of(parts->second);
     if (data.size() > pc_protocol::kMostBytes)
       refuse(fmt::format("{}: {} bytes; a command writes {} at most", text_, data.size(), pc_protocol::kMostBytes));
     const std::size_t count = data.size();

@@ -10,10 +10,10 @@ namespace {
 
 using westinghouse::FcsTable;
 using westinghouse::HppcOpcode;
+using westinghouse::kFcsWords;
 using Data = std::span<const std::uint8_t>;
 
 constexpr std::string_view kFcs = "--fcs", kNoResync = "--no-resync";
-constexpr std::array<std::string_view, 2> kFcsWords{"document", "polynomial"};
 constexpr std::uint8_t kWholeTable = 0x34;  // bytes of the parameter table up to the number of holding registers
 constexpr std::size_t kAddress = 3;
 constexpr std::uint32_t kLastAddress = westinghouse::kHppcMemory - 1;
@@ -54,7 +54,7 @@ class HppcRequest final : public ProtocolRequest {
     return frame_of(about_.opcode, about_.operands, table_);
   }
 
-  std::optional<serial::Frame> next(Data response) override;
+  std::optional<serial::Frame> next(Data response, Time) override;
   serial::Answer judge(Data request, Data response) const override;
   std::string_view error_name(std::uint16_t code) const override { return westinghouse::hppc_error_name(code); }
   std::string subject() const override { return about_.subject; }
@@ -91,7 +91,7 @@ std::string HppcRequest::why_not_there(Data table) const {
   return fmt::format("by the parameter table there are {} holding registers", *found->number);
 }
 
-std::optional<serial::Frame> HppcRequest::next(Data response) {
+std::optional<serial::Frame> HppcRequest::next(Data response, Time) {
   if (!about_.registers || step_ != 1) return {};
   const serial::Answer answer = westinghouse::check_hppc_answer({}, response, table_);
   if (answer.verdict != serial::Verdict::Right || answer.bytes.size() < kAddress) return {};
@@ -251,21 +251,11 @@ FcsTable fcs_of(const ProtocolUse& use) {
 std::string fault_of_fcs(const std::string& word) {
   return std::ranges::find(kFcsWords, word) != kFcsWords.end()
              ? std::string()
-             : fmt::format("'{}' is not a frame check; there are document, polynomial", stl::shortened(word));
+             : fmt::format("'{}' is not a frame check; there are {}", stl::shortened(word), fmt::join(kFcsWords, ", "));
 }
 
 std::uint32_t address_of(const std::string& text) {
   return static_cast<std::uint32_t>(parse_number(text, 0, kLastAddress, "address"));
-}
-
-std::vector<std::int64_t> values_of(const std::string& text, std::int64_t least, std::int64_t most) {
-  std::vector<std::int64_t> values;
-  for (std::optional rest{text}; rest;) {
-    const auto next = split_at(*rest, ',');
-    values.push_back(parse_number(next ? next->first : *rest, least, most, "value"));
-    rest = next ? std::optional(next->second) : std::nullopt;
-  }
-  return values;
 }
 
 class Parser final : public WordParser {
@@ -456,8 +446,9 @@ const Protocol& hppc_protocol() {
       .station = {},
       .format = {.parity = Parity::None},
       .over_modbus_tcp = false,
-      .options = {{kFcs, "TABLE", "frame check: document, with the odd entry of its table, or polynomial", "document",
-                   fault_of_fcs},
+      .options = {{kFcs, "TABLE",
+                   fmt::format("frame check: {}, with the odd entry of its table, or {}", kFcsWords[0], kFcsWords[1]),
+                   std::string(kFcsWords[0]), fault_of_fcs},
                   {kNoResync, "", "nothing is read from location zero before a request is repeated", {}, nullptr}},
       .actions_help =
           "Actions of --protocol hppc; in brackets its opcodes:\n" + verbs_help(std::span<const HppcVerb>(kVerbs)),

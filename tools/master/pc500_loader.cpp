@@ -10,12 +10,12 @@ namespace s7200::tools {
 namespace {
 
 using westinghouse::Dle;
+using westinghouse::kDleWords;
 using westinghouse::LoaderOpcode;
 using westinghouse::LoaderOperation;
 using Data = std::span<const std::uint8_t>;
 
 constexpr std::string_view kDle = "--dle";
-constexpr std::array<std::string_view, 2> kDleWords{"doubled", "plain"};
 
 /// Bytes that have names beside their addresses.
 struct Area {
@@ -42,7 +42,7 @@ class LoaderRequest final : public ProtocolRequest {
       : steps_(std::move(operation), dle), about_(std::move(about)) {}
 
   serial::Frame frame() override { return serial::to_frame(steps_.first()); }
-  std::optional<serial::Frame> next(Data response) override {
+  std::optional<serial::Frame> next(Data response, Time) override {
     const auto bytes = steps_.next(response);
     return bytes ? std::optional(serial::to_frame(*bytes)) : std::nullopt;
   }
@@ -164,7 +164,8 @@ Dle dle_of(const ProtocolUse& use) {
 std::string fault_of_dle(const std::string& word) {
   return std::ranges::find(kDleWords, word) != kDleWords.end()
              ? std::string()
-             : fmt::format("'{}' is not a way to send a byte 10; there are doubled, plain", stl::shortened(word));
+             : fmt::format("'{}' is not a way to send a byte 10; there are {}", stl::shortened(word),
+                           fmt::join(kDleWords, ", "));
 }
 
 /// `QB3`, `16#EF83`
@@ -205,7 +206,8 @@ constexpr std::array kVerbs{
     LoaderVerb{"read", "ADDRESS[:COUNT]…", "bytes, up to 512 at once: 16#EF80:4, IB0, QB3, FY10 (04)", 1, kMany,
                &Parser::read},
     LoaderVerb{"write", "ADDRESS=BYTE,…", "the same, written (03)", 1, kMany, &Parser::write},
-    LoaderVerb{"parameters", "", "where the PLC keeps what (18)", 0, 0, &Parser::pointers},
+    LoaderVerb{"parameters", "", "where its images, timers, counters and data are, and its release (18)", 0, 0,
+               &Parser::pointers},
     LoaderVerb{"block", "NUMBER", "a data block: where it is and how long (1A)", 1, 1, &Parser::block},
     LoaderVerb{"blocks", "", "all data blocks (1B)", 0, 0, &Parser::directory},
     LoaderVerb{"raw", "HEX…", "single steps of a session, as they are", 1, kMany, &Parser::raw},
@@ -240,12 +242,7 @@ void Parser::write(const Words& operands) {
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example QB0=16#7F", stl::shortened(operand)));
     text_ = "write " + operand;
     const std::uint16_t first = address_of(parts->first);
-    Bytes data;
-    for (std::optional rest{parts->second}; rest;) {
-      const auto next = split_at(*rest, ',');
-      data.push_back(static_cast<std::uint8_t>(parse_number(next ? next->first : *rest, INT8_MIN, UINT8_MAX, "value")));
-      rest = next ? std::optional(next->second) : std::nullopt;
-    }
+    const Bytes data = byte_values_of(parts->second);
     add(westinghouse::loader_write(first, data), about(first, data.size()));
   }
 }
@@ -274,7 +271,8 @@ const Protocol& pc500_loader_protocol() {
       .station = {},
       .format = {},
       .over_modbus_tcp = false,
-      .options = {{kDle, "FORM", "a byte 10 in what the PLC sends: doubled, plain", "doubled", fault_of_dle}},
+      .options = {{kDle, "FORM", fmt::format("a byte 10 in what the PLC sends: {}", fmt::join(kDleWords, ", ")),
+                   std::string(kDleWords[0]), fault_of_dle}},
       .actions_help = "Actions of --protocol pc500-loader; in brackets its operations:\n" +
                       verbs_help(std::span<const LoaderVerb>(kVerbs)),
       .action_words = verb_words(std::span<const LoaderVerb>(kVerbs)),

@@ -18,9 +18,6 @@ using Data = std::span<const std::uint8_t>;
 constexpr std::string_view kOwnStation = "--own-station";
 constexpr std::uint8_t kStation = 2, kProgrammingDevice = 0;
 
-/// A scan may last 500 ms, and a poll with its reply takes 10.
-constexpr int kMostPolls = 60;
-
 /// Its number: there is one at a time.
 constexpr std::uint16_t kOnlyRequest = 1;
 
@@ -71,13 +68,15 @@ class PpiRequest final : public ProtocolRequest {
   serial::Frame frame() override {
     if (!raw_.empty()) return raw_;
     polls_ = 0;
+    too_late_ = false;
     const auto function = wanted_.pdu.empty() ? ppi::kStatusFunction : ppi::kRequestFunction;
     return serial::to_frame(ppi::to_frame({station_, own_, function, wanted_.pdu}));
   }
 
-  std::optional<serial::Frame> next(Data response) override {
+  std::optional<serial::Frame> next(Data response, Time elapsed) override {
     const bool fetches = raw_.empty() && !wanted_.pdu.empty() && response.size() == 1 && response[0] == ppi::kAccepted;
-    if (!fetches || polls_ == kMostPolls) return {};
+    too_late_ = fetches && elapsed > s7::kLongestWork;
+    if (!fetches || too_late_) return {};
     const auto function = static_cast<std::uint8_t>(ppi::kPollFunction ^ (polls_++ % 2 == 0 ? 0 : ppi::kFrameCount));
     return serial::to_frame(ppi::to_frame({station_, own_, function}));
   }
@@ -100,7 +99,8 @@ class PpiRequest final : public ProtocolRequest {
   serial::Frame raw_{};
   std::uint8_t station_ = 0, own_ = 0;
   Wanted wanted_{Wanted::Kind::Status};
-  int polls_ = 0;
+  unsigned polls_ = 0;
+  bool too_late_ = false;  // its station had no answer within kLongestWork
 };
 
 serial::Answer wrong(std::string fault) {
@@ -130,8 +130,8 @@ serial::Answer PpiRequest::judge(Data, Data response) const {
   if (!raw_.empty()) return answer;
   if (frame.empty() && wanted_.pdu.empty()) return wrong("accepted, but no status");
   if (frame.empty())
-    return wrong(polls_ == kMostPolls ? fmt::format("accepted, but no answer after {} polls", kMostPolls)
-                                      : "accepted, but no reply to a poll");
+    return wrong(too_late_ ? "accepted, but no answer within " + format_duration(s7::kLongestWork)
+                           : "accepted, but no reply to a poll");
   const auto body = ppi::frame_length(frame) == frame.size() ? ppi::body_of(frame) : std::nullopt;
   if (!body) return wrong("not a frame: its length, check sum or end is wrong");
   if ((body->function & ppi::kIsRequest) != 0)
@@ -378,16 +378,13 @@ Bytes value_bytes(MemoryRange& range, const std::string& values, const std::stri
   MemoryRange one = range;
   one.count = 1;
   range.count = 0;
-  for (std::optional rest{values}; rest; ++range.count) {
-    const auto next = split_at(*rest, ',');
-    const auto assignment = parse_value(one, next ? next->first : *rest);
-    if (!assignment)
-      refuse(fmt::format("{}: '{}' is not a value for {}", action, stl::shortened(next ? next->first : *rest),
-                         range.name_of(0)));
+  for (const std::string& text : split_at_commas(values)) {
+    const auto assignment = parse_value(one, text);
+    if (!assignment) refuse(fmt::format("{}: '{}' is not a value for {}", action, stl::shortened(text), range.name_of(0)));
     std::array<std::uint8_t, 4> value{};
     store32(value.data(), assignment->value);
     bytes.insert(bytes.end(), value.end() - bytes_of(range.width), value.end());
-    rest = next ? std::optional(next->second) : std::nullopt;
+    ++range.count;
   }
   return bytes;
 }

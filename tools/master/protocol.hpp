@@ -25,9 +25,9 @@ class ProtocolRequest {
   /// What to send next. Mostly the same each time.
   virtual serial::Frame frame() = 0;
 
-  /// Of a request in several steps: what to send after this answer to the last step. Nothing when it is over. An exchange
-  /// then has the characters of all steps.
-  virtual std::optional<serial::Frame> next(std::span<const std::uint8_t> /*response*/) { return {}; }
+  /// Of a request in several steps: what to send after this answer to the last step, `elapsed` after the end of the first.
+  /// Nothing when it is over. An exchange then has the characters of all steps.
+  virtual std::optional<serial::Frame> next(std::span<const std::uint8_t> /*response*/, Time /*elapsed*/) { return {}; }
 
   /// Whether anything comes after the step that was sent last.
   virtual bool answered() const { return true; }

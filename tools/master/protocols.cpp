@@ -36,14 +36,15 @@ std::string protocols_help() {
   std::string text = "Protocols:\n";
   for (const Protocol* protocol : protocols()) text += fmt::format("  {:<38}{}\n", protocol->name, protocol->meaning);
   for (const Protocol* protocol : protocols()) text += protocol->actions_help;
-  text += "What documents leave open of a master; in brackets choices of ours:\n";
+  text +=
+      "What documents leave open of a master; [M1] and the like mark choices where the document is silent, here and "
+      "below:\n";
   for (const Protocol* protocol : protocols())
     if (!protocol->choices.empty()) text += fmt::format("  {:<38}{}\n", protocol->name, protocol->choices);
   for (const Protocol* protocol : protocols())
     if (protocol->plcs != nullptr)
-      text +=
-          fmt::format("Settings of westinghouse:MODEL with --protocol {}, {}; in brackets choices of ours:\n{}",
-                      protocol->name, fmt::join(protocol->plcs->models, ", "), westinghouse::settings_help(*protocol->plcs));
+      text += fmt::format("Settings of westinghouse:MODEL with --protocol {}, {}:\n{}", protocol->name,
+                          fmt::join(protocol->plcs->models, ", "), westinghouse::settings_help(*protocol->plcs));
   return text;
 }
 

@@ -26,7 +26,8 @@ serial::Answer assess(const MasterAction& action, const serial::Exchange& exchan
 /// `16#04D2 16#FFFB`, `exception 2: illegal data address`, `error 16#12: no session`, `no answer`: all in one line.
 std::string short_text(const MasterResult& result);
 
-/// What was asked, and how long the answer took: `read 40011:2   station 1, function 3, holding registers 10…11   12.3 ms`.
+/// What was asked, and how long after it the last answer began: `read 40011:2   station 1, function 3, holding registers
+/// 10…11   12.3 ms`.
 std::string heading(const MasterResult& result);
 
 /// What came of it: a line for each value, with its address; or what is wrong.

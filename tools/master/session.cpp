@@ -23,7 +23,7 @@ serial::Request MasterSession::request_of(const MasterAction& action) const {
 serial::Exchange MasterSession::exchange(const MasterAction& action) {
   serial::Request request = request_of(action);
   serial::Exchange all = slave_.exchange(request);
-  for (auto next = action.request->next(all.response_bytes()); next && !interrupted();) {
+  for (auto next = action.request->next(all.response_bytes(), slave_.now() - all.request_end); next && !interrupted();) {
     request.frame = std::move(*next);
     if (!action.request->answered()) request.timeout = 0;
     const serial::Exchange step = slave_.exchange(request);
@@ -31,8 +31,12 @@ serial::Exchange MasterSession::exchange(const MasterAction& action) {
     all.response.insert(all.response.end(), step.response.begin(), step.response.end());
     all.too_long = all.too_long || step.too_long;
     all.early = all.early || step.early;
-    if (!step.response.empty()) all.response_end = step.response_end;
-    next = action.request->next(step.response_bytes());
+    all.of_another_master = all.of_another_master || step.of_another_master;
+    if (!step.response.empty()) {
+      all.response_start = step.response_start;
+      all.response_end = step.response_end;
+    }
+    next = action.request->next(step.response_bytes(), slave_.now() - all.request_end);
   }
   return all;
 }

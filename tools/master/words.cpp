@@ -13,6 +13,29 @@ std::optional<std::pair<std::string, std::string>> split_at(const std::string& t
   return std::pair{text.substr(0, place), text.substr(place + 1)};
 }
 
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::string rest = text;
+  while (const auto next = split_at(rest, ',')) {
+    parts.push_back(next->first);
+    rest = next->second;
+  }
+  parts.push_back(rest);
+  return parts;
+}
+
+std::vector<std::int64_t> values_of(const std::string& text, std::int64_t least, std::int64_t most) {
+  std::vector<std::int64_t> values;
+  for (const std::string& part : split_at_commas(text)) values.push_back(parse_number(part, least, most, "value"));
+  return values;
+}
+
+Bytes byte_values_of(const std::string& text) {
+  Bytes bytes;
+  for (const std::int64_t value : values_of(text, INT8_MIN, UINT8_MAX)) bytes.push_back(static_cast<std::uint8_t>(value));
+  return bytes;
+}
+
 serial::Frame parse_hex(const std::string& text) {
   serial::ParsedFrame parsed = serial::parse_hex_frame(text);
   if (!parsed.ok())

@@ -26,6 +26,15 @@ using Words = std::vector<std::string>;
 /// `text` up to `separator`, and what comes after it; nothing if it is not there.
 std::optional<std::pair<std::string, std::string>> split_at(const std::string& text, char separator);
 
+/// Its parts between commas, one at least.
+std::vector<std::string> split_at_commas(const std::string& text);
+
+/// The numbers of such a list. Throws std::invalid_argument.
+std::vector<std::int64_t> values_of(const std::string& text, std::int64_t least, std::int64_t most);
+
+/// Of bytes, signed or not.
+Bytes byte_values_of(const std::string& text);
+
 /// Throws std::invalid_argument.
 serial::Frame parse_hex(const std::string& text);
 

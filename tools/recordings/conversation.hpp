@@ -70,7 +70,7 @@ class Conversation {
   /// The messages that characters begin with, as far as they are all there; they are taken off the frame.
   std::vector<ReadFrame> take_complete(RecordedFrame& frame);
 
-  /// The first of the rows, which a log may have divided: those behind it that follow closely belong to it if only together
+  /// The first of the rows, which a log may have divided: those after it that follow closely belong to it if only together
   /// they are right. `rows` is left with the others.
   RecordedFrame take_frame(std::span<const RecordedFrame>& rows);
 

@@ -120,8 +120,8 @@ std::optional<Bytes> bytes_of_word(std::string_view word) {
   return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
 }
 
-/// A comment stands behind `;`, `//` or `#` after a blank, or behind a `;` that closes the bytes. Where `;` divides the
-/// bytes, there is one behind the first.
+/// A comment stands after `;`, `//` or `#` after a blank, or after a `;` that closes the bytes. Where `;` divides the
+/// bytes, there is one after the first.
 std::string_view without_comment(std::string_view line) {
   if (line.find_first_of(";/#") == std::string_view::npos) return line;
   static const std::regex kMark(R"(\s(;|//|#))"), kClosing(R"([0-9A-Fa-f]\s(0x)?[0-9A-Fa-f]{1,4};(\s|$))");
@@ -136,7 +136,7 @@ std::string_view without_comment(std::string_view line) {
 /// `feed` and `added` after pairs of digits are words of a language.
 bool is_of_a_language(std::string_view word) { return word.size() > 2 && std::ranges::all_of(word, is_letter); }
 
-/// `Tx:01` is `01` behind its name; `len=09` is none.
+/// `Tx:01` is `01` after its name; `len=09` is none.
 std::size_t length_of_name(std::string_view word) {
   const std::size_t end = word.find_last_of(":;>,])-|");
   if (end == std::string_view::npos || end + 1 == word.size()) return 0;
@@ -190,9 +190,9 @@ bool has_both_cases(Words run) {
   return any("ABCDEF") && any("abcdef");
 }
 
-/// Of what stands before the bytes and behind them; null if all is well. Bytes before them may be a number or a date in
+/// Of what stands before the bytes and after them; null if all is well. Bytes before them may be a number or a date in
 /// front of the direction.
-const Word* what_is_doubtful(Words before, Words run, Words behind) {
+const Word* what_is_doubtful(Words before, Words run, Words after) {
   if (!before.empty() && (may_be_a_damaged_byte(before.back()) || ends_with_digits(before.back()))) return &before.back();
   const auto other = std::ranges::find_if(before, [](const Word& word) { return !word.bytes.empty(); });
   if (other != before.end()) {
@@ -202,11 +202,11 @@ const Word* what_is_doubtful(Words before, Words run, Words behind) {
     if (after_direction || !named)
       return &*std::find_if(other, before.end(), [](const Word& word) { return word.bytes.empty(); });
   }
-  if (behind.empty()) return nullptr;
+  if (after.empty()) return nullptr;
   if (has_both_cases(run)) return &run.back();
-  const std::string_view next = behind.front().text;
+  const std::string_view next = after.front().text;
   const bool is_comment = next.front() == '(' || (next.size() > 2 && std::all_of(next.begin(), next.begin() + 3, is_letter));
-  return is_comment && (run.size() > 1 || run.front().bytes.size() > 1) ? nullptr : &behind.front();
+  return is_comment && (run.size() > 1 || run.front().bytes.size() > 1) ? nullptr : &after.front();
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ Direction direction_of(std::string_view text);
 /// `01 03 00`, `0x01,0x3`, `[01][03]`, `010300`; nothing if there is anything else.
 std::optional<Bytes> bytes_of_text(std::string_view text);
 
-/// The bytes of a line: one run of words in hex behind what names them, with nothing behind it but a comment.
+/// The bytes of a line: one run of words in hex after what names them, with nothing after it but a comment.
 struct BytesInLine {
   Bytes bytes{};
   std::size_t begin = 0, end = 0;  ///< of the run

@@ -25,8 +25,8 @@ constexpr std::array kDataTypes{
 
 constexpr std::uint16_t kMostValues = 125;  // that mbpoll reads at once
 
-/// The number behind `name` in a line.
-std::optional<std::uint16_t> number_behind(std::string_view line, std::string_view name) {
+/// The number after `name` in a line.
+std::optional<std::uint16_t> number_after(std::string_view line, std::string_view name) {
   const std::size_t at = line.find(name);
   if (at == std::string_view::npos) return {};
   const std::string_view rest = line.substr(at + name.size());
@@ -54,10 +54,10 @@ class MbpollReader {
 
   void take(std::string_view line, std::size_t number) {
     if (line.starts_with("Data type")) return take_type(line);
-    if (const auto first = number_behind(line, "start reference = ")) {
+    if (const auto first = number_after(line, "start reference = ")) {
       first_ = *first;
-      count_ = number_behind(line, "count = ").value_or(1);
-    } else if (const auto station = number_behind(line, "-- Polling slave ")) {
+      count_ = number_after(line, "count = ").value_or(1);
+    } else if (const auto station = number_after(line, "-- Polling slave ")) {
       ask(static_cast<std::uint8_t>(*station), number);
     } else if (const auto value = value_in(line)) {
       take_value(*value);

@@ -32,6 +32,7 @@ class Omissions {
   /// Empty if nothing does. `named`: the frames that are no requests and that a reason names.
   std::string why(const ReadFrame& request, Named& named) const {
     if (!request.frame.damaged.empty()) return "the request is damaged";
+    if (!request.right) return "the request is wrong: " + request.text;
     if (request.other) {
       const ReadFrame& answer = frames_[*request.other];
       if (answer.latency > kLongestSpan)

@@ -42,13 +42,11 @@ std::string name_of(const MemoryRange& range) {
 }
 
 Variable variable_of(Data bytes) {
-  const std::uint8_t type = bytes[3];
-  const std::uint16_t count = load16(&bytes[4]);
-  const std::uint32_t address = load32(&bytes[8]) & 0xFF'FFFF;
-  if (bytes[8] == s7::kSystemInformation && type == s7::kByte && count == s7::kIdentificationBytes && address == 0)
+  const auto [type, wire_area, count, block, address] = s7::variable_at(bytes);
+  if (wire_area == s7::kSystemInformation && type == s7::kByte && count == s7::kIdentificationBytes && address == 0)
     return {.name = "identification", .identification = true};
-  const auto wire = std::ranges::find(s7::kWireAreas, bytes[8], &s7::WireArea::code);
-  if (wire == s7::kWireAreas.end()) return {.name = fmt::format("area 16#{:02X} byte {}:{}", bytes[8], address / 8, count)};
+  const auto wire = std::ranges::find(s7::kWireAreas, wire_area, &s7::WireArea::code);
+  if (wire == s7::kWireAreas.end()) return {.name = fmt::format("area 16#{:02X} byte {}:{}", wire_area, address / 8, count)};
   const AreaInfo& area = info(wire->area);
   const auto width = width_of(type, area);
   if (!width) return {.name = fmt::format("{} byte {}:{} of type 16#{:02X}", area.name, address / 8, count, type)};
@@ -75,8 +73,7 @@ std::vector<Value> values_in(Data data) {
   constexpr std::size_t kHead = 4;
   std::vector<Value> values;
   for (std::size_t at = 0; at + kHead <= data.size();) {
-    const std::size_t length = load16(&data[at + 2]);
-    const std::size_t bytes = data[at + 1] == s7::kInBytes ? length : (length + 7) / 8;
+    const std::size_t bytes = s7::data_bytes(data[at + 1], load16(&data[at + 2]));
     const Data rest = data.subspan(at + kHead);
     values.push_back({data[at], rest.first(std::min(bytes, rest.size()))});
     at += kHead + bytes + bytes % 2;

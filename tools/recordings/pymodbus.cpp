@@ -1,7 +1,7 @@
 // What pymodbus logs at the level DEBUG, under whatever head the program's logger gives each line:
 //
 //   send: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa
-//   recv: 0x1 0x3 0x2 old_data:  addr=None             what has come; behind old_data:, later extra data:, what waits
+//   recv: 0x1 0x3 0x2 old_data:  addr=None             what has come; after old_data:, later extra data:, what waits
 //   already recv: 0x12 0x34 0xb5 0x33 old_data: 0x1 0x3 0x2 addr=None Processing: 0x1 0x3 0x2 0x12 0x34 0xb5 0x33        the
 //   same bytes once more, as have Getting Frame - and others
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ Bytes take_bytes(std::string_view& text) {
   return bytes.value_or(Bytes{});
 }
 
-/// What stands behind a word, if that is not the end of another.
+/// What stands after a word, if that is not the end of another.
 std::optional<std::string_view> what_follows(std::string_view line, std::string_view word) {
   const std::size_t at = line.find(word);
   if (at == std::string_view::npos || (at > 0 && std::isalnum(static_cast<unsigned char>(line[at - 1])) != 0)) return {};

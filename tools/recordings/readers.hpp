@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "serial_sim/peers/answer.hpp"
 #include "tools/recordings/conversation.hpp"
 
 namespace s7200::tools {
@@ -15,6 +16,10 @@ namespace s7200::tools {
 /// `1 byte`, `2 bytes`
 inline std::string plural(std::size_t count, std::string_view thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+inline bool fits(const serial::Answer& answer) {
+  return answer.verdict == serial::Verdict::Right || answer.verdict == serial::Verdict::Exception;
 }
 
 std::unique_ptr<FrameReader> modbus_reader();

@@ -48,7 +48,7 @@ struct ReadingChoices {
 struct RecordingForm {
   std::string_view name;     ///< `pcap`
   std::string_view meaning;  ///< for the help
-  bool is_log;
+  bool is_log;               ///< CSV counts as one: analysers write it, but so do programs
   bool (*looks_like)(std::string_view bytes);
   std::optional<LineRecording> (*read)(const std::string& bytes, const ReadingChoices& choices, std::string& why);
 };

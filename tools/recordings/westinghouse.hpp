@@ -11,7 +11,7 @@ namespace s7200::tools {
 std::unique_ptr<FrameReader> pc1000_lan_reader();
 std::unique_ptr<FrameReader> westnet_reader();
 
-/// Step after step of the hand-shake. Its sides take turns, so that a step says whose it is.
+/// Step after step of the handshake. Its sides take turns, so that a step says whose it is.
 std::unique_ptr<FrameReader> pc500_loader_reader();
 
 /// The same of a PLC that does not double a byte 10 in its data.

@@ -8,7 +8,7 @@
 
 namespace s7200::tools {
 
-/// A date from 1990 to 2089 that exists, with its day of the week; nothing for anything else.
+/// A date between 1990 and 2089 that exists, with its day of the week; nothing for anything else.
 std::optional<ClockTime> parse_clock(std::string_view text);
 
 }  // namespace s7200::tools

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "serial_sim/line/line.hpp"
 #include "tools/host/listen_address.hpp"
@@ -25,8 +26,10 @@ class LineReader {
     if (map.keys.size() != 1)
       return values_.wrong(bridge.key, fmt::format("'{}' is not one kind of bridge", bridge.key.text),
                            "write for example {tcp: 5020}");
-    BridgePlan plan{bridge.key.text, map.keys[0].text, values_.text(map.items[0]).value_or("")};
-    if (plan.kind == "pty") plan.where = beside(reading_.path, plan.where);
+    const auto row = std::ranges::find(kBridges, map.keys[0].text, &BridgeRow::word);
+    if (row == kBridges.end()) return;  // check_keys() has said so
+    BridgePlan plan{bridge.key.text, row->kind, values_.text(map.items[0]).value_or("")};
+    if (plan.kind == BridgeKind::Pty) plan.where = beside(reading_.path, plan.where);
     if (const std::string place = place_of(plan, map.items[0]); !place.empty()) {
       const auto [known, is_new] = names_.served.emplace(place, bridge.key.position.line);
       if (!is_new)
@@ -61,7 +64,7 @@ class LineReader {
   /// What only one bridge can have: a link, a device, a port of an address. Empty for a port that is free then, and after a
   /// complaint.
   std::string place_of(const BridgePlan& bridge, const YamlNode& where) {
-    if (bridge.kind == "pty" || bridge.kind == "device") return bridge.where;
+    if (row_of(bridge.kind).place != kPortPlace) return bridge.where;
     std::string why;
     const auto address = parse_listen_address(bridge.where, why);
     if (!address) values_.wrong(where, why, "write for example 5020 or 0.0.0.0:5020");
@@ -70,7 +73,7 @@ class LineReader {
 
   /// How masters and bridges talk on it.
   void read_settings(const YamlNode& map, LinePlan& plan) {
-    if (const auto baud = values_.number(map.find("baud"), 50, 1'000'000))
+    if (const auto baud = values_.number(map.find("baud"), kLeastBaud, kMostBaud))
       plan.settings.baud = static_cast<std::uint32_t>(*baud);
     plan.settings.parity =
         values_.choice<Parity>(map.find("parity"), {{"none", Parity::None}, {"even", Parity::Even}, {"odd", Parity::Odd}});
@@ -152,10 +155,10 @@ class LineReader {
   }
 
   std::string known_stations() {
-    std::string known;
-    for (const auto& [name, plcs] : names_.groups) known.append(known.empty() ? "" : ", ").append(name);
-    for (const auto& [name, other] : names_.others) known.append(known.empty() ? "" : ", ").append(name);
-    return known.empty() ? "none; 'plcs' and 'peers' name them" : known;
+    const auto name_of = [](const auto& entry) { return entry.first; };
+    const std::string plcs = stl::joined(names_.groups, name_of), others = stl::joined(names_.others, name_of);
+    if (plcs.empty() && others.empty()) return "none; 'plcs' and 'peers' name them";
+    return plcs + (plcs.empty() || others.empty() ? "" : ", ") + others;
   }
 
   void put_plc_on(const YamlNode& node, LinePlan& line, std::size_t number, std::uint8_t port) {

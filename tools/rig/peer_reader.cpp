@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/request.hpp"
@@ -149,11 +150,9 @@ class PeerReader {
     const auto name = values_.text(protocol);
     const westinghouse::PlcRow* const row = name ? westinghouse::find_plc(*name) : nullptr;
     if (!row) {
-      std::string known;
-      for (const westinghouse::PlcRow& each : westinghouse::plcs())
-        known.append(known.empty() ? "" : ", ").append(each.name);
       if (name)
-        values_.wrong(protocol, fmt::format("there is no protocol '{}'", stl::shortened(*name)), "there are " + known);
+        values_.wrong(protocol, fmt::format("there is no protocol '{}'", stl::shortened(*name)),
+                      "there are " + stl::joined(westinghouse::plcs(), &westinghouse::PlcRow::name));
       return nullptr;
     }
     std::string why;

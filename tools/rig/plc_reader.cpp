@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/base/text.hpp"
@@ -67,11 +68,9 @@ class PlcReader {
   const CpuModel* read_cpu(const YamlNode& map) {
     const std::string name = values_.optional_text(map, "cpu").value_or("214");
     const CpuModel* const model = find_cpu(name);
-    std::string known;
-    for (const CpuModel* each : all_cpus()) known.append(known.empty() ? "" : ", ").append(each->name);
     if (!model)
       values_.wrong(*map.find("cpu"), fmt::format("there is no model of CPU '{}'", stl::shortened(name)),
-                    "modelled: " + known);
+                    "modelled: " + stl::joined(all_cpus(), &CpuModel::name));
     return model;
   }
 
@@ -196,7 +195,7 @@ class PlcReader {
     settings.input = path(map, "input");
     read_inputs(map, plc);
     if (const YamlNode* clock = map.find("clock"))
-      settings.clock = values_.value(clock, "a time from 1990 to 2089", "2026-11-21 10:00:00",
+      settings.clock = values_.value(clock, "a date and time between 1990 and 2089", "2026-11-21 10:00:00",
                                      [](const std::string& t) { return parse_clock(t); });
     settings.starts = values_.duration(map.find("starts")).value_or(0) * (copy + 1);
     settings.memory.path = written_file(map, "memory", one_of_several);

@@ -161,7 +161,7 @@ bool Rig::claim_files(std::string& why) {
   for (const PlcPlan& plc : plan_.plcs) files_.reads(plc.settings.input);
   files_.links("--pty", surroundings_.link);
   for (const BridgePlan& bridge : plan_.bridges)
-    if (bridge.kind == "pty") files_.links("a bridge", bridge.where);
+    if (bridge.kind == BridgeKind::Pty) files_.links("a bridge", bridge.where);
   auto line = plan_.lines.begin();
   if (trace_ && !trace_->claim(files_, surroundings_.trace, why)) return false;
   return std::ranges::all_of(plc_rigs_, [&](PlcRig& plc) { return plc.claim(files_, why); }) &&

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/program/lint.hpp"
 
 namespace s7200::tools {
@@ -19,46 +21,50 @@ std::optional<std::uint8_t> ppi_station_of(const Program& program, std::uint8_t 
   return {};
 }
 
-std::string names_of(const SystemReading& reading, const std::vector<std::size_t>& plcs) {
-  std::string names;
-  for (const std::size_t plc : plcs) names.append(names.empty() ? "" : ", ").append(reading.file.plan.plcs[plc].name);
-  return names;
+/// Ports of PLCs, as the file writes them: `a, b.1`.
+using PlcPorts = std::vector<StationPlan>;
+
+std::string names_of(const SystemReading& reading, const PlcPorts& ports) {
+  return stl::joined(ports, [&](const StationPlan& each) {
+    const std::string& name = reading.file.plan.plcs[each.number].name;
+    return each.port == 0 ? name : fmt::format("{}.{}", name, each.port);
+  });
 }
 
 void warn_of_station(SystemReading& reading, std::string_view kind, std::string_view key, int station, const LinePlan& line,
-                     const std::vector<std::size_t>& plcs) {
-  if (plcs.size() < 2) return;
+                     const PlcPorts& ports) {
+  if (ports.size() < 2) return;
   reading.file.file.diagnostics.push_back(
       {.severity = stl::Severity::Warning,
-       .position = reading.names.plc_keys[plcs[1]]->position,
+       .position = reading.names.plc_keys[ports[1].number]->position,
        .message = fmt::format("{} station {} on line '{}' is {}: they answer at the same time, and the answers collide",
-                              kind, station, line.name, names_of(reading, plcs)),
+                              kind, station, line.name, names_of(reading, ports)),
        .hint = fmt::format("give each a '{}' of its own", key)});
 }
 
 void warn_of_ppi_stations_that_are_the_same(SystemReading& reading) {
   for (const LinePlan& line : reading.file.plan.lines) {
-    std::map<std::uint8_t, std::vector<std::size_t>> by_station;
+    std::map<std::uint8_t, PlcPorts> by_station;
     for (const StationPlan& each : line.stations) {
       if (each.kind != StationPlan::Kind::Plc) continue;
       const Program& program = *reading.file.plan.plcs[each.number].program;
-      if (const auto station = ppi_station_of(program, each.port)) by_station[*station].push_back(each.number);
+      if (const auto station = ppi_station_of(program, each.port)) by_station[*station].push_back(each);
     }
-    for (const auto& [station, plcs] : by_station) warn_of_station(reading, "PPI", "ppi_station", station, line, plcs);
+    for (const auto& [station, ports] : by_station) warn_of_station(reading, "PPI", "ppi_station", station, line, ports);
   }
 }
 
 /// They do not pass a token on, so each goes on as if it were alone.
 void warn_of_several_ppi_masters(SystemReading& reading) {
   for (const LinePlan& line : reading.file.plan.lines) {
-    std::vector<std::size_t> masters;
+    PlcPorts masters;
     for (const StationPlan& each : line.stations)
       if (each.kind == StationPlan::Kind::Plc && is_ppi_master(*reading.file.plan.plcs[each.number].program, each.port))
-        masters.push_back(each.number);
+        masters.push_back(each);
     if (masters.size() < 2) continue;
     reading.file.file.diagnostics.push_back(
         {.severity = stl::Severity::Warning,
-         .position = reading.names.plc_keys[masters[1]]->position,
+         .position = reading.names.plc_keys[masters[1].number]->position,
          .message =
              fmt::format("line '{}' has several PPI masters, with NETR or NETW: {}; how they pass the token on is not "
                          "modelled, so they collide",
@@ -67,15 +73,20 @@ void warn_of_several_ppi_masters(SystemReading& reading) {
   }
 }
 
-/// Programs whose Modbus station is known: the constant that our slaves and Application Tip 41 move into VB4095.
+/// Programs whose Modbus station is known: the constant that our slaves and Application Tip 41 move into VB4095. They
+/// answer at one of their ports.
 void warn_of_modbus_stations_that_are_the_same(SystemReading& reading) {
   for (const LinePlan& line : reading.file.plan.lines) {
-    std::map<std::uint8_t, std::vector<std::size_t>> by_station;
+    std::map<std::uint8_t, PlcPorts> by_station;
     for (const StationPlan& each : line.stations) {
       if (each.kind != StationPlan::Kind::Plc) continue;
-      if (const auto station = reading.names.modbus_stations[each.number]) by_station[*station].push_back(each.number);
+      const auto station = reading.names.modbus_stations[each.number];
+      if (!station) continue;
+      PlcPorts& ports = by_station[*station];
+      if (std::ranges::find(ports, each.number, &StationPlan::number) == ports.end())
+        ports.push_back({StationPlan::Kind::Plc, each.number});
     }
-    for (const auto& [station, plcs] : by_station) warn_of_station(reading, "Modbus", "station", station, line, plcs);
+    for (const auto& [station, ports] : by_station) warn_of_station(reading, "Modbus", "station", station, line, ports);
   }
 }
 

@@ -3,10 +3,15 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <deque>
+#include <string>
 #include <utility>
 
 #include "interpreter/base/joined.hpp"
+#include "serial_sim/line/line.hpp"
+#include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/westinghouse/plcs.hpp"
+#include "tools/rig/bridge_kinds.hpp"
 #include "tools/rig/system_block_reader.hpp"
 
 namespace s7200::tools {
@@ -14,18 +19,27 @@ namespace {
 
 using Where = SystemKey::Where;
 
+/// A meaning with figures in it, for as long as the program runs.
+std::string_view kept(std::string text) {
+  static std::deque<std::string> texts;
+  return texts.emplace_back(std::move(text));
+}
+
 /// `modbus, pc1000-lan … or hppc`
-std::string_view meaning_of_other_plc() {
+std::string meaning_of_other_plc() {
   const auto rows = westinghouse::plcs();
-  static const std::string kMeaning =
-      fmt::format("as `s7200 master --protocol` names it: {} or {}",
-                  stl::joined(rows.first(rows.size() - 1), &westinghouse::PlcRow::name), rows.back().name);
-  return kMeaning;
+  return fmt::format("as `s7200 master --protocol` names it: {} or {}",
+                     stl::joined(rows.first(rows.size() - 1), &westinghouse::PlcRow::name), rows.back().name);
+}
+
+SystemKey bridge_key(BridgeKind kind) {
+  const BridgeRow& row = row_of(kind);
+  return {Where::Bridge, row.word(), row.place, row.meaning};
 }
 
 // clang-format off
 const std::array kKeys{
-    SystemKey{Where::File, "plcs", "MAP", "names of PLCs, and what each is; PLCs, peers and bridges are 1000 at most"},
+    SystemKey{Where::File, "plcs", "MAP", kept(fmt::format("names of PLCs, and what each is; PLCs, peers and bridges are {} at most", kMostStations))},
     SystemKey{Where::File, "peers", "MAP", "names of the other stations, and what each is: a master that polls, or a PLC of another make"},
     SystemKey{Where::File, "bridges", "MAP", "names of bridges to this computer, and what each is; with one the system runs as fast as the clock"},
     SystemKey{Where::File, "lines", "MAP", "names of lines, and who is on each"},
@@ -39,8 +53,8 @@ const std::array kKeys{
     SystemKey{Where::Plc, "times", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
     SystemKey{Where::Plc, "ppi_baud", "NUMBER", ppi_baud_meaning()},
     SystemKey{Where::Plc, "ppi_station", "NUMBER", ppi_station_meaning()},
-    SystemKey{Where::Plc, "copies", "NUMBER", "so many PLCs like this, 1 to 32, with a number after the name: `slave1`, `slave2`, …; `station` and `ppi_station` go up by one with each"},
-    SystemKey{Where::Plc, "station", "NUMBER", "address on the line, 1 to 247: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do"},
+    SystemKey{Where::Plc, "copies", "NUMBER", kept(fmt::format("so many PLCs like this, 1 to {}, with a number after the name: `slave1`, `slave2`, …; `station` and `ppi_station` go up by one with each", serial::Line::kDrivers))},
+    SystemKey{Where::Plc, "station", "NUMBER", kept(fmt::format("address on the line, 1 to {}: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do", modbus::kLastStation))},
     SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
     SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
     SystemKey{Where::Plc, "input", "PATH", "inputs over time, I, AIW and the potentiometers SMB28 and SMB29: CSV in the format of `s7200 run --input`"},
@@ -52,8 +66,8 @@ const std::array kKeys{
     SystemKey{Where::Plc, "output", "PATH", "each change of an output is written there, as CSV"},
     SystemKey{Where::Plc, "dump", "LIST", "memory to show at the end: `[VB0:16, VW100]`"},
 
-    SystemKey{Where::Line, "stations", "LIST", "who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; 32 at most"},
-    SystemKey{Where::Line, "baud", "NUMBER", "of the masters and bridges on it and of who joins it, 50 to 1000000; as its first PLC sets its port if left out (an S7-200, if there is one), like the next three"},
+    SystemKey{Where::Line, "stations", "LIST", kept(fmt::format("who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; {} at most", serial::Line::kDrivers))},
+    SystemKey{Where::Line, "baud", "NUMBER", kept(fmt::format("of the masters and bridges on it and of who joins it, {} to {}; as its first PLC sets its port if left out (an S7-200, if there is one), like the next three", kLeastBaud, kMostBaud))},
     SystemKey{Where::Line, "parity", "none, even, odd", ""},
     SystemKey{Where::Line, "data_bits", "7, 8", ""},
     SystemKey{Where::Line, "stop_bits", "1, 2", ""},
@@ -71,22 +85,22 @@ const std::array kKeys{
     SystemKey{Where::Master, "every", "TIME", "a round begins no sooner than so long after the one before; at once if left out"},
     SystemKey{Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
 
-    SystemKey{Where::Poll, "station", "NUMBER, FIRST..LAST", "who is asked, 1 to 247; several are asked one after the other; 1 if left out"},
+    SystemKey{Where::Poll, "station", "NUMBER, FIRST..LAST", kept(fmt::format("who is asked, 1 to {}; several are asked one after the other; 1 if left out", modbus::kLastStation))},
     SystemKey{Where::Poll, "read", "ADDRESS", "as manuals write it, with 5 or 6 digits: 00001 (coil), 10001 (input), 30001 (input register), 40001 (holding register)"},
     SystemKey{Where::Poll, "write", "ADDRESS", "instead of `read`: a coil or a holding register"},
     SystemKey{Where::Poll, "count", "NUMBER", "how many to read, up to 2000 coils or inputs or 125 registers; 1 if left out"},
     SystemKey{Where::Poll, "value", "NUMBER", "the one to write"},
 
-    SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", meaning_of_other_plc()},
+    SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", kept(meaning_of_other_plc())},
     SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
     SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[slave=05, HR1=1234]` of modbus, `[unit=05, sync=ignored]` of pc1000-lan"},
     SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT, master", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`, or the master that joins its line, `s7200 master --protocol pc1000-lan` or that of a scenario; without it the PLC needs the setting `sync=ignored`"},
 
-    SystemKey{Where::Bridge, "pty", "LINK", "a serial port that programs of this computer open as LINK; from the folder of this file"},
-    SystemKey{Where::Bridge, "tcp", "[ADDRESS:]PORT", "raw bytes over TCP; without ADDRESS for this computer only"},
-    SystemKey{Where::Bridge, "rtu-over-tcp", "[ADDRESS:]PORT", "Modbus RTU frames over TCP"},
-    SystemKey{Where::Bridge, "modbus-tcp", "[ADDRESS:]PORT", "a gateway from Modbus TCP"},
-    SystemKey{Where::Bridge, "device", "DEVICE", "a serial device of this computer"},
+    bridge_key(BridgeKind::Pty),
+    bridge_key(BridgeKind::Tcp),
+    bridge_key(BridgeKind::RtuOverTcp),
+    bridge_key(BridgeKind::ModbusTcp),
+    bridge_key(BridgeKind::Device),
 
     SystemKey{Where::Event, "at", "TIME", "since the start; beside one of the following"},
     SystemKey{Where::Event, "power_off", "NAME", "a PLC or a peer loses power: it falls silent in the middle of a character and keeps what a real one keeps"},
@@ -94,7 +108,7 @@ const std::array kKeys{
     SystemKey{Where::Event, "cut", "LINE", "the cable is cut: both parts go on without each other"},
     SystemKey{Where::Event, "after", "NAME", "beside `cut`: the last station on the first part, in the order of `stations`"},
     SystemKey{Where::Event, "mend", "LINE", "the cable is whole again"},
-    SystemKey{Where::Event, "set", "MAP", "memory and inputs of `plc`, as a programming device sets them: nothing while it has no power; SMB30 and SMB130 set a port to another rate"},
+    SystemKey{Where::Event, "set", "MAP", "memory and inputs of `plc`, as a programming device sets them: no effect while it has no power; SMB30 and SMB130 set a port to another rate"},
     SystemKey{Where::Event, "plc", "NAME", "beside `set`"},
     SystemKey{Where::Event, "fault", "TEXT", "a fault of `line` from then on, in the form of `s7200 run --fault`"},
     SystemKey{Where::Event, "line", "LINE", "beside `fault`"},
@@ -116,7 +130,7 @@ std::string system_keys_markdown() {
       {Where::Master, "Of a peer that is a master"},
       {Where::Poll, "Of what it polls"},
       {Where::OtherPlc, "Of a peer that is a simulated PLC of another make"},
-      {Where::Bridge, "Of a bridge, one of"},
+      {Where::Bridge, "Of a bridge, one of (LINK from the folder of this file)"},
       {Where::Event, "Of an event"}};
   std::string text;
   for (const auto& [where, heading] : kTables) {

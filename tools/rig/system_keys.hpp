@@ -1,12 +1,20 @@
 // The words of a system file: what may be written where, and what it means. Its description is made of them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace s7200::tools {
+
+/// Of a whole system. A PLC with two ports and a sync signal takes three numbers of a rank, a master two; whoever joins a
+/// line takes two more.
+inline constexpr std::size_t kMostStations = 1000;
+
+/// Of a line.
+inline constexpr std::int64_t kLeastBaud = 50, kMostBaud = 1'000'000;
 
 struct SystemKey {
   enum class Where : std::uint8_t { File, Plc, Line, Fault, Master, Poll, OtherPlc, Bridge, Event };

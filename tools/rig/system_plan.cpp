@@ -4,18 +4,12 @@
 
 #include <algorithm>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/line/line.hpp"
 
 namespace s7200::tools {
 namespace {
-
-template <class Plans>
-std::string names_of(const Plans& plans) {
-  std::string names;
-  for (const auto& plan : plans) names.append(names.empty() ? "" : ", ").append(plan.name);
-  return names;
-}
 
 std::string no_plc_on(const LinePlan& line) { return fmt::format("no PLC is on line '{}'", line.name); }
 
@@ -40,7 +34,7 @@ std::optional<Spot> at_plc(const SystemPlan& plan, std::string_view name, std::s
     }
   why = known ? fmt::format("port {} of '{}' is on no line", stl::shortened(std::string(port)), plc)
               : fmt::format("there is no line or PLC '{}': the lines are {}, the PLCs {}", stl::shortened(std::string(plc)),
-                            names_of(plan.lines), names_of(plan.plcs));
+                            stl::joined(plan.lines, &LinePlan::name), stl::joined(plan.plcs, &PlcPlan::name));
   return {};
 }
 
@@ -108,13 +102,14 @@ std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std
 
 std::optional<std::size_t> find_line(const SystemPlan& plan, std::string_view name, std::string& why) {
   if (name.empty() && plan.lines.size() > 1) {
-    why = fmt::format("there are several lines, {}: name one of them{}", names_of(plan.lines),
+    why = fmt::format("there are several lines, {}: name one of them{}", stl::joined(plan.lines, &LinePlan::name),
                       plan.plcs.empty() ? "" : ", or a PLC");
     return {};
   }
   const auto line = name.empty() ? plan.lines.begin() : std::ranges::find(plan.lines, name, &LinePlan::name);
   if (line != plan.lines.end()) return static_cast<std::size_t>(line - plan.lines.begin());
-  why = fmt::format("there is no line '{}': the lines are {}", stl::shortened(std::string(name)), names_of(plan.lines));
+  why = fmt::format("there is no line '{}': the lines are {}", stl::shortened(std::string(name)),
+                    stl::joined(plan.lines, &LinePlan::name));
   return {};
 }
 

@@ -18,6 +18,7 @@
 #include "serial_sim/peers/automaton.hpp"
 #include "serial_sim/peers/poller.hpp"
 #include "serial_sim/peers/requester.hpp"
+#include "tools/rig/bridge_kinds.hpp"
 #include "tools/rig/plc_rig.hpp"
 
 namespace s7200::tools {
@@ -47,7 +48,7 @@ struct PeerPlan {
 /// Where programs and devices of this computer join a line, in real time.
 struct BridgePlan {
   std::string name;
-  std::string kind;   ///< pty, tcp, rtu-over-tcp, modbus-tcp or device
+  BridgeKind kind{};
   std::string where;  ///< a link, [ADDRESS:]PORT, a device
 };
 

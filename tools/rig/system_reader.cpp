@@ -31,7 +31,7 @@ void read_file(const YamlNode& root, SystemReading& reading) {
   read_bridges(root, reading);
   read_lines(root, reading);
   if (plan.lines.empty() && values.complaints.count() == 0)
-    values.wrong(root, "no line: no one would hear another", "write for example lines: {bus: {stations: [master, slave]}}");
+    values.wrong(root, "the system has no line", "write for example lines: {bus: {stations: [master, slave]}}");
   std::vector<TimedEvent> events;
   if (values.complaints.count() == 0)
     for (const YamlNode* node : items_of(root, "events", "{at: 1s, power_off: slave}", values))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/joined.hpp"
 #include "serial_sim/system/dispatcher.hpp"
 #include "tools/rig/fault_owner.hpp"
 
@@ -12,9 +13,6 @@ namespace {
 
 using Where = SystemKey::Where;
 
-/// Of a whole system. A PLC with two ports and a sync signal takes three numbers of a rank, a master two; whoever joins a
-/// line takes two more.
-constexpr std::size_t kMostStations = 1000;
 static_assert(3 * kMostStations + 2 * kMostYamlKeys <= serial::Dispatcher::kMostOfARank);
 
 /// False after a complaint.
@@ -132,14 +130,13 @@ std::optional<std::size_t> station_on(const LinePlan& line, const YamlNode& node
                                       YamlValues& values) {
   const auto name = values.text(node);
   if (!name) return {};
-  std::string known;
+  const auto name_of_station = [&](const StationPlan& station) { return name_of(plan, station); };
   for (std::size_t i = 0; i < line.stations.size(); ++i) {
-    const std::string& each = name_of(plan, line.stations[i]);
+    const std::string each = name_of_station(line.stations[i]);
     if (each == *name || fmt::format("{}.{}", each, line.stations[i].port) == *name) return i;
-    known.append(known.empty() ? "" : ", ").append(each);
   }
   values.wrong(node, fmt::format("'{}' is not on line '{}'", stl::shortened(*name), line.name),
-               known.empty() ? "" : "known: " + known);
+               line.stations.empty() ? "" : "known: " + stl::joined(line.stations, name_of_station));
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/trace/line_parts.hpp"
 #include "tools/views/memory.hpp"
 
@@ -38,10 +39,11 @@ std::string event_text(const EventPlan& event, const SystemPlan& plan, bool in_v
     case What::Mend:
       return "cable whole again";
     case What::Set: {
-      std::string places;
-      for (const Assignment& each : event.set)
-        places += fmt::format("{}{} to {}", places.empty() ? "" : ", ", each.place.name_of(0), hex_text(each));
-      return fmt::format("a programming device sets {}{}", places, in_vain ? ": nothing, for there is no power" : "");
+      const auto text_of = [](const Assignment& each) {
+        return fmt::format("{} to {}", each.place.name_of(0), hex_text(each));
+      };
+      return fmt::format("a programming device sets {}{}", stl::joined(event.set, text_of),
+                         in_vain ? ": no effect, the PLC has no power" : "");
     }
     case What::Fault:
       return fmt::format("fault {}{}", serial::to_text(event.fault.fault),

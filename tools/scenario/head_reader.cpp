@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
@@ -70,7 +71,7 @@ class HeadReader {
     if (const YamlNode* set = map.find("set")) scenario.set = read_assignments(values_, *set, scenario.addresses());
     if (const auto path = optional_path(map, "input")) read_field(*map.find("input"), *path, scenario);
     if (const YamlNode* clock = map.find("clock"))
-      scenario.clock = values_.value(clock, "a time from 1990 to 2089", "2026-11-21 10:00:00",
+      scenario.clock = values_.value(clock, "a date and time between 1990 and 2089", "2026-11-21 10:00:00",
                                      [](const std::string& t) { return parse_clock(t); });
     if (const auto after = values_.time(map.find("after"))) scenario.after = *after;
     if (const auto pause = values_.span(map.find("pause"))) scenario.pause = *pause;
@@ -94,11 +95,7 @@ class HeadReader {
       scenario.port = static_cast<std::uint8_t>(*port);
   }
 
-  static std::string cpu_names() {
-    std::string names;
-    for (const CpuModel* model : all_cpus()) names.append(names.empty() ? "" : ", ").append(model->name);
-    return names;
-  }
+  static std::string cpu_names() { return stl::joined(all_cpus(), &CpuModel::name); }
 
   /// A path from the folder of this file. One that was given from outside is from the folder of that file already.
   std::optional<std::string> optional_path(const YamlNode& map, std::string_view key) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/base/joined.hpp"
 #include "tools/scenario/head_reader.hpp"
 #include "tools/scenario/limits.hpp"
 #include "tools/scenario/step_reader.hpp"
@@ -100,8 +101,7 @@ class Reader {
   void refuse_unknown(const std::vector<ParameterName>& declared) {
     for (const ParameterName& given : given_->names) {
       if (std::any_of(declared.begin(), declared.end(), [&](const auto& d) { return d.name == given.name; })) continue;
-      std::string known;
-      for (const auto& d : declared) known.append(known.empty() ? "" : ", ").append(d.name);
+      const std::string known = stl::joined(declared, &ParameterName::name);
       file_.given_diagnostics.push_back(
           {stl::Severity::Error, given.position,
            fmt::format("{} has no parameter '{}'", file_.source->name, stl::shortened(given.name)),

@@ -1,6 +1,7 @@
 // PPI on a port that is not in Freeport mode (facts 10.9). The master is that of tests/support/ppi_master.hpp.
 #include <random>
 
+#include "interpreter/model/s7_pdu.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tests/support/ppi_master.hpp"
 
@@ -465,6 +466,18 @@ TEST(S7Services, BitsBytesAndWordsAreWritten) {
   EXPECT_EQ(plc.value("MB31"), 0x80);
   EXPECT_EQ(code_of(master.ask(writing(variable(4, 1, kV, 510 * 8, 1), 0x04, 16, {0xFF, 0xFE}))), 0xFF);
   EXPECT_EQ(plc.value("VW510"), -2);
+}
+
+TEST(S7Services, ALengthInBitsIsRoundedUpToBytes) {
+  for (const s7::DataType in_bits : {s7::kInBits, s7::kInBitsOfBytes}) {
+    EXPECT_EQ(s7::data_bytes(in_bits, 1), 1U);
+    EXPECT_EQ(s7::data_bytes(in_bits, 9), 2U);
+  }
+  EXPECT_EQ(s7::data_bytes(s7::kInBytes, 9), 9U);
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(code_of(master.ask(writing(variable(2, 2, kV, 500 * 8, 1), 0x04, 15, {1, 2}))), 0xFF);
+  EXPECT_EQ(plc.value("VW500"), 0x0102);
 }
 
 TEST(S7Services, AWriteWithFewerValuesThanVariablesWritesNone) {

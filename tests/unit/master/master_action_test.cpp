@@ -253,6 +253,15 @@ serial::Answer judged_ppi(const std::string& action, const Bytes& pdu) {
   return request->judge(sent, response);
 }
 
+TEST(PpiAction, AStationIsPolledForASecondHoweverManyPollsThatTakes) {
+  const auto request = parsed("write VB0=1", {.station = 2}, ppi_protocol()).at(0).request;
+  const Bytes sent = serial::bytes_of(request->frame()), accepted{ppi::kAccepted};
+  for (Time elapsed = 0; elapsed <= kSecond; elapsed += kMillisecond)
+    ASSERT_TRUE(request->next(accepted, elapsed)) << elapsed;
+  EXPECT_FALSE(request->next(accepted, kSecond + kMillisecond));
+  EXPECT_EQ(request->judge(sent, accepted).fault, "accepted, but no answer within 1 s");
+}
+
 TEST(PpiAction, AnAcceptanceAloneIsNoStatus) {
   const serial::Answer answer = judged_ppi("status", {});
   EXPECT_EQ(answer.verdict, serial::Verdict::Wrong);

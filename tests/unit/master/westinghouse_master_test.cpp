@@ -119,7 +119,7 @@ TEST(WestinghouseMaster, ALoaderSessionIsSentStepByStep) {
   const auto request = parsed(pc500_loader_protocol(), "write QB0=16#7F,16")[0].request;
   EXPECT_EQ(serial::to_hex(request->frame()), "02");
   const auto next = [&](const std::string& answer) {
-    const auto step = request->next(bytes(answer));
+    const auto step = request->next(bytes(answer), 0);
     return step ? serial::to_hex(*step) : "none";
   };
   EXPECT_EQ(next("10 06"), "03");
@@ -151,10 +151,10 @@ TEST(WestinghouseMaster, RegistersOfAnHppcAreWhereItsParameterTableSays) {
       "3f 00 40 00 00 0d 00 00 08 8a 00 56 04 08 00 6a 06 08 00 80 08 08 00 02 0c 08 00 02 0c 08 00 40 00 00 00 00 00 10 01 "
       "82 0c 08 "
       "00 03 00 00 00 85 0c 08 00 03 00 00 00 fe bf 0a 00 00 08 6d eb";
-  const auto read = request->next(bytes(table));
+  const auto read = request->next(bytes(table), 0);
   ASSERT_TRUE(read);
   EXPECT_EQ(serial::to_hex(*read).substr(0, 29), "0c 00 20 40 00 0c fc bf 0a 02");
-  EXPECT_FALSE(request->next(bytes(table)));
+  EXPECT_FALSE(request->next(bytes(table), 0));
 }
 
 TEST(WestinghouseMaster, ActionsOfAnHppcAreItsOpcodes) {

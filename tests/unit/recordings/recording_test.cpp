@@ -1153,6 +1153,18 @@ TEST(Conversation, AReaderReadsEachFrameOnce) {
   EXPECT_EQ(frames[2].station, 5U);
 }
 
+TEST(Conversation, ABlockWriteWithAWrongDataCheckIsAWrongRequestAndIsNotAskedAgain) {
+  const auto frames = read(recording_of("0.000 TX 07 00 40 01 00 48 12 34 46\n0.010 RX 07 00 40 01 00 48\n"
+                                        "0.100 TX 07 00 40 01 00 48 12 34 47\n"),
+                           "pc1000-lan");
+  EXPECT_TRUE(frames[0].right);
+  EXPECT_EQ(frames[2].direction, Direction::Request);
+  EXPECT_FALSE(frames[2].right);
+  EXPECT_EQ(playback(frames, {}, {}).notes,
+            std::vector<std::string>{"line 3: left out: the request is wrong: write 2 bytes from word 16#4000 on: 12 34; "
+                                     "wrong data check"});
+}
+
 TEST(Conversation, OfARequestThatARecordingEndsWithNothingIsExpected) {
   const Playback played = playback(read(recording_of("0.000 TX 01 03 00 00 00 01 84 0A\n0.025 RX 01 03 02 12 34 B5 33\n"
                                                      "0.100 TX 02 03 00 00 00 01 84 39\n")),
@@ -1405,7 +1417,7 @@ TEST(Conversation, ALoaderSessionIsReadStepByStep) {
                                   ms, 0)),
       "pc500-loader");
   EXPECT_EQ(texts(frames),
-            (std::vector<std::string>{"> begin of a session", "< acknowledged", "> read memory", "< ready", "> acknowledged",
+            (std::vector<std::string>{"> start of a session", "< acknowledged", "> read memory", "< ready", "> acknowledged",
                                       "< wants arguments", "> bytes 16#9000…9001", "< arguments accepted", "> acknowledged",
                                       "< 00 00 00 00 00 10 06", "> acknowledged", "< ready", "> acknowledged", "< end",
                                       "> session closed"}));
@@ -1434,7 +1446,7 @@ TEST(Conversation, TheLastWordOfALoaderSessionAndTheFirstOfTheNextMayStandInOneF
       "0.000 02\n0.010 10 06\n0.020 03\n0.030 02\n0.040 10 06\n0.050 16 10 03\n0.060 10 06 90 00 07 10 04\n0.070 10 06 02\n"
       "0.080 10 06\n0.090 12 10 03\n0.100 10 06 02\n0.110 10 06\n");
   const auto frames = read(recording, "pc500-loader", {.character = ms});
-  const std::vector<std::string> end{"< end", "> session closed", "> begin of a session", "< acknowledged"};
+  const std::vector<std::string> end{"< end", "> session closed", "> start of a session", "< acknowledged"};
   const auto said = texts(frames);
   ASSERT_EQ(said.size(), 13U);
   EXPECT_EQ(std::vector(said.end() - 4, said.end()), end);
@@ -1486,9 +1498,9 @@ TEST(Conversation, ALoaderSessionThatIsRefusedOrBrokenOffBeginsAnew) {
   const auto frames = read(recording_of("0.0 02\n0.1 10 06\n0.2 05\n0.3 10 15\n0.4 02\n0.5 02\n0.6 10 06\n0.7 03\n0.8 55\n"),
                            "pc500-loader");
   EXPECT_EQ(texts(frames),
-            (std::vector<std::string>{"> begin of a session", "< acknowledged", "> opcode 05",
-                                      "< error 16#15: refused (NAK)", "> begin of a session", "> begin of a session",
-                                      "< acknowledged", "> write memory", "? does not fit the hand-shake: 02 was due"}));
+            (std::vector<std::string>{"> start of a session", "< acknowledged", "> opcode 05",
+                                      "< error 16#15: refused (NAK)", "> start of a session", "> start of a session",
+                                      "< acknowledged", "> write memory", "? does not fit the handshake: expected 02"}));
 }
 
 TEST(Conversation, HppcIsReadWithEitherFrameCheck) {

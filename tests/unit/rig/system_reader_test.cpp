@@ -71,7 +71,7 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"a: *x\n", 1, 4, "anchors and aliases (& and *) have no place in a system file"},
       {"plc: {}\n", 1, 1, "'plc' has no place here"},
       {"system: plant.yaml\nsteps: []\n", 2, 8, "'steps' is of a scenario"},
-      {slave, 1, 1, "no line: no one would hear another"},
+      {slave, 1, 1, "the system has no line"},
       {"plcs: [a]\n", 1, 7, "'plcs' is a map of names, not a list"},
       {"plcs: {a: {}}\n", 1, 8, "PLC 'a' has no program"},
       {"plcs: {a.b: {program: x.stl}}\n", 1, 8, "'a.b' is not a name"},
@@ -87,7 +87,8 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"plcs: {a: {program: ../modbus_slave.stl, copies: 2, trace: t}}\n", 1, 60, "several copies cannot write one file"},
       {"plcs: {a: {program: ../modbus_slave.stl, trace: t, output: t}}\n", 1, 60, "is written twice, first in line 1"},
       {"plcs: {a: {program: ../modbus_slave.stl, times: none.csv}}\n", 1, 49, "cannot read "},
-      {"plcs: {a: {program: ../modbus_slave.stl, clock: noon}}\n", 1, 49, "'noon' is not a time from 1990 to 2089"},
+      {"plcs: {a: {program: ../modbus_slave.stl, clock: noon}}\n", 1, 49,
+       "'noon' is not a date and time between 1990 and 2089"},
       {"plcs: {a: {program: ../modbus_slave.stl, trace_instructions: true}}\n", 1, 62, "there is no 'trace'"},
       {slave + "peers: {a: {polls: [{read: 40001}]}}\n", 2, 9, "two stations are called 'a', the first in line 1"},
       {"peers: {m: {}}\n", 1, 9, "'m' is neither a master nor another PLC"},
@@ -222,6 +223,9 @@ TEST(SystemFile, PlcsOfOneLineThatMayAnswerAtTheSamePpiStationAreNamed) {
           "plcs: {{a: {{program: {0}, cpu: 226}}}}\nlines: {{one: {{stations: [a]}}, two: {{stations: [a.1]}}}}\n", ppi)),
       Warnings{})
       << "two lines";
+  EXPECT_EQ(
+      warnings_of(fmt::format("plcs: {{a: {{program: {}, cpu: 226}}}}\nlines: {{bus: {{stations: [a, a.1]}}}}\n", ppi)),
+      Warnings{"PPI station 2 on line 'bus' is a, a.1: they answer at the same time, and the answers collide"});
 }
 
 TEST(SystemFile, PlcsOfOneLineThatAnswerAtTheSameModbusStationAreNamed) {
@@ -240,6 +244,8 @@ TEST(SystemFile, PlcsOfOneLineThatAnswerAtTheSameModbusStationAreNamed) {
   EXPECT_EQ(warnings(", station: 5", ", station: 5", kOneLine), both(5));
   EXPECT_EQ(warnings(", station: 5", "", kOneLine), std::vector<std::string>{});
   EXPECT_EQ(warnings("", "", kTwo), std::vector<std::string>{});
+  EXPECT_EQ(warnings(", cpu: 226", "", "bus: {stations: [a, a.1]}, other: {stations: [b]}"), std::vector<std::string>{})
+      << "it answers at one of its ports";
 }
 
 TEST(SystemFile, PowerThatStaysAsItIsIsNamed) {

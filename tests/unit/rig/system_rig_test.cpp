@@ -327,7 +327,7 @@ TEST(SystemRig, WhatIsDoneToAPlcAndItsLinesIsToldOfIt) {
   });
   rig->system().run_until(10 * kMillisecond);
   EXPECT_EQ(told, (std::vector<std::string>{"a 1 power off", "a 2 line bus: cable cut after m",
-                                            "a 3 a programming device sets VB0 to 16#01: nothing, for there is no power",
+                                            "a 3 a programming device sets VB0 to 16#01: no effect, the PLC has no power",
                                             "a 4 power on", "b 5 a programming device sets VB0 to 16#01",
                                             "a 7 line bus: cable whole again", "b 8 line other: fault flip",
                                             "b 9 line other: no fault any more"}));

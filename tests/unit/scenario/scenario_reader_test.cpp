@@ -402,7 +402,7 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"steps:\n  - read: holding ${x}\n", 2, 11, "there is no parameter 'x'"},
       {"line: {baud: 1}\nsteps: []\n", 1, 14, "'1' is not a number from 50 to 1000000"},
       {"line: {bauds: 1}\nsteps: []\n", 1, 8, "'bauds' has no place here"},
-      {"clock: today\nsteps: []\n", 1, 8, "'today' is not a time from 1990 to 2089"},
+      {"clock: today\nsteps: []\n", 1, 8, "'today' is not a date and time between 1990 and 2089"},
       {"severity: may\nsteps: []\n", 1, 11, "'may' is not a choice here"},
       {"needs: x\nsteps: []\n", 1, 8, "'needs' is a list, not 'x'"},
       {"input: no.csv\nsteps: []\n", 1, 8, "cannot read folder/no.csv"},

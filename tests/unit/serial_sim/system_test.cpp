@@ -616,6 +616,16 @@ TEST(System, ASimulationMayPutItsMasterOnPort1) {
   EXPECT_EQ(to_hex(simulation.finish_exchange().response_bytes()), "41 42");
 }
 
+TEST(System, AMasterThatFollowsAPortInPpiModeHasItsRateAtOnce) {
+  auto program = std::make_shared<Program>(*program_for(cpu224(), "LD SM0.0\nMEND\n"));
+  program->system_block.ppi_rates = {187500, 187500};
+  Simulation simulation(program);
+  simulation.power_up();
+  simulation.run_until(20 * kMillisecond);
+  simulation.let_master_follow([](const SerialFormat& port) { return port; });
+  EXPECT_EQ(simulation.master_uart().state().format, (SerialFormat{187500, 8, Parity::Even, 1}));
+}
+
 // --- what is done at an instant ---
 
 TEST(System, WhatIsScheduledIsDoneWhenAllClocksHaveComeToIt) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <utility>
+#include <optional>
 
 #include "interpreter/base/text.hpp"
 #include "tools/bridge/device_bridge.hpp"
@@ -15,18 +15,27 @@
 namespace s7200::tools {
 namespace {
 
-constexpr const char* kBridges = "Bridges: join the line to masters outside, in real time, one of";
+constexpr const char* kBridgeGroup = "Bridges: join the line to masters outside, in real time, one of";
 
 }  // namespace
 
-std::unique_ptr<Bridge> make_bridge(std::string_view kind, const std::string& where, const serial::LineSettings& line,
+std::unique_ptr<Bridge> make_bridge(BridgeKind kind, const std::string& where, const serial::LineSettings& line,
                                     Time timeout, std::string& why) {
-  if (kind == "pty") return make_pty_bridge(where, line);
-  if (kind == "device") return make_device_bridge(where);
-  const auto address = parse_listen_address(where, why);
-  if (!address) return nullptr;
-  if (kind == "tcp") return make_tcp_bridge(*address);
-  return kind == "rtu-over-tcp" ? make_rtu_over_tcp_bridge(*address, timeout) : make_modbus_tcp_bridge(*address, timeout);
+  std::optional<ListenAddress> address;
+  if (row_of(kind).place == kPortPlace && !(address = parse_listen_address(where, why))) return nullptr;
+  switch (kind) {
+    case BridgeKind::Pty:
+      return make_pty_bridge(where, line);
+    case BridgeKind::Tcp:
+      return make_tcp_bridge(*address);
+    case BridgeKind::RtuOverTcp:
+      return make_rtu_over_tcp_bridge(*address, timeout);
+    case BridgeKind::ModbusTcp:
+      return make_modbus_tcp_bridge(*address, timeout);
+    case BridgeKind::Device:
+      return make_device_bridge(where);
+  }
+  return nullptr;
 }
 
 LiveMessages print_live_messages() {
@@ -34,14 +43,13 @@ LiveMessages print_live_messages() {
 }
 
 void BridgeOptions::add_bridges(CLI::App& app) {
-  const auto add = [&](const char* name, std::string& value, const char* type, const char* text) {
-    app.add_option(name, value, text)->type_name(type)->group(kBridges);
-  };
-  add("--pty", pty_, "LINK", "a serial port that programs of this computer open as LINK (see the end about parity)");
-  add("--tcp", tcp_, "[ADDRESS:]PORT", "raw bytes over TCP, clients share the line; without ADDRESS for this computer only");
-  add("--rtu-over-tcp", rtu_over_tcp_, "[ADDRESS:]PORT", "Modbus RTU frames over TCP; clients take turns");
-  add("--modbus-tcp", modbus_tcp_, "[ADDRESS:]PORT", "a gateway from Modbus TCP; unit 0 is broadcast");
-  add("--device", device_, "DEVICE", "a serial device of this computer, set as the program sets its port");
+  for (const BridgeRow& row : kBridges) {
+    std::string meaning(row.meaning);
+    if (row.kind == BridgeKind::Pty) meaning += " (see the end about parity)";
+    app.add_option(std::string(row.option), where_[static_cast<std::size_t>(row.kind)], meaning)
+        ->type_name(std::string(row.place))
+        ->group(kBridgeGroup);
+  }
 }
 
 void BridgeOptions::add_pace(CLI::App& app) {
@@ -63,23 +71,17 @@ void BridgeOptions::add_to(CLI::App& app) {
 }
 
 bool BridgeOptions::prepare() {
-  const std::pair<std::string_view, const std::string*> kinds[] = {
-      {"pty", &pty_}, {"tcp", &tcp_}, {"rtu-over-tcp", &rtu_over_tcp_}, {"modbus-tcp", &modbus_tcp_}, {"device", &device_}};
-  std::string_view chosen;
-  const std::string* where = nullptr;
-  for (const auto& [kind, value] : kinds) {
-    if (value->empty()) continue;
-    if (where) {
-      print_error(fmt::format("--{} and --{}: one bridge at a time", chosen, kind));
-      return false;
-    }
-    chosen = kind;
-    where = value;
+  const BridgeRow* chosen = nullptr;
+  for (const BridgeRow& row : kBridges) {
+    if (where(row.kind).empty()) continue;
+    if (chosen) return print_error(fmt::format("{} and {}: one bridge at a time", chosen->option, row.option)), false;
+    chosen = &row;
   }
-  if (!where) return true;
+  if (!chosen) return true;
+  const std::string& there = where(chosen->kind);
   std::string why;
-  bridge_ = make_bridge(chosen, *where, line_, timeout_, why);
-  if (!bridge_) print_error(fmt::format("--{} {}: {}", chosen, stl::shortened(*where), why));
+  bridge_ = make_bridge(chosen->kind, there, line_, timeout_, why);
+  if (!bridge_) print_error(fmt::format("{} {}: {}", chosen->option, stl::shortened(there), why));
   return bridge_ != nullptr;
 }
 

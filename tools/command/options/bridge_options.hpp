@@ -1,12 +1,14 @@
 // `run` in real time and its bridges, on the command line.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "tools/bridge/bridge.hpp"
 #include "tools/command/options/line_options.hpp"
+#include "tools/rig/bridge_kinds.hpp"
 
 namespace CLI {
 class App;
@@ -17,9 +19,8 @@ namespace s7200::tools {
 /// Where it serves, and its notes, on standard error.
 LiveMessages print_live_messages();
 
-/// pty, tcp, rtu-over-tcp, modbus-tcp or device, at a link, [ADDRESS:]PORT or device. Null, and `why`, if it cannot be
-/// there. `timeout`: how long the last two of TCP wait for an answer to start.
-std::unique_ptr<Bridge> make_bridge(std::string_view kind, const std::string& where, const serial::LineSettings& line,
+/// Null, and `why`, if it cannot be there. `timeout`: how long those of Modbus wait for an answer to start.
+std::unique_ptr<Bridge> make_bridge(BridgeKind kind, const std::string& where, const serial::LineSettings& line,
                                     Time timeout, std::string& why);
 
 /// Before masters lose patience: libmodbus waits 500 ms.
@@ -53,13 +54,15 @@ class BridgeOptions {
   const serial::LineSettings& line() const { return line_; }
 
   /// The name of the pty, if that is the bridge.
-  const std::string& link() const { return pty_; }
+  const std::string& link() const { return where(BridgeKind::Pty); }
 
   /// Null if none was asked for.
   Bridge* bridge() const { return bridge_.get(); }
 
  private:
-  std::string pty_, tcp_, rtu_over_tcp_, modbus_tcp_, device_;
+  const std::string& where(BridgeKind kind) const { return where_[static_cast<std::size_t>(kind)]; }
+
+  std::array<std::string, kBridges.size()> where_;  ///< each kind; empty: not asked for
   serial::LineSettings line_;
   Time timeout_ = kBridgeTimeout;
   bool realtime_ = false, speed_given_ = false;

@@ -17,6 +17,8 @@
 
 namespace s7200::tools {
 
+using westinghouse::kDleWords;
+
 void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
@@ -29,7 +31,7 @@ void RecordingOptions::add_to(CLI::App& verb) {
       ->capture_default_str()
       ->type_name("NAME");
   verb.add_option("--dle", dle, "of pc500-loader: a byte 10 in what the PLC sends")
-      ->check(CLI::IsMember({"doubled", "plain"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kDleWords.begin(), kDleWords.end())))
       ->capture_default_str()
       ->type_name("FORM");
   add_line_options(verb, line, "as the protocol has it");
@@ -79,7 +81,7 @@ bool RecordingOptions::was_cut_short() const { return duration != kNever && inte
 
 RecordedProtocol RecordingOptions::spoken() const {
   RecordedProtocol spoken = *find_recorded_protocol(protocol);
-  if (dle == "doubled") return spoken;
+  if (dle == kDleWords[0]) return spoken;
   if (!spoken.plain_dle_reader)
     throw std::invalid_argument(fmt::format("--dle plain: {} never doubles a byte 10; pc500-loader does", protocol));
   spoken.reader = spoken.plain_dle_reader;

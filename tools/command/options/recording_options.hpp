@@ -9,6 +9,7 @@
 
 #include "interpreter/base/serial_format.hpp"
 #include "serial_sim/line/line_settings.hpp"
+#include "serial_sim/westinghouse/loader_session.hpp"
 #include "tools/command/line_listener.hpp"
 #include "tools/recordings/conversation.hpp"
 #include "tools/slave/slave_target.hpp"
@@ -25,7 +26,7 @@ struct RecordingOptions {
   std::string protocol = "modbus";
   ReadingChoices reading{};
   serial::LineSettings line{};
-  std::string dle = "doubled";
+  std::string dle{westinghouse::kDleWords[0]};
   std::string stamps = "begin";
   Time timeout = kMasterTimeout;  ///< of the master
   Time duration = kNever;         ///< of what is heard live

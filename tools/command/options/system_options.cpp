@@ -56,8 +56,7 @@ bool has_a_key(const std::string& option) {
 
 }  // namespace
 
-bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program,
-                               std::initializer_list<std::string_view> more) {
+bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program, std::span<const std::string_view> more) {
   const auto refused = [&](const CLI::Option& option) {
     const std::string& name = option.get_name();
     if (name.starts_with("--trace")) return false;  // of all of them, in one file

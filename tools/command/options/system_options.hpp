@@ -1,8 +1,8 @@
 // A system file where a PROGRAM could be.
 #pragma once
 
-#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,6 +25,6 @@ bool is_about_one_plc(const std::string& option);
 /// False after a message if something was given that is about one PLC or its line: an option of the program or its rig, one
 /// of `more`, or another file of the project.
 bool refuse_options_of_one_plc(const CLI::App& verb, const ProgramOptions& program,
-                               std::initializer_list<std::string_view> more = {});
+                               std::span<const std::string_view> more = {});
 
 }  // namespace s7200::tools
