@@ -32,25 +32,28 @@ void chain(Core& core, const Op* op, Time left, std::uint64_t bits, std::uint64_
 
 constexpr std::size_t ways_to_join(std::size_t contacts) { return contacts == 0 ? 1 : kJoins * ways_to_join(contacts - 1); }
 
+// From numbers to the chain that has them as template arguments, one at a time.
+
 template <std::size_t contacts, std::size_t coils, std::size_t... joins>
-Link find_chain(std::size_t wanted, std::index_sequence<joins...>) {
+Link chain_of_joins(std::size_t wanted, std::index_sequence<joins...>) {
   static constexpr std::array<Link, sizeof...(joins)> kChains{chain<contacts, joins, coils>...};
   return kChains[wanted];
 }
 
 template <std::size_t coils, std::size_t... contacts>
-Link find_chain(std::size_t wanted, std::size_t joins, std::index_sequence<contacts...>) {
+Link chain_of_contacts(std::size_t wanted, std::size_t joins, std::index_sequence<contacts...>) {
   Link found = nullptr;
   ((contacts == wanted &&
-    (found = find_chain<contacts, coils>(joins, std::make_index_sequence<ways_to_join(contacts)>{}))) ||
+    (found = chain_of_joins<contacts, coils>(joins, std::make_index_sequence<ways_to_join(contacts)>{}))) ||
    ...);
   return found;
 }
 
 template <std::size_t... coils>
-Link find_chain(std::size_t contacts, std::size_t joins, std::size_t wanted, std::index_sequence<coils...>) {
+Link chain_of_coils(std::size_t wanted, std::size_t contacts, std::size_t joins, std::index_sequence<coils...>) {
   Link found = nullptr;
-  ((coils == wanted && (found = find_chain<coils>(contacts, joins, std::make_index_sequence<kMostContacts + 1>{}))) || ...);
+  ((coils == wanted && (found = chain_of_contacts<coils>(contacts, joins, std::make_index_sequence<kMostContacts + 1>{}))) ||
+   ...);
   return found;
 }
 
@@ -59,7 +62,7 @@ Link find_chain(std::size_t contacts, std::size_t joins, std::size_t wanted, std
 namespace s7200 {
 
 Link link_of_chain(std::size_t contacts, std::size_t joins, std::size_t coils) {
-  return linked::find_chain(contacts, joins, coils, std::make_index_sequence<kMostCoils + 1>{});
+  return linked::chain_of_coils(coils, contacts, joins, std::make_index_sequence<kMostCoils + 1>{});
 }
 
 }  // namespace s7200

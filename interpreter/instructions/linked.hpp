@@ -1,5 +1,6 @@
-// The fast loop: every op has a link, which executes it and calls the link of the next op as its last act. The compiler
-// makes that call a jump, so clock, logic stack and count stay in registers, and the processor predicts each jump by itself.
+// The fast loop is threaded code by tail calls: every op has a link, which executes it and calls the link of the next op as
+// its last act. The compiler makes that call a jump, so clock, logic stack and count stay in registers, and the processor
+// predicts each jump by itself. A chain of contacts and coils is a superinstruction: one link for all of them.
 //
 // A link that would reach the end of its time leaves before it does anything. The plain loop (cpu.cpp) executes what is
 // left, op by op: it decides what happens at a deadline, and nothing here knows of deadlines inside a chain.
