@@ -169,8 +169,9 @@ struct Rung {
 enum class Join : std::uint8_t { Load, And, Or };
 inline constexpr std::size_t kJoins = 3;
 
-/// What a contact or a coil does as part of a chain, which is executed in one go (program/chains.hpp). A part always takes its
-/// op's `cost`: it needs no power flow and has no time per unit. It has no `target` of its own: link() puts its Contact there.
+/// What a contact or a coil does as part of a chain, which is executed in one go (program/chains.hpp). A part always takes
+/// its op's `cost`: it needs no power flow and has no time per unit. It has no `target` of its own: link() puts its Contact
+/// there.
 struct ChainPart {
   enum class Kind : std::uint8_t { None, Contact, Coil };
 

@@ -27,13 +27,13 @@ struct Operand {
 
 /// A decoded instruction.
 struct Op {
-  Body body = nullptr;         ///< what the loop calls: direct_body(), or a step around it
-  Link link = nullptr;         ///< the same for the fast loop, alone or as a chain that begins here
-  std::int32_t cost = 0;       ///< ns, with power flow and for these operands
-  std::int32_t unit_cost = 0;  ///< additional ns for each bit, byte, word … (see the table of times)
-  std::uint32_t skip_to = 0;   ///< next op if power flow is needed and missing
-  std::uint32_t target = 0;    ///< next op of JMP, CALL, NEXT (loop body), FOR (after its NEXT); of a chain's part: in
-                             ///< contacts; of S, R, SI, RI, SHRB: bits from the first one to the end of its area
+  Body body = nullptr;          ///< what the loop calls: direct_body(), or a step around it
+  Link link = nullptr;          ///< the same for the fast loop, alone or as a chain that begins here
+  std::int32_t cost = 0;        ///< ns, with power flow and for these operands
+  std::int32_t unit_cost = 0;   ///< additional ns for each bit, byte, word … (see the table of times)
+  std::uint32_t skip_to = 0;    ///< next op if power flow is needed and missing
+  std::uint32_t target = 0;     ///< next op of JMP, CALL, NEXT (loop body), FOR (after its NEXT); of a contact: in contacts;
+                                ///< of S, R, SI, RI, SHRB: bits from the first one to the end of its area
   std::int32_t chain_cost = 0;  ///< ns, of the chain that begins here
   std::array<Operand, 3> operand{};
   std::uint8_t power_mask = 0;  ///< 1: needs power flow
