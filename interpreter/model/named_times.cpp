@@ -48,8 +48,7 @@ TimeTable cpu214_from_22x_times() {
   const auto scale = [&](TimeRow& row) {
     row.base = slower(row.base);
     row.per_unit = slower(row.per_unit);
-    row.source =
-        fmt::format("{:g} × CPU 22x of release 1, first scan of Application Tip 41 = 690 ms; {}", kSlower, row.source);
+    row.source = fmt::format("{:g} × CPU 22x of release 1, {} = 690 ms; {}", kSlower, kFirstScanOfTip41, row.source);
     row.marker = "remembered";
   };
   TimeTable table = cpu22x_release1_times().filtered(is_of_22x).with(scale);

@@ -10,6 +10,9 @@
 
 namespace s7200 {
 
+/// In the source of a figure: it was fitted to that. cpu214_times.csv has it, too.
+inline constexpr std::string_view kFirstScanOfTip41 = "first scan of Application Tip 41";
+
 struct NamedTimes {
   std::string_view name;        ///< cpu214_from_22x
   std::string_view about;       ///< where its figures come from, in one line

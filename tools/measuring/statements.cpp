@@ -177,50 +177,69 @@ class Tip41 {
 
 std::string in_milliseconds(Time time) { return fmt::format("{:.1f} ms", static_cast<double>(time) / kMillisecond); }
 
-/// As the sources of figures have it that were fitted to its first scan.
 bool is_fitted_to_first_scan(const TimeTable& times) {
-  return std::ranges::any_of(times.rows(),
-                             [](const TimeRow& row) { return is_fitted(row, "first scan of Application Tip 41"); });
+  return std::ranges::any_of(times.rows(), [](const TimeRow& row) { return is_fitted(row, kFirstScanOfTip41); });
 }
 
 /// Its text rounds: 690 in one place, 700 in another.
 constexpr Between<Time> kFirstScan{655 * kMillisecond, 735 * kMillisecond};
 
-void check_tip41(const CpuModel& model, const TimeTable& times, const SourceText* text, std::vector<Statement>& statements) {
-  const std::string says_of_itself = "Application Tip 41, ";
-  Statement scan{"the first scan takes about 690 ms, elsewhere about 700", says_of_itself + "SBR 62 and text"};
-  scan.fitted = is_fitted_to_first_scan(times);
-  Statement wdr{"the loop for its CRC table needs its WDR, and no more", says_of_itself + "SBR 62"};
-  wdr.fitted = scan.fitted;
-  Statement slow{"it serves from 300 to 19200 baud", says_of_itself + "SBR 50"};
-  Statement fast{"it does not work correctly at 38400 baud", says_of_itself + "SBR 50"};
-  if (text) {
-    const Tip41 tip(*text, model, times);
-    const Time first = tip.first_scan();
-    scan.found = in_milliseconds(first);
-    scan.verdict = verdict_of(kFirstScan.has(first));
-    const bool stopped = tip.watchdog_stops_it(true), stopped_without = tip.watchdog_stops_it(false);
-    wdr.verdict = verdict_of(!stopped && stopped_without);
-    wdr.found = fmt::format("with it the watchdog {}, without it {}", stopped ? "stops the CPU" : "does nothing",
-                            stopped_without ? "it stops the CPU" : "it does nothing");
-    slow.verdict = Verdict::Holds;
-    slow.found = "60 registers written and 2 read at each rate, no event lost";
-    for (const Rate& rate : kRates) {
-      const Served served = tip.serve(rate);
-      if (served.all_answered && served.lost == 0) continue;
-      slow.verdict = Verdict::Fails;
-      slow.found = fmt::format("{} at {} baud, {} characters or events lost", served.all_answered ? "answers" : "no answer",
-                               rate.baud, served.lost);
-      break;
-    }
-    const Served served = tip.serve(k38400);
-    fast.verdict = verdict_of(!served.all_answered || served.lost > 0);
-    fast.found = fmt::format("{}, {} characters or events lost during a request for 60 registers",
-                             served.all_answered ? "answers" : "no answer", served.lost);
-  } else {
-    scan.found = wdr.found = slow.found = fast.found = "needs the document: --tip41 FILE";
+void check_first_scan(const Tip41& tip, Statement& statement) {
+  const Time first = tip.first_scan();
+  statement.found = in_milliseconds(first);
+  statement.verdict = verdict_of(kFirstScan.has(first));
+}
+
+void check_wdr(const Tip41& tip, Statement& statement) {
+  const bool stopped = tip.watchdog_stops_it(true), stopped_without = tip.watchdog_stops_it(false);
+  statement.verdict = verdict_of(!stopped && stopped_without);
+  statement.found = fmt::format("with it the watchdog {}, without it {}", stopped ? "stops the CPU" : "does nothing",
+                                stopped_without ? "it stops the CPU" : "it does nothing");
+}
+
+void check_rates(const Tip41& tip, Statement& statement) {
+  statement.verdict = Verdict::Holds;
+  statement.found = "60 registers written and 2 read at each rate, no event lost";
+  for (const Rate& rate : kRates) {
+    const Served served = tip.serve(rate);
+    if (served.all_answered && served.lost == 0) continue;
+    statement.verdict = Verdict::Fails;
+    statement.found = fmt::format("{} at {} baud, {} characters or events lost",
+                                  served.all_answered ? "answers" : "no answer", rate.baud, served.lost);
+    return;
   }
-  for (Statement* each : {&scan, &wdr, &slow, &fast}) statements.push_back(std::move(*each));
+}
+
+void check_38400(const Tip41& tip, Statement& statement) {
+  const Served served = tip.serve(k38400);
+  statement.verdict = verdict_of(!served.all_answered || served.lost > 0);
+  statement.found = fmt::format("{}, {} characters or events lost during a request for 60 registers",
+                                served.all_answered ? "answers" : "no answer", served.lost);
+}
+
+/// What the tip says of itself, and how that is checked.
+struct OfTip41 {
+  std::string_view what, where;
+  bool of_first_scan;  ///< to which figures may be fitted
+  void (*check)(const Tip41& tip, Statement& statement);
+};
+constexpr std::array<OfTip41, 4> kOfTip41{
+    {{"the first scan takes about 690 ms, elsewhere about 700", "SBR 62 and text", true, check_first_scan},
+     {"the loop for its CRC table needs its WDR, and no more", "SBR 62", true, check_wdr},
+     {"it serves from 300 to 19200 baud", "SBR 50", false, check_rates},
+     {"it does not work correctly at 38400 baud", "SBR 50", false, check_38400}}};
+
+void check_tip41(const CpuModel& model, const TimeTable& times, const SourceText* text, std::vector<Statement>& statements) {
+  const bool fitted = is_fitted_to_first_scan(times);
+  for (const OfTip41& of : kOfTip41) {
+    Statement statement{std::string(of.what), fmt::format("Application Tip 41, {}", of.where)};
+    statement.fitted = of.of_first_scan && fitted;
+    if (text)
+      of.check(Tip41(*text, model, times), statement);
+    else
+      statement.found = "needs the document: --tip41 FILE";
+    statements.push_back(std::move(statement));
+  }
 }
 
 }  // namespace
