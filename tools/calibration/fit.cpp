@@ -63,21 +63,26 @@ Equation equation_of(const Loops& loops, std::size_t loop, std::vector<LoopTime>
   return equation;
 }
 
+/// Of the equations from `first` on that have the form, the surest one; equations.size() if none has it.
+std::size_t surest_equation(const std::vector<Equation>& equations, std::size_t first, std::size_t form,
+                            const std::vector<LoopTime>& times) {
+  std::size_t best = equations.size();
+  double best_within = 0;
+  for (std::size_t i = first; i < equations.size(); ++i) {
+    if (equations[i].counts[form] == 0) continue;
+    const double within = time_of(equations[i], times).within / std::abs(equations[i].counts[form]);
+    if (best != equations.size() && within >= best_within) continue;
+    best = i;
+    best_within = within;
+  }
+  return best;
+}
+
 /// Takes an equation for each form as far as it goes, and that form out of all others.
 void eliminate(std::vector<Equation>& equations, std::size_t forms, const std::vector<LoopTime>& times) {
   std::size_t solved = 0;
   for (std::size_t form = 0; form < forms; ++form) {
-    // Of those that have the form the one that is surest of it.
-    std::size_t best = equations.size();
-    double best_within = 0;
-    for (std::size_t i = solved; i < equations.size(); ++i) {
-      if (equations[i].counts[form] == 0) continue;
-      const double within = time_of(equations[i], times).within / std::abs(equations[i].counts[form]);
-      if (best == equations.size() || within < best_within) {
-        best = i;
-        best_within = within;
-      }
-    }
+    const std::size_t best = surest_equation(equations, solved, form, times);
     if (best == equations.size()) continue;
     std::swap(equations[solved], equations[best]);
     divide(equations[solved], equations[solved].counts[form]);
@@ -86,6 +91,21 @@ void eliminate(std::vector<Equation>& equations, std::size_t forms, const std::v
         subtract(equations[i], equations[solved], equations[i].counts[form]);
     ++solved;
   }
+}
+
+bool is_there(double count) { return count != 0; }
+
+/// What an equation says once the forms are eliminated: the time of the only form that is left, or by how much the loops
+/// contradict each other. A form that is found goes out of `loops`.
+void read_off(const Equation& equation, const std::vector<LoopTime>& times, Fit& fit, std::vector<Equation>& loops) {
+  const LoopTime time = time_of(equation, times);
+  const auto left = std::ranges::count_if(equation.counts, is_there);
+  if (left == 0) fit.contradiction = std::max(fit.contradiction, std::abs(time.ns) - time.within);
+  if (left != 1) return;
+  const auto form = static_cast<std::size_t>(std::ranges::find_if(equation.counts, is_there) - equation.counts.begin());
+  fit.forms[form] = {fit.forms[form].form, true, time.ns, time.within};
+  for (Equation& loop : loops)
+    if (loop.counts[form] != 0) subtract(loop, equation, loop.counts[form]);
 }
 
 double known_figure(const Form& form) { return static_cast<double>(form.per_unit ? form.row->per_unit : form.row->base); }
@@ -97,7 +117,7 @@ class Division {
 
   /// Of an equation that has no form that was found.
   void add(Equation equation) {
-    const auto first = std::ranges::find_if(equation.counts, [](double count) { return count != 0; });
+    const auto first = std::ranges::find_if(equation.counts, is_there);
     if (first == equation.counts.end()) return;
     divide(equation, *first);
     const LoopTime whole = time_of(equation, times_);
@@ -165,17 +185,7 @@ Fit fit(const Loops& loops, const std::vector<LoopTime>& measured) {
   eliminate(equations, loops.forms.size(), times);
   Fit result;
   for (const Form& form : loops.forms) result.forms.push_back({form});
-  for (const Equation& equation : equations) {
-    const LoopTime time = time_of(equation, times);
-    const auto left = std::ranges::count_if(equation.counts, [](double count) { return count != 0; });
-    if (left == 0) result.contradiction = std::max(result.contradiction, std::abs(time.ns) - time.within);
-    if (left != 1) continue;
-    const auto form = static_cast<std::size_t>(
-        std::ranges::find_if(equation.counts, [](double count) { return count != 0; }) - equation.counts.begin());
-    result.forms[form] = {loops.forms[form], true, time.ns, time.within};
-    for (Equation& loop : loop_equations)
-      if (loop.counts[form] != 0) subtract(loop, equation, loop.counts[form]);
-  }
+  for (const Equation& equation : equations) read_off(equation, times, result, loop_equations);
   Division division(result, times);
   for (const Equation& loop : loop_equations) division.add(loop);
   return result;
