@@ -3084,6 +3084,18 @@ class Times(Case):
         done = s7200("send", SLAVE, "--crc", "0103000a0002", "--timeout", "17ms", "--times-band", "20")
         self.assertRegex(done.stdout, r"(?m)^  (answered|no answer) with (cpu214|cpu214_from_22x|random table \d+ of seed 1)$")
 
+    def test_a_band_says_with_how_many_tables_the_cpu_stopped_and_why(self):
+        loop = self.program("LD SM0.1\nMOVB 16#49, SMB30\nLD I0.0\nFOR VW0, 1, 1850\nNEXT\nMEND\n", "loop.stl")
+        watchdog = r"CPU in STOP, scan watchdog \(fatal error 0003\)"
+        for verb in (["send", loop, "01"], ["master", loop, "read", "40001"]):
+            done = self.ends(FAILED, *verb, "--set", "I0.0=1", "--times-band", "20")
+            self.assertRegex(done.stdout, rf"(?m)^  (no answer|silent): \d+ of 22 tables; not sent: (\d+) of 22; {watchdog}: \2 of 22$")
+            self.assertRegex(done.stdout, rf"(?m)^  {watchdog} with random table \d+ of seed 1$")
+            (exchange,) = self.json(FAILED, *verb, "--set", "I0.0=1", "--times-band", "20", "--json")["band"]["exchanges"]
+            (stop,) = exchange["stops"]
+            self.assertRegex(stop["why"], watchdog)
+            self.assertRegex(stop["first_with"], r"random table \d+ of seed 1")
+
     def test_what_is_not_the_measuring_program_is_said_with_how_to_download_it(self):
         done = self.ends(UNUSABLE, "calibrate", SLAVE)
         self.assertIn("no answer from measure_times.stl", done.stderr)

@@ -10,21 +10,26 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/measuring/parallel_run.hpp"
+#include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
 namespace {
 
-/// `shortest with cpu214, longest with random table 12 of seed 1`, if they differ; and with which table what came of the
-/// exchange was first another than with most.
+/// `shortest with cpu214, longest with random table 12 of seed 1`, if they differ; with which table what came of the
+/// exchange was first another than with most; and with which the CPU stopped first.
 std::string tables_text(const ExchangeBand& band, const ProgramBand& tables) {
   std::string text;
   if (band.latency().any() && band.latency().least != band.latency().most)
     text += fmt::format("  shortest with {}, longest with {}\n", tables.table_name(band.shortest()),
                         tables.table_name(band.longest()));
-  const auto usual = std::ranges::max_element(band.counts(), {}, &ExchangeBand::Count::tables);
-  for (const ExchangeBand::Count& count : band.counts())
-    if (&count != &*usual) text += fmt::format("  {} with {}\n", count.verdict, tables.table_name(count.first));
+  const auto add = [&](const ExchangeBand::Count& count) {
+    text += fmt::format("  {} with {}\n", count.what, tables.table_name(count.first));
+  };
+  const auto usual = std::ranges::max_element(band.verdicts(), {}, &ExchangeBand::Count::tables);
+  for (const ExchangeBand::Count& count : band.verdicts())
+    if (&count != &*usual) add(count);
+  std::ranges::for_each(band.stops(), add);
   return text;
 }
 
@@ -47,8 +52,11 @@ void print_json(const BandExchanges& exchanges, const std::string& title, const 
     const auto name = [&](std::size_t table) { return any ? nlohmann::ordered_json(tables.table_name(table)) : nullptr; };
     exchange["shortest_with"] = name(bands[i].shortest());
     exchange["longest_with"] = name(bands[i].longest());
-    for (std::size_t verdict = 0; verdict < bands[i].counts().size(); ++verdict)
-      exchange["verdicts"][verdict]["first_with"] = tables.table_name(bands[i].counts()[verdict].first);
+    const auto name_first = [&](const char* list, const ExchangeBand::Counts& counts) {
+      for (std::size_t j = 0; j < counts.size(); ++j) exchange[list][j]["first_with"] = tables.table_name(counts[j].first);
+    };
+    name_first("verdicts", bands[i].verdicts());
+    name_first("stops", bands[i].stops());
     results["band"]["exchanges"].push_back(std::move(exchange));
   }
   fmt::print("{}", lines_of(results));
@@ -71,7 +79,9 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
     LostEvents lost;
     rig->sinks().add(&lost);
     rig->power_up();
-    return exchanges.run(*rig, of_table->source.name, lost);
+    auto outcomes = exchanges.run(*rig, of_table->source.name, lost);
+    outcomes.resize(exchanges.labels.size(), {.verdict = "not sent", .stop = stop_text(rig->cpu())});
+    return outcomes;
   };
   std::vector<ExchangeBand> bands(exchanges.labels.size());
   BandProgress progress(programs->size());
@@ -79,8 +89,7 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
   run.each(
       [&](std::size_t, const std::vector<BandOutcome>& found) {
         if (interrupted()) return false;
-        for (std::size_t i = 0; i < bands.size(); ++i)
-          bands[i].add(i < found.size() ? found[i] : BandOutcome{{}, "not sent"});
+        for (std::size_t i = 0; i < bands.size(); ++i) bands[i].add(found[i]);
         return true;
       },
       std::ref(progress));

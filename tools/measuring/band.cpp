@@ -64,14 +64,29 @@ nlohmann::ordered_json to_json(const LatencyRange& range) {
   return {{"least", us(range.least)}, {"most", us(range.most)}};
 }
 
+namespace {
+
+void count(ExchangeBand::Counts& counts, const std::string& what, std::size_t table) {
+  const auto known = std::ranges::find(counts, what, &ExchangeBand::Count::what);
+  if (known == counts.end())
+    counts.push_back({what, 1, table});
+  else
+    ++known->tables;
+}
+
+nlohmann::ordered_json to_json(const ExchangeBand::Counts& counts, const char* key) {
+  auto json = nlohmann::ordered_json::array();
+  for (const ExchangeBand::Count& count : counts) json.push_back({{key, count.what}, {"tables", count.tables}});
+  return json;
+}
+
+}  // namespace
+
 void ExchangeBand::add(const BandOutcome& outcome) {
   const std::size_t table = tables_++;
   losing_ += outcome.lost > 0;
-  const auto known = std::ranges::find(counts_, outcome.verdict, &Count::verdict);
-  if (known == counts_.end())
-    counts_.push_back({outcome.verdict, 1, table});
-  else
-    ++known->tables;
+  tools::count(verdicts_, outcome.verdict, table);
+  if (!outcome.stop.empty()) tools::count(stops_, outcome.stop, table);
   if (!outcome.exchange) return;
   const auto latency = outcome.exchange->latency();
   if (!latency) return;
@@ -81,23 +96,26 @@ void ExchangeBand::add(const BandOutcome& outcome) {
 }
 
 std::size_t ExchangeBand::count(const std::string& verdict) const {
-  const auto known = std::ranges::find(counts_, verdict, &Count::verdict);
-  return known == counts_.end() ? 0 : known->tables;
+  const auto known = std::ranges::find(verdicts_, verdict, &Count::what);
+  return known == verdicts_.end() ? 0 : known->tables;
 }
 
 std::string ExchangeBand::text() const {
   std::string text = latency_.any() ? fmt::format("after {}   ", to_text(latency_)) : "";
-  for (std::size_t i = 0; i < counts_.size(); ++i)
-    text += fmt::format("{}{}: {} of {}{}", i == 0 ? "" : "; ", counts_[i].verdict, counts_[i].tables, tables_,
+  for (std::size_t i = 0; i < verdicts_.size(); ++i)
+    text += fmt::format("{}{}: {} of {}{}", i == 0 ? "" : "; ", verdicts_[i].what, verdicts_[i].tables, tables_,
                         i == 0 ? " tables" : "");
+  for (const Count& stop : stops_) text += fmt::format("; {}: {} of {}", stop.what, stop.tables, tables_);
   if (losing_ > 0) text += fmt::format("; characters or events lost: {} of {}", losing_, tables_);
   return text;
 }
 
 nlohmann::ordered_json ExchangeBand::json() const {
-  auto verdicts = nlohmann::ordered_json::array();
-  for (const Count& count : counts_) verdicts.push_back({{"verdict", count.verdict}, {"tables", count.tables}});
-  return {{"tables", tables_}, {"verdicts", verdicts}, {"losing", losing_}, {"latency_us", to_json(latency_)}};
+  return {{"tables", tables_},
+          {"verdicts", to_json(verdicts_, "verdict")},
+          {"stops", to_json(stops_, "why")},
+          {"losing", losing_},
+          {"latency_us", to_json(latency_)}};
 }
 
 }  // namespace s7200::tools

@@ -101,9 +101,11 @@ TEST(ExchangeBand, CountsVerdictsAndLosersAndKeepsTheShortestAndLongestLatency) 
   ExchangeBand band;
   band.add({exchange(16 * kMillisecond), "answered", 0});
   band.add({exchange(20 * kMillisecond), "answered", 2});
-  band.add({std::nullopt, "no answer", 1});
+  band.add({std::nullopt, "no answer", 1, "CPU in STOP"});
   EXPECT_EQ(band.text(),
-            "after 16.0 … 20.0 ms   answered: 2 of 3 tables; no answer: 1 of 3; characters or events lost: 2 of 3");
+            "after 16.0 … 20.0 ms   answered: 2 of 3 tables; no answer: 1 of 3; CPU in STOP: 1 of 3; characters or events "
+            "lost: 2 of 3");
+  EXPECT_EQ(band.json()["stops"].dump(), R"([{"why":"CPU in STOP","tables":1}])");
   EXPECT_EQ(band.json()["latency_us"].dump(), R"({"least":16000.0,"most":20000.0})");
 }
 
