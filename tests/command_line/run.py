@@ -2912,6 +2912,11 @@ class Times(Case):
         done = self.ends(FAILED, "test", late, "--times-band", "20")
         self.assertIn("expected  to pass with 40% of the tables of execution times, the first of them among these", done.stdout)
         self.assertRegex(done.stdout, r"found +\d+ of 22: \d+\.\d%, not with cpu214\n")
+        known = text.replace("steps:", "expected_failure: too slow\nsteps:")
+        gap = self.ends(FINE, "test", self.program(known, "gap.yaml"), "--times-band", "20").stdout
+        self.assertRegex(gap, r"gap .* \(expected failure: too slow\)   \(\d+ of 22 tables", "that it is not robust enough is the known gap")
+        robust = self.program(known.replace("100%", "10%"), "no_gap.yaml")
+        self.assertIn("remove the mark", self.ends(FAILED, "test", robust, "--times-band", "20").stdout)
         scenario.write_text(text.replace("100%", "10%"), encoding="utf-8")
         self.ends(FINE, "test", scenario)
         (of_one,) = self.json(FINE, "test", scenario, "--json")["scenarios"]
