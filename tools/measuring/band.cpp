@@ -9,6 +9,16 @@
 
 namespace s7200::tools {
 
+std::vector<std::string> names_in_band(const CpuModel& model, const std::string& table) {
+  std::vector<std::string> names;
+  for (const NamedTimes* named : times_of(model)) names.emplace_back(named->name);
+  if (table.empty()) return names;
+  const auto asked_for = std::ranges::find(names, table);
+  if (asked_for == names.end()) return {table};
+  std::rotate(names.begin(), asked_for, std::next(asked_for));
+  return names;
+}
+
 std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
                                    std::vector<std::string>& errors) {
   auto times = load_times(model, table, errors);
@@ -17,13 +27,10 @@ std::optional<TimesBand> load_band(const CpuModel& model, const std::string& tab
 }
 
 TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable times, const BandSettings& settings) {
-  if (!table.empty()) return TimesBand({{table, std::move(times)}}, settings);
   std::vector<TimesBand::Named> tables;
   std::vector<std::string> errors;  // there are none in tables that have a name
-  for (const NamedTimes* named : times_of(model)) {
-    const std::string name(named->name);
-    tables.push_back({name, *load_times(model, name, errors)});
-  }
+  for (const std::string& name : names_in_band(model, table))
+    tables.push_back({name, name == table ? std::move(times) : *load_times(model, name, errors)});
   return TimesBand(std::move(tables), settings);
 }
 

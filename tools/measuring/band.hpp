@@ -16,8 +16,11 @@
 
 namespace s7200::tools {
 
-/// The tables of a CPU for `table`, a name or a file as load_times() takes it: that one and random ones; without it the
-/// CPU's own, the others of the same CPU that have a name, and random ones. Nothing, with errors, as load_times().
+/// The tables around which random ones are drawn: `table`, and the others of the CPU that have a name if it is one of these.
+/// Empty: the CPU's own is the first.
+std::vector<std::string> names_in_band(const CpuModel& model, const std::string& table);
+
+/// These, of a table as load_times() takes it, and random ones. Nothing, with errors, as load_times().
 std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
                                    std::vector<std::string>& errors);
 

@@ -71,11 +71,15 @@ TEST(TimesBand, TheTableInUseComesFirstThenTheOthersOfTheCpuThenRandomOnes) {
   EXPECT_EQ((*band)[1].find("MOVB", {})->marker, "remembered");
 }
 
-TEST(TimesBand, ATableThatIsAskedForIsTheOnlyOneBesidesRandomOnes) {
+TEST(TimesBand, ATableThatIsAskedForComesFirstAndWithoutTheOthersIfItIsNoneOfTheCpus) {
   std::vector<std::string> errors;
   const auto band = load_band(cpu214(), "cpu214_from_22x", {.random = 3, .seed = 1}, errors);
   ASSERT_TRUE(band);
-  EXPECT_EQ(band->size(), 4U);
+  EXPECT_EQ(band->size(), 5U);
+  EXPECT_EQ(band->name(0), "cpu214_from_22x");
+  EXPECT_EQ((*band)[0].find("MOVB", {})->marker, "remembered");
+  EXPECT_EQ(band->name(1), "cpu214");
+  EXPECT_EQ(band_around(cpu214(), "measured.csv", default_times(cpu214()), {.random = 3, .seed = 1}).size(), 4U);
   EXPECT_FALSE(load_band(cpu214(), "no such file", {.random = 3, .seed = 1}, errors));
   EXPECT_EQ(errors.size(), 1U);
 }

@@ -5,10 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <thread>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
-#include "interpreter/model/named_times.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/terminal.hpp"
@@ -43,10 +44,10 @@ std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, in
 }
 
 std::string band_title(const CpuOptions& cpu, const BandSettings& settings) {
-  const std::string names = cpu.times_table.empty() ? names_of_times(*cpu.model()) : stl::printable(cpu.times_table);
-  const bool one = names.find(", ") == std::string::npos;
-  return fmt::format("execution times: {}, and {} random table{} around {} (seed {})", names, settings.random,
-                     settings.random == 1 ? "" : "s", one ? "it" : "them", settings.seed);
+  const auto names = names_in_band(*cpu.model(), cpu.times_table);
+  return fmt::format("execution times: {}, and {} random table{} around {} (seed {})",
+                     stl::printable(stl::joined(names, std::identity{})), settings.random, settings.random == 1 ? "" : "s",
+                     names.size() == 1 ? "it" : "them", settings.seed);
 }
 
 BandProgress::BandProgress(std::size_t all) : all_(all), from_(host_time() + 2 * kSecond), wanted_(isatty(STDERR_FILENO)) {}
