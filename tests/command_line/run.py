@@ -2921,7 +2921,19 @@ class Times(Case):
         self.ends(FINE, "test", scenario)
         (of_one,) = self.json(FINE, "test", scenario, "--json")["scenarios"]
         self.assertEqual(of_one["band"]["tables"], 202, "a scenario that asks for a share is run with the usual number of tables")
-        self.assertIn("'95' is not a share", self.ends(UNUSABLE, "test", self.program(text.replace("100%", "95"), "x.yaml")).stderr)
+        self.ends(FAILED, "test", self.program(text, "again.yaml"), "--times-band", "20", "--junit", self.folder / "band.xml")
+        properties = {one.get("name"): one.get("value") for one in xml.etree.ElementTree.parse(self.folder / "band.xml").iter("property")}
+        self.assertEqual(properties["tables"], "22")
+        self.assertIn(int(properties["tables_passed"]), range(22))
+        self.assertRegex(properties["tables_failed_with"], r"random table \d+ of seed 1|cpu214_from_22x")
+        self.ends(FINE, "test", scenario, "--record", self.folder / "t.yaml")
+        self.assertIn("# without its 'robust: 10%': the times below are those of one table\n", (self.folder / "t.yaml").read_text(encoding="utf-8"))
+        self.ends(FINE, "test", self.folder / "t.yaml")
+        for share in ("0%", "101%", "95"):
+            self.assertIn(f"'{share}' is not a share of the tables of execution times above 0%", self.ends(UNUSABLE, "test", self.program(text.replace("100%", share), "x.yaml")).stderr)
+        empty = self.ends(UNUSABLE, "test", self.program(text.replace(" 100%", ""), "x.yaml")).stderr
+        self.assertIn("x.yaml:2:1: error: ", empty, "what is not written stands where its key does")
+        self.assertNotEqual(*(self.json(FINE, "test", scenario, "--band-seed", seed, "--json")["scenarios"][0]["band"] for seed in "12"))
         self.assertIn("are about one", self.ends(UNUSABLE, "test", scenario, "--times-band", "2", "--record", self.folder / "t.yaml").stderr)
 
     def test_a_scenario_with_a_band_reads_its_table_once(self):

@@ -20,15 +20,16 @@ namespace s7200::tools {
 unsigned BandOptions::every_core() { return std::max(1U, std::thread::hardware_concurrency()); }
 
 void BandOptions::add_tables_to(CLI::App& app) {
-  auto* band = add_whole_number(app, "--times-band", settings_.random, {1, 100'000},
-                                "show how far results depend on the times: run with every named table and N random ones");
-  add_whole_number(app, "--band-seed", settings_.seed, {0, UINT32_MAX}, "seed of the random tables", "1")->needs(band);
+  add_whole_number(app, "--times-band", settings_.random, {1, 100'000},
+                   "show how far results depend on the times: run with every named table and N random ones");
+  add_whole_number(app, "--band-seed", settings_.seed, {0, UINT32_MAX}, "seed of the random tables", "1");
 }
 
 void BandOptions::add_to(CLI::App& app) {
   add_tables_to(app);
-  add_whole_number(app, "--jobs", jobs_, {1, 64}, "tables at a time; the output is the same", "every core")
-      ->needs(app.get_option("--times-band"));
+  auto* band = app.get_option("--times-band");
+  app.get_option("--band-seed")->needs(band);
+  add_whole_number(app, "--jobs", jobs_, {1, 64}, "tables at a time; the output is the same", "every core")->needs(band);
 }
 
 std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, int& exit_code) const {

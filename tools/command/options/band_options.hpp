@@ -14,7 +14,7 @@ class BandOptions {
   /// --times-band, --band-seed and --jobs.
   void add_to(CLI::App& app);
 
-  /// The first two.
+  /// The first two, where there is a band without --times-band too.
   void add_tables_to(CLI::App& app);
 
   bool wanted() const { return settings_.random > 0; }
