@@ -1229,8 +1229,20 @@ class Json(Case):
         for wrong in ("missing.json", self.program("[1]", "list.json"), self.program("{", "half.json")):
             self.assertIn("cannot read", self.ends(UNUSABLE, "bench", "--each", "1ms", "--against", wrong).stderr)
 
+    def test_bench_runs_every_scan_of_all_its_programs_if_asked(self):
+        fast, slow = (self.json(FINE, "bench", "--each", "20ms", "--json", *more)["figures"] for more in ([], ["--no-skip"]))
+        rates = lambda figures: {figure["name"]: figure["per_second"] for figure in figures}
+        if self.json(FINE, "bench", "--each", "1ms", "--json")["build"] != "Release":
+            self.assertRegex(self.ends(FINE, "bench", "--each", "1ms").stdout, r"^modbus_slave\.stl: .* \(\w+ build, not Release\)\n")
+            return self.assertEqual(rates(fast).keys(), rates(slow).keys(), "this build never passes scans over")
+        for name in ("nobody talking", "nobody talking, tip-like"):
+            self.assertGreater(rates(fast)[name], 20 * rates(slow)[name], name)
+
     def test_bench_saves_its_programs_and_overwrites_none(self):
         folder = self.folder / "saved"
+        self.assertIn("cannot make the folder", self.ends(UNUSABLE, "bench", "--save-programs", folder / "below").stderr)
+        for beside in (["--against", "x.json"], ["--json"], [SLAVE]):
+            self.assertIn("--save-programs excludes", self.ends(UNUSABLE, "bench", "--save-programs", folder, *beside).stderr)
         self.assertEqual(self.ends(FINE, "bench", "--save-programs", folder).stdout, "")
         for count in (340, 1900, 4000):
             self.assertEqual(self.json(FINE, "run", folder / f"mixed_{count}.stl", "--cpu", "226XM", "--scans", "2", "--json")["instructions"], 2 * count)
@@ -2874,7 +2886,7 @@ class Times(Case):
         copy = self.program(self.ends(FINE, "times", "--cpu", "224", "--csv").stdout, "of_224.csv")
         self.ends(FINE, "times", "--cpu", "226", "--times", copy)
         refused = self.ends(UNUSABLE, "run", SLAVE, "--times", copy, "--scans", "1").stderr
-        self.assertIn("of_224.csv:1: these are times of CPU 224, not of CPU 214; give --cpu 224, or delete this line", refused)
+        self.assertIn("of_224.csv:1: these are times of CPU 224, not of CPU 214; give --cpu 224, or delete this line and mend what does not fit", refused)
         without = self.program("".join(copy.read_text(encoding="utf-8").splitlines(True)[1:]), "plain.csv")
         self.ends(FINE, "times", "--cpu", "224", "--times", without)
         for arguments in (["times", ""], ["times", "--check", ""]):
