@@ -1681,6 +1681,14 @@ lines:
         done = self.ends(FAILED, "run", self.program(self.SYSTEM.replace(SLAVE, "wrong.stl"), "broken.yaml"))
         self.assertIn(f"{wrong}:1:", done.stderr)
 
+    def test_every_scan_of_a_system_can_be_run(self):
+        system = self.program(f"plcs: {{a: {{program: {SLAVE}, station: 4}}}}\nlines: {{l: {{stations: [a]}}}}\n", "system.yaml")
+        scenario = self.program("steps: [{read: 40011, station: 4, expect: [0]}, {wait: 2s}, {read: 40011, station: 4, expect: [0]}]\n", "reads.yaml")
+        own = self.program("system: system.yaml\nsteps: [{wait: 2s}]\n", "own.yaml")
+        for verb in (["run", system, "--for", "3s", "--json"], ["test", scenario, "--target", system, "--json"], ["test", own, "--json"]):
+            self.assertEqual(self.ends(FINE, *verb).stdout, self.ends(FINE, *verb, "--no-skip").stdout, verb)
+        self.assertIn("--no-skip needs a PROGRAM to run", self.ends(UNUSABLE, "run", "westinghouse:pc1200", "--no-skip").stderr)
+
     def test_options_about_one_plc_and_other_verbs_are_refused(self):
         system = self.program(self.SYSTEM, "system.yaml")
         self.assertIn("--set is about one PLC", self.ends(UNUSABLE, "run", system, "--set", "VW0=1").stderr)

@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/measuring/parallel_run.hpp"
+#include "tools/rig/rig.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -47,6 +48,12 @@ Time tolerance_for(Time given, bool live) {
 std::optional<Suite> Suite::collect(const SuiteSettings& settings, Messages& messages) {
   auto scenarios = collect_scenarios(settings, messages);
   if (!scenarios) return {};
+  for (Scenario& scenario : *scenarios) {
+    if (!settings.every_scan || !scenario.plan) continue;
+    auto plan = std::make_shared<SystemPlan>(*scenario.plan);
+    run_every_scan(*plan);
+    scenario.plan = std::move(plan);
+  }
   return Suite(settings, std::move(*scenarios));
 }
 
