@@ -2114,6 +2114,7 @@ class JsonPage(Case):
     def runs(self):
         echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
         faulty = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\nMEND\n", "faulty.stl")
+        stopped = self.program("LD SM0.0\nSTOP\nMEND\n", "stopped.stl")
         good, bad = self.program(Scenarios.GOOD, "good.yaml"), self.program(Scenarios.BAD, "bad.yaml")
         gap = self.program(Scenarios.BAD + "expected_failure: not yet\n", "gap.yaml")
         hasty = self.program("LD SM0.1\nMOVB 16#1D, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB 1, VB0\nMOVB 65, VB1\nXMT VB0, 0\nRETI\n",
@@ -2137,6 +2138,7 @@ class JsonPage(Case):
                     ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
                     ["calibrate", MEASURE, "--each", "1s"], ["decode", LOG], ["import-capture", LOG],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
+                    ["send", stopped, "01", "--times-band", "2"], ["master", stopped, "read", "40001", "--times-band", "2"],
                     ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
                     ["test", good, "--list"], ["run", self.system(), "--for", "50ms"],
@@ -3132,6 +3134,22 @@ class Times(Case):
             (stop,) = exchange["stops"]
             self.assertRegex(stop["why"], watchdog)
             self.assertRegex(stop["first_with"], r"random table \d+ of seed 1")
+
+    @unittest.skipUnless(TIP.exists(), "Application Tip 41 is not part of this project")
+    def test_tables_that_agree_with_what_is_known_are_counted_apart(self):
+        arguments = ["send", SLAVE, "--crc", "0103000a0002", "--times-band", "10", "--tip41", TIP]
+        done = self.ends(FINE, *arguments)
+        agreeing, = re.findall(r"(?m)^  after .* 12 of 12 tables\n  with those that agree with what is known: after .* ms   answered: (\d+) of \1 tables$", done.stdout)
+        (exchange,) = self.json(FINE, *arguments, "--json")["band"]["exchanges"]
+        self.assertEqual([exchange["agreeing"], exchange["verdicts"][0]["agreeing"]], [int(agreeing)] * 2)
+        latency = exchange["latency_us"]
+        self.assertTrue(latency["least"] <= latency["least_agreeing"] < latency["most_agreeing"] <= latency["most"])
+        checked = [s7200("times", "--check", name, "--tip41", TIP).returncode for name in ("cpu214", "cpu214_from_22x")]
+        for number in range(1, 11):
+            csv = self.program(self.ends(FINE, "times", "--csv", "--band-table", str(number)).stdout, f"{number}.csv")
+            checked.append(s7200("times", "--check", csv, "--tip41", TIP).returncode)
+        self.assertEqual(checked.count(FINE), int(agreeing), "what `times --check` finds of each")
+        self.assertIn("is not Application Tip 41", self.ends(UNUSABLE, *arguments[:-1], SLAVE).stderr)
 
     def test_what_is_not_the_measuring_program_is_said_with_how_to_download_it(self):
         done = self.ends(UNUSABLE, "calibrate", SLAVE)

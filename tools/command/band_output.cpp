@@ -7,9 +7,11 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/statements_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/measuring/parallel_run.hpp"
+#include "tools/measuring/statements.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -33,34 +35,74 @@ std::string tables_text(const ExchangeBand& band, const ProgramBand& tables) {
   return text;
 }
 
-void print_bands(const BandExchanges& exchanges, const std::string& title, const std::vector<ExchangeBand>& bands,
-                 const ProgramBand& tables) {
-  fmt::print("{}\n", title);
-  for (std::size_t i = 0; i < bands.size(); ++i)
-    fmt::print("{}\n  {}\n{}", stl::printable(exchanges.labels[i].text), bands[i].text(),
-               stl::printable_lines(tables_text(bands[i], tables)));
+/// What came of an exchange with all tables, and with those that agree with all that is known of real CPUs.
+struct OneExchange {
+  ExchangeBand all, agreeing;
+};
+
+struct Results {
+  std::string title;
+  std::vector<OneExchange> exchanges;
+  bool judged;  ///< it was looked which tables agree
+};
+
+std::string agreeing_text(const ExchangeBand& agreeing) {
+  if (agreeing.tables() == 0) return "  none of the tables agrees with what is known\n";
+  return fmt::format("  with those that agree with what is known: {}\n", agreeing.text());
 }
 
-void print_json(const BandExchanges& exchanges, const std::string& title, const std::vector<ExchangeBand>& bands,
-                const ProgramBand& tables) {
-  auto results = results_of(exchanges.verb);
-  results["band"] = {{"times", title}, {"exchanges", nlohmann::ordered_json::array()}};
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    nlohmann::ordered_json exchange{{exchanges.key, exchanges.labels[i].value}};
-    exchange.update(bands[i].json());
-    const bool any = bands[i].latency().any();
-    const auto name = [&](std::size_t table) { return any ? nlohmann::ordered_json(tables.table_name(table)) : nullptr; };
-    exchange["shortest_with"] = name(bands[i].shortest());
-    exchange["longest_with"] = name(bands[i].longest());
-    const auto name_first = [&](const char* list, const ExchangeBand::Counts& counts) {
-      for (std::size_t j = 0; j < counts.size(); ++j) exchange[list][j]["first_with"] = tables.table_name(counts[j].first);
-    };
-    name_first("verdicts", bands[i].verdicts());
-    name_first("stops", bands[i].stops());
-    results["band"]["exchanges"].push_back(std::move(exchange));
+void print_text(const BandExchanges& exchanges, const Results& results, const ProgramBand& tables) {
+  fmt::print("{}\n", results.title);
+  for (std::size_t i = 0; i < results.exchanges.size(); ++i) {
+    const auto& [all, agreeing] = results.exchanges[i];
+    fmt::print("{}\n  {}\n{}{}", stl::printable(exchanges.labels[i].text), all.text(),
+               results.judged ? agreeing_text(agreeing) : "", stl::printable_lines(tables_text(all, tables)));
   }
-  fmt::print("{}", lines_of(results));
 }
+
+void name_first(nlohmann::ordered_json& list, const ExchangeBand::Counts& counts, const ProgramBand& tables) {
+  for (std::size_t i = 0; i < counts.size(); ++i) list[i]["first_with"] = tables.table_name(counts[i].first);
+}
+
+nlohmann::ordered_json exchange_json(const OneExchange& exchange, bool judged, const ProgramBand& tables) {
+  const auto& [all, agreeing] = exchange;
+  nlohmann::ordered_json json = all.json();
+  const bool any = all.latency().any();
+  const auto name = [&](std::size_t table) { return any ? nlohmann::ordered_json(tables.table_name(table)) : nullptr; };
+  json["shortest_with"] = name(all.shortest());
+  json["longest_with"] = name(all.longest());
+  name_first(json["verdicts"], all.verdicts(), tables);
+  name_first(json["stops"], all.stops(), tables);
+  json["agreeing"] = judged ? nlohmann::ordered_json(agreeing.tables()) : nullptr;
+  for (auto& verdict : json["verdicts"])
+    verdict["agreeing"] = judged ? nlohmann::ordered_json(agreeing.count(verdict["verdict"].get<std::string>())) : nullptr;
+  if (!any) return json;
+  const auto of_agreeing = to_json(agreeing.latency());
+  for (const char* const end : {"least", "most"})
+    json["latency_us"][fmt::format("{}_agreeing", end)] = of_agreeing.is_null() ? of_agreeing : of_agreeing[end];
+  return json;
+}
+
+void print_json(const BandExchanges& exchanges, const Results& results, const ProgramBand& tables) {
+  auto json = results_of(exchanges.verb);
+  json["band"] = {{"times", results.title}, {"exchanges", nlohmann::ordered_json::array()}};
+  for (std::size_t i = 0; i < results.exchanges.size(); ++i) {
+    nlohmann::ordered_json exchange{{exchanges.key, exchanges.labels[i].value}};
+    exchange.update(exchange_json(results.exchanges[i], results.judged, tables));
+    json["band"]["exchanges"].push_back(std::move(exchange));
+  }
+  fmt::print("{}", lines_of(json));
+}
+
+bool agrees(const CpuModel& model, const TimeTable& times, const SourceText& tip41) {
+  return std::ranges::count(check_statements(model, times, &tip41), Statement::Verdict::Fails, &Statement::verdict) == 0;
+}
+
+/// With one table.
+struct Turn {
+  std::vector<BandOutcome> outcomes;
+  bool agrees;
+};
 
 }  // namespace
 
@@ -70,6 +112,8 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
   int exit_code = kFine;
   const auto programs = band.load(program, exit_code);
   if (!programs) return exit_code;
+  const auto tip41 = band.tip41().empty() ? std::nullopt : read_tip41(band.tip41());
+  if (!tip41 && !band.tip41().empty()) return kUnusable;
   if (!rig_options.assemble(programs->program(0), json)) return rig_options.exit_code_without_rig();
   const auto with_table = [&](std::size_t table) {
     const auto of_table = programs->program(table);
@@ -81,26 +125,30 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
     rig->power_up();
     auto outcomes = exchanges.run(*rig, of_table->source.name, lost);
     outcomes.resize(exchanges.labels.size(), {.verdict = "not sent", .stop = stop_text(rig->cpu())});
-    return outcomes;
+    return Turn{std::move(outcomes), tip41 && agrees(programs->model(), programs->times(table), *tip41)};
   };
-  std::vector<ExchangeBand> bands(exchanges.labels.size());
+  Results results{band_title(program, band.settings()), std::vector<OneExchange>(exchanges.labels.size()),
+                  tip41.has_value()};
   BandProgress progress(programs->size());
-  ParallelRun<std::vector<BandOutcome>> run(programs->size(), band.jobs(), with_table);
+  ParallelRun<Turn> run(programs->size(), band.jobs(), with_table);
   run.each(
-      [&](std::size_t, const std::vector<BandOutcome>& found) {
+      [&](std::size_t, const Turn& turn) {
         if (interrupted()) return false;
-        for (std::size_t i = 0; i < bands.size(); ++i) bands[i].add(found[i]);
+        for (std::size_t i = 0; i < turn.outcomes.size(); ++i) {
+          results.exchanges[i].all.add(turn.outcomes[i]);
+          if (turn.agrees) results.exchanges[i].agreeing.add(turn.outcomes[i]);
+        }
         return true;
       },
       std::ref(progress));
   progress.clear();
-  std::string title = band_title(program, band.settings());
-  const std::size_t done = bands.empty() ? 0 : bands.front().tables();
-  if (done < programs->size()) title += fmt::format("; {} of these {} tables", done, programs->size());
-  (json ? print_json : print_bands)(exchanges, title, bands, *programs);
+  const std::size_t done = results.exchanges.empty() ? 0 : results.exchanges.front().all.tables();
+  if (done < programs->size()) results.title += fmt::format("; {} of these {} tables", done, programs->size());
+  (json ? print_json : print_text)(exchanges, results, *programs);
   print_interruption();
-  const bool always =
-      std::ranges::all_of(bands, [&](const ExchangeBand& each) { return each.count(exchanges.good) == programs->size(); });
+  const bool always = std::ranges::all_of(results.exchanges, [&](const OneExchange& exchange) {
+    return exchange.all.count(exchanges.good) == programs->size();
+  });
   return always ? kFine : kCheckFailed;
 }
 

@@ -36,6 +36,8 @@ class ProgramBand {
 
   std::size_t size() const { return tables_.size(); }
   std::string table_name(std::size_t table) const { return tables_.name(table); }
+  TimeTable times(std::size_t table) const { return tables_[table]; }
+  const CpuModel& model() const { return model_; }
   std::shared_ptr<const Program> program(std::size_t table) const;
 
  private:

@@ -30,6 +30,10 @@ void BandOptions::add_to(CLI::App& app) {
   auto* band = app.get_option("--times-band");
   app.get_option("--band-seed")->needs(band);
   add_whole_number(app, "--jobs", jobs_, {1, 64}, "tables at a time; the output is the same", "every core")->needs(band);
+  app.add_option("--tip41", tip41_,
+                 "the document of Application Tip 41: count apart the tables with which it does what it says of itself")
+      ->type_name("FILE")
+      ->needs(band);
 }
 
 std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, int& exit_code) const {
