@@ -93,8 +93,9 @@ std::string other_cpu(const std::string& cpu, const CpuModel& model) {
   const CpuModel* of = find_cpu(cpu);
   if (!of) return fmt::format("there is no CPU '{}'", stl::shortened(cpu));
   if (same_times(*of, model)) return {};
-  return fmt::format("these are times of CPU {}, not of CPU {}; give --cpu {}, or delete this line to use them all the same",
-                     cpu, model.name, cpu);
+  return fmt::format(
+      "these are times of CPU {}, not of CPU {}; give --cpu {}, or delete this line and mend what does not fit", cpu,
+      model.name, cpu);
 }
 
 std::vector<std::string> slips_in(const TimesFile& file, const std::string& name, const CpuModel& model) {

@@ -1229,8 +1229,20 @@ class Json(Case):
         for wrong in ("missing.json", self.program("[1]", "list.json"), self.program("{", "half.json")):
             self.assertIn("cannot read", self.ends(UNUSABLE, "bench", "--each", "1ms", "--against", wrong).stderr)
 
+    def test_bench_runs_every_scan_of_all_its_programs_if_asked(self):
+        fast, slow = (self.json(FINE, "bench", "--each", "20ms", "--json", *more)["figures"] for more in ([], ["--no-skip"]))
+        rates = lambda figures: {figure["name"]: figure["per_second"] for figure in figures}
+        if self.json(FINE, "bench", "--each", "1ms", "--json")["build"] != "Release":
+            self.assertRegex(self.ends(FINE, "bench", "--each", "1ms").stdout, r"^modbus_slave\.stl: .* \(\w+ build, not Release\)\n")
+            return self.assertEqual(rates(fast).keys(), rates(slow).keys(), "this build never passes scans over")
+        for name in ("nobody talking", "nobody talking, tip-like"):
+            self.assertGreater(rates(fast)[name], 20 * rates(slow)[name], name)
+
     def test_bench_saves_its_programs_and_overwrites_none(self):
         folder = self.folder / "saved"
+        self.assertIn("cannot make the folder", self.ends(UNUSABLE, "bench", "--save-programs", folder / "below").stderr)
+        for beside in (["--against", "x.json"], ["--json"], [SLAVE]):
+            self.assertRegex(self.ends(UNUSABLE, "bench", "--save-programs", folder, *beside).stderr, "(--save-programs excludes|excludes --save-programs)")
         self.assertEqual(self.ends(FINE, "bench", "--save-programs", folder).stdout, "")
         for count in (340, 1900, 4000):
             self.assertEqual(self.json(FINE, "run", folder / f"mixed_{count}.stl", "--cpu", "226XM", "--scans", "2", "--json")["instructions"], 2 * count)
@@ -1669,6 +1681,14 @@ lines:
         done = self.ends(FAILED, "run", self.program(self.SYSTEM.replace(SLAVE, "wrong.stl"), "broken.yaml"))
         self.assertIn(f"{wrong}:1:", done.stderr)
 
+    def test_every_scan_of_a_system_can_be_run(self):
+        system = self.program(f"plcs: {{a: {{program: {SLAVE}, station: 4}}}}\nlines: {{l: {{stations: [a]}}}}\n", "system.yaml")
+        scenario = self.program("steps: [{read: 40011, station: 4, expect: [0]}, {wait: 2s}, {read: 40011, station: 4, expect: [0]}]\n", "reads.yaml")
+        own = self.program("system: system.yaml\nsteps: [{wait: 2s}]\n", "own.yaml")
+        for verb in (["run", system, "--for", "3s", "--json"], ["test", scenario, "--target", system, "--json"], ["test", own, "--json"]):
+            self.assertEqual(self.ends(FINE, *verb).stdout, self.ends(FINE, *verb, "--no-skip").stdout, verb)
+        self.assertIn("--no-skip needs a PROGRAM to run", self.ends(UNUSABLE, "run", "westinghouse:pc1200", "--no-skip").stderr)
+
     def test_options_about_one_plc_and_other_verbs_are_refused(self):
         system = self.program(self.SYSTEM, "system.yaml")
         self.assertIn("--set is about one PLC", self.ends(UNUSABLE, "run", system, "--set", "VW0=1").stderr)
@@ -2102,6 +2122,7 @@ class JsonPage(Case):
     def runs(self):
         echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
         faulty = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\nMEND\n", "faulty.stl")
+        stopped = self.program("LD SM0.0\nSTOP\nMEND\n", "stopped.stl")
         good, bad = self.program(Scenarios.GOOD, "good.yaml"), self.program(Scenarios.BAD, "bad.yaml")
         gap = self.program(Scenarios.BAD + "expected_failure: not yet\n", "gap.yaml")
         hasty = self.program("LD SM0.1\nMOVB 16#1D, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB 1, VB0\nMOVB 65, VB1\nXMT VB0, 0\nRETI\n",
@@ -2125,6 +2146,7 @@ class JsonPage(Case):
                     ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
                     ["calibrate", MEASURE, "--each", "1s"], ["decode", LOG], ["import-capture", LOG],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
+                    ["send", stopped, "01", "--times-band", "2"], ["master", stopped, "read", "40001", "--times-band", "2"],
                     ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
                     ["test", good, "--list"], ["run", self.system(), "--for", "50ms"],
@@ -2882,7 +2904,7 @@ class Times(Case):
         copy = self.program(self.ends(FINE, "times", "--cpu", "224", "--csv").stdout, "of_224.csv")
         self.ends(FINE, "times", "--cpu", "226", "--times", copy)
         refused = self.ends(UNUSABLE, "run", SLAVE, "--times", copy, "--scans", "1").stderr
-        self.assertIn("of_224.csv:1: these are times of CPU 224, not of CPU 214; give --cpu 224, or delete this line", refused)
+        self.assertIn("of_224.csv:1: these are times of CPU 224, not of CPU 214; give --cpu 224, or delete this line and mend what does not fit", refused)
         without = self.program("".join(copy.read_text(encoding="utf-8").splitlines(True)[1:]), "plain.csv")
         self.ends(FINE, "times", "--cpu", "224", "--times", without)
         for arguments in (["times", ""], ["times", "--check", ""]):
@@ -2920,11 +2942,28 @@ class Times(Case):
         done = self.ends(FAILED, "test", late, "--times-band", "20")
         self.assertIn("expected  to pass with 40% of the tables of execution times, the first of them among these", done.stdout)
         self.assertRegex(done.stdout, r"found +\d+ of 22: \d+\.\d%, not with cpu214\n")
+        known = text.replace("steps:", "expected_failure: too slow\nsteps:")
+        gap = self.ends(FINE, "test", self.program(known, "gap.yaml"), "--times-band", "20").stdout
+        self.assertRegex(gap, r"gap .* \(expected failure: too slow\)   \(\d+ of 22 tables", "that it is not robust enough is the known gap")
+        robust = self.program(known.replace("100%", "10%"), "no_gap.yaml")
+        self.assertIn("remove the mark", self.ends(FAILED, "test", robust, "--times-band", "20").stdout)
         scenario.write_text(text.replace("100%", "10%"), encoding="utf-8")
         self.ends(FINE, "test", scenario)
         (of_one,) = self.json(FINE, "test", scenario, "--json")["scenarios"]
         self.assertEqual(of_one["band"]["tables"], 202, "a scenario that asks for a share is run with the usual number of tables")
-        self.assertIn("'95' is not a share", self.ends(UNUSABLE, "test", self.program(text.replace("100%", "95"), "x.yaml")).stderr)
+        self.ends(FAILED, "test", self.program(text, "again.yaml"), "--times-band", "20", "--junit", self.folder / "band.xml")
+        properties = {one.get("name"): one.get("value") for one in xml.etree.ElementTree.parse(self.folder / "band.xml").iter("property")}
+        self.assertEqual(properties["tables"], "22")
+        self.assertIn(int(properties["tables_passed"]), range(22))
+        self.assertRegex(properties["tables_failed_with"], r"random table \d+ of seed 1|cpu214_from_22x")
+        self.ends(FINE, "test", scenario, "--record", self.folder / "t.yaml")
+        self.assertIn("# without its 'robust: 10%': the times below are those of one table\n", (self.folder / "t.yaml").read_text(encoding="utf-8"))
+        self.ends(FINE, "test", self.folder / "t.yaml")
+        for share in ("0%", "101%", "95"):
+            self.assertIn(f"'{share}' is not a share of the tables of execution times above 0%", self.ends(UNUSABLE, "test", self.program(text.replace("100%", share), "x.yaml")).stderr)
+        empty = self.ends(UNUSABLE, "test", self.program(text.replace(" 100%", ""), "x.yaml")).stderr
+        self.assertIn("x.yaml:2:1: error: ", empty, "what is not written stands where its key does")
+        self.assertNotEqual(*(self.json(FINE, "test", scenario, "--band-seed", seed, "--json")["scenarios"][0]["band"] for seed in "12"))
         self.assertIn("are about one", self.ends(UNUSABLE, "test", scenario, "--times-band", "2", "--record", self.folder / "t.yaml").stderr)
 
     def test_a_scenario_with_a_band_reads_its_table_once(self):
@@ -3091,6 +3130,34 @@ class Times(Case):
     def test_a_table_with_which_the_exchange_went_otherwise_is_named(self):
         done = s7200("send", SLAVE, "--crc", "0103000a0002", "--timeout", "17ms", "--times-band", "20")
         self.assertRegex(done.stdout, r"(?m)^  (answered|no answer) with (cpu214|cpu214_from_22x|random table \d+ of seed 1)$")
+
+    def test_a_band_says_with_how_many_tables_the_cpu_stopped_and_why(self):
+        loop = self.program("LD SM0.1\nMOVB 16#49, SMB30\nLD I0.0\nFOR VW0, 1, 1850\nNEXT\nMEND\n", "loop.stl")
+        watchdog = r"CPU in STOP, scan watchdog \(fatal error 0003\)"
+        for verb in (["send", loop, "01"], ["master", loop, "read", "40001"]):
+            done = self.ends(FAILED, *verb, "--set", "I0.0=1", "--times-band", "20")
+            self.assertRegex(done.stdout, rf"(?m)^  (no answer|silent): \d+ of 22 tables; not sent: (\d+) of 22; {watchdog}: \2 of 22$")
+            self.assertRegex(done.stdout, rf"(?m)^  {watchdog} with random table \d+ of seed 1$")
+            (exchange,) = self.json(FAILED, *verb, "--set", "I0.0=1", "--times-band", "20", "--json")["band"]["exchanges"]
+            (stop,) = exchange["stops"]
+            self.assertRegex(stop["why"], watchdog)
+            self.assertRegex(stop["first_with"], r"random table \d+ of seed 1")
+
+    @unittest.skipUnless(TIP.exists(), "Application Tip 41 is not part of this project")
+    def test_tables_that_agree_with_what_is_known_are_counted_apart(self):
+        arguments = ["send", SLAVE, "--crc", "0103000a0002", "--times-band", "10", "--tip41", TIP]
+        done = self.ends(FINE, *arguments)
+        agreeing, = re.findall(r"(?m)^  after .* 12 of 12 tables\n  with those that agree with what is known: after .* ms   answered: (\d+) of \1 tables$", done.stdout)
+        (exchange,) = self.json(FINE, *arguments, "--json")["band"]["exchanges"]
+        self.assertEqual([exchange["agreeing"], exchange["verdicts"][0]["agreeing"]], [int(agreeing)] * 2)
+        latency = exchange["latency_us"]
+        self.assertTrue(latency["least"] <= latency["least_agreeing"] < latency["most_agreeing"] <= latency["most"])
+        checked = [s7200("times", "--check", name, "--tip41", TIP).returncode for name in ("cpu214", "cpu214_from_22x")]
+        for number in range(1, 11):
+            csv = self.program(self.ends(FINE, "times", "--csv", "--band-table", str(number)).stdout, f"{number}.csv")
+            checked.append(s7200("times", "--check", csv, "--tip41", TIP).returncode)
+        self.assertEqual(checked.count(FINE), int(agreeing), "what `times --check` finds of each")
+        self.assertIn("is not Application Tip 41", self.ends(UNUSABLE, *arguments[:-1], SLAVE).stderr)
 
     def test_what_is_not_the_measuring_program_is_said_with_how_to_download_it(self):
         done = self.ends(UNUSABLE, "calibrate", SLAVE)

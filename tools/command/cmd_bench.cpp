@@ -57,10 +57,13 @@ int run_bench(const BenchOptions& options) {
   const auto how = measured_with(options.program, *program, options.each);
   if (!options.against.empty()) warn_of_differences(how, *before, options.against);
   std::vector<Figure> figures = measure(program, options.each);
-  if (options.program.path.empty())
-    for (const auto& others : {measure_tip_like, measure_mixed, measure_files})
-      std::ranges::copy(others(options.each), std::back_inserter(figures));
-  std::ranges::copy(measure_start("/proc/self/exe", options.each), std::back_inserter(figures));
+  const auto add = [&](const std::vector<Figure>& others) { std::ranges::copy(others, std::back_inserter(figures)); };
+  if (options.program.path.empty()) {
+    add(measure_tip_like(options.each, options.program.every_scan));
+    add(measure_mixed(options.each));
+    add(measure_files(options.each));
+  }
+  add(measure_start("/proc/self/exe", options.each));
   if (options.json) {
     auto results = results_of("bench");
     results.update(how);
@@ -75,7 +78,9 @@ int run_bench(const BenchOptions& options) {
     fmt::print("{}", lines_of(results));
     return kFine;
   }
-  fmt::print("{}: best of {} rounds on one core\n", stl::printable(program->source.name), kRounds);
+  const std::string build = how["build"];
+  fmt::print("{}: best of {} rounds on one core{}\n", stl::printable(program->source.name), kRounds,
+             build == "Release" ? "" : fmt::format(" ({} build, not Release)", build));
   for (const Figure& f : figures) print_line(f, *before);
   return kFine;
 }
@@ -92,12 +97,17 @@ void add_bench(CLI::App& app, int& exit_code) {
                {kMillisecond, 3600 * kSecond});
   verb->add_option("--against", options->against, "an earlier result of --json: how many times as fast it is now")
       ->type_name("FILE");
-  verb->add_option(
-          "--save-programs", options->save,
-          "only write the mixed programs, for a CPU 226XM, and long listings to DIR: to measure whole processes in pairs")
-      ->type_name("DIR");
   verb->add_flag("--json", options->json, "print as JSON");
-  verb->footer("Example: s7200 bench");
+  auto* save =
+      verb->add_option("--save-programs", options->save,
+                       "only write the mixed programs, for a CPU 226XM, and long listings to DIR, which is made: to "
+                       "measure whole\nprocesses in pairs");
+  save->type_name("DIR");
+  for (const char* const of_measuring : {"PROGRAM", "--against", "--json"}) save->excludes(verb->get_option(of_measuring));
+  verb->footer(
+      "'idle scans', 'instruction trace' and the mixed programs always run every scan. 'tip-like' is a slave that makes a "
+      "table in its\nfirst scan and receives each character in an interrupt, as that of Application Tip 41 does.\n"
+      "Example: s7200 bench");
   verb->callback([options, &exit_code] { exit_code = run_bench(*options); });
 }
 

@@ -110,6 +110,7 @@ void add_test(CLI::App& app, int& exit_code) {
       slave_targets_help() +
       "A SYSTEM.yaml and a westinghouse:MODEL are new for each scenario, and nothing but their line is seen; scenarios that "
       "set\nmemory are skipped. 's7200 master --help' lists the settings of --plc.\n"
+      "With --times-band the table in use decides; the others are counted, and decide where a scenario has 'robust: 95%'.\n"
       "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, or --against found a difference; "
       "2 nothing could be run,\nor the slave cannot be reached.\nExample: s7200 test tests/programs/modbus_slave --jobs 2");
   verb->callback([options, &exit_code] { exit_code = run_test(*options); });

@@ -100,7 +100,7 @@ int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>&
     if (why = why_no_other_master(rig, 0, *options.protocol); !why.empty()) throw std::invalid_argument(why);
     lost.take();
     const auto add = [&](const MasterResult& result) {
-      outcomes.push_back({result.exchange, verdict_name(result.answer.verdict), lost.take()});
+      outcomes.push_back({result.exchange, verdict_name(result.answer.verdict), lost.take(), stop_text(rig.cpu())});
     };
     session.run({add, [] {}}, [] { return false; });
     return outcomes;

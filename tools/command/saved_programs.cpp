@@ -28,7 +28,8 @@ int save_programs(const std::string& folder) {
   for (const std::uint32_t lines : {100'000U, 1'000'000U})
     texts[path("listing", lines)] = [lines] { return long_listing(lines); };
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error) && !std::filesystem::create_directory(folder, error))
+    return print_error(fmt::format("cannot make the folder {}: {}", folder, error.message())), kUnusable;
   for (const auto& [file, text] : texts)
     if (std::filesystem::exists(file, error))
       return print_error(fmt::format("{} exists; give --save-programs another folder", file)), kUnusable;

@@ -25,7 +25,7 @@ std::vector<BandOutcome> outcomes(const SendOptions& options, serial::Simulation
     going = !simulation.master().busy();
     if (going) slave.wait(options.pause == kNever ? slave.pause() : options.pause);
     const char* const verdict = exchange.timed_out ? "no answer" : is_damaged(exchange) ? "damaged" : "answered";
-    outcomes.push_back({exchange, verdict, lost.take()});
+    outcomes.push_back({exchange, verdict, lost.take(), stop_text(simulation.cpu())});
   }
   return outcomes;
 }

@@ -55,15 +55,14 @@ nlohmann::ordered_json statements_json(const std::vector<Statement>& statements)
   return json;
 }
 
-/// Nothing after a message: it cannot be read, or is another program.
+}  // namespace
+
 std::optional<SourceText> read_tip41(const std::string& path) {
   auto text = read_program_text(path);
   if (!text || is_tip41(*text)) return text;
   print_error(fmt::format("--tip41: {} is not Application Tip 41: it has other routines", path));
   return {};
 }
-
-}  // namespace
 
 int check_table(const CpuModel& model, const std::string& table, const std::string& tip41_path, bool json) {
   const auto tables = load_all({table}, model);

@@ -138,7 +138,7 @@ int run_plan(SystemPlan plan, const RigSurroundings& surroundings, Bridges bridg
 bool refuse_options_of_s7200(const CLI::App& verb, const RunOptions& options) {
   const auto refused = [](const CLI::Option& option) {
     const std::string& name = option.get_name();
-    return name == "--scans" || (is_about_one_plc(name) && !is_about_the_line(name));
+    return name == "--scans" || name == kNoSkip || (is_about_one_plc(name) && !is_about_the_line(name));
   };
   for (const CLI::Option* option : verb.get_options())
     if (option->count() > 0 && !option->get_positional() && refused(*option))
@@ -174,7 +174,7 @@ int run_system(const CLI::App& verb, const RunOptions& options) {
   if (options.json && options.rig.settings().trace == "-")
     return print_error("--trace - and --json cannot both have standard output; write one to a file"), kUnusable;
   int exit_code = kFine;
-  auto plan = load_system(options.program.path, exit_code);
+  auto plan = load_system(options.program, exit_code);
   if (!plan) return exit_code;
   const auto owned = make_bridges(*plan);
   if (!owned) return kUnusable;

@@ -9,6 +9,16 @@
 
 namespace s7200::tools {
 
+std::vector<std::string> names_in_band(const CpuModel& model, const std::string& table) {
+  std::vector<std::string> names;
+  for (const NamedTimes* named : times_of(model)) names.emplace_back(named->name);
+  if (table.empty()) return names;
+  const auto asked_for = std::ranges::find(names, table);
+  if (asked_for == names.end()) return {table};
+  std::rotate(names.begin(), asked_for, std::next(asked_for));
+  return names;
+}
+
 std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
                                    std::vector<std::string>& errors) {
   auto times = load_times(model, table, errors);
@@ -17,13 +27,10 @@ std::optional<TimesBand> load_band(const CpuModel& model, const std::string& tab
 }
 
 TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable times, const BandSettings& settings) {
-  if (!table.empty()) return TimesBand({{table, std::move(times)}}, settings);
   std::vector<TimesBand::Named> tables;
   std::vector<std::string> errors;  // there are none in tables that have a name
-  for (const NamedTimes* named : times_of(model)) {
-    const std::string name(named->name);
-    tables.push_back({name, *load_times(model, name, errors)});
-  }
+  for (const std::string& name : names_in_band(model, table))
+    tables.push_back({name, name == table ? std::move(times) : *load_times(model, name, errors)});
   return TimesBand(std::move(tables), settings);
 }
 
@@ -64,14 +71,29 @@ nlohmann::ordered_json to_json(const LatencyRange& range) {
   return {{"least", us(range.least)}, {"most", us(range.most)}};
 }
 
+namespace {
+
+void count(ExchangeBand::Counts& counts, const std::string& what, std::size_t table) {
+  const auto known = std::ranges::find(counts, what, &ExchangeBand::Count::what);
+  if (known == counts.end())
+    counts.push_back({what, 1, table});
+  else
+    ++known->tables;
+}
+
+nlohmann::ordered_json to_json(const ExchangeBand::Counts& counts, const char* key) {
+  auto json = nlohmann::ordered_json::array();
+  for (const ExchangeBand::Count& count : counts) json.push_back({{key, count.what}, {"tables", count.tables}});
+  return json;
+}
+
+}  // namespace
+
 void ExchangeBand::add(const BandOutcome& outcome) {
   const std::size_t table = tables_++;
   losing_ += outcome.lost > 0;
-  const auto known = std::ranges::find(counts_, outcome.verdict, &Count::verdict);
-  if (known == counts_.end())
-    counts_.push_back({outcome.verdict, 1, table});
-  else
-    ++known->tables;
+  tools::count(verdicts_, outcome.verdict, table);
+  if (!outcome.stop.empty()) tools::count(stops_, outcome.stop, table);
   if (!outcome.exchange) return;
   const auto latency = outcome.exchange->latency();
   if (!latency) return;
@@ -81,23 +103,26 @@ void ExchangeBand::add(const BandOutcome& outcome) {
 }
 
 std::size_t ExchangeBand::count(const std::string& verdict) const {
-  const auto known = std::ranges::find(counts_, verdict, &Count::verdict);
-  return known == counts_.end() ? 0 : known->tables;
+  const auto known = std::ranges::find(verdicts_, verdict, &Count::what);
+  return known == verdicts_.end() ? 0 : known->tables;
 }
 
 std::string ExchangeBand::text() const {
   std::string text = latency_.any() ? fmt::format("after {}   ", to_text(latency_)) : "";
-  for (std::size_t i = 0; i < counts_.size(); ++i)
-    text += fmt::format("{}{}: {} of {}{}", i == 0 ? "" : "; ", counts_[i].verdict, counts_[i].tables, tables_,
+  for (std::size_t i = 0; i < verdicts_.size(); ++i)
+    text += fmt::format("{}{}: {} of {}{}", i == 0 ? "" : "; ", verdicts_[i].what, verdicts_[i].tables, tables_,
                         i == 0 ? " tables" : "");
+  for (const Count& stop : stops_) text += fmt::format("; {}: {} of {}", stop.what, stop.tables, tables_);
   if (losing_ > 0) text += fmt::format("; characters or events lost: {} of {}", losing_, tables_);
   return text;
 }
 
 nlohmann::ordered_json ExchangeBand::json() const {
-  auto verdicts = nlohmann::ordered_json::array();
-  for (const Count& count : counts_) verdicts.push_back({{"verdict", count.verdict}, {"tables", count.tables}});
-  return {{"tables", tables_}, {"verdicts", verdicts}, {"losing", losing_}, {"latency_us", to_json(latency_)}};
+  return {{"tables", tables_},
+          {"verdicts", to_json(verdicts_, "verdict")},
+          {"stops", to_json(stops_, "why")},
+          {"losing", losing_},
+          {"latency_us", to_json(latency_)}};
 }
 
 }  // namespace s7200::tools

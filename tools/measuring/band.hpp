@@ -16,8 +16,11 @@
 
 namespace s7200::tools {
 
-/// The tables of a CPU for `table`, a name or a file as load_times() takes it: that one and random ones; without it the
-/// CPU's own, the others of the same CPU that have a name, and random ones. Nothing, with errors, as load_times().
+/// The tables around which random ones are drawn: `table`, and the others of the CPU that have a name if it is one of these.
+/// Empty: the CPU's own is the first.
+std::vector<std::string> names_in_band(const CpuModel& model, const std::string& table);
+
+/// These, of a table as load_times() takes it, and random ones. Nothing, with errors, as load_times().
 std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
                                    std::vector<std::string>& errors);
 
@@ -33,6 +36,8 @@ class ProgramBand {
 
   std::size_t size() const { return tables_.size(); }
   std::string table_name(std::size_t table) const { return tables_.name(table); }
+  TimeTable times(std::size_t table) const { return tables_[table]; }
+  const CpuModel& model() const { return model_; }
   std::shared_ptr<const Program> program(std::size_t table) const;
 
  private:
@@ -64,6 +69,7 @@ struct BandOutcome {
   std::optional<serial::Exchange> exchange{};  ///< nothing: it was not come to
   std::string verdict{};                       ///< in a word or two: `answered`, `no answer`
   std::size_t lost = 0;                        ///< events that the CPU's queues had no room for, of characters or others
+  std::string stop{};                          ///< why the CPU was in STOP afterwards; empty in RUN
 };
 
 /// The same with all tables.
@@ -79,25 +85,27 @@ class ExchangeBand {
   std::size_t longest() const { return longest_; }
 
   struct Count {
-    std::string verdict;
+    std::string what;
     std::size_t tables;
     std::size_t first;  ///< of these tables
   };
+  using Counts = std::vector<Count>;  ///< in the order in which they were found
 
-  /// In the order in which they were found.
-  const std::vector<Count>& counts() const { return counts_; }
+  const Counts& verdicts() const { return verdicts_; }
+  const Counts& stops() const { return stops_; }
 
   /// With how many tables.
   std::size_t count(const std::string& verdict) const;
 
-  /// `after 15.8 … 19.6 ms   answered: 202 of 202 tables; characters or events lost: 3 of 202`
+  /// `after 15.8 … 19.6 ms   answered: 200 of 202 tables; no answer: 2 of 202; CPU in STOP: 2 of 202; characters or events
+  /// lost: 3 of 202`
   std::string text() const;
   nlohmann::ordered_json json() const;
 
  private:
   std::size_t tables_ = 0, losing_ = 0, shortest_ = 0, longest_ = 0;
   LatencyRange latency_;
-  std::vector<Count> counts_;
+  Counts verdicts_, stops_;
 };
 
 /// Hears of the events that a CPU loses.

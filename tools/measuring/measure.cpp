@@ -298,7 +298,7 @@ std::vector<Figure> measure_mixed(Time each) {
   return figures;
 }
 
-std::vector<Figure> measure_tip_like(Time each) {
+std::vector<Figure> measure_tip_like(Time each, bool every_scan) {
   constexpr std::string_view kText = R"(
 LD SM0.1
 CALL 50
@@ -339,7 +339,8 @@ S M31.7, 1
 RETI
 )";
   const CpuModel& model = cpu214();
-  serial::Simulation simulation(check_text(kText, "tip_like.stl", model, default_times(model)).program);
+  const auto program = check_text(kText, "tip_like.stl", model, default_times(model)).program;
+  serial::Simulation simulation(every_scan ? with_every_scan(*program) : program);
   simulation.power_up();
   simulation.run_until(10 * kSecond);
   return {{"nobody talking, tip-like", "seconds",

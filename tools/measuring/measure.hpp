@@ -34,8 +34,8 @@ std::vector<Figure> measure_mixed(Time each);
 inline constexpr std::array<std::uint32_t, 3> kMixedLengths{340, 1900, 4000};
 
 /// Of a slave whose first scan makes a table in loops, and that receives each character in an interrupt, as that of
-/// Application Tip 41 does.
-std::vector<Figure> measure_tip_like(Time each);
+/// Application Tip 41 does. `every_scan`: none is passed over.
+std::vector<Figure> measure_tip_like(Time each, bool every_scan);
 
 /// How fast files are checked, as `s7200 check` does it: lines of a listing of 100,000 (long_listing.hpp).
 std::vector<Figure> measure_files(Time each);

@@ -336,6 +336,10 @@ std::uint32_t Rig::beyond(const EventPlan& cut) const {
   return far;
 }
 
+void run_every_scan(SystemPlan& plan) {
+  for (PlcPlan& plc : plan.plcs) plc.program = with_every_scan(*plc.program);
+}
+
 void forget_files(SystemPlan& plan) {
   for (PlcPlan& plc : plan.plcs) plc.settings.trace = plc.settings.output = plc.settings.memory.path = "";
   for (LinePlan& line : plan.lines) line.captures.clear();

@@ -147,4 +147,7 @@ class Rig final {
 /// Lets nothing be recorded, and no memory be read or kept.
 void forget_files(SystemPlan& plan);
 
+/// No scan of its PLCs is passed over.
+void run_every_scan(SystemPlan& plan);
+
 }  // namespace s7200::tools

@@ -217,7 +217,7 @@ SlaveMaker peer_lines(SystemPlan plan, const std::string& path, const std::strin
 }
 
 /// Of a system file. Null, with messages, if it cannot be had.
-SlaveMaker system_slaves(const std::string& path, const std::string& at, Messages& messages) {
+SlaveMaker system_slaves(const std::string& path, const SuiteSettings& settings, Messages& messages) {
   const auto refuse = [&](const std::string& why) { return add_error(messages, why), nullptr; };
   std::string why;
   const auto text = read_text(path, why);
@@ -234,11 +234,12 @@ SlaveMaker system_slaves(const std::string& path, const std::string& at, Message
   if (!file.plan.bridges.empty())
     return refuse(fmt::format("bridge '{}' of {} follows the clock, which 's7200 test' does not: leave it out",
                               file.plan.bridges.front().name, path));
-  if (file.plan.plcs.empty()) return peer_lines(std::move(file.plan), path, at, messages);
-  const auto spot = find_spot(file.plan, at, why);
+  if (file.plan.plcs.empty()) return peer_lines(std::move(file.plan), path, settings.at, messages);
+  const auto spot = find_spot(file.plan, settings.at, why);
   if (!spot) return refuse(fmt::format("{}: {} (--at NAME)", path, why));
   if (why = why_no_room(file.plan, spot->line); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
   forget_files(file.plan);
+  if (settings.every_scan) run_every_scan(file.plan);
   return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path](const Scenario& scenario) {
     return std::make_unique<SystemSlave>(*plan, spot, scenario.line, scenario.after, path);
   };
@@ -267,7 +268,7 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
     case SlaveTarget::Kind::Program:
       break;
     case SlaveTarget::Kind::System:
-      of_target.make_slave = system_slaves(parsed.path, settings.at, messages);
+      of_target.make_slave = system_slaves(parsed.path, settings, messages);
       if (!of_target.make_slave) return {};
       break;
     case SlaveTarget::Kind::Peer:

@@ -19,11 +19,11 @@
 namespace s7200::tools {
 namespace {
 
-/// `95%`
+/// `95%`, above 0
 std::optional<double> parse_share(const std::string& text) {
   if (!text.ends_with('%')) return {};
   const auto share = parse_decimal<double>(std::string_view(text).substr(0, text.size() - 1));
-  return share && Between<double>{0, 100}.has(*share) ? share : std::nullopt;
+  return share && *share > 0 && *share <= 100 ? share : std::nullopt;
 }
 
 class HeadReader {
@@ -78,7 +78,7 @@ class HeadReader {
     if (const auto timeout = values_.time(map.find("timeout"))) scenario.line.timeout = *timeout;
     if (const YamlNode* robust = map.find("robust")) {
       scenario.robust_at = robust->position;
-      scenario.robust = values_.value(robust, "a share of the tables of execution times", "95%", parse_share);
+      scenario.robust = values_.value(robust, "a share of the tables of execution times above 0%", "95%", parse_share);
     }
     if (const auto tolerance = values_.time(map.find("tolerance"))) scenario.tolerance = *tolerance;
     return true;

@@ -79,6 +79,11 @@ std::string properties_text(const Report& report) {
   property("simulated_time_ns", result.outcome == Outcome::Skipped ? "" : std::to_string(result.time));
   property("checks", std::to_string(result.checks));
   property("skipped_steps", std::to_string(result.skipped_steps));
+  if (const auto& band = result.band) {
+    property("tables", std::to_string(band->tables));
+    property("tables_passed", std::to_string(band->passed));
+    property("tables_failed_with", band->failed_with);
+  }
   return fmt::format("{0}<properties>\n{1}{0}</properties>\n", kInCase, text);
 }
 

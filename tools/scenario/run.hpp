@@ -89,7 +89,6 @@ class Run {
   std::string acted_inside() const;
   void look_at_mode();
   void settle_outcome();
-  void turn_outcome();
 
   const Scenario& scenario_;
   const Bench& bench_;

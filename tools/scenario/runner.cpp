@@ -63,20 +63,7 @@ void Run::settle_outcome() {
     result_.outcome = Outcome::Skipped;
     result_.reason = fmt::format("{} cannot be judged on {}", times_unjudged_ ? "its times" : "all of it", slave().name());
   }
-  if (!scenario_.expected_failure.empty() && !lost_) turn_outcome();
-}
-
-/// What is a known gap must fail.
-void Run::turn_outcome() {
-  if (result_.outcome == Outcome::Failed) {
-    result_.outcome = Outcome::ExpectedFailure;
-    result_.reason = scenario_.expected_failure;
-  } else if (result_.outcome == Outcome::Passed) {
-    result_.outcome = Outcome::Failed;
-    result_.findings.push_back({.what = "outcome",
-                                .expected = "a failure: " + scenario_.expected_failure,
-                                .found = "it passes although it is an expected failure: remove the mark"});
-  }
+  if (!lost_ && !bench_.band) turn_if_expected_to_fail(scenario_, result_);
 }
 
 /// What of the scenario only a program in simulation can be done to; empty if there is nothing.
@@ -141,6 +128,19 @@ void add_remark(std::string& words, std::string_view remark) { words.append(word
 std::optional<Time> latency_of(const serial::Exchange& exchange) {
   const auto latency = exchange.latency();
   return latency && exchange.request.empty() ? std::max<Time>(0, *latency) : latency;
+}
+
+void turn_if_expected_to_fail(const Scenario& scenario, ScenarioResult& result) {
+  if (scenario.expected_failure.empty()) return;
+  if (result.outcome == Outcome::Failed) {
+    result.outcome = Outcome::ExpectedFailure;
+    result.reason = scenario.expected_failure;
+  } else if (result.outcome == Outcome::Passed) {
+    result.outcome = Outcome::Failed;
+    result.findings.push_back({.what = "outcome",
+                               .expected = "a failure: " + scenario.expected_failure,
+                               .found = "it passes although it is an expected failure: remove the mark"});
+  }
 }
 
 namespace {

@@ -31,7 +31,11 @@ struct Bench {
 /// Runs a scenario to its end, findings or not; a slave that is lost is a finding and ends it. SlaveUnreachable passes
 /// through. On a slave that is not a program, scenarios that act inside are skipped as a whole, steps that look inside by
 /// themselves. Outside simulation, only upper limits of the latency are judged of times: the computer in between cannot be
-/// trusted with more. A rule of which that leaves something unjudged is skipped too, unless it is broken already.
+/// trusted with more. A rule of which that leaves something unjudged is skipped too, unless it is broken already. With a
+/// band it is one table's result, and a failure is one even where it is expected.
 ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench);
+
+/// What is a known gap must fail.
+void turn_if_expected_to_fail(const Scenario& scenario, ScenarioResult& result);
 
 }  // namespace s7200::tools

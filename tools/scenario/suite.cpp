@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/measuring/parallel_run.hpp"
+#include "tools/rig/rig.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -47,6 +48,12 @@ Time tolerance_for(Time given, bool live) {
 std::optional<Suite> Suite::collect(const SuiteSettings& settings, Messages& messages) {
   auto scenarios = collect_scenarios(settings, messages);
   if (!scenarios) return {};
+  for (Scenario& scenario : *scenarios) {
+    if (!settings.every_scan || !scenario.plan) continue;
+    auto plan = std::make_shared<SystemPlan>(*scenario.plan);
+    run_every_scan(*plan);
+    scenario.plan = std::move(plan);
+  }
   return Suite(settings, std::move(*scenarios));
 }
 
@@ -80,10 +87,8 @@ ScenarioResult run_turn(const Scenario& scenario, const Bench& bench, std::size_
   return run_scenario(scenario, of_table);
 }
 
-bool went_as_expected(Outcome outcome) { return outcome == Outcome::Passed || outcome == Outcome::ExpectedFailure; }
-
 void add_to(BandResult& band, const ScenarioResult& of_table, const std::string& table) {
-  const bool passed = went_as_expected(of_table.outcome);
+  const bool passed = of_table.outcome == Outcome::Passed;
   ++band.tables;
   band.passed += passed;
   if (!passed && band.failed_with.empty()) band.failed_with = table;
@@ -93,9 +98,9 @@ void add_to(BandResult& band, const ScenarioResult& of_table, const std::string&
 
 /// A scenario that passes with too few tables fails, and so does one that fails with the first.
 void judge_robustness(const Scenario& scenario, ScenarioResult& result) {
-  if (!scenario.robust || !result.band || result.band->passed == result.band->tables) return;
+  if (!scenario.robust || result.band->passed == result.band->tables) return;
   const double share = 100.0 * static_cast<double>(result.band->passed) / static_cast<double>(result.band->tables);
-  const bool with_first = went_as_expected(result.outcome);
+  const bool with_first = result.outcome == Outcome::Passed;
   if (with_first && share >= *scenario.robust) return;
   result.outcome = Outcome::Failed;
   result.findings.push_back({.what = "robustness",
@@ -148,7 +153,10 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
           if (banded) of_one.band = band;
           if (!last && !interrupted()) return true;
           if (!settings_.exchanges_wanted) of_one.seen.clear();
-          judge_robustness(scenarios_[scenario], of_one);
+          if (of_one.band) {
+            judge_robustness(scenarios_[scenario], of_one);
+            turn_if_expected_to_fail(scenarios_[scenario], of_one);
+          }
           result.reports.push_back({&scenarios_[scenario], std::move(of_one)});
           if (watcher.finished) watcher.finished(result.reports.back());
           return !interrupted() && !(settings_.fail_fast && counts_as_failed(result.reports.back()));

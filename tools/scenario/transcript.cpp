@@ -117,6 +117,8 @@ void TranscriptWriter::head(const Scenario& scenario) {
   if (!scenario.program.empty() && scenario.may_be_missing) line(4, "skip_without: " + near(scenario.program));
   if (scenario.cpu != "214") line(4, "cpu: " + scenario.cpu);
   if (!scenario.times.empty()) line(4, "times: " + (find_times(scenario.times) ? scenario.times : near(scenario.times)));
+  if (scenario.robust)
+    line(4, fmt::format("# without its 'robust: {:g}%': the times below are those of one table", *scenario.robust));
   const SystemBlock &block = scenario.system_block, usual{};
   if (block.ppi_rates != usual.ppi_rates) line(4, fmt::format("ppi_baud: \"{}\"", s7200::to_text(block.ppi_rates)));
   if (block.ppi_stations != usual.ppi_stations)

@@ -66,6 +66,14 @@ std::string errors_text(const Cpu& cpu) {
   return text;
 }
 
+std::string stop_text(const Cpu& cpu) {
+  const State& state = cpu.state();
+  if (state.mode != Mode::Stop) return "";
+  if (!state.fatal_code) return "CPU in STOP";
+  const std::string_view meaning = meaning_of(FatalError{state.fatal_code});
+  return fmt::format("CPU in STOP, {} (fatal error {:04X})", meaning.substr(0, meaning.find(':')), state.fatal_code);
+}
+
 std::uint64_t errors_not_listed(const Cpu& cpu) {
   std::uint64_t others = cpu.state().error_count;
   for (const RuntimeError& error : cpu.state().errors) others -= error.count;

@@ -124,7 +124,13 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { scalar(mark, "", anchor, ""); }
+  /// What is not written stands where its key does; the parser has the place of what comes next.
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const bool has_key = !open_.empty() && open_.back().node.is_map() && !open_.back().key_next;
+    if (!has_key) return scalar(mark, "", anchor, "");
+    look_at(mark, "", anchor);
+    add({.position = open_.back().node.keys.back().position});
+  }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { no_aliases(mark); }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, const std::string& value) override {
     scalar(mark, tag, anchor, value);

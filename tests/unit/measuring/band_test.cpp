@@ -71,11 +71,15 @@ TEST(TimesBand, TheTableInUseComesFirstThenTheOthersOfTheCpuThenRandomOnes) {
   EXPECT_EQ((*band)[1].find("MOVB", {})->marker, "remembered");
 }
 
-TEST(TimesBand, ATableThatIsAskedForIsTheOnlyOneBesidesRandomOnes) {
+TEST(TimesBand, ATableThatIsAskedForComesFirstAndWithoutTheOthersIfItIsNoneOfTheCpus) {
   std::vector<std::string> errors;
   const auto band = load_band(cpu214(), "cpu214_from_22x", {.random = 3, .seed = 1}, errors);
   ASSERT_TRUE(band);
-  EXPECT_EQ(band->size(), 4U);
+  EXPECT_EQ(band->size(), 5U);
+  EXPECT_EQ(band->name(0), "cpu214_from_22x");
+  EXPECT_EQ((*band)[0].find("MOVB", {})->marker, "remembered");
+  EXPECT_EQ(band->name(1), "cpu214");
+  EXPECT_EQ(band_around(cpu214(), "measured.csv", default_times(cpu214()), {.random = 3, .seed = 1}).size(), 4U);
   EXPECT_FALSE(load_band(cpu214(), "no such file", {.random = 3, .seed = 1}, errors));
   EXPECT_EQ(errors.size(), 1U);
 }
@@ -101,9 +105,11 @@ TEST(ExchangeBand, CountsVerdictsAndLosersAndKeepsTheShortestAndLongestLatency) 
   ExchangeBand band;
   band.add({exchange(16 * kMillisecond), "answered", 0});
   band.add({exchange(20 * kMillisecond), "answered", 2});
-  band.add({std::nullopt, "no answer", 1});
+  band.add({std::nullopt, "no answer", 1, "CPU in STOP"});
   EXPECT_EQ(band.text(),
-            "after 16.0 … 20.0 ms   answered: 2 of 3 tables; no answer: 1 of 3; characters or events lost: 2 of 3");
+            "after 16.0 … 20.0 ms   answered: 2 of 3 tables; no answer: 1 of 3; CPU in STOP: 1 of 3; characters or events "
+            "lost: 2 of 3");
+  EXPECT_EQ(band.json()["stops"].dump(), R"([{"why":"CPU in STOP","tables":1}])");
   EXPECT_EQ(band.json()["latency_us"].dump(), R"({"least":16000.0,"most":20000.0})");
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -185,6 +186,17 @@ TEST_F(ScenarioSuite, ATargetThatCannotBeHadRunsNothing) {
   const std::string description = file("slave.yaml", "program: no_such.stl\nfunctions: [3]\n");
   EXPECT_NE(refusal({.conformance = description}).find("cannot read "), std::string::npos);
   EXPECT_NE(refusal({.files = {file("a.yaml", "steps: [wait: 1ms]\n")}}).find("names no program"), std::string::npos);
+}
+
+TEST_F(ScenarioSuite, NoScanOfASystemIsPassedOverIfEveryOneIsWanted) {
+  const std::string two = scenario_of_two("two", "steps: [wait: 1ms]\n");
+  const auto every_scan = [&](bool wanted) {
+    const Suite suite = collected({.files = {two}, .every_scan = wanted});
+    return std::ranges::all_of(suite.scenarios().at(0).plan->plcs,
+                               [](const PlcPlan& plc) { return plc.program->looks.every_scan; });
+  };
+  EXPECT_TRUE(every_scan(true));
+  EXPECT_FALSE(every_scan(false));
 }
 
 TEST_F(ScenarioSuite, ResultsComeInOrderHoweverManyAreRunAtATime) {

@@ -5,10 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <thread>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
-#include "interpreter/model/named_times.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/terminal.hpp"
@@ -19,15 +20,20 @@ namespace s7200::tools {
 unsigned BandOptions::every_core() { return std::max(1U, std::thread::hardware_concurrency()); }
 
 void BandOptions::add_tables_to(CLI::App& app) {
-  auto* band = add_whole_number(app, "--times-band", settings_.random, {1, 100'000},
-                                "show how far results depend on the times: run with every named table and N random ones");
-  add_whole_number(app, "--band-seed", settings_.seed, {0, UINT32_MAX}, "seed of the random tables", "1")->needs(band);
+  add_whole_number(app, "--times-band", settings_.random, {1, 100'000},
+                   "show how far results depend on the times: run with every named table and N random ones");
+  add_whole_number(app, "--band-seed", settings_.seed, {0, UINT32_MAX}, "seed of the random tables", "1");
 }
 
 void BandOptions::add_to(CLI::App& app) {
   add_tables_to(app);
-  add_whole_number(app, "--jobs", jobs_, {1, 64}, "tables at a time; the output is the same", "every core")
-      ->needs(app.get_option("--times-band"));
+  auto* band = app.get_option("--times-band");
+  app.get_option("--band-seed")->needs(band);
+  add_whole_number(app, "--jobs", jobs_, {1, 64}, "tables at a time; the output is the same", "every core")->needs(band);
+  app.add_option("--tip41", tip41_,
+                 "the document of Application Tip 41: count apart the tables with which it does what it says of itself")
+      ->type_name("FILE")
+      ->needs(band);
 }
 
 std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, int& exit_code) const {
@@ -43,10 +49,10 @@ std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, in
 }
 
 std::string band_title(const CpuOptions& cpu, const BandSettings& settings) {
-  const std::string names = cpu.times_table.empty() ? names_of_times(*cpu.model()) : stl::printable(cpu.times_table);
-  const bool one = names.find(", ") == std::string::npos;
-  return fmt::format("execution times: {}, and {} random table{} around {} (seed {})", names, settings.random,
-                     settings.random == 1 ? "" : "s", one ? "it" : "them", settings.seed);
+  const auto names = names_in_band(*cpu.model(), cpu.times_table);
+  return fmt::format("execution times: {}, and {} random table{} around {} (seed {})",
+                     stl::printable(stl::joined(names, std::identity{})), settings.random, settings.random == 1 ? "" : "s",
+                     names.size() == 1 ? "it" : "them", settings.seed);
 }
 
 BandProgress::BandProgress(std::size_t all) : all_(all), from_(host_time() + 2 * kSecond), wanted_(isatty(STDERR_FILENO)) {}

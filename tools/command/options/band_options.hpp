@@ -11,15 +11,16 @@ namespace s7200::tools {
 
 class BandOptions {
  public:
-  /// --times-band, --band-seed and --jobs.
+  /// --times-band, --band-seed, --jobs and --tip41.
   void add_to(CLI::App& app);
 
-  /// The first two.
+  /// The first two, where there is a band without --times-band too.
   void add_tables_to(CLI::App& app);
 
   bool wanted() const { return settings_.random > 0; }
   const BandSettings& settings() const { return settings_; }
   unsigned jobs() const { return jobs_; }
+  const std::string& tip41() const { return tip41_; }  ///< the document of Application Tip 41, or empty
 
   /// A program, checked, with each table. Null after messages: `exit_code` says which way to end.
   std::unique_ptr<ProgramBand> load(const ProgramOptions& program, int& exit_code) const;
@@ -27,6 +28,7 @@ class BandOptions {
  private:
   BandSettings settings_;
   unsigned jobs_ = every_core();
+  std::string tip41_;
 
   static unsigned every_core();
 };

@@ -37,7 +37,7 @@ void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text) {
 }
 
 void add_no_skip_option(CLI::App& app, bool& every_scan) {
-  app.add_flag("--no-skip", every_scan, "run every scan, instead of passing over those that are all alike; only slower");
+  app.add_flag(kNoSkip, every_scan, "run every scan, instead of passing over those that are all alike; only slower");
 }
 
 void add_repair_option(CLI::App& app, Repairs& repairs) {

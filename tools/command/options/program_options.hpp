@@ -20,7 +20,8 @@ namespace s7200::tools {
 /// --cpu, with one of the CPUs that are modelled.
 void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text);
 
-/// --no-skip, for doubters.
+/// For doubters.
+inline constexpr const char* kNoSkip = "--no-skip";
 void add_no_skip_option(CLI::App& app, bool& every_scan);
 
 /// --repair, for slips of published listings.

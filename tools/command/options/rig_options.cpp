@@ -210,7 +210,7 @@ bool RigOptions::load_one(const CLI::App& verb, const ProgramOptions& program, i
 bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   exit_code = kUnusable;
   if (!refuse_options_of_one_plc(verb, program)) return false;
-  plan_ = tools::load_system(program.path, exit_code);
+  plan_ = tools::load_system(program, exit_code);
   if (!plan_) return false;
   exit_code = kUnusable;
   std::string why;

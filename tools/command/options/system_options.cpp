@@ -16,7 +16,8 @@
 
 namespace s7200::tools {
 
-std::optional<SystemPlan> load_system(const std::string& path, int& exit_code) {
+std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_code) {
+  const std::string& path = options.path;
   exit_code = kUnusable;
   std::string why;
   const auto text = read_text(path, why);
@@ -25,12 +26,14 @@ std::optional<SystemPlan> load_system(const std::string& path, int& exit_code) {
   for (const SystemFile::Text& program : file.programs) print_diagnostics(program.diagnostics, *program.source);
   print_diagnostics(file.file.diagnostics, *file.file.source);
   exit_code = file.ok() ? kFine : file.programs.empty() ? kUnusable : kCheckFailed;
+  if (file.ok() && options.every_scan) run_every_scan(file.plan);
   if (file.ok()) return std::move(file.plan);
   print_error(fmt::format("{} has errors; nothing was run", path));
   return {};
 }
 
 bool is_about_one_plc(const std::string& option) {
+  if (option == kNoSkip) return false;
   CLI::App of_one_plc;
   ProgramOptions programs;
   RigOptions rigs;
@@ -44,12 +47,10 @@ bool is_about_one_plc(const std::string& option) {
 
 namespace {
 
-/// Whether a system file can say it of a PLC. How often and with which tables the whole is run, it cannot.
+/// Whether a system file can say it of a PLC. With which tables the whole is run, it cannot.
 bool has_a_key(const std::string& option) {
   CLI::App without_key;
-  bool every_scan = false;
   BandOptions bands;
-  add_no_skip_option(without_key, every_scan);
   bands.add_to(without_key);
   return without_key.get_option_no_throw(option) == nullptr;
 }

@@ -14,10 +14,10 @@ class App;
 
 namespace s7200::tools {
 
-/// Reads it; nothing after messages, and `exit_code` says which way to end.
-std::optional<SystemPlan> load_system(const std::string& path, int& exit_code);
-
 struct ProgramOptions;
+
+/// Reads what stands in place of the PROGRAM; nothing after messages, and `exit_code` says which way to end.
+std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_code);
 
 /// Whether an option of this name is about one PLC, its program or its line: one of the program or its rig.
 bool is_about_one_plc(const std::string& option);
