@@ -142,6 +142,22 @@ TEST(NamedTimes, TheTableFromTheCpu22xIsItsFiguresTimesOneFactor) {
   }
   EXPECT_TRUE(std::ranges::all_of(scaled.rows(), [](const TimeRow& row) { return row.marker == "remembered"; }));
   EXPECT_EQ(scaled[SystemTime::InterruptEntry], 89'582);
+  EXPECT_TRUE(std::ranges::all_of(scaled.rows(), [](const TimeRow& row) { return row.uncertainty >= 25; }))
+      << "a figure that a page has is a guess with the factor";
+  EXPECT_EQ(scaled.cost("CRETI", {})->base, scaled.cost("RETI", {})->base) << "as RETI";
+}
+
+TEST(NamedTimes, SAndROfOneBitTakeTheFiguresForAnyNumber) {
+  const TimeTable& times = find_times("cpu22x_release1")->table();
+  const auto of_one = [&](const char* statement) {
+    return check_text(std::string("LD SM0.0\n") + statement + "\nMEND\n", "one.stl", *find_cpu("224r1"), times)
+        .program->ops[1]
+        .cost;
+  };
+  EXPECT_EQ(of_one("R C0, 1"), 19'000);
+  EXPECT_EQ(of_one("R M0.0, 1"), 28'000);
+  EXPECT_EQ(times.find("R", Area::M)->per_unit, 900);
+  EXPECT_EQ(of_one("S M0.0, 1"), 27'000);
 }
 
 TEST(NamedTimes, EachFigureOfTheCpu214IsAsUnsureAsTheRememberedOneIsFarFromIt) {
