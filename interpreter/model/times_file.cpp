@@ -233,6 +233,8 @@ TimesFile read_times(std::string_view csv, const std::string& name, std::vector<
 
 std::string cpu_line(std::string_view cpu) { return fmt::format("{}{}\n", kCpu, cpu); }
 
+std::string comment_line(std::string_view text) { return text.empty() ? "" : fmt::format("# {}\n", text); }
+
 std::vector<std::string> hidden_lines(const TimesFile& file, const std::string& name) {
   std::vector<std::string> slips;
   Given given;

@@ -3050,6 +3050,7 @@ class Times(Case):
         self.assertEqual(process.wait(60), FAILED, shown)
         self.assertRegex(shown.decode(), r"interrupted after \d+ of \d+ loops: the rest of the table is not measured")
         self.assertIn(",measured,", table.read_text(encoding="utf-8"))
+        self.assertRegex(table.read_text(encoding="utf-8"), r"^# CPU 214\n# interrupted after \d+ of \d+ loops: the rest of the table is not measured\nmnemonic,")
         self.ends(FINE, "times", "--check", table)
 
     def test_a_cpu_that_smb6_does_not_tell_is_named_in_a_note(self):

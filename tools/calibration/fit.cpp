@@ -100,7 +100,10 @@ bool is_there(double count) { return count != 0; }
 void read_off(const Equation& equation, const std::vector<LoopTime>& times, Fit& fit, std::vector<Equation>& loops) {
   const LoopTime time = time_of(equation, times);
   const auto left = std::ranges::count_if(equation.counts, is_there);
-  if (left == 0) fit.contradiction = std::max(fit.contradiction, std::abs(time.ns) - time.within);
+  if (left == 0) {
+    fit.residual = std::max(fit.residual, std::abs(time.ns));
+    fit.contradiction = std::max(fit.contradiction, std::abs(time.ns) - time.within);
+  }
   if (left != 1) return;
   const auto form = static_cast<std::size_t>(std::ranges::find_if(equation.counts, is_there) - equation.counts.begin());
   fit.forms[form] = {fit.forms[form].form, true, time.ns, time.within};

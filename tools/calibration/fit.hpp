@@ -30,6 +30,7 @@ struct Sum {
 struct Fit {
   std::vector<Fitted> forms;
   std::vector<Sum> sums;
+  double residual = 0;       ///< ns by which loops that say the same disagree at most
   double contradiction = 0;  ///< ns by which loops contradict each other more than the clock explains
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,7 @@ nlohmann::ordered_json to_json(const CpuModel& model, const Measurement& measure
   results["cpu"] = model.name;
   results["identification"] = measurement.identification;
   results["loops"] = measurement.loops.size();
+  results["residual_us"] = fit.residual / 1000;
   results["contradiction_us"] = std::max(0.0, fit.contradiction) / 1000;
   results["found"] = nlohmann::ordered_json::array();
   for (const Fitted& each : fit.forms)
@@ -77,9 +79,10 @@ nlohmann::ordered_json to_json(const CpuModel& model, const Measurement& measure
 }
 
 std::string source_of(const CpuModel& model, const Measurement& measurement, const Fit& fit, const std::string& firmware) {
-  return fmt::format("CPU {} (SMB6 = 16#{:02X}{}), measured {}, loops agree within {:.2f} us", model.name,
-                     measurement.identification, firmware.empty() ? "" : ", firmware " + firmware, today(),
-                     std::max(0.0, fit.contradiction) / 1000);
+  std::string source = fmt::format("CPU {} (SMB6 = 16#{:02X}{}), measured {}", model.name, measurement.identification,
+                                   firmware.empty() ? "" : ", firmware " + firmware, today());
+  if (fit.residual > 0) source += fmt::format(", loops agree within {:.0f} ns", std::ceil(fit.residual));
+  return source;
 }
 
 std::string not_measured_text(const Fit& fit, const CpuModel& model) {
