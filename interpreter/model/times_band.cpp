@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/times_file.hpp"
 
 namespace s7200 {
@@ -89,6 +90,14 @@ TimeTable TimesBand::operator[](std::size_t table) const {
   if (table < named_.size()) return named_[table].table;
   const std::size_t number = table - named_.size();
   return random_times(named_[number % named_.size()].table, settings_.seed, static_cast<std::uint32_t>(number));
+}
+
+TimesBand::Named TimesBand::last() const {
+  const std::size_t table = size() - 1;
+  const std::string around = stl::printable(named_[(table - named_.size()) % named_.size()].name);
+  return {
+      fmt::format("{} around {}: each figure drawn; form, marker and source are those of {}", name(table), around, around),
+      (*this)[table]};
 }
 
 std::string TimesBand::name(std::size_t table) const {

@@ -51,6 +51,9 @@ class TimesBand {
   /// `cpu214`, `random table 12 of seed 1`; they are counted from 1 on.
   std::string name(std::size_t table) const;
 
+  /// The last one, which is a random one: in place of a name, what a copy must say of it.
+  Named last() const;
+
  private:
   std::vector<Named> named_;
   BandSettings settings_;

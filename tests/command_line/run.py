@@ -2115,6 +2115,7 @@ class JsonPage(Case):
                     ["send", waits, "01020304050607", "--timeline", "--timeout", "10ms"],
                     ["send", SLAVE, "0103000a00010000", "--timeline", "--timeout", "50ms"],
                     ["send", hasty, "41", "--baud", "300", "--parity", "none"], ["instructions"], ["instructions", "MOVB"], ["times"], ["times", "cpu214", "cpu214_from_22x"], ["times", "--check", "cpu214"],
+                    ["times", "--band-table", "1"],
                     ["calibrate", MEASURE, "--each", "1s"], ["decode", LOG], ["import-capture", LOG],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
@@ -2798,6 +2799,13 @@ class Times(Case):
         self.assertIn("is not Application Tip 41", self.ends(UNUSABLE, "times", "--check", "cpu214", "--tip41", SLAVE).stderr)
         for cpu in ("224", "224r1"):
             self.assertIn(" 0 fail", self.ends(FINE, "times", "--cpu", cpu, "--check", {"224": "cpu22x", "224r1": "cpu22x_release1"}[cpu]).stdout)
+
+    def test_a_random_table_says_that_it_is_one(self):
+        said = "random table 12 of seed 1 around cpu214_from_22x: each figure drawn; form, marker and source are those of cpu214_from_22x"
+        self.assertTrue(self.ends(FINE, "times", "--band-table", "12", "--csv").stdout.startswith(f"# CPU 214\n# {said}\nmnemonic,"))
+        self.assertTrue(self.ends(FINE, "times", "--band-table", "12").stdout.startswith(f"{said}\n"))
+        self.assertEqual(self.json(FINE, "times", "--band-table", "12", "--json")["about"], said)
+        self.assertNotIn("about", self.json(FINE, "times", "--json"))
 
     @unittest.skipUnless(TIP.exists(), "the document is not part of this project")
     def test_the_tip_holds_with_both_tables_and_not_with_a_faster_cpu(self):
