@@ -2819,7 +2819,11 @@ class Times(Case):
             f"{' '.join(row['mnemonics'])},{row['form']},{row['base_us'] / 3},{row['per_unit_us'] / 3},,measured\n" for row in rows
             if "EEPROM" not in row["mnemonics"][0]), "fast.csv")
         done = self.ends(FAILED, "times", "--check", fast, "--tip41", TIP)
-        self.assertIn("FAILS        the first scan takes about 690 ms", done.stdout)
+        self.assertIn("FAILS        the first scan takes about 690 ms, elsewhere about 700 (655 to 735 ms)", done.stdout)
+        self.assertNotIn("the table was fitted to it", done.stdout)
+        other = self.ends(FINE, "times", "--cpu", "215", "--check", "cpu215", "--tip41", TIP).stdout
+        self.assertEqual(other.count(": the tip is a program for the CPU 214   ("), 4)
+        self.assertIn("1 hold, 0 fail, 4 not checked", other)
         self.assertIn("FAILS        it does not work correctly at 38400 baud", done.stdout)
         self.assertIn("FAILS        the loop for its CRC table needs its WDR, and no more", done.stdout)
 
