@@ -4,6 +4,9 @@
 //   Application Tip 41 takes the 690 ms that its text states; all else in the tip is a check. What was only estimated for
 //   the CPU 22x, the overhead of a scan and the EEPROM stay as in cpu214.
 //   [NamedTimes.TheTableFromTheCpu22xIsItsFiguresTimesOneFactor]
+// - S and R of one bit take what the tables have for any number, base and one bit: the manual has figures of their own for
+//   a constant N = 1, of which a page of 2002 gives those of R (C 17, T 24, any other 5 µs), and the tables have no line
+//   for a number. [NamedTimes.SAndROfOneBitTakeTheFiguresForAnyNumber]
 #include "interpreter/model/named_times.hpp"
 
 #include <fmt/format.h>
@@ -34,8 +37,15 @@ TimeTable own_times(const CpuModel& model) {
   return table;
 }
 
-bool is_of_22x(const TimeRow& row) {
-  return row.marker != "estimate" && row.mnemonics.front() != name_of(SystemTime::EepromSave);
+/// In percent. With the factor a figure is no surer than this, even one that a page has.
+constexpr double kSureAtMost = 25;
+
+/// Not an estimate; one that is taken over, `as RETI`, if that figure is none.
+bool is_of_22x(const TimeRow& row, const TimeTable& table) {
+  constexpr std::string_view kAs = "as ";
+  if (row.mnemonics.front() == name_of(SystemTime::EepromSave)) return false;
+  const TimeRow* from = row.source.starts_with(kAs) ? table.find(row.source.substr(kAs.size()), {}) : &row;
+  return from && from->marker != "estimate";
 }
 
 TimeTable cpu214_times() { return own_times(cpu214()); }
@@ -50,8 +60,10 @@ TimeTable cpu214_from_22x_times() {
     row.per_unit = slower(row.per_unit);
     row.source = fmt::format("{:g} × CPU 22x of release 1, {} = 690 ms; {}", kSlower, kFirstScanOfTip41, row.source);
     row.marker = "remembered";
+    row.uncertainty = std::max(row.uncertainty, kSureAtMost);
   };
-  return cpu22x_release1_times().filtered(is_of_22x).with(scale);
+  const TimeTable of_22x = cpu22x_release1_times();
+  return of_22x.filtered([&](const TimeRow& row) { return is_of_22x(row, of_22x); }).with(scale);
 }
 
 template <auto read>

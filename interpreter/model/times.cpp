@@ -1,6 +1,7 @@
 #include "interpreter/model/times.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -24,6 +25,34 @@ std::string_view name_of(SystemTime what) {
       return "(EEPROM save)";
   }
   return {};
+}
+
+namespace {
+
+TimeRange range_of(Time figure, Time within, const TimeRow& row) {
+  const double factor = 1 + row.uncertainty / 100;
+  const auto ns = static_cast<double>(figure), beyond = static_cast<double>(within);
+  return {std::max(0.0, ns / factor - beyond), ns * factor + beyond};
+}
+
+constexpr std::string_view kPlus = " + ";
+
+}  // namespace
+
+TimeRange range_of_base(const TimeRow& row) { return range_of(row.base, row.base_within, row); }
+
+TimeRange range_of_unit(const TimeRow& row) { return range_of(row.per_unit, row.per_unit_within, row); }
+
+std::string form_of_sum(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, kPlus)); }
+
+std::vector<std::string> parts_of_sum(std::string_view form) {
+  std::vector<std::string> parts;
+  while (!form.empty()) {
+    const std::size_t end = std::min(form.find(kPlus), form.size());
+    parts.emplace_back(form.substr(0, end));
+    form.remove_prefix(std::min(form.size(), end + kPlus.size()));
+  }
+  return parts;
 }
 
 std::vector<std::string> TimeTable::add(std::string_view csv, const std::string& name) {

@@ -23,7 +23,9 @@ namespace s7200 {
 /// `form`: the areas of the first operand for which the line holds, or words that say what the figure means. `marker`:
 /// manual, measured (on a real CPU), calibrated, remembered (from the manual, but not read there again), or estimate.
 /// `uncertainty_percent`: with 25, the true figures lie between those of the line / 1.25 and × 1.25; left out, as `source`
-/// may be, the marker says how sure they are. Lines that begin with # are comments; `# CPU 224` says whose times these are.
+/// may be, the marker says how sure they are. `base_within_us`, `per_unit_within_us`: in place of a percentage, how far the
+/// true figures are from these at most. A line `(sum)` is of what is known only together, by names in its form: `CALL +
+/// RET`. Lines that begin with # are comments; `# CPU 224` says whose times these are.
 struct TimeRow {
   std::vector<std::string> mnemonics;
   std::string form;
@@ -32,9 +34,26 @@ struct TimeRow {
   Time per_unit = 0;  ///< for each `unit`: bit shifted, byte moved …
   std::string unit, marker, source;
   double uncertainty = 0;  ///< percent
+  Time base_within = 0, per_unit_within = 0;
 
   bool operator==(const TimeRow&) const = default;
 };
+
+/// Between which a true figure lies, in ns.
+struct TimeRange {
+  double least = 0, most = 0;
+
+  bool operator==(const TimeRange&) const = default;
+};
+TimeRange range_of_base(const TimeRow& row);
+TimeRange range_of_unit(const TimeRow& row);
+
+/// The name of a line for a sum.
+inline constexpr std::string_view kSum = "(sum)";
+
+/// `CALL + RET`, and the names in it.
+std::string form_of_sum(const std::vector<std::string>& parts);
+std::vector<std::string> parts_of_sum(std::string_view form);
 
 struct Cost {
   Time base = 0;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/times_file.hpp"
 
 namespace s7200 {
@@ -16,32 +18,86 @@ namespace {
 /// ms (measuring/statements.cpp) and 690 ms with the tables of this CPU. In percent.
 constexpr double kAsAWhole = 6;
 
+/// In place of a figure. That of a label or a routine's head may be 0; any other stays above 0.
+Time drawn_time(double ns, Time in_place_of) {
+  return std::clamp<Time>(std::llround(ns), in_place_of == 0 ? 0 : 1, kLongestFigure);
+}
+
+/// A table drawn around another, with the sums that are known. What an earlier sum has settled stays as it is.
+TimeTable with_sums(TimeTable drawn, const TimeTable& around) {
+  std::map<std::string, PartOfSum> settled;
+  for (std::size_t line = 0; line < around.rows().size(); ++line) {
+    const TimeRow sum = drawn.rows()[line];
+    if (sum.mnemonics.front() != kSum) continue;
+    auto left = static_cast<double>(sum.base);
+    std::vector<std::string> names;
+    std::vector<PartOfSum> parts;
+    for (const std::string& name : parts_of_sum(sum.form)) {
+      const TimeRow* known = around.find(name, {});
+      if (!known) continue;
+      if (settled.contains(name)) {
+        left -= settled[name].figure;
+        continue;
+      }
+      names.push_back(name);
+      parts.push_back({static_cast<double>(drawn.find(name, {})->base), range_of_base(*known)});
+    }
+    settle(parts, left);
+    for (std::size_t i = 0; i < parts.size(); ++i) settled[names[i]] = parts[i];
+  }
+  return drawn.with([&](TimeRow& row) {
+    const auto part = settled.find(row.mnemonics.front());
+    if (part != settled.end()) row.base = drawn_time(part->second.figure, row.base);
+  });
+}
+
 }  // namespace
+
+void settle(std::span<PartOfSum> parts, double sum) {
+  double figures = 0, way = 0;
+  for (const PartOfSum& part : parts) figures += part.figure;
+  const auto end = [up = sum > figures](const PartOfSum& part) { return up ? part.range.most : part.range.least; };
+  for (const PartOfSum& part : parts) way += end(part) - part.figure;
+  if (way == 0) return;
+  const double share = std::clamp((sum - figures) / way, 0.0, 1.0);
+  for (PartOfSum& part : parts) part.figure += share * (end(part) - part.figure);
+}
 
 TimeTable random_times(const TimeTable& table, std::uint32_t seed, std::uint32_t number) {
   std::seed_seq seeds{seed, number};
   std::mt19937 random(seeds);
+  /// Between 0 and 1.
+  const auto place = [&] { return (static_cast<double>(random()) + 0.5) / 0x1p32; };
   /// Between 1 / (1 + percent / 100) and its inverse.
-  const auto factor = [&](double percent) {
-    const double place = (static_cast<double>(random()) + 0.5) / 0x1p32;  // between 0 and 1
-    return std::pow(1 + percent / 100, 2 * place - 1);
-  };
+  const auto factor = [&](double percent) { return std::pow(1 + percent / 100, 2 * place() - 1); };
   const double of_all = factor(kAsAWhole);
-  const auto within = [&](Time figure, double uncertainty) {
+  const auto of_ratio = [&](Time figure, double uncertainty) {
     const double most = 1 + uncertainty / 100, drawn = std::clamp(of_all * factor(uncertainty), 1 / most, most);
-    if (figure == 0) return figure;  // of a label or a routine's head; any other stays above 0
-    return std::clamp<Time>(std::llround(static_cast<double>(figure) * drawn), 1, kLongestFigure);
+    return drawn_time(static_cast<double>(figure) * drawn, figure);
   };
-  return table.with([&](TimeRow& row) {
-    row.base = within(row.base, row.uncertainty);
-    row.per_unit = within(row.per_unit, row.uncertainty);
+  const auto of_range = [&](Time figure, const TimeRange& range) {
+    return drawn_time(range.least + place() * (range.most - range.least), figure);
+  };
+  TimeTable drawn = table.with([&](TimeRow& row) {
+    const TimeRange base = range_of_base(row), unit = range_of_unit(row);
+    row.base = row.base_within > 0 ? of_range(row.base, base) : of_ratio(row.base, row.uncertainty);
+    row.per_unit = row.per_unit_within > 0 ? of_range(row.per_unit, unit) : of_ratio(row.per_unit, row.uncertainty);
   });
+  return with_sums(std::move(drawn), table);
 }
 
 TimeTable TimesBand::operator[](std::size_t table) const {
   if (table < named_.size()) return named_[table].table;
   const std::size_t number = table - named_.size();
   return random_times(named_[number % named_.size()].table, settings_.seed, static_cast<std::uint32_t>(number));
+}
+
+TimesBand::Named TimesBand::last() const {
+  const std::size_t table = size() - 1;
+  const std::string around = stl::printable(named_[(table - named_.size()) % named_.size()].name);
+  return {
+      fmt::format("{} around {}: each figure drawn; form, marker and source are those of {}", name(table), around, around),
+      (*this)[table]};
 }
 
 std::string TimesBand::name(std::size_t table) const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,9 +13,20 @@
 
 namespace s7200 {
 
+/// A figure of those that a sum is of, in ns.
+struct PartOfSum {
+  double figure = 0;
+  TimeRange range;
+};
+
+/// Moves them so that they add up to that, as far as their ranges allow: each by the same share of the way to its range's
+/// end.
+void settle(std::span<PartOfSum> parts, double sum);
+
 /// A table with each figure anywhere within its uncertainty, all ratios equally likely: with 25 percent from 1 / 1.25 to
 /// 1.25 times the figure. Besides, the CPU is faster or slower as a whole by as much as is known to be possible, as far as
-/// each figure's uncertainty allows it. The same numbers give the same table.
+/// each figure's uncertainty allows it. Where the line says how far the true figure is at most, all between is equally
+/// likely. Parts of a sum then move until it is within its own uncertainty. The same numbers give the same table.
 TimeTable random_times(const TimeTable& table, std::uint32_t seed, std::uint32_t number);
 
 /// How many random tables there are in a band, and which.
@@ -38,6 +50,9 @@ class TimesBand {
 
   /// `cpu214`, `random table 12 of seed 1`; they are counted from 1 on.
   std::string name(std::size_t table) const;
+
+  /// The last one, which is a random one: in place of a name, what a copy must say of it.
+  Named last() const;
 
  private:
   std::vector<Named> named_;

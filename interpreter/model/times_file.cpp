@@ -24,10 +24,15 @@ enum Column : std::size_t {
   kUnit,         ///< what that is, to people
   kMarker,       ///< what kind of figure it is: kMarkers
   kSource,       ///< who says so
-  kUncertainty,  ///< empty: that of the marker
+  kUncertainty,  ///< empty: that of the marker, or none if one of the next two columns is filled
+  kBaseWithin,   ///< so far the true figures are from these at most; empty: the percentage says it
+  kPerUnitWithin,
 };
-constexpr std::array<std::string_view, kUncertainty + 1> kColumns{"mnemonic", "form",   "base_us", "per_unit_us",
-                                                                  "unit",     "marker", "source",  "uncertainty_percent"};
+constexpr std::array<std::string_view, kPerUnitWithin + 1> kColumns{"mnemonic",       "form",
+                                                                    "base_us",        "per_unit_us",
+                                                                    "unit",           "marker",
+                                                                    "source",         "uncertainty_percent",
+                                                                    "base_within_us", "per_unit_within_us"};
 constexpr std::size_t kNeededColumns = kMarker + 1;
 
 constexpr std::string_view kCpu = "# CPU ";
@@ -136,8 +141,15 @@ std::string read_row(std::string_view line, TimeRow& row) {
   const auto* const marker = std::ranges::find(kMarkers, row.marker, &Marker::name);
   if (marker == kMarkers.end()) return unknown_marker(row.marker);
   row.source = field.size() > kSource ? field[kSource] : "";
-  const bool has_uncertainty = field.size() > kUncertainty && !field[kUncertainty].empty();
-  const auto uncertainty = has_uncertainty ? parse_decimal<double>(field[kUncertainty]) : marker->uncertainty;
+  const auto given = [&](Column column) { return field.size() > column && !field[column].empty(); };
+  for (const auto& [column, within] : {std::pair{kBaseWithin, &row.base_within}, {kPerUnitWithin, &row.per_unit_within}}) {
+    if (!given(column)) continue;
+    const auto most = microseconds(field[column]);
+    if (!most) return not_a_time(field[column]);
+    *within = *most;
+  }
+  const double usual = given(kBaseWithin) || given(kPerUnitWithin) ? 0 : marker->uncertainty;
+  const auto uncertainty = given(kUncertainty) ? parse_decimal<double>(field[kUncertainty]) : usual;
   if (!uncertainty || !Between<double>{0, 1000}.has(*uncertainty))
     return fmt::format("'{}' is not an uncertainty in percent (0 to 1000)", stl::shortened(field[kUncertainty]));
   row.uncertainty = *uncertainty;
@@ -150,7 +162,7 @@ class Given {
  public:
   bool hides(const std::string& mnemonic, Areas areas) const {
     const auto known = areas_.find(mnemonic);
-    return known != areas_.end() && (known->second & all(areas)) == all(areas);
+    return mnemonic != kSum && known != areas_.end() && (known->second & all(areas)) == all(areas);
   }
   void add(const TimeRow& row) {
     for (const std::string& mnemonic : row.mnemonics) areas_[mnemonic] |= all(row.areas);
@@ -177,7 +189,13 @@ std::string quoted(const std::string& field) {
   return text + '"';
 }
 
-std::string line_of(const TimeRow& row) {
+/// As many as the table needs: bounds in microseconds only where a line has one.
+std::size_t columns_of(const TimeTable& times) {
+  const auto has_bound = [](const TimeRow& row) { return row.base_within > 0 || row.per_unit_within > 0; };
+  return std::ranges::any_of(times.rows(), has_bound) ? kColumns.size() : std::size_t{kBaseWithin};
+}
+
+std::string line_of(const TimeRow& row, std::size_t columns) {
   std::array<std::string, kColumns.size()> field;
   field[kMnemonic] = fmt::format("{}", fmt::join(row.mnemonics, " "));
   field[kForm] = row.form;
@@ -187,8 +205,10 @@ std::string line_of(const TimeRow& row) {
   field[kMarker] = row.marker;
   field[kSource] = row.source;
   field[kUncertainty] = fmt::format("{}", row.uncertainty);
+  if (row.base_within) field[kBaseWithin] = in_microseconds(row.base_within);
+  if (row.per_unit_within) field[kPerUnitWithin] = in_microseconds(row.per_unit_within);
   std::ranges::transform(field, field.begin(), quoted);
-  return fmt::format("{}\n", fmt::join(field, ","));
+  return fmt::format("{}\n", fmt::join(std::span(field).first(columns), ","));
 }
 
 }  // namespace
@@ -233,6 +253,8 @@ TimesFile read_times(std::string_view csv, const std::string& name, std::vector<
 
 std::string cpu_line(std::string_view cpu) { return fmt::format("{}{}\n", kCpu, cpu); }
 
+std::string comment_line(std::string_view text) { return text.empty() ? "" : fmt::format("# {}\n", text); }
+
 std::vector<std::string> hidden_lines(const TimesFile& file, const std::string& name) {
   std::vector<std::string> slips;
   Given given;
@@ -264,8 +286,9 @@ std::string names_of(Areas areas) {
 }
 
 std::string to_csv(const TimeTable& times) {
-  std::string text = header(kColumns.size()) + '\n';
-  for (const TimeRow& row : times.rows()) text += line_of(row);
+  const std::size_t columns = columns_of(times);
+  std::string text = header(columns) + '\n';
+  for (const TimeRow& row : times.rows()) text += line_of(row, columns);
   return text;
 }
 

@@ -34,6 +34,9 @@ std::vector<std::string> hidden_lines(const TimesFile& file, const std::string& 
 /// The line that says whose times follow.
 std::string cpu_line(std::string_view cpu);
 
+/// A line of a table that is for people; empty for an empty text.
+std::string comment_line(std::string_view text);
+
 /// Without the lines, and the mnemonics of lines, that never give a time because earlier lines do.
 TimeTable in_use(const TimeTable& times);
 

@@ -25,6 +25,8 @@ const std::vector<std::string_view>& timed_names() {
   return kNames;
 }
 
+bool is_timed(std::string_view name) { return std::ranges::find(timed_names(), name) != timed_names().end(); }
+
 /// The lines for a name in the tables of the CPU.
 std::vector<const TimeRow*> known_lines(const CpuModel& model, const std::string& name) {
   std::vector<const TimeRow*> lines;
@@ -36,8 +38,7 @@ std::vector<const TimeRow*> known_lines(const CpuModel& model, const std::string
 
 std::string unknown_name(const std::string& name) {
   const std::string upper = stl::upper_case(name);
-  const bool upper_is_known = std::ranges::find(timed_names(), upper) != timed_names().end();
-  const std::string_view meant = upper_is_known ? std::string_view(upper) : nearest(upper, timed_names());
+  const std::string_view meant = is_timed(upper) ? std::string_view(upper) : nearest(upper, timed_names());
   const std::string hint = meant.empty() ? std::string("`s7200 times` lists them") : fmt::format("write {}", meant);
   return fmt::format("'{}' is not an instruction; {}", stl::shortened(name), hint);
 }
@@ -59,7 +60,12 @@ bool is_never_in(const std::string& name, Areas areas) {
 
 /// What is wrong with the figures of `name` in a line; empty if nothing is.
 std::string slip_in(const TimeRow& row, const std::string& name, const CpuModel& model) {
-  if (std::ranges::find(timed_names(), name) == timed_names().end()) return unknown_name(name);
+  if (name == kSum) {
+    for (const std::string& part : parts_of_sum(row.form))
+      if (!is_timed(part)) return unknown_name(part);
+    return {};
+  }
+  if (!is_timed(name)) return unknown_name(name);
   const auto known = known_lines(model, name);
   if (known.empty()) return {};  // an instruction of other CPUs
   if (row.areas == 0 && !row.form.empty() && std::ranges::none_of(known, [&](auto* k) { return k->form == row.form; }))

@@ -9,6 +9,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/model/times_band.hpp"
 #include "interpreter/model/times_file.hpp"
 #include "tools/calibration/measure_protocol.hpp"
 
@@ -35,9 +36,6 @@ void divide(Equation& equation, double by) {
   for (double& count : equation.counts) count /= by;
   for (double& loop : equation.of) loop /= by;
 }
-
-/// Percent, the most that a table may have.
-constexpr double kMostUncertain = 1000;
 
 /// By how much less is known how long a run took in which interrupts came: half a millisecond more, to one and a half.
 constexpr double kWithInterrupts = 4.0 / 3;
@@ -100,7 +98,10 @@ bool is_there(double count) { return count != 0; }
 void read_off(const Equation& equation, const std::vector<LoopTime>& times, Fit& fit, std::vector<Equation>& loops) {
   const LoopTime time = time_of(equation, times);
   const auto left = std::ranges::count_if(equation.counts, is_there);
-  if (left == 0) fit.contradiction = std::max(fit.contradiction, std::abs(time.ns) - time.within);
+  if (left == 0) {
+    fit.residual = std::max(fit.residual, std::abs(time.ns));
+    fit.contradiction = std::max(fit.contradiction, std::abs(time.ns) - time.within);
+  }
   if (left != 1) return;
   const auto form = static_cast<std::size_t>(std::ranges::find_if(equation.counts, is_there) - equation.counts.begin());
   fit.forms[form] = {fit.forms[form].form, true, time.ns, time.within};
@@ -108,72 +109,102 @@ void read_off(const Equation& equation, const std::vector<LoopTime>& times, Fit&
     if (loop.counts[form] != 0) subtract(loop, equation, loop.counts[form]);
 }
 
-double known_figure(const Form& form) { return static_cast<double>(form.per_unit ? form.row->per_unit : form.row->base); }
+/// What the tables of the CPU say of a form, if it may be as much slower as the figures that were measured.
+TimeRange known_range(const TimeRange& range, double ratio) {
+  return {range.least * std::min(1.0, ratio), range.most * std::max(1.0, ratio)};
+}
 
-/// Sums of forms, divided.
-class Division {
- public:
-  Division(Fit& fit, const std::vector<LoopTime>& times) : fit_(fit), times_(times) {}
-
-  /// Of an equation that has no form that was found.
-  void add(Equation equation) {
-    const auto first = std::ranges::find_if(equation.counts, is_there);
-    if (first == equation.counts.end()) return;
-    divide(equation, *first);
-    const LoopTime whole = time_of(equation, times_);
-    double least = whole.ns - whole.within, most = whole.ns + whole.within, middle = whole.ns;
-    std::vector<std::size_t> parts;
-    std::vector<std::string> names;
-    for (std::size_t form = 0; form < equation.counts.size(); ++form) {
-      const double count = equation.counts[form];
-      if (count == 0) continue;
-      const Fitted& known = fit_.forms[form];
-      if (count < 0 || known.form.per_unit) return;
-      names.push_back(count == 1 ? known.form.mnemonic : fmt::format("{:g} × {}", count, known.form.mnemonic));
-      if (known_figure(known.form) == 0) continue;
-      if (!known.sum) {
-        parts.push_back(form);
-        continue;
-      }
-      middle -= count * known.ns;
-      least -= count * known.ns * (1 + known.uncertainty / 100);
-      most -= count * known.ns / (1 + known.uncertainty / 100);
-    }
-    if (parts.empty() || middle <= 0) return;
-    fit_.sums.push_back({fmt::format("{}", fmt::join(names, " + ")), whole.ns, whole.within});
-    for (const std::size_t part : parts) take_part(equation, part, parts, {least, middle, most});
-  }
-
- private:
-  struct Rest {
-    double least, middle, most;
+/// What is left of a loop without the forms that were found, if it has the same number of each and any is in no earlier sum.
+std::optional<Sum> sum_of(const Equation& loop, const std::vector<LoopTime>& times, const Fit& fit) {
+  Sum sum;
+  std::vector<std::string> names;
+  const auto is_new = [&](std::size_t form) {
+    return fit.forms[form].form.row->base > 0 &&
+           std::ranges::none_of(fit.sums, [&](const Sum& other) { return std::ranges::count(other.parts, form) > 0; });
   };
-
-  /// The part is largest if its own figure is as large as it may be and those of the others are as small.
-  void take_part(const Equation& equation, std::size_t part, const std::vector<std::size_t>& parts, const Rest& rest) {
-    double others = 0, others_least = 0, others_most = 0;
-    for (const std::size_t other : parts) {
-      if (other == part) continue;
-      const Form& form = fit_.forms[other].form;
-      const double figure = equation.counts[other] * known_figure(form), factor = 1 + form.row->uncertainty / 100;
-      others += figure;
-      others_least += figure / factor;
-      others_most += figure * factor;
-    }
-    Fitted& fitted = fit_.forms[part];
-    const double count = equation.counts[part], own = count * known_figure(fitted.form);
-    const double factor = 1 + fitted.form.row->uncertainty / 100;
-    fitted.ns = rest.middle / count * own / (own + others);
-    const double least = rest.least / count * (own / factor) / (own / factor + others_most);
-    const double most = rest.most / count * (own * factor) / (own * factor + others_least);
-    fitted.uncertainty =
-        least <= 0 ? kMostUncertain : std::min(kMostUncertain, 100 * (std::max(fitted.ns / least, most / fitted.ns) - 1));
-    fitted.sum = fit_.sums.size() - 1;
+  for (std::size_t form = 0; form < loop.counts.size(); ++form) {
+    if (!is_there(loop.counts[form])) continue;
+    const Form& part = fit.forms[form].form;
+    if (std::abs(loop.counts[form] - 1) > kZero || part.per_unit || part.row->areas != 0) return {};
+    sum.parts.push_back(form);
+    names.push_back(part.mnemonic);
   }
+  if (std::ranges::none_of(sum.parts, is_new)) return {};
+  const LoopTime whole = time_of(loop, times);
+  sum.text = form_of_sum(names);
+  sum.ns = whole.ns;
+  sum.within = whole.within;
+  return sum;
+}
 
-  Fit& fit_;
-  const std::vector<LoopTime>& times_;
-};
+/// The sums of all loops. One that holds all of an earlier one is what is left without it.
+void add_sums(const std::vector<Equation>& loops, const std::vector<LoopTime>& times, Fit& fit) {
+  std::vector<Equation> sums;
+  const auto first = [](const Equation& equation) { return std::ranges::find_if(equation.counts, is_there); };
+  for (Equation loop : loops) {
+    if (first(loop) == loop.counts.end()) continue;
+    divide(loop, *first(loop));
+    for (const Equation& earlier : sums)
+      if (std::ranges::equal(earlier.counts, loop.counts, [](double one, double other) { return one == 0 || other != 0; }))
+        subtract(loop, earlier, 1);
+    const auto sum = sum_of(loop, times, fit);
+    if (!sum) continue;
+    fit.sums.push_back(*sum);
+    sums.push_back(loop);
+  }
+}
+
+/// What each form can be: what is known of it, as far as the sums leave it that. Where they cannot be what is known, all
+/// between nothing and the whole sum.
+std::vector<TimeRange> ranges_of_parts(const Fit& fit) {
+  const double ratio = ratio_to_known(fit);
+  std::vector<TimeRange> ranges;
+  for (const Fitted& each : fit.forms) ranges.push_back(known_range(range_of_base(*each.form.row), ratio));
+  const auto narrow = [&](const Sum& sum) {
+    const double least_sum = sum.ns - sum.within, most_sum = sum.ns + sum.within;
+    double least = 0, most = 0;
+    for (const std::size_t part : sum.parts) {
+      least += ranges[part].least;
+      most += ranges[part].most;
+    }
+    const bool possible = least <= most_sum && most >= least_sum;
+    for (const std::size_t part : sum.parts) {
+      const TimeRange before = ranges[part];
+      if (!possible && before.most > 0) ranges[part] = {0, most_sum};
+      if (possible) ranges[part].most = std::min(before.most, most_sum - (least - before.least));
+      if (possible) ranges[part].least = std::max(before.least, least_sum - (most - before.most));
+    }
+  };
+  for (std::size_t round = 0; round <= fit.sums.size(); ++round)
+    for (const Sum& sum : fit.sums) narrow(sum);
+  return ranges;
+}
+
+/// Gives each part of the sums the middle of what it can be, and what then is missing in a sum to those that no earlier one
+/// has.
+void divide_sums(Fit& fit) {
+  const std::vector<TimeRange> ranges = ranges_of_parts(fit);
+  for (std::size_t number = 0; number < fit.sums.size(); ++number) {
+    double left = fit.sums[number].ns;
+    std::vector<std::size_t> forms;
+    std::vector<PartOfSum> parts;
+    for (const std::size_t form : fit.sums[number].parts) {
+      if (fit.forms[form].sum) {
+        left -= fit.forms[form].ns;
+      } else if (ranges[form].most > 0) {
+        forms.push_back(form);
+        parts.push_back({(ranges[form].least + ranges[form].most) / 2, ranges[form]});
+      }
+    }
+    settle(parts, left);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Fitted& fitted = fit.forms[forms[i]];
+      fitted.ns = parts[i].figure;
+      fitted.within = std::max(fitted.ns - parts[i].range.least, parts[i].range.most - fitted.ns);
+      fitted.sum = number;
+    }
+  }
+}
 
 }  // namespace
 
@@ -186,51 +217,53 @@ Fit fit(const Loops& loops, const std::vector<LoopTime>& measured) {
   Fit result;
   for (const Form& form : loops.forms) result.forms.push_back({form});
   for (const Equation& equation : equations) read_off(equation, times, result, loop_equations);
-  Division division(result, times);
-  for (const Equation& loop : loop_equations) division.add(loop);
+  add_sums(loop_equations, times, result);
+  divide_sums(result);
   return result;
 }
 
 namespace {
 
-/// In percent, as the tables have it: the true figure is between this one / (1 + p / 100) and this one × (1 + p / 100).
-double percent(const Fitted& fitted) {
-  if (fitted.sum) return fitted.uncertainty;
-  const double least = fitted.ns - fitted.within;
-  return least <= 0 ? kMostUncertain : std::min(kMostUncertain, 100 * (fitted.ns / least - 1));
-}
-
-/// Labels alone may take no time, and areas may add none.
-bool can_be_written(const Fitted& fitted) {
-  if (fitted.form.mnemonic == name_of(SystemTime::OperandArea)) return fitted.found && fitted.ns > fitted.within;
-  if (fitted.sum) return fitted.ns >= 0.5;
-  return fitted.found && (fitted.ns >= 0.5 || fitted.form.mnemonic == "LBL");
-}
-
 Time in_ns(double ns) { return std::clamp<Time>(std::llround(ns), 0, kLongestFigure); }
 
-/// The lines of what was found. Base and unit are of use only together.
+/// Writes a figure, no shorter than `shortest`, and how far the true one is from it at most.
+void state(Time& figure, Time& within, double ns, const TimeRange& range, Time shortest) {
+  figure = std::max(in_ns(ns), shortest);
+  within = std::min(farthest(figure, range), kLongestFigure);
+}
+
+void state(Time& figure, Time& within, const Fitted& fitted, Time shortest) {
+  state(figure, within, fitted.ns, {fitted.ns - fitted.within, fitted.ns + fitted.within}, shortest);
+}
+
+/// In a table labels alone may take no time, and of units any.
+constexpr Time kShortest = 1;
+
+/// The lines of what was found, and those of the sums. Base and unit are of use only together.
 std::vector<TimeRow> measured_rows(const Fit& fit, const std::string& source) {
   std::vector<TimeRow> rows;
   for (const Fitted& base : fit.forms) {
-    if (base.form.per_unit || !can_be_written(base)) continue;
+    if (base.form.per_unit || !(base.found || base.sum)) continue;
     const Form of_unit{base.form.mnemonic, base.form.row, true};
     const auto unit = std::ranges::find(fit.forms, of_unit, &Fitted::form);
     TimeRow row = *base.form.row;
     const bool unit_found = unit != fit.forms.end() && unit->found;
     if (row.per_unit > 0 && !unit_found) continue;
-    const double uncertainty = unit_found ? std::max(percent(base), percent(*unit)) : percent(base);
-    row.mnemonics = {base.form.mnemonic};
     row.form = names_of(row.areas);
-    row.base = in_ns(base.ns);
-    row.per_unit = unit_found ? in_ns(unit->ns) : 0;
+    row.uncertainty = 0;
     row.marker = base.sum ? "calibrated" : "measured";
+    row.source = base.sum ? fmt::format("part of {}; {}", fit.sums[*base.sum].text, source) : source;
+    state(row.base, row.base_within, base, base.form.mnemonic == "LBL" ? 0 : kShortest);
+    if (unit_found) state(row.per_unit, row.per_unit_within, *unit, 0);
+    rows.push_back(std::move(row));
+  }
+  for (const Sum& sum : fit.sums) {
+    TimeRow row;
+    row.mnemonics = {std::string(kSum)};
+    row.form = sum.text;
+    row.marker = "measured";
     row.source = source;
-    if (base.sum) {
-      const Sum& sum = fit.sums[*base.sum];
-      row.source = fmt::format("{} = {:.2f} us, divided as the estimates are; {}", sum.text, sum.ns / 1000, source);
-    }
-    row.uncertainty = row.base == 0 ? 0 : std::ceil(uncertainty * 100) / 100;
+    state(row.base, row.base_within, sum.ns, {sum.ns - sum.within, sum.ns + sum.within}, kShortest);
     rows.push_back(std::move(row));
   }
   return rows;
@@ -242,13 +275,15 @@ void estimate(TimeRow& row, double ratio) {
     row.source = "not measured; " + row.source;
     return;
   }
-  const auto scaled = [&](Time time) { return time == 0 ? 0 : std::max<Time>(1, in_ns(static_cast<double>(time) * ratio)); };
-  row.base = scaled(row.base);
-  row.per_unit = scaled(row.per_unit);
+  const auto scale = [&](Time& figure, Time& within, const TimeRange& range) {
+    state(figure, within, static_cast<double>(figure) * ratio, known_range(range, ratio), figure > 0 ? kShortest : 0);
+  };
+  const TimeRange base = range_of_base(row), unit = range_of_unit(row);
+  row.uncertainty = 0;
+  scale(row.base, row.base_within, base);
+  scale(row.per_unit, row.per_unit_within, unit);
   row.source = fmt::format("not measured: {:.2f} × {}, {}", ratio, row.marker, row.source);
   row.marker = "calibrated";
-  const double most = (1 + row.uncertainty / 100) * std::max(ratio, 1 / ratio);
-  row.uncertainty = std::min(1000.0, std::ceil(100 * (most - 1)));
 }
 
 }  // namespace
@@ -266,12 +301,16 @@ double ratio_to_known(const Fit& fit) {
 
 TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& own, const std::string& source) {
   const double ratio = ratio_to_known(fit);
-  // What an area adds and the CPU's own table does not know is in the table if it was measured.
   const auto is_known = [&](const TimeRow& row) {
     return row.mnemonics.front() != name_of(SystemTime::OperandArea) ||
            own.find(row.mnemonics.front(), area_named(row.form));
   };
-  TimeTable table = known.filtered(is_known).with([&](TimeRow& row) { estimate(row, ratio); });
+  TimeTable table = known.with([&](TimeRow& row) {
+    estimate(row, ratio);
+    if (is_known(row)) return;
+    // What an area adds and the CPU's own table does not know: as good as nothing, up to what the others say.
+    state(row.base, row.base_within, 0, range_of_base(row), kShortest);
+  });
   table.add(TimeTable(measured_rows(fit, source)));
   return in_use(table);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -40,6 +41,33 @@ std::vector<Kind> kinds_of(const Instruction& instruction, const CpuModel& model
       known->areas |= set_of(area.area);
   }
   return kinds;
+}
+
+/// With bounds in place of a percentage, which hold what all the tables say of it for its operands.
+TimeRow bounded(TimeRow row, const std::vector<const NamedTimes*>& tables) {
+  TimeRange base = range_of_base(row), unit = range_of_unit(row);
+  const auto hold = [](TimeRange& range, const TimeRange& other) {
+    range = {std::min(range.least, other.least), std::max(range.most, other.most)};
+  };
+  std::vector<std::optional<Area>> operands{std::nullopt};
+  for (const AreaInfo& area : all_areas())
+    if (row.areas == 0 || contains(row.areas, area.area)) operands.emplace_back(area.area);
+  const bool adds = row.mnemonics.front() == name_of(SystemTime::OperandArea);
+  for (const NamedTimes* each : tables)
+    for (const auto& operand : operands) {
+      const TimeRow* other = each->table().find(row.mnemonics.front(), operand);
+      if (!other) {
+        if (adds && operand) base.least = 0;
+        continue;
+      }
+      hold(base, range_of_base(*other));
+      hold(unit, range_of_unit(*other));
+      if (other->per_unit > 0) row.unit = other->unit;
+    }
+  row.uncertainty = 0;
+  row.base_within = farthest(row.base, base);
+  row.per_unit_within = farthest(row.per_unit, unit);
+  return row;
 }
 
 /// Times with which an instruction's time, in ns, tells by its digits what it consisted of:
@@ -172,6 +200,11 @@ Repetition in_order(const Counts& counts, std::size_t forms, double each) {
 
 }  // namespace
 
+Time farthest(Time figure, const TimeRange& range) {
+  const auto ns = static_cast<double>(figure);
+  return static_cast<Time>(std::ceil(std::max(ns - range.least, range.most - ns)));
+}
+
 std::shared_ptr<const Program> measuring_program(const CpuModel& model, const TimeTable& times) {
   return check_text(kMeasureTimes, "measure_times.stl", model, times).program;
 }
@@ -192,12 +225,19 @@ TimeTable told_apart(const CpuModel& model) {
     }
   }
   const auto adds_more = [&](const TimeRow& row) {
-    return row.mnemonics.front() == name_of(SystemTime::OperandArea) &&
+    return row.mnemonics.front() == name_of(SystemTime::OperandArea) && model.size_of(*area_named(row.form)) > 0 &&
            !own.find(row.mnemonics.front(), area_named(row.form));
   };
   for (const NamedTimes* each : tables) std::ranges::copy_if(each->table().rows(), std::back_inserter(rows), adds_more);
   own.add(TimeTable(std::move(rows)));
-  return in_use(own);
+  const TimeTable used = in_use(own);
+  std::vector<TimeRow> lines;
+  for (TimeRow row : used.rows())
+    for (const std::string& mnemonic : std::vector(row.mnemonics)) {
+      row.mnemonics = {mnemonic};
+      lines.push_back(bounded(row, tables));
+    }
+  return TimeTable(std::move(lines));
 }
 
 Loops find_loops(const CpuModel& model, const TimeTable& times) {

@@ -19,8 +19,12 @@ struct Form {
   bool operator==(const Form&) const = default;
 };
 
+/// How far from a figure the true one is at most.
+Time farthest(Time figure, const TimeRange& range);
+
 /// The times that a CPU runs with of its own, with what its other tables know besides: a line for each set of first operands
-/// that no table tells apart, and a figure for each area that with any of them adds time.
+/// that no table tells apart, and a figure for each area that with any of them adds time; each with bounds that hold what
+/// any of them says.
 TimeTable told_apart(const CpuModel& model);
 
 /// How often each of the forms is taken.

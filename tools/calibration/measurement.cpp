@@ -19,15 +19,23 @@ constexpr double kInnerNs = 60e6;
 /// The run begins at a tick of the timer, found by a loop of half a millisecond at most, and ends between two ticks.
 constexpr double kWithinNs = 1.5e6;
 
+/// How often the program is asked, and how long it has for an answer.
+struct Patience {
+  int attempts;
+  Time timeout;
+};
 /// Longer than any run: 32767 ms.
-constexpr Time kTimeout = 40 * kSecond;
+constexpr Patience kForARun{3, 40 * kSecond};
+/// No loop runs, so it answers soon, unless an interrupted calibration has left it a long run.
+constexpr Patience kForTheFirstAnswer{14, 3 * kSecond};
 
-/// Nothing once the command is interrupted.
-std::optional<Measured> ask(Slave& slave, const Command& command) {
+/// Nothing once the command is interrupted. `silent`: after each attempt that got no answer.
+std::optional<Measured> ask(Slave& slave, const Command& command, const Patience& patience = kForARun,
+                            const std::function<void()>& silent = {}) {
   const Bytes request = command.bytes();
-  constexpr int kAttempts = 3;
-  for (int attempt = 0; attempt < kAttempts && !interrupted(); ++attempt) {
-    const serial::Exchange exchange = slave.exchange({.frame = serial::to_frame(request), .timeout = kTimeout});
+  for (int attempt = 0; attempt < patience.attempts && !interrupted(); ++attempt) {
+    if (attempt > 0 && silent) silent();
+    const serial::Exchange exchange = slave.exchange({.frame = serial::to_frame(request), .timeout = patience.timeout});
     slave.wait(slave.pause());
     const Bytes answer = exchange.response_bytes();
     if (answer.size() != measuring::kAnswerLength || !exchange.damage().empty() || answer[0] != measuring::kAnswerMark ||
@@ -62,7 +70,7 @@ std::size_t measured_loops(const Program& program) {
 Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const MeasurementListener& listener) {
   const auto outer = static_cast<std::uint16_t>(std::max(1.0, static_cast<double>(each) / kInnerNs));
   const auto in_ns = [](const Measured& measured) { return measured.milliseconds * 1e6; };
-  const auto nothing = ask(slave, {.outer = outer});
+  const auto nothing = ask(slave, {.outer = outer}, kForTheFirstAnswer, listener.silent);
   if (!nothing) return {};
   if (nothing->loops != loops)
     throw std::runtime_error(

@@ -43,6 +43,7 @@ struct Measurement {
 
 /// Who follows it.
 struct MeasurementListener {
+  std::function<void()> silent;                               ///< there was no answer yet
   std::function<void(std::uint8_t identification)> answered;  ///< before the first loop; it may throw
   std::function<void(std::size_t loops)> measured;            ///< so many so far
 };

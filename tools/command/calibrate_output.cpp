@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <string_view>
 #include <vector>
@@ -31,14 +32,14 @@ std::vector<std::string_view> cpus_of_type(std::uint8_t identification) {
   return names;
 }
 
-/// `CALL + RET = 41.00 us ± 0.12, of which CALL 23.00 (± 40%), RET 18.00 (± 51%)`
+/// `CALL + RET = 41.00 us ± 0.12, and as far as is known CALL 23.00 ± 4.60, RET 18.00 ± 4.60`
 std::string sum_text(const Fit& fit, std::size_t sum) {
   std::vector<std::string> parts;
   for (const Fitted& each : fit.forms)
     if (each.sum == sum)
-      parts.push_back(fmt::format("{} {:.2f} (± {:.0f}%)", each.form.mnemonic, each.ns / 1000, each.uncertainty));
-  return fmt::format("{} = {:.2f} us ± {:.2f}, divided as the estimates are: {}\n", fit.sums[sum].text,
-                     fit.sums[sum].ns / 1000, fit.sums[sum].within / 1000, fmt::join(parts, ", "));
+      parts.push_back(fmt::format("{} {:.2f} ± {:.2f}", each.form.mnemonic, each.ns / 1000, each.within / 1000));
+  return fmt::format("{} = {:.2f} us ± {:.2f}, and as far as is known {}\n", fit.sums[sum].text, fit.sums[sum].ns / 1000,
+                     fit.sums[sum].within / 1000, fmt::join(parts, ", "));
 }
 
 nlohmann::ordered_json sum_to_json(const Fit& fit, std::size_t sum) {
@@ -47,8 +48,7 @@ nlohmann::ordered_json sum_to_json(const Fit& fit, std::size_t sum) {
   json["parts"] = nlohmann::ordered_json::array();
   for (const Fitted& each : fit.forms)
     if (each.sum == sum)
-      json["parts"].push_back(
-          {{"name", each.form.mnemonic}, {"us", each.ns / 1000}, {"uncertainty_percent", each.uncertainty}});
+      json["parts"].push_back({{"name", each.form.mnemonic}, {"us", each.ns / 1000}, {"within_us", each.within / 1000}});
   return json;
 }
 
@@ -59,6 +59,7 @@ nlohmann::ordered_json to_json(const CpuModel& model, const Measurement& measure
   results["cpu"] = model.name;
   results["identification"] = measurement.identification;
   results["loops"] = measurement.loops.size();
+  results["residual_us"] = fit.residual / 1000;
   results["contradiction_us"] = std::max(0.0, fit.contradiction) / 1000;
   results["found"] = nlohmann::ordered_json::array();
   for (const Fitted& each : fit.forms)
@@ -77,9 +78,10 @@ nlohmann::ordered_json to_json(const CpuModel& model, const Measurement& measure
 }
 
 std::string source_of(const CpuModel& model, const Measurement& measurement, const Fit& fit, const std::string& firmware) {
-  return fmt::format("CPU {} (SMB6 = 16#{:02X}{}), measured {}, loops agree within {:.2f} us", model.name,
-                     measurement.identification, firmware.empty() ? "" : ", firmware " + firmware, today(),
-                     std::max(0.0, fit.contradiction) / 1000);
+  std::string source = fmt::format("CPU {} (SMB6 = 16#{:02X}{}), measured {}", model.name, measurement.identification,
+                                   firmware.empty() ? "" : ", firmware " + firmware, today());
+  if (fit.residual > 0) source += fmt::format(", loops agree within {:.0f} ns", std::ceil(fit.residual));
+  return source;
 }
 
 std::string not_measured_text(const Fit& fit, const CpuModel& model) {

@@ -59,7 +59,9 @@ int run_calibrate(const CalibrateOptions& options) {
   const Fit result = fit(loops, measurement->loops);
   const std::string source =
       (in_simulation(options) ? "simulated " : "") + source_of(*model, *measurement, result, options.firmware);
-  const std::string csv = cpu_line(model->name) + to_csv(calibrated(result, known, default_times(*model), source));
+  const std::string interruption = interruption_note(*measurement, loops.loops.size());
+  const std::string csv =
+      cpu_line(model->name) + comment_line(interruption) + to_csv(calibrated(result, known, default_times(*model), source));
   if (!options.output.empty()) {
     const int written = write_stl(options.output, {options.target}, options.force, csv);
     if (written != kFine) return written;
@@ -73,7 +75,7 @@ int run_calibrate(const CalibrateOptions& options) {
   const bool known_cpu = in_simulation(options) || options.cpu->count() > 0;
   print_note_if_any(doubt_about_cpu(*model, measurement->identification, known_cpu));
   print_note_if_any(contradiction_note(result));
-  print_note_if_any(interruption_note(*measurement, loops.loops.size()));
+  print_note_if_any(interruption);
   return exit_code;
 }
 

@@ -38,26 +38,32 @@ int show_side_by_side(const TimesOptions& options, const CpuModel& model) {
   return kFine;
 }
 
-/// The table in use, or a random one around those of the CPU. Nothing after messages.
-std::optional<TimeTable> table_to_show(const TimesOptions& options, const CpuModel& model) {
-  if (options.band_table == 0) return options.cpu.times(model);
-  const auto band = options.cpu.band(model, {options.band_table, options.band_seed});
-  return band ? std::optional((*band)[band->size() - 1]) : std::nullopt;
+/// The table in use, or a random one around those of the CPU, with what is to be said of it. Nothing after messages.
+std::optional<TimesBand::Named> table_to_show(const TimesOptions& options, const CpuModel& model) {
+  if (options.band_table > 0) {
+    const auto band = options.cpu.band(model, {options.band_table, options.band_seed});
+    return band ? std::optional(band->last()) : std::nullopt;
+  }
+  const auto times = options.cpu.times(model);
+  return times ? std::optional(TimesBand::Named{"", *times}) : std::nullopt;
 }
 
 int show_table(const TimesOptions& options, const CpuModel& model) {
-  const auto times = table_to_show(options, model);
-  if (!times) return kUnusable;
+  const auto shown = table_to_show(options, model);
+  if (!shown) return kUnusable;
+  const auto& [about, times] = *shown;
   if (options.json) {
     auto results = results_of("times");
     results["cpu"] = model.name;
     results["tables"] = tables_json(model);
-    results["times"] = table_json(*times);
+    if (!about.empty()) results["about"] = about;
+    results["times"] = table_json(times);
     fmt::print("{}", lines_of(results));
   } else if (options.csv) {
-    print_file(cpu_line(model.name) + to_csv(*times));
+    print_file(cpu_line(model.name) + comment_line(about) + to_csv(times));
   } else {
-    fmt::print("{}\n{}", table_text(model, *times), tables_text(model));
+    if (!about.empty()) fmt::print("{}\n\n", about);
+    fmt::print("{}\n{}", table_text(model, times), tables_text(model));
   }
   return kFine;
 }
@@ -97,6 +103,7 @@ void add_times(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", options->json, "print as JSON")->excludes(csv);
   verb->footer(
       "'within 25%': the true time lies between figure / 1.25 and figure × 1.25.\n"
+      "'within ± 0.5, 0.02': it is no farther from the base than 0.5 us, and from the figure per unit than 0.02 us.\n"
       "Example: s7200 times --cpu 224 --csv > my_times.csv\n"
       "         s7200 times cpu214 cpu214_from_22x my_times.csv\n"
       "         s7200 times --check cpu214_from_22x --tip41 tip41.txt\n"

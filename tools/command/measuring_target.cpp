@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "interpreter/base/text.hpp"
 #include "tools/calibration/measure_protocol.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/host_time.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/slave/slave_target.hpp"
@@ -29,11 +31,27 @@ constexpr std::array<std::string_view, 4> kHowTo{
     "Take a CPU whose outputs are not wired to a plant. The program answers at 9600 baud, 8 data bits, even parity.",
     "SMB6 is the same for a 214 and a 224, so name the CPU with --cpu."};
 
-void show_progress(std::size_t done, std::size_t all) {
-  if (!can_redraw(stderr)) return;
-  fmt::print(stderr, "\r{} of {} loops{}", done, all, done == all ? "\r\x1b[K" : "");
-  std::fflush(stderr);
-}
+/// On a terminal at every loop; else a line once in a while.
+class LoopProgress {
+ public:
+  explicit LoopProgress(std::size_t all) : all_(all) {}
+
+  void operator()(std::size_t done) {
+    if (can_redraw(stderr)) {
+      fmt::print(stderr, "\r{} of {} loops{}", done, all_, done == all_ ? "\r\x1b[K" : "");
+      std::fflush(stderr);
+    } else if (host_time() >= next_) {
+      print_note(fmt::format("{} of {} loops", done, all_));
+      next_ += kOnceInAWhile;
+    }
+  }
+
+ private:
+  static constexpr Time kOnceInAWhile = 30 * kSecond;
+
+  std::size_t all_;
+  Time next_ = host_time() + kOnceInAWhile;
+};
 
 }  // namespace
 
@@ -81,11 +99,15 @@ std::string MeasuringTarget::why_it_stopped() const {
 std::optional<Measurement> measure(const std::string& target, const ProgramOptions& program, std::size_t loops, Time each,
                                    const std::function<void(std::uint8_t identification)>& answered, int& exit_code) {
   std::unique_ptr<MeasuringTarget> cpu;
+  bool said_how = false;
+  const auto say_how = [&](std::string_view why) {
+    if (!std::exchange(said_how, true)) print_note(fmt::format("{}{}", why, how_to_measure(" ")));
+  };
   try {
     cpu = MeasuringTarget::open(target, program, exit_code);
     if (!cpu) return {};
     Measurement measurement =
-        measure_loops(cpu->slave(), loops, each, {answered, [&](std::size_t done) { show_progress(done, loops); }});
+        measure_loops(cpu->slave(), loops, each, {[&] { say_how("no answer yet; "); }, answered, LoopProgress(loops)});
     if (measurement.loops.empty()) throw std::runtime_error("interrupted before anything was measured");
     if (measurement.loops.size() < loops) exit_code = kCheckFailed;
     return measurement;
@@ -98,7 +120,7 @@ std::optional<Measurement> measure(const std::string& target, const ProgramOptio
     if (const std::string stopped = cpu ? cpu->why_it_stopped() : ""; !stopped.empty())
       print_note(fmt::format("the CPU is in STOP; {}", stopped));
     else if (!interrupted())
-      print_note(how_to_measure(" "));
+      say_how("");
   }
   exit_code = interrupted() ? kCheckFailed : kUnusable;
   return {};

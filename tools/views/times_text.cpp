@@ -23,7 +23,7 @@ struct Line {
 bool same_figures(const std::vector<const TimeRow*>& a, const std::vector<const TimeRow*>& b) {
   return std::ranges::equal(a, b, [](const TimeRow* x, const TimeRow* y) {
     return (!x && !y) || (x && y && x->base == y->base && x->per_unit == y->per_unit && x->marker == y->marker &&
-                          x->uncertainty == y->uncertainty);
+                          range_of_base(*x) == range_of_base(*y) && range_of_unit(*x) == range_of_unit(*y));
   });
 }
 
@@ -104,6 +104,14 @@ constexpr std::size_t kColumn = 16;
 
 nlohmann::ordered_json in_us(Time time) { return static_cast<double>(time) / kMicrosecond; }
 
+/// `25%`; `± 0.6`, `± 0.6, 0.02`: of base and unit.
+std::string within_text(const TimeRow& row) {
+  if (row.base_within == 0 && row.per_unit_within == 0) return fmt::format("{:g}%", row.uncertainty);
+  std::string text = "± " + in_microseconds(row.base_within);
+  if (row.per_unit_within > 0) text += ", " + in_microseconds(row.per_unit_within);
+  return row.uncertainty > 0 ? fmt::format("{:g}% {}", row.uncertainty, text) : text;
+}
+
 /// What is wider than its column goes on in the next line.
 std::string in_column(const std::string& text, std::size_t begin, std::size_t width) {
   if (stl::count_characters(text) > width) return fmt::format("{}\n{}", text, std::string(begin + width, ' '));
@@ -121,11 +129,11 @@ std::string table_text(const CpuModel& model, const TimeTable& times) {
       "{1:<40} {2:<28} {3:>9} {4:>9}  {5:<10} {6:<11} {7:>7}  {8}\n",
       model.name, "instructions", "form", "base", "per unit", "unit", "marker", "within", "source");
   for (const TimeRow& row : times.rows())
-    text += fmt::format("{} {} {:>9} {:>9}  {:<10} {:<11} {:>6}%  {}\n",
+    text += fmt::format("{} {} {:>9} {:>9}  {:<10} {:<11} {:>7}  {}\n",
                         in_column(stl::printable(fmt::format("{}", fmt::join(row.mnemonics, " "))), 0, 40),
                         in_column(stl::printable(row.form), 41, 28), in_microseconds(row.base),
                         row.per_unit ? in_microseconds(row.per_unit) : "", stl::printable(row.unit), row.marker,
-                        fmt::format("{:g}", row.uncertainty), stl::printable(row.source));
+                        within_text(row), stl::printable(row.source));
   return text;
 }
 
@@ -139,7 +147,9 @@ nlohmann::ordered_json table_json(const TimeTable& times) {
                     {"unit", row.unit},
                     {"marker", row.marker},
                     {"source", row.source},
-                    {"uncertainty_percent", row.uncertainty}});
+                    {"uncertainty_percent", row.uncertainty},
+                    {"base_within_us", in_us(row.base_within)},
+                    {"per_unit_within_us", in_us(row.per_unit_within)}});
   return rows;
 }
 

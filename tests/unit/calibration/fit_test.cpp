@@ -27,10 +27,10 @@ TEST(Fit, AFormIsFoundIfTheLoopsTellItApart) {
   EXPECT_EQ(found.contradiction, 0);
 }
 
-TEST(Fit, ASumThatNoLoopTakesApartIsDividedAsTheKnownFiguresAreAndAsUnsureAsTheseAre) {
-  // Known: CALL 23 ± 25 %, RET 18 ± 40 %, CRET 17 ± 195 %. This CPU takes twice as long for all of them.
+TEST(Fit, APartOfASumIsInTheMiddleOfWhatIsKnownOfItAsFarAsTheSumLeavesItThat) {
+  // Known: CALL 23 within 25 %, RET 18 within 40 %, CRET 17 within 195 %. This CPU takes twice as long for all of them.
   const Loops loops{{form("NEXT"), form("CALL"), form("RET"), form("CRET")}, {{1, 0, 0, 0}, {1, 1, 1, 0}, {1, 1, 0, 1}}};
-  const Fit found = fit(loops, {{150'000, 0}, {150'000 + 82'000, 0}, {150'000 + 80'000, 0}});
+  const Fit found = fit(loops, {{300'000, 0}, {300'000 + 82'000, 0}, {300'000 + 80'000, 0}});
   ASSERT_EQ(found.sums.size(), 2U);
   EXPECT_EQ(found.sums[0].text, "CALL + RET");
   EXPECT_NEAR(found.sums[0].ns, 82'000, 1e-6);
@@ -38,13 +38,24 @@ TEST(Fit, ASumThatNoLoopTakesApartIsDividedAsTheKnownFiguresAreAndAsUnsureAsThes
   const Fitted &call = found.forms[1], &ret = found.forms[2], &cret = found.forms[3];
   EXPECT_FALSE(call.found);
   EXPECT_EQ(call.sum, 0U);
-  EXPECT_NEAR(call.ns, 46'000, 1e-6);
-  EXPECT_NEAR(ret.ns, 36'000, 1e-6);
-  EXPECT_NEAR(call.uncertainty, 100 * (46.0 / (82 * 18.4 / (18.4 + 25.2)) - 1), 1e-6) << "CALL short and RET long";
-  EXPECT_NEAR(ret.uncertainty, 100 * (36.0 / (82 * (18 / 1.4) / (18 / 1.4 + 28.75)) - 1), 1e-6);
+  const double shortest = 82'000 - 2 * 18'000 * 1.4, longest = 2 * 23'000 * 1.25;
+  EXPECT_NEAR(call.ns - call.within, shortest, 1e-6) << "RET twice as long, and as long as it may be";
+  EXPECT_NEAR(call.ns + call.within, longest, 1e-6);
+  EXPECT_NEAR(ret.ns - ret.within, 82'000 - longest, 1e-6);
+  EXPECT_NEAR(ret.ns + ret.within, 82'000 - shortest, 1e-6);
+  EXPECT_NEAR(call.ns + ret.ns, 82'000, 1e-6);
   EXPECT_EQ(cret.sum, 1U);
-  EXPECT_NEAR(cret.ns, 34'000, 1e-6) << "what CALL leaves";
-  EXPECT_NEAR(cret.uncertainty, 100 * (34.0 / (80 - 46 * (1 + call.uncertainty / 100)) - 1), 1e-6);
+  EXPECT_NEAR(cret.ns, 80'000 - call.ns, 1e-6) << "what CALL leaves";
+  EXPECT_NEAR(cret.within, call.within, 1e-6);
+}
+
+TEST(Fit, APartOfASumThatTheKnownFiguresCannotMakeIsAnythingUpToTheWholeOfIt) {
+  const Loops loops{{form("NEXT"), form("CALL"), form("RET")}, {{1, 0, 0}, {1, 1, 1}}};
+  const Fit found = fit(loops, {{150'000, 0}, {150'000 + 82'000, 0}});
+  for (const std::size_t part : {1U, 2U}) {
+    EXPECT_NEAR(found.forms[part].ns, 41'000, 1e-6);
+    EXPECT_NEAR(found.forms[part].within, 41'000, 1e-6);
+  }
 }
 
 TEST(Fit, InterruptsTakeTheirTimeFromTheWholeRun) {
@@ -61,7 +72,7 @@ TEST(Fit, LoopsThatDisagreeByMoreThanTheirErrorsAreAContradiction) {
   EXPECT_NEAR(fit(loops, {{150'000, 100}, {302'000, 100}}).contradiction, 850, 1e-6) << "1000 of which 150 are the clock's";
 }
 
-TEST(Fit, ALineIsWrittenWithAllItsFiguresAndTheWorseOfTheirUncertainties) {
+TEST(Fit, ALineIsWrittenWithAllItsFiguresAndWithTheBoundOfEach) {
   const TimeTable own = default_times(cpu214());
   const Loops loops{{form("SLW"), form("SLW", true)}, {{1, 1}, {1, 15}}};
   const TimeTable table = calibrated(fit(loops, {{80'000, 140}, {136'000, 140}}), own, own, "a CPU");
@@ -70,7 +81,9 @@ TEST(Fit, ALineIsWrittenWithAllItsFiguresAndTheWorseOfTheirUncertainties) {
   EXPECT_EQ(row.per_unit, 4'000);
   EXPECT_EQ(row.marker, "measured");
   EXPECT_EQ(row.source, "a CPU");
-  EXPECT_EQ(row.uncertainty, 0.51);
+  EXPECT_EQ(row.uncertainty, 0);
+  EXPECT_NEAR(static_cast<double>(row.base_within), 160, 1);
+  EXPECT_NEAR(static_cast<double>(row.per_unit_within), 20, 1);
   EXPECT_NE(calibrated(fit({loops.forms, {{1, 1}}}, {{80'000, 140}}), own, own, "a CPU").find("SLW", {})->marker, "measured")
       << "base and unit are not told apart";
 }
@@ -85,7 +98,7 @@ TEST(Calibrated, WhatWasNotMeasuredIsAsMuchSlowerAsTheMiddleOfWhatWas) {
   EXPECT_EQ(call.base, 27'600);
   EXPECT_EQ(call.marker, "calibrated");
   EXPECT_EQ(call.source, "not measured: 1.20 × estimate, no page of the manual found");
-  EXPECT_EQ(call.uncertainty, 50) << "25 percent, and as many as the ratio has";
+  EXPECT_EQ(call.base_within, 9'200) << "down to 23 / 1.25, and up to 23 × 1.25 × 1.20";
   EXPECT_EQ(table[SystemTime::EepromSave], own[SystemTime::EepromSave]) << "a part of its own";
 }
 

@@ -83,7 +83,8 @@ TEST(Times, AFigureIsAtMostWhatTheWatchdogLeavesToOneInstructionAndAtLeastANanos
 
 TEST(Times, ALineWithAQuoteLeftOpenOrTooManyColumnsAndATableWithoutLinesAreSlips) {
   EXPECT_EQ(errors_in("MOVB,,60,,,manual,\"page 9\n"), Errors{"times.csv:2: a double quote is not closed"});
-  EXPECT_EQ(errors_in("MOVB,,60,,,manual,page 9, left,5\n").at(0).substr(0, 40), "times.csv:2: 9 columns, but there are 8 ");
+  EXPECT_EQ(errors_in("MOVB,,60,,,manual,page 9, left, top,5,,\n").at(0).substr(0, 42),
+            "times.csv:2: 12 columns, but there are 10 ");
   EXPECT_EQ(errors_in(""), Errors{"times.csv:1: the table has no line with a time"});
 }
 
@@ -119,6 +120,32 @@ TEST(Times, TheMarkerSaysHowSureAFigureIsIfItsLineDoesNot) {
             Errors{"t.csv:2: '-3' is not an uncertainty in percent (0 to 1000)"});
 }
 
+TEST(Times, ABoundInMicrosecondsTakesThePlaceOfThePercentage) {
+  const std::string header =
+      kHeader.substr(0, kHeader.size() - 1) + ",uncertainty_percent,base_within_us,per_unit_within_us\n";
+  TimeTable times;
+  ASSERT_EQ(times.add(header + "SLW,,80,4,bit,measured,me,,0.5,0.02\nNETW,,300,,byte,calibrated,me,10,,19\n", "t.csv"),
+            Errors{});
+  EXPECT_EQ(range_of_base(*times.find("SLW", {})), (TimeRange{79'500, 80'500}));
+  EXPECT_EQ(range_of_unit(*times.find("SLW", {})), (TimeRange{3'980, 4'020}));
+  EXPECT_EQ(range_of_unit(*times.find("NETW", {})), (TimeRange{0, 19'000})) << "nothing is within it";
+  EXPECT_EQ(times.find("NETW", {})->uncertainty, 10) << "unless it is there, too";
+  TimeTable again;
+  EXPECT_EQ(again.add(to_csv(times), "t.csv"), Errors{});
+  EXPECT_TRUE(again.rows() == times.rows());
+  EXPECT_EQ(times.add(header + "SLW,,80,4,bit,measured,me,,x,\n", "t.csv"),
+            Errors{"t.csv:2: 'x' is not a time in microseconds (0.001 to 100000)"});
+  EXPECT_EQ(to_csv(default_times(cpu214())).find("within"), std::string::npos) << "columns that nothing needs are left out";
+}
+
+TEST(Times, SumsGiveNoTimeAndHideNoOtherSum) {
+  const TimeTable times =
+      table("(sum),CALL + RET,41,,,measured\n(sum),CALL + (interrupt entry),60,,,measured\nCALL,,23,,,measured\n");
+  EXPECT_EQ(to_csv(in_use(times)), to_csv(times));
+  EXPECT_EQ(times.find("CALL", {})->base, 23'000);
+  EXPECT_EQ(parts_of_sum(times.rows()[1].form), (std::vector<std::string>{"CALL", "(interrupt entry)"}));
+}
+
 TEST(NamedTimes, ACpuRunsWithTheTableThatIsItsOwn) {
   for (const CpuModel* model : all_cpus()) {
     const auto tables = times_of(*model);
@@ -142,6 +169,22 @@ TEST(NamedTimes, TheTableFromTheCpu22xIsItsFiguresTimesOneFactor) {
   }
   EXPECT_TRUE(std::ranges::all_of(scaled.rows(), [](const TimeRow& row) { return row.marker == "remembered"; }));
   EXPECT_EQ(scaled[SystemTime::InterruptEntry], 89'582);
+  EXPECT_TRUE(std::ranges::all_of(scaled.rows(), [](const TimeRow& row) { return row.uncertainty >= 25; }))
+      << "a figure that a page has is a guess with the factor";
+  EXPECT_EQ(scaled.cost("CRETI", {})->base, scaled.cost("RETI", {})->base) << "as RETI";
+}
+
+TEST(NamedTimes, SAndROfOneBitTakeTheFiguresForAnyNumber) {
+  const TimeTable& times = find_times("cpu22x_release1")->table();
+  const auto of_one = [&](const char* statement) {
+    return check_text(std::string("LD SM0.0\n") + statement + "\nMEND\n", "one.stl", *find_cpu("224r1"), times)
+        .program->ops[1]
+        .cost;
+  };
+  EXPECT_EQ(of_one("R C0, 1"), 19'000);
+  EXPECT_EQ(of_one("R M0.0, 1"), 28'000);
+  EXPECT_EQ(times.find("R", Area::M)->per_unit, 900);
+  EXPECT_EQ(of_one("S M0.0, 1"), 27'000);
 }
 
 TEST(NamedTimes, EachFigureOfTheCpu214IsAsUnsureAsTheRememberedOneIsFarFromIt) {
@@ -198,6 +241,8 @@ TEST(LoadTimes, ANameFormOrUnitThatTheCpusTablesDoNotHaveIsASlip) {
   EXPECT_EQ(slips_in("MOVV,,60,,,manual\n", cpu214()), Errors{":2: 'MOVV' is not an instruction; write MOVB"});
   EXPECT_EQ(slips_in("(scan),,60,,,manual\n", cpu214()),
             Errors{":2: '(scan)' is not an instruction; `s7200 times` lists them"});
+  EXPECT_EQ(slips_in("(sum),CALL + MOVV,60,,,manual\n", cpu214()), Errors{":2: 'MOVV' is not an instruction; write MOVB"});
+  EXPECT_EQ(slips_in("(sum),CALL + RET,60,,,manual\n(sum),CALL + CRET,60,,,manual\n", cpu214()), Errors{});
   EXPECT_EQ(slips_in("LD,Z,60,,,manual\n", cpu214()),
             Errors{":2: 'Z' is not a form of LD; write the areas of its first operand (I Q M SM V …), or nothing"});
   EXPECT_EQ(slips_in("MOVB,,60,3,byte,manual\n", cpu214()), Errors{":2: MOVB has no time per unit; leave column 4 empty"});
