@@ -23,6 +23,12 @@ SerialFormat format_of(std::uint8_t control, const CpuModel& model) {
           .stop_bits = 1};
 }
 
+void take_over_line(Core& core, std::uint8_t number, Time at) {
+  const Freeport& port = core.s.port[number];
+  core.port(number).configure(port.format, at);
+  core.port(number).enable_receiver(!port.transmitting, at);
+}
+
 void take_control(Core& core, std::uint8_t number, std::uint32_t op) {
   Freeport& port = core.s.port[number];
   port.control = core.s.image[kPorts[number].control];
@@ -30,8 +36,8 @@ void take_control(Core& core, std::uint8_t number, std::uint32_t op) {
   if (!port.active) message_receiver::abandon(core, number);
   port.format = format_of(port.control, core.model());
   if (port.active) {
-    core.port(number).configure(port.format, core.s.time);
-    core.port(number).enable_receiver(!port.transmitting, core.s.time);
+    if (!was_active) ppi::end(core, number);
+    if (port.on_wire != OnWire::Ppi) take_over_line(core, number, core.s.time);
   } else if (was_active && !port.transmitting) {
     ppi::begin(core, number, core.s.time);
   }
@@ -63,7 +69,7 @@ void send_next_character(Core& core, std::uint8_t number, Time at) {
 }
 
 Ignored reason_to_ignore(const Core& core, std::uint8_t number) {
-  if (core.s.port[number].transmitting || core.s.ppi[number].sending != 0) return Ignored::WhileSending;
+  if (core.s.port[number].transmitting || core.s.port[number].on_wire != OnWire::Nothing) return Ignored::WhileSending;
   return core.s.port[number].active ? Ignored::NotAttached : Ignored::NoPpiFrame;
 }
 
@@ -122,6 +128,7 @@ void transmit(Core& core, std::uint8_t number, std::uint32_t table) {
 void character_sent(Core& core, std::uint8_t number, Time at) {
   Freeport& port = core.s.port[number];
   const OnWire sent = std::exchange(port.on_wire, OnWire::Nothing);
+  if (port.active && sent == OnWire::Ppi) take_over_line(core, number, at);
   if (!port.transmitting) return port.active ? void() : ppi::character_sent(core, number, at);
   const bool before_the_first = sent != OnWire::Xmt;
   if (core.sink() && !port.sending_break && !before_the_first)

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/cpu/network.hpp"
 #include "interpreter/cpu/s7_services.hpp"
+#include "interpreter/cpu/scan.hpp"
 
 namespace s7200::ppi {
 namespace {
@@ -29,6 +32,7 @@ bool works_for_another(const PpiPort& port, const Body& body) {
 
 void take_request(Core& core, std::uint8_t number, const Body& body, Time reply_at) {
   PpiPort& port = core.s.ppi[number];
+  if (port.job == Job::Ready) port.wanted_mode.reset();
   port.job = Job::Waiting;
   port.master = body.source;
   port.length = static_cast<std::uint8_t>(body.data.size());
@@ -114,6 +118,15 @@ void take_character(Core& core, std::uint8_t number, const ReceivedCharacter& ch
   take_frame(core, number, Bytes(frame.begin(), frame.end()), character.end, reply_at);
 }
 
+bool answer_has_left(const PpiPort& port) {
+  return port.job != Job::Ready && !(port.job == Job::Delivered && port.sending != 0);
+}
+
+void change_mode(Core& core, std::uint8_t number) {
+  const Mode wanted = *std::exchange(core.s.ppi[number].wanted_mode, std::nullopt);
+  scan::change_mode(core, wanted);
+}
+
 void carry_out(Core& core, std::uint8_t number) {
   PpiPort& port = core.s.ppi[number];
   const Bytes request(port.message.begin(), port.message.begin() + port.length);
@@ -148,6 +161,8 @@ void begin(Core& core, std::uint8_t number, Time at) {
   core.port(number).configure(format_of(core.program(), number), at);
   core.port(number).enable_receiver(true, at);
 }
+
+void end(Core& core, std::uint8_t number) { core.s.ppi[number] = {}; }
 
 void character_received(Core& core, std::uint8_t number, const ReceivedCharacter& character) {
   PpiPort& port = core.s.ppi[number];
@@ -186,8 +201,11 @@ void character_sent(Core& core, std::uint8_t number, Time at) {
 
 /// A port that the CPU does not have never has a job.
 void communicate(Core& core) {
-  for (std::uint8_t number = 0; number < kPorts.size(); ++number)
-    if (core.s.ppi[number].job == Job::Waiting) carry_out(core, number);
+  for (std::uint8_t number = 0; number < kPorts.size(); ++number) {
+    const PpiPort& port = core.s.ppi[number];
+    if (port.wanted_mode && answer_has_left(port)) change_mode(core, number);
+    if (port.job == Job::Waiting) carry_out(core, number);
+  }
 }
 
 }  // namespace s7200::ppi

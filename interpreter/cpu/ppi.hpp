@@ -25,6 +25,12 @@
 //   waits for no token. [Ppi.TheStatusIsThatOfASlave, Network.TheMasterAnswersOtherMastersAsASlave]
 // - A token, a broadcast and a frame with a longer address are ignored, and the trace says so.
 //   [Ppi.WhatIsNotModelledIsIgnoredAndNamedInTheTrace]
+// - RUN and STOP take effect when their answer has left, in the next communication part of the scan, so a master gets it
+//   whatever the program then does with the port. Nobody has to fetch it: then the mode stays.
+//   [Ppi.RunAndStopTakeEffectWhenTheirAnswerHasLeft, Ppi.AMasterThatDoesNotFetchTheAnswerToStopDoesNotStopTheCpu]
+// - A port that goes to Freeport mode forgets what it was asked. A character that is leaving, or an E5 that is due, still
+//   leaves, in the format of PPI; then the port listens in Freeport mode.
+//   [Ppi.AnAcceptanceThatIsDueLeavesBeforeFreeportBegins]
 // - XMT begins when the last character of a PPI answer has left. [Ppi.XmtWaitsForTheCharacterThatIsLeaving]
 // Not modelled: the token of several masters, broadcasts, longer addresses. A CPU as master is in network.hpp.
 #pragma once
@@ -47,6 +53,9 @@ inline constexpr int kBitsToReply = 11, kBitsOfSilence = 33;
 
 /// The port begins to speak PPI, at `at`.
 void begin(Core& core, std::uint8_t port, Time at);
+
+/// The port stops speaking PPI and forgets what it was asked. A character that is leaving still leaves.
+void end(Core& core, std::uint8_t port);
 
 /// Sends a frame from `at` on; the receiver is off meanwhile.
 void send(Core& core, std::uint8_t port, std::span<const std::uint8_t> frame, Time at);

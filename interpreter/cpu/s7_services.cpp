@@ -5,7 +5,6 @@
 
 #include "interpreter/cpu/clock.hpp"
 #include "interpreter/cpu/freeport.hpp"
-#include "interpreter/cpu/scan.hpp"
 #include "interpreter/model/s7_pdu.hpp"
 
 namespace s7200::s7_services {
@@ -289,7 +288,7 @@ class Request {
         !std::equal(kProgram.begin(), kProgram.end(), parameters_.end() - static_cast<std::ptrdiff_t>(kProgram.size())))
       return refused(Refusal::Unknown);
     trace(0);
-    scan::change_mode(core_, parameters_[0] == kRun ? Mode::Run : Mode::Stop);
+    core_.s.ppi[port_].wanted_mode = parameters_[0] == kRun ? Mode::Run : Mode::Stop;
     return {.parameters = {parameters_[0]}};
   }
 

@@ -26,8 +26,8 @@
 namespace s7200::s7_services {
 
 /// Carries out a request that has come to a port, and returns its answer: at most s7::kLongestPdu bytes, none if `request`
-/// is not one. `source`: the master's station, for the trace. Belongs into the communication part of the scan: it may change
-/// the mode.
+/// is not one. `source`: the master's station, for the trace. Belongs into the communication part of the scan. RUN and STOP
+/// are left to PpiPort::wanted_mode.
 Bytes carry_out(Core& core, std::uint8_t port, std::uint8_t source, std::span<const std::uint8_t> request);
 
 }  // namespace s7200::s7_services

@@ -151,7 +151,8 @@ struct PpiPort {
   std::uint8_t master = 0;   ///< whose job it is
   bool frame_count = false;  ///< of the poll that fetched the answer
   std::array<std::uint8_t, ppi::kLongestData> message{};
-  std::uint8_t length = 0;  ///< of the message: the request, then its answer
+  std::uint8_t length = 0;            ///< of the message: the request, then its answer
+  std::optional<Mode> wanted_mode{};  ///< for when the answer has left
   bool operator==(const PpiPort&) const = default;
 };
 

@@ -23,6 +23,7 @@ struct Answer {
   Verdict verdict = Verdict::Silent;
   std::string fault;            ///< what is wrong: `wrong CRC`, `answer of station 2, not 1`
   std::uint16_t exception = 0;  ///< its code
+  bool lasting = false;         ///< what is wrong stays so, however often it is asked
 
   /// What was read, one for each bit, byte or register that was asked for.
   std::vector<std::uint16_t> values;

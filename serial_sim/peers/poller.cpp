@@ -43,9 +43,14 @@ void Poller::go_on(Time now) {
 
 void Poller::count(const Exchange& exchange) {
   const auto latency = exchange.latency();
-  if (!latency) return;
+  if (!latency || exchange.of_another_master) return;
   ++state_.answered;
-  state_.wrong += !wiring_.right(exchange);
+  const Verdict verdict = wiring_.verdict(exchange);
+  state_.refused += verdict == Verdict::Exception;
+  if (verdict == Verdict::Wrong) {
+    ++state_.wrong;  // what came may be the end of what others said
+    return;
+  }
   state_.least_latency = std::min(state_.least_latency, *latency);
   state_.most_latency = std::max(state_.most_latency, *latency);
 }

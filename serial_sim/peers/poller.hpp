@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "serial_sim/peers/answer.hpp"
 #include "serial_sim/peers/requester.hpp"
 
 namespace s7200::serial {
@@ -20,20 +21,20 @@ struct PollPlan {
 /// To whoever handles the events: those of its own number go to handle(), and after each event of its requester go_on().
 class Poller {
  public:
-  /// Plain, so that a snapshot is a copy.
+  /// Plain, so that a snapshot is a copy. The request of another master answers nothing.
   struct State {
     std::size_t next = 0;  ///< request
     Time round_begin = 0;
     bool waiting = true;  ///< for the moment of the next request
-    std::uint64_t asked = 0, answered = 0, wrong = 0;
-    Time least_latency = kNever, most_latency = 0;
+    std::uint64_t asked = 0, answered = 0, refused = 0, wrong = 0;
+    Time least_latency = kNever, most_latency = 0;  ///< of answers that are not wrong
     bool operator==(const State&) const = default;
   };
 
   /// What a poller has to know of its line. Wiring, not state.
   struct Wiring {
-    std::function<SerialFormat()> format = [] { return SerialFormat{}; };               ///< of the next exchange
-    std::function<bool(const Exchange&)> right = [](const Exchange&) { return true; };  ///< of one that was answered
+    std::function<SerialFormat()> format = [] { return SerialFormat{}; };  ///< of the next exchange
+    std::function<Verdict(const Exchange&)> verdict = [](const Exchange&) { return Verdict::Right; };  ///< if answered
   };
 
   /// `owner`: its number in the queue. Neither reference is owned.

@@ -559,7 +559,16 @@ class Verbs(Case):
         ask = ["master", "--protocol", "hppc", "westinghouse:hppc", "read-register"]
         self.ends(FINE, *ask, "2048")
         for wrong in ("2049", "2047:3"):
-            self.assertIn("by the parameter table there are 2048 holding registers", self.ends(FAILED, *ask, wrong).stdout)
+            out = self.ends(FAILED, *ask, wrong).stdout
+            self.assertIn("by the parameter table there are 2048 holding registers", out)
+            self.assertNotIn("at attempt", out)
+
+    def test_of_what_only_the_cpu_writes_the_mode_switch_alone_is_set(self):
+        self.ends(FINE, "run", SLAVE, "--scans", "2", "--set", "SM0.7=0")
+        self.assertIn("--set: SM0.6 cannot be set: only the CPU writes", self.ends(UNUSABLE, "run", SLAVE, "--set", "SM0.6=1").stderr)
+
+    def test_a_westinghouse_slave_is_asked_at_any_of_its_stations(self):
+        self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "slave=FF", "--station", "255", "read", "40001")
 
     def test_no_ppi_master_joins_a_line_where_a_plc_is_one(self):
         netr = self.program("LD SM0.1\nMOVB 2, SMB30\nMOVB 3, VB101\nMOVD &VB200, VD102\nMOVB 4, VB106\nLD SM0.0\nNETR VB100, 0\nMEND\n", "netr.stl")

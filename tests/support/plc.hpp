@@ -57,7 +57,10 @@ class Port final : public SerialPort {
   };
 
   explicit Port(EventQueue& queue, std::uint8_t number = 0) : queue_(queue), number_(number) {}
-  void configure(const SerialFormat& to, Time) override { format = to; }
+  void configure(const SerialFormat& to, Time at) override {
+    format = to;
+    configured_at = at;
+  }
   void enable_receiver(bool enabled, Time at) override {
     if (enabled != receiver) switched_at = at;
     receiver = enabled;
@@ -73,7 +76,7 @@ class Port final : public SerialPort {
 
   SerialFormat format{};
   bool receiver = false;
-  Time switched_at = 0;
+  Time switched_at = 0, configured_at = 0;
   int break_bits = 0;
   std::vector<Sent> sent;
 

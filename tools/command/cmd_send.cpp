@@ -40,7 +40,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   StreamedResults results(results_of("send"), "exchanges");
   bool ready = false;
   const std::unique_ptr<SlaveInSimulation> slave = slave_to_send_to(options, *rig, ready);
-  std::size_t answered = 0, damaged = 0;
+  std::size_t answered = 0, damaged = 0, foreign = 0;
   for (const serial::Frame& frame : *frames) {
     if (!ready || interrupted() || failed_strictly()) break;
     const serial::Faults::State faults_before = rig->faults(line).state();
@@ -49,7 +49,8 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     const serial::Exchange exchange = slave->exchange(options.master.request(frame));
     if (options.timeline) timelines.end();
     if (master.busy()) break;  // Ctrl-C came before the answer
-    answered += !exchange.timed_out;
+    foreign += exchange.of_another_master;
+    answered += !exchange.timed_out && !exchange.of_another_master;
     damaged += is_damaged(exchange);
     if (options.json) {
       auto json = exchange_json(exchange, unasked);
@@ -71,6 +72,8 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   fmt::print(stderr, "{}", errors_text(*rig));
   print_notes(line_notes(*rig));
   if (damaged > 0) print_note(fmt::format("{} of {} answers damaged", damaged, answered));
+  if (foreign > 0)
+    print_note(fmt::format("{} of {} frames had no answer: another master's request came first", foreign, frames->size()));
   if (ready && answered == 0) print_note_if_any(torn_frame_note(options.frames.in_hex()));
   print_notes(stop_notes(*rig));
   if (!all_written) return kUnusable;

@@ -32,10 +32,13 @@ nlohmann::ordered_json plc_json(const PlcPlan& plan, const serial::Plc& plc) {
 }
 
 nlohmann::ordered_json poll_json(const std::string& name, const serial::Poller::State& polls) {
-  nlohmann::ordered_json json{
-      {"name", name}, {"requests", polls.asked}, {"answered", polls.answered}, {"wrong", polls.wrong}};
-  json["shortest_latency_ns"] = polls.answered ? nlohmann::ordered_json(polls.least_latency) : nullptr;
-  json["longest_latency_ns"] = polls.answered ? nlohmann::ordered_json(polls.most_latency) : nullptr;
+  nlohmann::ordered_json json{{"name", name},
+                              {"requests", polls.asked},
+                              {"answered", polls.answered},
+                              {"refused", polls.refused},
+                              {"wrong", polls.wrong}};
+  json["shortest_latency_ns"] = polls.answered > polls.wrong ? nlohmann::ordered_json(polls.least_latency) : nullptr;
+  json["longest_latency_ns"] = polls.answered > polls.wrong ? nlohmann::ordered_json(polls.most_latency) : nullptr;
   return json;
 }
 
@@ -122,8 +125,9 @@ std::vector<std::string> line_notes(const Rig& rig) {
 
 std::string poll_text(const serial::Poller::State& polls) {
   std::string text = fmt::format("{} request{}, {} answered", polls.asked, polls.asked == 1 ? "" : "s", polls.answered);
-  if (polls.wrong != 0) text += fmt::format(", {} of them wrong or refused", polls.wrong);
-  if (polls.answered != 0)
+  if (polls.refused != 0) text += fmt::format(", {} of them refused", polls.refused);
+  if (polls.wrong != 0) text += fmt::format(", {} {}wrong", polls.wrong, polls.refused == 0 ? "of them " : "");
+  if (polls.answered > polls.wrong)
     text += fmt::format(", after {} to {}", format_duration(polls.least_latency), format_duration(polls.most_latency));
   return text;
 }

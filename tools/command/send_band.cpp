@@ -24,7 +24,8 @@ std::vector<BandOutcome> outcomes(const SendOptions& options, serial::Simulation
     const serial::Exchange exchange = slave.exchange(options.master.request(frame));
     going = !simulation.master().busy();
     if (going) slave.wait(options.pause == kNever ? slave.pause() : options.pause);
-    const char* const verdict = exchange.timed_out ? "no answer" : is_damaged(exchange) ? "damaged" : "answered";
+    const bool in_vain = exchange.timed_out || exchange.of_another_master;
+    const char* const verdict = in_vain ? "no answer" : is_damaged(exchange) ? "damaged" : "answered";
     outcomes.push_back({exchange, verdict, lost.take(), stop_text(simulation.cpu())});
   }
   return outcomes;

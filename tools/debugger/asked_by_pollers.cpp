@@ -27,7 +27,7 @@ void AskedByPollers::look_at(std::size_t number) {
     const Bytes answer = next ? Bytes() : exchange.response_bytes();
     if (in_vain)
       tell_of(number, "", {});
-    else if (next && now.wrong != polling.wrong)
+    else if (next && now.wrong + now.refused != polling.wrong)
       tell_of(number, "a wrong answer", {});  // whose characters are gone
     else if (const std::string wrong = next ? "" : wrong_with(polling.frame, answer, exchange.damage()); !wrong.empty())
       tell_of(number, wrong, answer);
@@ -36,7 +36,7 @@ void AskedByPollers::look_at(std::size_t number) {
   polling.asks = asks;
   polling.asked = now.asked;
   polling.answered = now.answered;
-  polling.wrong = now.wrong;
+  polling.wrong = now.wrong + now.refused;
 }
 
 /// On each line of a PLC that it is on.

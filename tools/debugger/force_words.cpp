@@ -74,12 +74,13 @@ std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const 
   return unforce;
 }
 
-/// Potentiometers are turned by hand.
+/// Potentiometers and the mode switch are turned by hand.
 std::string not_settable(const MemoryRange& place) {
   const bool read_only = place.area == Area::SM && place.at < sm::byte(kReadOnlySpecialMemory);
-  const bool turned =
+  const bool potentiometer =
       place.width == Width::Byte && std::ranges::find(sm::kPotentiometer, place.at) != sm::kPotentiometer.end();
-  if (!read_only || turned) return {};
+  const bool mode_switch = place.width == Width::Bit && place.at == sm::kScanStatus && 1U << place.bit == sm::kModeSwitchRun;
+  if (!read_only || potentiometer || mode_switch) return {};
   return fmt::format("{} cannot be set: only the CPU writes SM0.0 to SM{}.7", place.name_of(0), kReadOnlySpecialMemory - 1);
 }
 

@@ -121,6 +121,7 @@ serial::Answer HppcRequest::judge(Data request, Data response) const {
     response = response.subspan(answered.size());
     if (request.empty()) {
       answer.verdict = serial::Verdict::Wrong;
+      answer.lasting = true;
       answer.fault = why_not_there(Data(answer.bytes).subspan(std::min(kAddress, answer.bytes.size())));
       return answer;
     }

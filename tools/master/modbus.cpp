@@ -159,9 +159,10 @@ ValueFormat value_format(const ProtocolUse& use) {
   return format;
 }
 
-// 255 is a Modbus TCP server itself, not a station behind it (Modbus Messaging on TCP/IP, 4.4.2).
+// 255 is a Modbus TCP server itself, not a station behind it (Modbus Messaging on TCP/IP, 4.4.2). Westinghouse PLCs have
+// stations from 1 to 255.
 std::uint8_t last_station(const ProtocolUse& use) {
-  return use.has(kBeyondLimits) || use.over_modbus_tcp ? UINT8_MAX : modbus::kLastStation;
+  return use.has(kBeyondLimits) || use.over_modbus_tcp || use.of_another_make ? UINT8_MAX : modbus::kLastStation;
 }
 
 class Parser final : public WordParser {

@@ -291,7 +291,10 @@ std::uint8_t own_station(const ProtocolUse& use) {
 
 class Parser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use) : WordParser(use.station, ppi::kLastStation), own_(own_station(use)) {}
+  explicit Parser(const ProtocolUse& use) : WordParser(use.station, ppi::kLastStation), own_(own_station(use)) {
+    if (use.station > ppi::kLastStation)
+      refuse(fmt::format("--station {}: not from 0 to {}", use.station, ppi::kLastStation));
+  }
 
   std::vector<MasterAction> parse(const Words& words);
 
@@ -397,6 +400,13 @@ Bytes elements_of(Area area, Data values) {
   return elements;
 }
 
+/// Words.
+bool has_negative(Data values) {
+  for (std::size_t at = 0; at + 1 < values.size(); at += 2)
+    if (values[at] > 0x7F) return true;
+  return false;
+}
+
 void Parser::write(const Words& operands) {
   constexpr std::size_t kMost = s7::kLongestPdu - s7::kRequestHead - 2 - s7::kVariableBytes - 4;
   for (const std::string& operand : operands) {
@@ -405,6 +415,8 @@ void Parser::write(const Words& operands) {
     text_ = "write " + operand;
     MemoryRange range = range_of(parts->first);
     Bytes value = value_bytes(range, parts->second, text_);
+    if (range.area == Area::T && has_negative(value))
+      refuse(fmt::format("{}: a timer counts from 0 to {}", text_, INT16_MAX));
     if (is_element(range)) value = elements_of(range.area, value);
     if (range.width == Width::Bit && range.count != 1) refuse(fmt::format("{}: one bit at a time", text_));
     if (value.size() > kMost) refuse(fmt::format("{}: {} bytes; a request writes {} at most", text_, value.size(), kMost));

@@ -90,6 +90,7 @@ struct ProtocolUse {
   std::uint8_t station = 1;                                 ///< until an action changes it
   bool over_modbus_tcp = false;                             ///< stations are units
   std::map<std::string, std::string, std::less<>> given{};  ///< its options by name; flags with any value
+  bool of_another_make = false;                             ///< the PLCs asked are, and have stations as their maker says
   bool options_are_open = true;                             ///< so that a message may name one that helps
 
   bool has(std::string_view option) const { return given.contains(option); }

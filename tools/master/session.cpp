@@ -42,6 +42,7 @@ serial::Exchange MasterSession::exchange(const MasterAction& action) {
 }
 
 bool MasterSession::settled(const serial::Answer& answer) const {
+  if (answer.lasting) return true;
   if (answer.verdict != Verdict::Exception) return answer.verdict == Verdict::Right;
   return settings_.patience.repeats == nullptr || !settings_.patience.repeats(answer.exception);
 }

@@ -231,11 +231,11 @@ const RecordedProtocol* likelier_protocol(const LineRecording& recording, const 
     const auto right = static_cast<std::size_t>(std::ranges::count_if(frames, &ReadFrame::right));
     return frames.empty() ? 0 : 100 * right / frames.size();
   };
-  constexpr std::size_t kHardlyAny = 10, kMost = 80;
+  constexpr std::size_t kHardlyAny = 10, kHalf = 50;
   if (percent_right(chosen) > kHardlyAny) return nullptr;
-  const auto found = std::ranges::find_if(
-      kProtocols, [&](const RecordedProtocol& each) { return each.name != chosen.name && percent_right(each) >= kMost; });
-  return found == kProtocols.end() ? nullptr : &*found;
+  const RecordedProtocol& best = *std::ranges::max_element(
+      kProtocols, {}, [&](const RecordedProtocol& each) { return fitting(recording, each, stamps); });
+  return best.name != chosen.name && percent_right(best) >= kHalf ? &best : nullptr;
 }
 
 }  // namespace s7200::tools

@@ -100,7 +100,8 @@ class Conversation {
   std::size_t count_ = 0;
 };
 
-/// The protocol that most of a recording can be read in, if hardly anything can be in `chosen`; null if there is none.
+/// The protocol that most of a recording can be read in, and half of it at least, if hardly anything can be in `chosen`;
+/// null if there is none.
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
                                           const Stamps& stamps);
 

@@ -13,10 +13,9 @@
 namespace s7200::tools {
 namespace {
 
-bool is_right(const serial::Exchange& exchange) {
-  const Bytes request = serial::bytes_of(exchange.request);
-  return exchange.damage().empty() &&
-         modbus::check_answer(request, exchange.response_bytes()).verdict == serial::Verdict::Right;
+serial::Verdict verdict_on(const serial::Exchange& exchange) {
+  if (!exchange.damage().empty()) return serial::Verdict::Wrong;
+  return modbus::check_answer(serial::bytes_of(exchange.request), exchange.response_bytes()).verdict;
 }
 
 /// A master that has joined the line raises the sync signal of the PLCs there that no output drives.
@@ -102,7 +101,7 @@ void Rig::add_other(const LinePlan& plan, serial::SharedLine& line, const Statio
                        port = first ? first->port : std::uint8_t{0}, without = format_without_s7200(plan_, plan)] {
     return settings.over(plc ? plc->line_format(port) : without);
   };
-  pollers_[number] = &system_.add_poller(line, peer.polls, {.format = format, .right = is_right});
+  pollers_[number] = &system_.add_poller(line, peer.polls, {.format = format, .verdict = verdict_on});
 }
 
 void Rig::wire_sync() {

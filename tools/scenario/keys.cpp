@@ -40,7 +40,7 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "port", kOfOneProgram, "NUMBER", "of a CPU with two ports the one that the line is at, `0` or `1`; `0` if left out"},
     {Where::Scenario, "robust", kOfOneProgram, "SHARE", "`95%`: it must pass with so many of the tables of execution times that `--times-band 200` runs it with, and with the first of them, which is the one in use; not on a slave that is not a program"},
     {Where::Scenario, "line", "", "MAP", "how the master talks, if not as the program has set its port"},
-    {Where::Scenario, "station", "", "NUMBER", "address of the slave, 0 to 247, or 255 for a Modbus TCP server itself; 1 if left out"},
+    {Where::Scenario, "station", "", "NUMBER", "address of the slave, 0 to 247, or 255 for a Modbus TCP server itself; if left out that of the PLC that `on` names, in its system file, or 1"},
     {Where::Scenario, "set", kOfOneProgram, "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
     {Where::Scenario, "input", kOfOneProgram, "PATH", "inputs over time, I, AIW and the potentiometers SMB28 and SMB29: CSV in the format of `s7200 run --input`"},
     {Where::Scenario, "clock", kOfOneProgram, "TIME", "time of day at the start: `2026-11-21 10:00:00`"},

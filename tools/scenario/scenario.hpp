@@ -63,8 +63,8 @@ struct Scenario {
   std::optional<ClockTime> clock{};
   Time after = kNever;  ///< when the first step begins; kNever: the first scan has ended and the line is quiet
 
-  std::uint8_t station = 1;       ///< of the slave
-  serial::MasterSettings line{};  ///< with the time-out
+  std::optional<std::uint8_t> station{};  ///< of the slave, if the file says so
+  serial::MasterSettings line{};          ///< with the time-out
   Span pause{serial::kQuietMilliseconds * kMillisecond, 1000 * serial::kQuietCharacters};
   Time tolerance = 0;  ///< by which a latency given as one figure may be missed
 

@@ -31,7 +31,8 @@ nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, st
 
 /// What the answer says, and what the line looked like to the master when more than bytes came.
 std::string remarks_on(const serial::Exchange& exchange) {
-  std::string text = answer_text(serial::bytes_of(exchange.request), exchange.response_bytes());
+  std::string text =
+      exchange.of_another_master ? "" : answer_text(serial::bytes_of(exchange.request), exchange.response_bytes());
   const auto add = [&text](bool is_so, std::string_view remark) {
     if (is_so) text.append(text.empty() ? "" : ", ").append(remark);
   };
@@ -114,7 +115,7 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
 }
 
 bool is_damaged(const serial::Exchange& exchange) {
-  if (exchange.timed_out) return false;
+  if (exchange.timed_out || exchange.of_another_master) return false;
   return exchange.early || !exchange.damage().empty() ||
          (modbus::crc_ok(serial::bytes_of(exchange.request)) && !modbus::crc_ok(exchange.response_bytes()));
 }
@@ -129,12 +130,14 @@ nlohmann::ordered_json exchange_json(const serial::Exchange& exchange, const Byt
   const Bytes request = serial::bytes_of(exchange.request);
   if (const auto text = plain_text(request, request)) json["request_text"] = *text;
   if (exchange.timed_out) return json;
-  if (const auto text = plain_text(request, exchange.response_bytes())) json["response_text"] = *text;
+  const auto answer = exchange.of_another_master ? std::nullopt : plain_text(request, exchange.response_bytes());
+  if (answer) json["response_text"] = *answer;
   json["response"] = plain_hex(exchange.response_bytes());
   json["latency_us"] = static_cast<double>(*exchange.latency()) / kMicrosecond;
   if (exchange.parity_error()) json["parity_error"] = true;
   if (exchange.framing_error()) json["framing_error"] = true;
   if (is_damaged(exchange)) json["damaged"] = true;
+  if (exchange.of_another_master) json["of_another_master"] = true;
   return json;
 }
 

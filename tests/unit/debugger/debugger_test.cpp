@@ -170,6 +170,7 @@ TEST(Debugger, OnlyTheCpuWritesItsReadOnlySpecialMemory) {
   EXPECT_EQ(session.error_of("set SM0.0=0"), "SM0.0 cannot be set: only the CPU writes SM0.0 to SM29.7");
   EXPECT_TRUE(has(session.error_of("set VB0=1 SMW29=5"), "SMW29 cannot be set"));
   EXPECT_TRUE(has(session("set SMB28=77 SMB34=5; scan 2; print /x SMB34"), "16#05")) << "a potentiometer is turned";
+  EXPECT_TRUE(has(session("set SM0.7=0; scan 2; print SM0.7"), "0")) << "so is the mode switch";
 }
 
 TEST(Debugger, AMomentBeforeTheOldestIsRefusedHoweverItIsWritten) {

@@ -327,6 +327,68 @@ TEST(Ppi, TheModeSwitchTurnsFreeportOnAndOffWhereTheProgramCopiesIt) {
   EXPECT_EQ(code_of(master.ask(kReadVb100)), 0xFF);
 }
 
+const Bytes kProgram{9, 'P', '_', 'P', 'R', 'O', 'G', 'R', 'A', 'M'};
+const Bytes kToRun = request(joined({{0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0}, kProgram}));
+const Bytes kToStop = request(joined({{0x29, 0, 0, 0, 0, 0}, kProgram}));
+
+constexpr std::string_view kEcho =
+    "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\nMEND\n"
+    "INT 0\nLD SM0.0\nMOVB 1, VB100\nMOVB SMB2, VB101\nXMT VB100, 0\nRETI\n";
+
+TEST(Ppi, AnAcceptanceThatIsDueLeavesBeforeFreeportBegins) {
+  // SM0.7 turns Freeport on after each time in the eleven bits before E5, and in E5.
+  for (const Time after : {100 * us, 800 * us, 1200 * us, 2 * ms}) {
+    Plc plc(
+        "LD SM0.7\nEU\nMOVB 9, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB 1, VB100\nMOVB SMB2, VB101\n"
+        "XMT VB100, 0\nRETI\n");
+    Master master(plc);
+    plc.set("SMB0", plc.cpu.state().image[sm::kScanStatus] & 0x7F);
+    plc.run_until(10 * ms);
+    master.say(sd2(2, 0, 0x6C, kReadVb100), after);
+    plc.set("SMB0", plc.cpu.state().image[sm::kScanStatus] | 0x80);
+    plc.run_until(plc.cpu.time() + 20 * ms);
+    ASSERT_EQ(plc.port.sent.size(), 1U) << after;
+    EXPECT_EQ(plc.port.sent[0].byte, 0xE5);
+    EXPECT_EQ(plc.port.format.parity, Parity::None) << "Freeport";
+    EXPECT_TRUE(plc.port.receiver) << after;
+    EXPECT_GE(plc.port.configured_at, plc.port.sent[0].at + kCharacter) << after << ": E5 leaves as PPI sends it";
+    EXPECT_EQ(master.say({0x42}), Bytes{0x42}) << after;
+  }
+}
+
+TEST(Ppi, RunAndStopTakeEffectWhenTheirAnswerHasLeft) {
+  Plc plc(kEcho);
+  plc.cpu.power_up(false, nullptr);
+  Master master(plc);
+  EXPECT_EQ(master.say(sd2(2, 0, 0x6C, kToRun)), Bytes{0xE5});
+  EXPECT_TRUE(plc.stopped());
+  EXPECT_EQ(master.say(sd1(2, 0, 0x5C)).size(), 22U) << "the whole answer";
+  EXPECT_FALSE(plc.stopped());
+  EXPECT_EQ(plc.records.of(TraceKind::ModeChange).back().at / ms, (plc.port.sent.back().at + kCharacter) / ms);
+  EXPECT_EQ(master.say({0x42}), Bytes{0x42}) << "Freeport";
+}
+
+TEST(Ppi, AMasterThatDoesNotFetchTheAnswerToStopDoesNotStopTheCpu) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(master.say(sd2(2, 0, 0x6C, kToStop)), Bytes{0xE5});
+  EXPECT_FALSE(plc.stopped());
+  EXPECT_EQ(code_of(master.ask(kReadVb100)), 0xFF);
+  EXPECT_FALSE(plc.stopped()) << "it has asked for something else";
+}
+
+TEST(Ppi, ARequestThatFollowsTheAnswerToStopInALongScanDoesNotCancelIt) {
+  std::string program = "LD SM0.0\n";
+  for (int i = 0; i < 40; ++i) program += "SQRT VD8, VD12\n";
+  Plc plc(program + "MEND\n");
+  Master master(plc);
+  EXPECT_EQ(master.say(sd2(2, 0, 0x6C, kToStop), 300 * ms), Bytes{0xE5});
+  EXPECT_GT(master.say(sd1(2, 0, 0x5C), 27 * ms).size(), 9U);
+  EXPECT_FALSE(plc.stopped()) << "the scan is not over";
+  EXPECT_EQ(master.say(sd2(2, 0, 0x6C, kReadVb100)), Bytes{0xE5});
+  EXPECT_TRUE(plc.stopped());
+}
+
 TEST(Ppi, XmtWaitsForTheCharacterThatIsLeaving) {
   // I0.0 switches to Freeport mode and sends, in the middle of an answer.
   Plc plc("LD I0.0\nEU\nMOVB 9, SMB30\nMOVB 1, VB100\nMOVB 16#41, VB101\nXMT VB100, 0\nMEND\n");

@@ -262,6 +262,18 @@ TEST(PpiAction, AStationIsPolledForASecondHoweverManyPollsThatTakes) {
   EXPECT_EQ(request->judge(sent, accepted).fault, "accepted, but no answer within 1 s");
 }
 
+TEST(PpiAction, ATimerIsWrittenFrom0To32767) {
+  EXPECT_EQ(parsed("write T37=32767", {.station = 2}, ppi_protocol()).size(), 1U);
+  EXPECT_EQ(parsed("write C5=-5", {.station = 2}, ppi_protocol()).size(), 1U) << "a counter counts down too";
+  for (const char* const wrong : {"write T37=40000", "write T37=-1", "write T37=5,32768"})
+    EXPECT_THROW(parsed(wrong, {.station = 2}, ppi_protocol()), std::invalid_argument) << wrong;
+}
+
+TEST(PpiAction, StationsAreFrom0To126) {
+  EXPECT_EQ(parsed("read VB0", {.station = 126}, ppi_protocol()).size(), 1U);
+  EXPECT_THROW(parsed("read VB0", {.station = 127}, ppi_protocol()), std::invalid_argument);
+}
+
 TEST(PpiAction, AnAcceptanceAloneIsNoStatus) {
   const serial::Answer answer = judged_ppi("status", {});
   EXPECT_EQ(answer.verdict, serial::Verdict::Wrong);

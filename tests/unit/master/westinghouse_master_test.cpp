@@ -155,6 +155,15 @@ TEST(WestinghouseMaster, RegistersOfAnHppcAreWhereItsParameterTableSays) {
   ASSERT_TRUE(read);
   EXPECT_EQ(serial::to_hex(*read).substr(0, 29), "0c 00 20 40 00 0c fc bf 0a 02");
   EXPECT_FALSE(request->next(bytes(table), 0));
+  const auto beyond = parsed(hppc_protocol(), "read-register 2049")[0].request;
+  const serial::Answer answer = beyond->judge(serial::bytes_of(beyond->frame()), bytes(table));
+  EXPECT_EQ(answer.fault, "by the parameter table there are 2048 holding registers");
+  EXPECT_TRUE(answer.lasting) << "it is not asked again";
+}
+
+TEST(WestinghouseMaster, AModbusSlaveOfThisMakeMayBeAnyStationUpTo255) {
+  EXPECT_EQ(modbus_protocol().actions({"read", "40001"}, {.station = 255, .of_another_make = true})[0].station, 255);
+  EXPECT_THROW(modbus_protocol().actions({"read", "40001"}, {.station = 255}), std::invalid_argument);
 }
 
 TEST(WestinghouseMaster, ActionsOfAnHppcAreItsOpcodes) {

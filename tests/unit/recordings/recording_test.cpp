@@ -1276,6 +1276,9 @@ TEST(Conversation, ARecordingThatLooksLikeAnotherProtocolIsSeen) {
   EXPECT_EQ(likelier(ppi, "ppi"), "");
   EXPECT_EQ(likelier(modbus, "ppi"), "modbus");
   EXPECT_EQ(likelier(modbus, "modbus"), "");
+  const LineRecording disturbed =
+      recording_of("10 02 00 49 4B 16\n10 00 02 00 02 16\n10 02 00 5C 5E 16\n10 02 00 5C 5F 16\n");
+  EXPECT_EQ(likelier(disturbed, "modbus"), "ppi") << "three frames of four";
   EXPECT_EQ(likelier(recording_of("11 22 33 44 55\n66 77 88\n"), "modbus"), "") << "nothing that is known";
 }
 

@@ -49,6 +49,7 @@ serial::Poller::State polls_until(Rig& rig, Time end, std::size_t peer = 0) {
   serial::Poller::State polls = rig.poller(peer)->state();
   polls.asked -= before.asked;
   polls.answered -= before.answered;
+  polls.refused -= before.refused;
   polls.wrong -= before.wrong;
   return polls;
 }
@@ -104,6 +105,8 @@ TEST(SystemRig, TwoMastersCollideAndRecover) {
   const std::uint64_t failures =
       panel.asked - panel.answered + panel.wrong + recorder.asked - recorder.answered + recorder.wrong;
   EXPECT_GT(failures, 2U) << "they have collided";
+  EXPECT_GT(std::min(panel.least_latency, recorder.least_latency), 3 * kMillisecond) << "a foreign request is no answer";
+  EXPECT_EQ(recorder.refused, 0U);
   EXPECT_GT(panel.answered - panel.wrong, panel.asked / 2) << "and come to their answers all the same";
   EXPECT_GE(recorder.answered - recorder.wrong, recorder.asked / 3);
   EXPECT_EQ(word(*rig, 0, 20), 99U);
@@ -116,6 +119,19 @@ struct Jobs {
 
 /// Both ask every second, one of them 20 ms later: while the other one's request or answer is on the line. Each hears that,
 /// takes it for a wrong answer, and asks again after its own time-out; those differ.
+TEST(SystemRig, ARefusalIsCountedApartFromWhatIsWrong) {
+  const auto rig = rig_of(
+      "plcs: {pump: {program: ../modbus_slave.stl, station: 7}}\n"
+      "peers: {panel: {polls: [{station: 7, read: 40001}, {station: 7, read: 49999}]}}\n"
+      "lines: {field: {stations: [panel, pump]}}\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(2 * kSecond);
+  const serial::Poller::State polls = rig->poller(0)->state();
+  EXPECT_EQ(polls.wrong, 0U);
+  EXPECT_GT(polls.refused, 2U);
+  EXPECT_GE(polls.answered, 2 * polls.refused);
+}
+
 TEST(SystemRig, TwoMasterProgramsThatStartApartCollideAndRecover) {
   const auto rig = rig_of(
       "plcs:\n"
@@ -439,7 +455,7 @@ TEST(SystemRig, AnOutputOfAPlcDrivesTheSyncSignalOfThePc1000Lan) {
   const auto polls = polls_until(*rig, 3 * kSecond), without = polls_until(*other, 3 * kSecond);
   EXPECT_GE(polls.answered, 5U);
   EXPECT_EQ(polls.wrong, 0U);
-  EXPECT_EQ(without.answered - without.wrong, 0U) << "an output that stays off: the PC1200 hears nothing";
+  EXPECT_EQ(without.answered - without.wrong - without.refused, 0U) << "an output that stays off: the PC1200 hears nothing";
 }
 
 TEST(SystemRig, ASystemWithASyncSignalIsTheSameInSlicesInStepAndFromASnapshot) {

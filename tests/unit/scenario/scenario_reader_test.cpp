@@ -608,6 +608,23 @@ std::string file_of(const std::string& name, const std::string& text) {
   return path;
 }
 
+TEST(ScenarioReader, AStepAboutAPlcOfASystemAsksTheStationThatItsFileGivesIt) {
+  const std::string slave = "{program: " + test::source_path("stl_programs/modbus_slave.stl") + ", station: ";
+  const std::string two = "system: " +
+                          file_of("stations.yaml", "plcs:\n  near: " + slave + "5}\n  far: " + slave +
+                                                       "20}\nlines: {bus: {stations: [near, far]}}\n") +
+                          "\n";
+  const auto asked = [&](const std::string& text) {
+    const Scenario s = good(two + text);
+    return dynamic_cast<const ExchangeStep&>(*s.steps[0].action).request[0].byte;
+  };
+  EXPECT_EQ(asked("steps:\n  - {read: holding 0, on: far}\n"), 20);
+  EXPECT_EQ(asked("on: far\nsteps:\n  - {write: coil 0, value: 1}\n"), 20);
+  EXPECT_EQ(asked("on: far\nsteps:\n  - {read: holding 0, station: 7}\n"), 7) << "the step says so itself";
+  EXPECT_EQ(asked("station: 9\non: far\nsteps:\n  - {read: holding 0}\n"), 9) << "and so does the scenario";
+  EXPECT_EQ(asked("on: bus\nsteps:\n  - {read: holding 0}\n"), 1) << "a line is no PLC";
+}
+
 const std::string kOthers =
     "peers:\n  usual: {westinghouse: modbus, model: pc1200, settings: [slave=05, \"HR1=1234\"]}\n"
     "  other: {westinghouse: modbus, model: pc1250, settings: [slave=06, baud=19200, \"HR1=5678\"]}\n"

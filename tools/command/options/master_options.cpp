@@ -65,7 +65,7 @@ void MasterOptions::add_to(CLI::App& app) {
   add_protocol_option(app, protocol, {protocols().begin(), protocols().end()}, "what to speak");
   add_whole_number(
       app, "--station", [this](std::uint64_t given) { station_ = static_cast<std::uint8_t>(given); }, {0, UINT8_MAX},
-      "station to ask; in Modbus 0 is all, above 247 is Modbus TCP",
+      "station to ask; in Modbus 0 is all, 248 on TCP, other makes",
       usual([](const Protocol& one) { return one.station ? std::to_string(*one.station) : std::string(); }));
   add_protocol_options(app);
   auto* interval = add_duration(app, "--every", every, "repeat all actions at this interval, in a table",
@@ -183,7 +183,10 @@ std::string MasterOptions::doubt(const std::vector<MasterAction>& actions, bool 
 }
 
 ProtocolUse MasterOptions::use(bool over_tcp) const {
-  return {station_.value_or(protocol->station.value_or(1)), over_tcp, given_};
+  return {.station = station_.value_or(protocol->station.value_or(1)),
+          .over_modbus_tcp = over_tcp,
+          .given = given_,
+          .of_another_make = parse_slave_target(target).kind == SlaveTarget::Kind::Peer};
 }
 
 bool MasterOptions::wants_menu() const {

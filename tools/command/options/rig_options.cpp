@@ -13,6 +13,7 @@
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/system_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/debugger/force_words.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_reader.hpp"
@@ -25,7 +26,7 @@
 namespace s7200::tools {
 
 void RigOptions::add_to(CLI::App& app) {
-  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1, Speed=7 (repeatable)")
+  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1, Speed=7, SM0.7=0 (repeatable)")
       ->type_name("ADDRESS=VALUE")
       ->allow_extra_args(false);
   app.add_option("--dump", settings_.dump_names,
@@ -95,6 +96,9 @@ std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& 
   std::string why;
   const auto assignments = parse_assignments(set_, *program, why);
   if (!assignments) return print_error("--set: " + why), nullptr;
+  for (const Assignment& assignment : *assignments)
+    if (const std::string refused = not_settable(assignment.place); !refused.empty())
+      return print_error("--set: " + refused), nullptr;
   const auto dumps = parse_ranges(settings_.dump_names, *program, why);
   if (!dumps) return print_error("--dump: " + why), nullptr;
   settings_.dumps = *dumps;

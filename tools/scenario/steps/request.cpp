@@ -12,9 +12,19 @@
 namespace s7200::tools {
 namespace {
 
+/// Unless the step says so itself: the scenario's, or that of the PLC that `on` names.
+std::uint8_t usual_station(const StepSource& source) {
+  if (source.scenario.station) return *source.scenario.station;
+  if (!source.step.spot) return 1;
+  const PlcPlan& plc = source.scenario.plan->plcs[source.step.spot->plc];
+  const std::string& on = source.step.on.empty() ? source.scenario.on : source.step.on;
+  const bool names_it = on.substr(0, on.find('.')) == plc.name;  // and not its line
+  return names_it ? plc.address.value_or(1) : 1;
+}
+
 std::shared_ptr<ExchangeStep> with_station(const StepSource& source, const Bytes& pdu) {
   auto step = std::make_shared<ExchangeStep>();
-  const auto station = source.values.number(source.beside("station"), 0, 255).value_or(source.scenario.station);
+  const auto station = source.values.number(source.beside("station"), 0, 255).value_or(usual_station(source));
   step->request = serial::to_frame(modbus::rtu_frame(static_cast<std::uint8_t>(station), pdu));
   step->has_crc = true;
   step->read_beside(source);
