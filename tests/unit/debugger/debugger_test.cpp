@@ -519,6 +519,17 @@ TEST(Debugger, ARequestThatComesOverABridgeInPiecesIsOne) {
   EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
 }
 
+TEST(Debugger, WhyTellsOfTheRequestThatAMasterOnABridgeHasGivenUpByAskingAgain) {
+  Bridged session(
+      "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\n"
+      "INT 1\nLDB= SMB2, 9\nNOT\nCRETI\nLD SM0.0\nMOVB SMB2, VB1\nMOVB 1, VB0\nXMT VB0, 0\nRETI\n",
+      {2 * kSecond, 2'300 * kMillisecond});
+  session("break unanswered; continue");
+  const std::string why = session("why");
+  EXPECT_TRUE(has(why, " characters since 2000.000000 ms: INT 1 took them, and nothing was sent since"));
+  EXPECT_TRUE(has(why, "LDB= SMB2, 9"));
+}
+
 TEST(Debugger, ABroadcastThatComesOverABridgeInPiecesIsNeverUnanswered) {
   Bridged session(kListening, {2 * kSecond, 2'020 * kMillisecond});
   session.pieces = {{0x00, 0x03, 0x00}, {0x0a, 0x00, 0x01, 0xa5, 0xd9}};
