@@ -519,6 +519,16 @@ TEST(Debugger, ARequestThatComesOverABridgeInPiecesIsOne) {
   EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
 }
 
+TEST(Debugger, ARequestThatIsPlayedAgainIsNamedWithWhatWasHeardBefore) {
+  constexpr std::string_view kStop = "breakpoint 1, unanswered, hit for the first time\n  01 03 00 0a 00 01 a4 08\n";
+  Bridged session(kListening, {2 * kSecond, 2'300 * kMillisecond});
+  EXPECT_TRUE(has(session("break unanswered; continue"), kStop));
+  EXPECT_TRUE(has(session("at 2004ms; continue"), kStop)) << "while it came in";
+  EXPECT_TRUE(has(session("at 2100ms; continue"), kStop)) << "after it";
+  session("at 2004ms; break received; delete 1");
+  EXPECT_TRUE(has(session("continue"), "received, hit for the first time\n  01 03 00 0a 00 01 a4 08\n"));
+}
+
 TEST(Debugger, WhyTellsOfTheRequestThatAMasterOnABridgeHasGivenUpByAskingAgain) {
   Bridged session(
       "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\n"
