@@ -23,6 +23,15 @@ std::optional<std::string> word_text(std::string_view word, const Cpu& cpu, Time
   return {};
 }
 
+/// Of an address with a count, as `watch` says it; nothing of anything else.
+std::optional<std::string> several_at(std::string_view text, const Cpu& cpu) {
+  std::string why;
+  const auto place = parse_place(text, cpu.program(), why);
+  const auto range = place ? range_now(*place, cpu) : std::nullopt;
+  if (!range || range->count == 1) return {};
+  return value_text(cpu.program(), *range, range->bytes_in(cpu.state().image));
+}
+
 constexpr std::string_view kWords[] = {"time", "scan", "line", "event"};
 
 /// Each piece of text outside braces, and of those inside.
@@ -48,9 +57,10 @@ std::string filled_in(const std::string& text, const Cpu& cpu, Time now, const I
       [&](std::string_view part) {
         std::string why;
         const auto word = word_text(part, cpu, now, by);
-        const auto expression = word ? std::nullopt : Expression::parse(part, cpu.program(), why);
+        const auto several = word ? word : several_at(part, cpu);
+        const auto expression = several ? std::nullopt : Expression::parse(part, cpu.program(), why);
         const auto value = expression ? expression->value(cpu, why) : std::nullopt;
-        filled += word ? *word : value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);
+        filled += several ? *several : value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);
       });
   return filled;
 }

@@ -540,6 +540,12 @@ TEST(Debugger, WhyTellsOfTheRequestThatAMasterOnABridgeHasGivenUpByAskingAgain) 
   EXPECT_TRUE(has(why, "LDB= SMB2, 9"));
 }
 
+TEST(Debugger, AMessageShowsAllOfAnAddressWithACount) {
+  Session session(kEcho);
+  EXPECT_TRUE(
+      has(session("continue 50ms; set VB10=1 VB11=2; break 8 log 'got {VB10:2}'; send 41; continue"), "got 01 02\n"));
+}
+
 TEST(Debugger, ABroadcastThatComesOverABridgeInPiecesIsNeverUnanswered) {
   Bridged session(kListening, {2 * kSecond, 2'020 * kMillisecond});
   session.pieces = {{0x00, 0x03, 0x00}, {0x0a, 0x00, 0x01, 0xa5, 0xd9}};
