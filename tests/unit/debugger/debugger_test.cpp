@@ -546,6 +546,16 @@ TEST(Debugger, AMessageShowsAllOfAnAddressWithACount) {
       has(session("continue 50ms; set VB10=1 VB11=2; break 8 log 'got {VB10:2}'; send 41; continue"), "got 01 02\n"));
 }
 
+TEST(Debugger, AMessageOfWhatHappensHasItsTimeAndItsEvent) {
+  Session stops(kEcho), tells(kEcho);
+  const std::string text = stops("continue 50ms; break event 8 occurs; send 41; continue");
+  const std::size_t event = text.find("  event 8 (");
+  ASSERT_NE(event, std::string::npos) << text;
+  const std::size_t moment = text.rfind("\n  ", event) + 3;
+  EXPECT_TRUE(has(tells("continue 50ms; break event 8 occurs log 'event {event} at {time}.'; send 41; continue"),
+                  "event 8 at " + text.substr(moment, event - moment) + "."));
+}
+
 TEST(Debugger, ABroadcastThatComesOverABridgeInPiecesIsNeverUnanswered) {
   Bridged session(kListening, {2 * kSecond, 2'020 * kMillisecond});
   session.pieces = {{0x00, 0x03, 0x00}, {0x0a, 0x00, 0x01, 0xa5, 0xd9}};
