@@ -556,6 +556,13 @@ TEST(Debugger, AMessageOfWhatHappensHasItsTimeAndItsEvent) {
                   "event 8 at " + text.substr(moment, event - moment) + "."));
 }
 
+TEST(Debugger, WhatAFaultMakesOfThePortsOwnCharactersIsNotLost) {
+  Session session(test::compile(test::slave_text()));
+  const std::string text =
+      session("continue 2s; break lost; fault flip:character=3,bit=5,of=answer; send 01 03 00 0a 00 01 crc; continue");
+  EXPECT_FALSE(has(text, "receiver is off"));
+}
+
 TEST(Debugger, ABroadcastThatComesOverABridgeInPiecesIsNeverUnanswered) {
   Bridged session(kListening, {2 * kSecond, 2'020 * kMillisecond});
   session.pieces = {{0x00, 0x03, 0x00}, {0x0a, 0x00, 0x01, 0xa5, 0xd9}};
