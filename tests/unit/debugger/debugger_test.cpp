@@ -556,6 +556,12 @@ TEST(Debugger, AMessageOfWhatHappensHasItsTimeAndItsEvent) {
                   "event 8 at " + text.substr(moment, event - moment) + "."));
 }
 
+TEST(Debugger, AnAddressThatDoesNotExistIsNamedAmongOthersThatPrintIsGiven) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session.error_of("print VB0 VB9999"), "'VB9999' does not exist on CPU 214"));
+  EXPECT_TRUE(has(session.error_of("print VB0 and"), "column"));
+}
+
 TEST(Debugger, WhatAFaultMakesOfThePortsOwnCharactersIsNotLost) {
   Session session(test::compile(test::slave_text()));
   const std::string text =
