@@ -562,6 +562,19 @@ TEST(Debugger, AnAddressThatDoesNotExistIsNamedAmongOthersThatPrintIsGiven) {
   EXPECT_TRUE(has(session.error_of("print VB0 and"), "column"));
 }
 
+TEST(Debugger, MemoryIsPrintedAsAnyType) {
+  Session session(kEcho);
+  session("set VD20=16#41200000 AC1=16#12345678");
+  EXPECT_TRUE(has(session("print VD20:word:2"), "VW20"));
+  EXPECT_TRUE(has(session.out.str(), "16#4120"));
+  EXPECT_TRUE(has(session("print VB20:real"), "10"));
+  EXPECT_TRUE(has(session("print AC1:word"), "16#5678"));
+  EXPECT_TRUE(has(session("print AC1:word + 1"), "= 22137 "));
+  EXPECT_TRUE(has(session.error_of("print T37:word"), "are for memory in bytes"));
+  EXPECT_TRUE(has(session.error_of("print VB2047:word:9000"), "does not exist on CPU 214"));
+  EXPECT_TRUE(has(session("print -VW40"), "= 0 ")) << "no sign";
+}
+
 TEST(Debugger, WhatAFaultMakesOfThePortsOwnCharactersIsNotLost) {
   Session session(test::compile(test::slave_text()));
   const std::string text =
