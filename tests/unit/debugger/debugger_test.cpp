@@ -575,6 +575,16 @@ TEST(Debugger, MemoryIsPrintedAsAnyType) {
   EXPECT_TRUE(has(session("print -VW40"), "= 0 ")) << "no sign";
 }
 
+TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
+  Session session(
+      "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nLD SM0.0\nDISI\nFILL 0, VW100, 200\nFILL 0, VW100, 200\n"
+      "FILL 0, VW100, 200\nFILL 0, VW100, 200\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW0\nRETI\n");
+  session("continue 50ms; send 01 02 03; break event 8 served; continue; scan");
+  const Time waited = session.simulation.time();
+  EXPECT_TRUE(has(session("timeline 2ms"), "interrupts served")) << waited;
+  EXPECT_FALSE(has(session.out.str(), "0 interrupts served"));
+}
+
 TEST(Debugger, WhatAFaultMakesOfThePortsOwnCharactersIsNotLost) {
   Session session(test::compile(test::slave_text()));
   const std::string text =
