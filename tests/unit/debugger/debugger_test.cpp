@@ -585,6 +585,11 @@ TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
   EXPECT_FALSE(has(session.out.str(), "0 interrupts served"));
 }
 
+TEST(Debugger, HelpOnFaultListsTheKinds) {
+  Session session(kEcho);
+  for (const char* kind : {"  flip ", "  noise ", "  cut "}) EXPECT_TRUE(has(session("help fault"), kind));
+}
+
 TEST(Debugger, WhatAFaultMakesOfThePortsOwnCharactersIsNotLost) {
   Session session(test::compile(test::slave_text()));
   const std::string text =
