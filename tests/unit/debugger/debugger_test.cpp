@@ -1227,7 +1227,7 @@ TEST(Debugger, PastSaysHowFarBackItCanGoAndWhy) {
 TEST(Debugger, ThePastOfAPowerCycleBeginsWherePowerCameBackAndBackLeadsBeforeIt) {
   Session session(kNested);
   session("continue 50ms; power 1h; continue 20ms");
-  constexpr std::string_view kBegins = "power came back after 1 h; 'back' leads to before that";
+  constexpr std::string_view kBegins = "power came back after 1 h ('back' leads to before that)";
   EXPECT_TRUE(has(session("past"), std::string("from 0.000000 ms, where ") + std::string(kBegins)));
   EXPECT_TRUE(has(session.error_of("at -150ms"), kBegins));
   EXPECT_TRUE(has(session("who VW500"), std::string("since ") + std::string(kBegins)));
