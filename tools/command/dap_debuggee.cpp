@@ -127,7 +127,11 @@ std::vector<std::string> words_of(const Json& arguments, const CLI::App& app) {
   }
   words.emplace_back("--");
   if (!arguments.contains("program")) throw dap::Refused("launch: 'program' is missing: the file of the program to debug");
-  add_values(arguments["program"], [&](const std::string& file) { words.push_back(file); });
+  const auto is_name = [](const Json& one) { return one.is_string(); };
+  const Json& program = arguments["program"];
+  if (!is_name(program) && !(program.is_array() && std::ranges::all_of(program, is_name)))
+    throw dap::Refused(fmt::format("launch: 'program' is the name of a file, not {}", program.dump()));
+  add_values(program, [&](const std::string& file) { words.push_back(file); });
   return words;
 }
 
