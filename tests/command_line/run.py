@@ -1875,6 +1875,17 @@ lines:
         silent = self.program(lan.format(idle, ""), "silent.yaml")
         self.assertIn("sync: master", self.ends(UNUSABLE, *ask, silent, "unit", "5").stderr)
 
+    def test_why_knows_that_a_program_receives_with_rcv(self):
+        shown = self.ends(FINE, "debug", self.GATEWAY, "--at", "office", "-x",
+                          "continue 1030ms; break unanswered; send 01 03 00 00 00 01 crc; continue 20ms; why").stdout
+        self.assertIn(": no RCV waits for them\n", shown)
+        self.assertNotIn("event 8 is not attached", shown)
+
+    def test_record_names_the_bytes_that_differ(self):
+        shown = self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; send 01 03 00 0a 00 01 crc; continue 5ms; set VW50=77; "
+                          f"continue; display VW50; record {self.folder / 'recorded.yaml'}").stdout
+        self.assertIn("VW50: expected 00 4d, found 00 00\n", shown)
+
     def test_the_debugger_steps_and_goes_back_with_all_stations(self):
         system = self.program(self.SYSTEM, "system.yaml")
         shown = self.ends(FINE, "debug", system, "--at", "slave2", "-x",

@@ -4,6 +4,7 @@ const { test, after } = require("node:test");
 const assert = require("node:assert/strict");
 const { spawn } = require("node:child_process");
 const fs = require("node:fs");
+const net = require("node:net");
 const os = require("node:os");
 const path = require("node:path");
 const { Session } = require("./client.js");
@@ -469,6 +470,23 @@ test("a launch with a bridge runs as fast as the clock and says where it listens
   assert.match(s.printed, /their time-outs are their own affair/);
   await s.ask("configurationDone");
   assert.equal((await s.stops("pause")).reason, "pause");
+  await s.end();
+});
+
+test("what a master on a bridge asked can be played again from the beginning", async () => {
+  const s = new Session();
+  await s.start();
+  const output = s.client.waitForEvent("output");
+  const initialized = s.client.waitForEvent("initialized");
+  await Promise.all([initialized, s.ask("launch", { program: SLAVE, modbusTcp: "0" })]);
+  const [, port] = (await output).body.output.match(/listening on 127.0.0.1:(\d+)/);
+  await s.ask("configurationDone");
+  const master = net.connect(Number(port), "127.0.0.1");
+  master.write(Buffer.from("0001000000060103000a0001", "hex"));
+  await new Promise((answered) => master.once("data", answered));
+  await s.stops("pause");
+  master.destroy();
+  assert.match((await s.ask("lastWrite", { expression: "VW4000" })).text, /has written VW4000/);
   await s.end();
 });
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
@@ -28,16 +29,17 @@ class RigDebuggee final : public dap::Debuggee {
         stations_(options_->rig.named_stations(options_->master)),
         live_(*rig_, *options_, std::move(bridges),
               {[this](const std::string& text) { say_(text); }, [this](const std::string& text) { say_(text); }},
-              &stop_request),
-        history_(options_->rig.stations(*rig_), live_.history()) {}
+              &stop_request) {}
 
+  /// The past begins with the bridges attached.
   bool start(std::string& why) {
-    const bool started = live_.start(why);
-    if (started && live_.has_bridges()) say_(kMastersWait);
-    return started;
+    if (!live_.start(why)) return false;
+    history_.emplace(options_->rig.stations(*rig_), live_.history());
+    if (live_.has_bridges()) say_(kMastersWait);
+    return true;
   }
 
-  History& history() override { return history_; }
+  History& history() override { return *history_; }
   std::shared_ptr<const Program> program(std::size_t station) const override { return rig_->plan().plcs[station].program; }
   std::string name(std::size_t station) const override { return rig_->plan().plcs[station].name; }
   std::size_t first_station() const override { return options_->rig.first_station(); }
@@ -67,7 +69,7 @@ class RigDebuggee final : public dap::Debuggee {
   std::unique_ptr<Rig> rig_;
   std::vector<RigOptions::Station> stations_;
   DebuggeeRun live_;
-  History history_;
+  std::optional<History> history_;  ///< from start() on
 };
 
 /// What a launch says besides: to the session, or to the editor that sends it.
@@ -125,7 +127,11 @@ std::vector<std::string> words_of(const Json& arguments, const CLI::App& app) {
   }
   words.emplace_back("--");
   if (!arguments.contains("program")) throw dap::Refused("launch: 'program' is missing: the file of the program to debug");
-  add_values(arguments["program"], [&](const std::string& file) { words.push_back(file); });
+  const auto is_name = [](const Json& one) { return one.is_string(); };
+  const Json& program = arguments["program"];
+  if (!is_name(program) && !(program.is_array() && std::ranges::all_of(program, is_name)))
+    throw dap::Refused(fmt::format("launch: 'program' is the name of a file, not {}", program.dump()));
+  add_values(program, [&](const std::string& file) { words.push_back(file); });
   return words;
 }
 

@@ -8,6 +8,7 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/system_reader.hpp"
 #include "tools/scenario/reader.hpp"
+#include "tools/scenario/report.hpp"
 #include "tools/scenario/runner.hpp"
 #include "tools/scenario/transcript.hpp"
 #include "tools/scenario/transcript_writer.hpp"
@@ -204,9 +205,10 @@ std::optional<Trial> tried(const SessionSource& source, SessionSteps& session, c
 constexpr std::string_view kNotTheSame = "as a scenario it does not run the same way";
 
 /// In what the scenario went another way than the session; empty if in nothing.
-std::string difference(const SessionSteps& session, const ScenarioResult& result) {
+std::string difference(const SessionSteps& session, const Trial& trial) {
+  const ScenarioResult& result = trial.result;
   if (const Finding* const bad = bad_finding(result))
-    return fmt::format("{}: {}, expected {}, found {}", kNotTheSame, bad->what, bad->expected, bad->found);
+    return fmt::format("{}: {}", kNotTheSame, finding_line(*trial.scenario, *bad));
   const auto is_of_master = [&](const Seen& seen) {
     const auto done = done_in(session, seen.step);
     return done && !session.steps[*done].sent_until;
@@ -223,8 +225,7 @@ std::string why_it_fails(const std::string& text, const std::string& path, const
   if (!file.diagnostics.empty()) return file.diagnostics.front().message;
   const ScenarioResult result = run_scenario(file.scenarios.front(), {.program = program});
   if (result.findings.empty()) return {};
-  const Finding& bad = result.findings.front();
-  return fmt::format("{}: {}, expected {}, found {}", kNotTheSame, bad.what, bad.expected, bad.found);
+  return fmt::format("{}: {}", kNotTheSame, finding_line(file.scenarios.front(), result.findings.front()));
 }
 
 }  // namespace
@@ -237,7 +238,7 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
   const SessionSource source{options, program, session};
   auto trial = tried(source, session, to.path, why);
   if (!trial) return false;
-  if (session.left_out.empty()) why = difference(session, trial->result);
+  if (session.left_out.empty()) why = difference(session, *trial);
   if (!why.empty()) return false;
   const Report report{&*trial->scenario, std::move(trial->result)};
   const std::string steps =

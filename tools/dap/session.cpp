@@ -13,6 +13,7 @@
 #include "tools/dap/exception_filters.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/line_words.hpp"
+#include "tools/debugger/stop_words.hpp"
 #include "tools/debugger/two_masters.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
@@ -320,8 +321,7 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
   debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
   stepper_->on_message = [this](const StopPoint& stop, const Hit& hit) {
     const Cpu& at = debuggee_->history().station(stop.station).cpu();
-    print_of(stop.station, filled_in(stop.log, at, debuggee_->history().now().time, hit.by ? &*hit.by : nullptr), "console",
-             standing_at(at.state()));
+    print_of(stop.station, message_text(stop, hit, at, debuggee_->history().now().time), "console", standing_at(at.state()));
   };
   stepper_->on_answer = [this](std::size_t station, const serial::Exchange& exchange) {
     print(exchange_text(exchange, debuggee_->master(station).timeout) +

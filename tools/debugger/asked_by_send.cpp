@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tools/debugger/two_masters.hpp"
 #include "tools/views/broadcast.hpp"
 
 namespace s7200::tools {
@@ -29,6 +30,8 @@ std::vector<std::size_t> AskedBySend::take_finished() {
             .asker = {Asker::Kind::Send, station},
             .wrong = wrong,
             .answer = answer});
+    if (!wrong.empty() && !is_broadcast(request) && took_a_request_for_its_answer(history(), station, exchange))
+      tell({.line = of_plcs().line_of(station, here.port()), .asker = {Asker::Kind::Send, station}});
     return true;
   });
   return finished;

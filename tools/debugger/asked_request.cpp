@@ -92,10 +92,19 @@ std::optional<Time> sent_by_plc_after(const History& history, std::size_t line, 
   return last;
 }
 
-/// The last of a master on a bridge. Whether its answer is one is not known here.
+/// A master asks again because nobody has answered the request before, which has just been given up with that.
+bool gives_up_with(const History& history, std::size_t line, const SentByHost& before, const SentByHost& last, Time now) {
+  const bool just_begun = last.to > now && now - std::min(now, last.from) < kJustOver;
+  return just_begun && !is_broadcast(before.bytes) && !is_answer(history, line, before) &&
+         !sent_by_plc_after(history, line, before.to);
+}
+
+/// The last of a master on a bridge, or the one that it has just given up. Whether its answer is one is not known here.
 std::optional<AskedRequest> request_of_bridge(const History& history, std::size_t host, std::size_t line, Time now,
                                               Time host_timeout) {
-  const std::vector<SentByHost> all = history.sent_by_host(host, now - std::min(now, 2 * host_timeout));
+  std::vector<SentByHost> all = history.sent_by_host(host, now - std::min(now, 2 * host_timeout));
+  const bool given_up = all.size() > 1 && gives_up_with(history, line, all.rbegin()[1], all.back(), now);
+  if (given_up) all.pop_back();
   if (all.empty() || is_broadcast(all.back().bytes) || is_answer(history, line, all.back())) return {};
   const SentByHost& last = all.back();
   const Asker asker{Asker::Kind::Bridge, host};
@@ -110,7 +119,7 @@ std::optional<AskedRequest> request_of_bridge(const History& history, std::size_
                       .format = last.format,
                       .unanswered = !answered,
                       .answer_end = answered.value_or(0),
-                      .in_vain = !answered && now - last.to >= host_timeout,
+                      .in_vain = !answered && (given_up || now - last.to >= host_timeout),
                       .under_way = last.to > now || history.requests().is_sending(line)};
 }
 

@@ -1,6 +1,7 @@
 // Which characters did no routine get, and what has kept them from it?
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "interpreter/model/ports.hpp"
@@ -74,6 +75,12 @@ Keeper what_kept(Inquiry& inquiry, const TraceRecord& ignored) {
                   : what_left_freeport(inquiry, ignored.port, ignored.at);
 }
 
+/// A program that receives with RCV needs no event for it.
+bool receives_messages(const Program& program, std::uint8_t port) {
+  return std::ranges::any_of(program.ops,
+                             [&](const Op& op) { return op.instruction->mnemonic == "RCV" && op[1].at == port; });
+}
+
 /// PPI takes characters for its own as long as they may be a frame of it.
 void find_port_in_ppi_mode(Inquiry& inquiry) {
   const AskedRequest& request = *inquiry.request();
@@ -86,8 +93,10 @@ void find_port_in_ppi_mode(Inquiry& inquiry) {
 void find_characters_untaken(Inquiry& inquiry) {
   for (const auto& [first, characters, end] : inquiry.witness().line.untaken()) {
     if (first.at < inquiry.since()) continue;
-    const Keeper keeper = what_kept(inquiry, first);
-    const std::string because = ignored_because(first) + keeper.text;
+    const bool detached = first.kind == TraceKind::CharacterIgnored && Ignored{first.code} == Ignored::NotAttached;
+    const bool by_rcv = detached && receives_messages(inquiry.program(), first.port);
+    const Keeper keeper = by_rcv ? Keeper{.text = "no RCV waits for them"} : what_kept(inquiry, first);
+    const std::string because = (by_rcv ? "" : ignored_because(first)) + keeper.text;
     inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = because}),
                 keeper);
   }

@@ -239,7 +239,7 @@ ready for the next request.)",
       {"fault", "", "fault KIND[:PARAMETER=VALUE,…] [station=NAME] | none",
        "inject a fault on the line, or clear all faults",
        R"(As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:ber=0.001, fault cut:from=2ms. It counts
-exchanges and times from now; 's7200 run --help' has all kinds. In a system station=NAME says whose characters it
+exchanges and times from now; 's7200 run --help' has all parameters. In a system station=NAME says whose characters it
 strikes, as 'station' of a system file: fault parity:character=2 station=slave2. Going back undoes it. Alone: the
 faults in force, and how often each has happened.)",
        &Debugger::fault, Takes::Faults, false, "none"},
@@ -467,6 +467,9 @@ Debugger::Error Debugger::help(const Arguments& arguments) {
     out_ << fmt::format("  {}\n", rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
+  if (command->takes == Takes::Faults)
+    for (const serial::FaultKindInfo& kind : serial::fault_kinds())
+      out_ << fmt::format("  {:<10} {:<58} {}\n", kind.name, kind.meaning, kind.example);
   if (!command->short_form.empty()) out_ << fmt::format("  short: {}\n", command->short_form);
   return {};
 }

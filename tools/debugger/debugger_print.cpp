@@ -58,6 +58,15 @@ std::string elements_text(const Cpu& cpu, const MemoryRange& range) {
   return text;
 }
 
+/// Addresses beside each other have none.
+bool has_operator(const std::vector<std::string>& words) {
+  return std::ranges::any_of(words, [](const std::string& word) {
+    const std::string lower = stl::lower_case(word);
+    return lower == "and" || lower == "or" || lower == "not" || lower == "*" ||
+           word.find_first_of("(+-/<>=&") != std::string::npos;
+  });
+}
+
 std::string number_text(const Value& value, const PrintForm* form) {
   if (value.real) return number_text(value);
   const auto bits = double_word_of(value);
@@ -118,16 +127,20 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   const Program& program = simulation().cpu().program();
   std::string why;
   std::vector<Place> places;
-  for (const std::string& word : words)
-    if (const auto place = parse_place(word, program, why)) places.push_back(*place);
+  for (const std::string& word : words) {
+    std::string wrong;
+    if (const auto place = parse_place(word, program, wrong))
+      places.push_back(*place);
+    else if (why.empty())
+      why = wrong;
+  }
   if (places.size() == words.size()) {
     for (std::size_t i = 0; i < places.size(); ++i) print_place(places[i], stl::upper_case(words[i]), form);
     return {};
   }
   std::string why_no_expression;
   const auto expression = Expression::parse(joined(words), program, why_no_expression);
-  const bool has_operator = joined(words).find_first_of(" (+-/<>=&") != std::string::npos;
-  if (!expression) return has_operator ? why_no_expression : why;
+  if (!expression) return has_operator(words) ? why_no_expression : why;
   const auto value = expression->value(simulation().cpu(), why);
   out_ << fmt::format("{} {}\n", stl::printable(expression->text()),
                       value ? "= " + number_text(*value, form) : "cannot be computed: " + why);

@@ -363,7 +363,7 @@ void Debugger::report_access(const Hit& hit) {
 void Debugger::print_message(const StopPoint& stop, const Hit& hit) {
   hide_progress();
   const Cpu& cpu = stations_[stop.station].simulation->cpu();
-  const std::string text = filled_in(stop.log, cpu, history_.now().time, hit.by ? &*hit.by : nullptr);
+  const std::string text = message_text(stop, hit, cpu, history_.now().time);
   out_ << fmt::format("{}{}\n", said_of(stop.station), stl::printable(text));
 }
 

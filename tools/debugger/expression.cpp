@@ -19,6 +19,9 @@ namespace {
 
 constexpr std::string_view kPointers = "a pointer is *VD100, *AC1 or *LD0, with :word, :dword, :real or a count after it";
 
+constexpr std::string_view kTypes =
+    "byte, word, dword and real after a colon are for memory in bytes, for example VB100:word:4, and for accumulators";
+
 bool read_pointer_suffix(std::string_view text, Place& place) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(':'), text.size());
@@ -51,10 +54,38 @@ std::optional<MemoryRange> range_at(std::uint32_t at, Width width, const CpuMode
   return {};
 }
 
+/// `VB100:word`, `AC1:byte`: with another type than that of the address; of an accumulator the low end.
+std::optional<MemoryRange> parse_typed(std::string_view text, const Program& program, std::string& why) {
+  const std::size_t colon = text.find(':', text.starts_with('"') ? text.find('"', 1) : 0);
+  Place typed;
+  const std::string suffix = stl::upper_case(text.substr(std::min(colon, text.size() - 1) + 1));
+  const bool is_typed = suffix.find_first_not_of("0123456789:") != std::string::npos && read_pointer_suffix(suffix, typed);
+  if (!is_typed) return parse_range(text, program, why);
+  const auto at = parse_range(text.substr(0, colon), program, why);
+  if (!at) return {};
+  const bool in_bytes = info(at->area).element == 0 && at->width != Width::Bit, in_accumulator = at->area == Area::AC;
+  if (!in_bytes && !in_accumulator) {
+    why = fmt::format("'{}': {}", stl::shortened(text), kTypes);
+    return {};
+  }
+  const std::uint32_t low = in_accumulator ? 4 - bytes_of(typed.width) : 0;
+  auto range = range_at(at->at + low, typed.width, *program.model);
+  const AreaInfo& area = info(at->area);
+  const std::uint32_t step = in_accumulator ? area.step() : bytes_of(typed.width);
+  const std::uint32_t end = area.base + program.model->size_of(at->area) * area.step();
+  if (!range || typed.count > (end - range->at + low) / step) {
+    why = fmt::format("'{}' does not exist on CPU {}", stl::shortened(text), program.model->name);
+    return {};
+  }
+  range->count = typed.count;
+  range->real = typed.real;
+  return range;
+}
+
 std::optional<Place> parse_place(std::string_view text, const Program& program, std::string& why) {
   Place place;
   if (!text.starts_with('*')) {
-    const auto range = parse_range(text, program, why);
+    const auto range = parse_typed(text, program, why);
     if (!range) return {};
     place.range = *range;
     return place;
@@ -344,7 +375,7 @@ std::optional<Value> evaluate(const Node& node, const Cpu& cpu, std::string& why
   const auto left = evaluate(*node.left, cpu, why);
   if (!left) return {};
   if (node.kind == Node::Kind::Not) return Value{left->truth() ? 0.0 : 1.0};
-  if (node.kind == Node::Kind::Negate) return Value{-left->number, left->real};
+  if (node.kind == Node::Kind::Negate) return Value{left->real ? -left->number : 0 - left->number, left->real};
   if (node.op == "and" && !left->truth()) return Value{0};
   if (node.op == "or" && left->truth()) return Value{1};
   const auto right = evaluate(*node.right, cpu, why);

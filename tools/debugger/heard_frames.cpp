@@ -28,10 +28,14 @@ void HeardFrames::begin(Ear& ear, const serial::Plc::State& state) const {
   const bool is_over = history_.station(ear.station).time() - last >= format.silence();
   // another station hears the end of its last character a little later than it has sent it, never so much later
   const Time own_end = state.uart.at(ear.port).send_end + format.character_time() / 2;
-  ear.coming_in.clear();
   ear.silence_noted = is_over ? last : 0;
   ear.came_in = last > own_end;
+  ear.coming_in = is_over || !ear.came_in ? std::vector<std::uint8_t>() : heard_last(ear);
   ear.last_heard = ear.came_in ? std::optional(last) : std::nullopt;
+}
+
+const std::vector<std::uint8_t>& HeardFrames::heard_last(const Ear& ear) const {
+  return history_.requests().heard(ear.station, ear.port).bytes;
 }
 
 void HeardFrames::note(std::size_t station, const TraceRecord& record) {
@@ -68,7 +72,7 @@ Time HeardFrames::next_end() const {
 std::vector<HeardFrames::Frame> HeardFrames::frames_before() const {
   std::vector<Frame> frames;
   for (const Ear& ear : ears_)
-    if (ear.came_in && ear.silence_noted != 0) frames.push_back({ear.station, ear.port, {}, ear.silence_noted});
+    if (ear.came_in && ear.silence_noted != 0) frames.push_back({ear.station, ear.port, heard_last(ear), ear.silence_noted});
   return frames;
 }
 

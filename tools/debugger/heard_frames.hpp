@@ -16,7 +16,7 @@ class HeardFrames {
   struct Frame {
     std::size_t station = 0;  ///< that has heard it
     std::uint8_t port = 0;
-    std::vector<std::uint8_t> bytes{};  ///< as far as it came since begin()
+    std::vector<std::uint8_t> bytes{};
     Time end = 0;
   };
 
@@ -25,8 +25,7 @@ class HeardFrames {
 
   std::function<void(const Frame&)> on_frame;  ///< one has ended; must be set
 
-  /// Hears from now on. What came before is not known, only when the last character on each line ended, and whether the
-  /// port has heard or sent it.
+  /// Hears from now on, and goes on with what each port is hearing.
   void begin();
 
   /// Must be told the records of all stations, in their order.
@@ -38,7 +37,7 @@ class HeardFrames {
   /// When a frame that is coming in ends, if nothing else comes; kNever if none is.
   Time next_end() const;
 
-  /// Those that came last, and had ended before it began to hear; their characters are not known.
+  /// Those that came last, and had ended before it began to hear.
   std::vector<Frame> frames_before() const;
 
   /// The last character that a port has heard since its program has sent anything.
@@ -60,6 +59,7 @@ class HeardFrames {
 
   static Time silence(const Ear& ear) { return ear.plc->port_format(ear.port).silence(); }
   void begin(Ear& ear, const serial::Plc::State& state) const;
+  const std::vector<std::uint8_t>& heard_last(const Ear& ear) const;
   void note_silence(Ear& ear, Time now) const;
 
   const History& history_;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/trace/statement_text.hpp"
 #include "tools/debugger/last_stop.hpp"
+#include "tools/debugger/two_masters.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -71,8 +73,19 @@ void Inquiry::add(Time at, std::string text, const Keeper& keeper) {
   if (in_main_ && !answers.left) answers.left = keeper.by;
 }
 
+/// What was a request of another master was not lost.
 void find_what_the_line_lost(Inquiry& inquiry) {
   inquiry.here_at_start();
+  if (const auto& request = inquiry.request(); request && request->asker.kind == Asker::Kind::Send) {
+    const std::size_t station = request->asker.number;
+    const serial::Exchange& exchange = inquiry.history().station(station).master().exchange();
+    if (took_a_request_for_its_answer(inquiry.history(), station, exchange)) {
+      std::string text = not_an_answer_text(inquiry.history(), station, exchange);
+      text.erase(text.find_last_not_of('\n') + 1);
+      return inquiry.add_first(
+          {exchange.response_end, fmt::format("what {} took for its answer was {}", request->by, stl::trim(text))});
+    }
+  }
   if (auto lost = inquiry.request() ? inquiry.witness().line.lost(*inquiry.request()) : std::nullopt)
     inquiry.add_lost(std::move(*lost));
 }

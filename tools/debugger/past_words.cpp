@@ -17,7 +17,7 @@ namespace {
 const PowerCycle* power_cycle(const History& history) { return history.here().branch->power.get(); }
 
 std::string power_cycle_text(const PowerCycle& power) {
-  return fmt::format("power came back{}; 'back' leads to before that",
+  return fmt::format("power came back{} ('back' leads to before that)",
                      power.off == 0 ? "" : " after " + format_duration(power.off));
 }
 

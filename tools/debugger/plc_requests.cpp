@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kShortest = 4;       // station, function, CRC
 constexpr std::uint8_t kException = 0x80;  // of the function in an answer
 constexpr std::size_t kLongest = 256;      // MODBUS over Serial Line V1.02, 2.5.1
+constexpr std::size_t kMostHeard = 1024;   // of what never ends; checkpoints keep it
 constexpr std::size_t kAskedBefore = 3;    // requests of a line whose answers may still come
 
 bool is_for_one_station(PlcRequests::Frame frame) { return is_rtu_frame(frame) && !is_broadcast(frame); }
@@ -75,6 +76,7 @@ std::optional<std::uint8_t> PlcRequests::port_on(std::size_t line, std::size_t s
 
 void PlcRequests::forget() {
   state_ = {};
+  state_.hearing.resize(others_.stations.size());
   state_.sending.resize(others_.stations.size());
   state_.last.resize(lines_.size());
   state_.before.resize(lines_.size());
@@ -94,7 +96,9 @@ void PlcRequests::note(std::size_t station, const TraceRecord& record) {
     case TraceKind::TransmitEnd:
       return note_sender(station, record);
     default:
-      if (is_heard(record)) note_heard(station, record);
+      if (!is_heard(record)) return;
+      note_hearing(station, record);
+      note_heard(station, record);
   }
 }
 
@@ -159,6 +163,14 @@ void PlcRequests::note_end(std::size_t station, std::uint8_t port, SentByPlc sen
     const bool is_another_ones = asks_something_else(sent.bytes, last->frame) && is_late_answer(station, line, sent.bytes);
     if (!is_another_ones) last->answer = {sent.from, sent.to};
   }
+}
+
+void PlcRequests::note_hearing(std::size_t station, const TraceRecord& record) {
+  Hearing& hearing = state_.hearing[station].at(record.port);
+  const Time silence = others_.stations[station]->plc().port_format(record.port).silence();
+  if (record.since >= hearing.to + silence) hearing.bytes.clear();
+  if (hearing.bytes.size() < kMostHeard) hearing.bytes.push_back(record.byte);
+  hearing.to = record.at;
 }
 
 /// Any character that a PLC does not send itself. A damaged one is no answer, and of one that another PLC is sending that

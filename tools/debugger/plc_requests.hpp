@@ -80,8 +80,15 @@ class PlcRequests {
     bool answered = false;
   };
 
+  /// What a port hears, without a pause of 3.5 characters.
+  struct Hearing {
+    std::vector<std::uint8_t> bytes{};  ///< the first of them, if it never ends
+    Time to = 0;
+  };
+
   /// Plain, so that a snapshot is a copy.
   struct State {
+    std::vector<std::array<Hearing, kPorts.size()>> hearing;                   ///< by station and port
     std::vector<std::array<std::optional<SentByPlc>, kPorts.size()>> sending;  ///< by station and port
     std::vector<std::optional<Request>> last;                                  ///< by line, of a PLC
     std::vector<std::optional<Request>> before;                                ///< the one before that
@@ -127,6 +134,9 @@ class PlcRequests {
     return state_.sending[station].at(port);
   }
 
+  /// What a port has heard last, or hears.
+  const Hearing& heard(std::size_t station, std::uint8_t port) const { return state_.hearing[station].at(port); }
+
   const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
   /// Nothing has been sent yet.
@@ -135,6 +145,7 @@ class PlcRequests {
  private:
   void note_sender(std::size_t station, const TraceRecord& record);
   void note_end(std::size_t station, std::uint8_t port, SentByPlc sent);
+  void note_hearing(std::size_t station, const TraceRecord& record);
   void note_heard(std::size_t station, const TraceRecord& record);
   void note_masters(std::size_t line);
   void note_asked(std::size_t line, Asked asked);

@@ -12,6 +12,13 @@ namespace {
 
 using On = StopPoint::On;
 
+/// Not a character that a fault has made of what the port sends itself.
+bool is_of_others(const serial::Plc& plc, const TraceRecord& record) {
+  if (record.kind != TraceKind::CharacterIgnored || Ignored{record.code} != Ignored::WhileSending) return true;
+  const serial::Line& line = plc.line(record.port).line();
+  return line.space_holder_besides(plc.driver(record.port), record.since) != serial::Line::kNobody;
+}
+
 }  // namespace
 
 Stepper::Stepper(History& history, const std::atomic<bool>* stop_request)
@@ -556,7 +563,8 @@ void Stepper::note_record(const TraceRecord& record) {
   const std::vector<std::uint8_t> frame = note_sent(number, record);
   frames_.note(number, record);
   for (SetStop& stop : stops_)
-    if (stop.station == number && is_meant(stop, record)) hit(stop, {.record = record, .frame = frame});
+    if (stop.station == number && is_meant(stop, record) && is_of_others(station(number).plc(), record))
+      hit(stop, {.record = record, .frame = frame});
 }
 
 /// All of a transmission that ends.

@@ -39,6 +39,15 @@ const MessageWord* find_word(std::string_view word) {
   return found == std::end(kWords) ? nullptr : found;
 }
 
+/// Of an address with a count, as `watch` says it; nothing of anything else.
+std::optional<std::string> several_at(std::string_view text, const Cpu& cpu) {
+  std::string why;
+  const auto place = parse_place(text, cpu.program(), why);
+  const auto range = place ? range_now(*place, cpu) : std::nullopt;
+  if (!range || range->count == 1) return {};
+  return value_text(cpu.program(), *range, range->bytes_in(cpu.state().image));
+}
+
 /// Each piece of text outside braces, and of those inside.
 void split(const std::string& text, const std::function<void(std::string_view)>& outside,
            const std::function<void(std::string_view)>& inside) {
@@ -65,9 +74,10 @@ std::string filled_in(const std::string& text, const Cpu& cpu, Time now, const I
           return;
         }
         std::string why;
-        const auto expression = Expression::parse(part, cpu.program(), why);
+        const auto several = several_at(part, cpu);
+        const auto expression = several ? std::nullopt : Expression::parse(part, cpu.program(), why);
         const auto value = expression ? expression->value(cpu, why) : std::nullopt;
-        filled += value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);
+        filled += several ? *several : value ? number_text(*value) : expression ? "?" : fmt::format("{{{}}}", part);
       });
   return filled;
 }

@@ -11,6 +11,7 @@
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/model/ports.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/views/machine_text.hpp"
@@ -28,6 +29,21 @@ constexpr Happening kHappenings[] = {
     {"received", On::FrameReceived}, {"sent", On::FrameSent},         {"xmt", On::Transmit},       {"rcv", On::ReceiveEnd},
     {"error", On::RuntimeError},     {"overflow", On::QueueOverflow}, {"lost", On::LostCharacter}, {"mode", On::ModeChange},
     {"unanswered", On::Unanswered},  {"wrong", On::WrongAnswer}};
+
+/// That it is about.
+std::optional<std::uint8_t> event_in(const TraceRecord& record) {
+  switch (record.kind) {
+    case TraceKind::EventOccurred:
+    case TraceKind::EventLost:
+    case TraceKind::EventDropped:
+    case TraceKind::ServiceBegin:
+      return record.event;
+    case TraceKind::CharacterIgnored:
+      return kPorts[record.port].received;
+    default:
+      return {};
+  }
+}
 
 constexpr std::string_view kPlaces = "a line number, SBR n, INT n, LBL n or NETWORK n";
 
@@ -264,6 +280,17 @@ std::vector<std::string> words_after_watch(const std::vector<std::string>& words
     if (!waits_for && access.word.find(' ') == std::string_view::npos) all.emplace_back(access.word);
   std::ranges::copy(options_after(words, false), std::back_inserter(all));
   return all;
+}
+
+std::string message_text(const StopPoint& stop, const Hit& hit, const Cpu& cpu, Time now) {
+  std::string text = stop.log;
+  const auto replace = [&](std::string_view word, const std::string& with) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + with.size()))
+      text.replace(at, word.size(), with);
+  };
+  if (hit.record) replace("{time}", moment_text(hit.record->at));
+  if (const auto event = hit.record ? event_in(*hit.record) : std::nullopt) replace("{event}", fmt::format("{}", *event));
+  return filled_in(text, cpu, now, hit.by ? &*hit.by : nullptr);
 }
 
 }  // namespace s7200::tools

@@ -79,4 +79,7 @@ std::string unknown_text(const StopPoint& stop);
 std::vector<std::string> words_after_break(const std::vector<std::string>& words, const Program& program);
 std::vector<std::string> words_after_watch(const std::vector<std::string>& words);
 
+/// The message of a stop, filled in; what has happened has its own time, and an event.
+std::string message_text(const StopPoint& stop, const Hit& hit, const Cpu& cpu, Time now);
+
 }  // namespace s7200::tools

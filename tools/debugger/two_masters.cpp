@@ -111,6 +111,12 @@ std::string other_master_text(const History& history, std::size_t station) {
       names.size() == 1 ? "two" : fmt::to_string(names.size() + 1), list_text(names), names.size() == 1 ? "asks" : "ask");
 }
 
+bool took_a_request_for_its_answer(const History& history, std::size_t station, const serial::Exchange& exchange) {
+  if (exchange.response.empty() || exchange.request.empty()) return false;
+  const auto other = other_request(history, history.requests().line_of(station, history.station(station).port()), exchange);
+  return other && other->start <= exchange.response_start;
+}
+
 std::string not_an_answer_text(const History& history, std::size_t station, const serial::Exchange& exchange) {
   const std::size_t line = history.requests().line_of(station, history.station(station).port());
   const std::string text = mixed_text(history, line, exchange);

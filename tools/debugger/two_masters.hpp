@@ -15,7 +15,10 @@ std::string other_master_text(const History& history, std::size_t station);
 /// nobody has.
 std::string not_an_answer_text(const History& history, std::size_t station, const serial::Exchange& exchange);
 
-/// The same of a wrong answer to a master that polls, in a line without its end.
+/// Whether it has taken the request of another master for its answer: no one has answered it.
+bool took_a_request_for_its_answer(const History& history, std::size_t station, const serial::Exchange& exchange);
+
+/// As not_an_answer_text() has it, of a wrong answer to a master that polls, in a line without its end.
 std::string not_an_answer_text(const History& history, const Hit& hit);
 
 }  // namespace s7200::tools

@@ -188,10 +188,10 @@ class Timeline::Reader {
     for (auto row = rows_.rbegin(); row != rows_.rend() && !serving_; ++row)
       if (row->event == r.event && row->at == r.since && (row->kind == Kind::Received || row->kind == Kind::Event))
         serving_ = &*row;
+    report_.longest_wait = std::max(report_.longest_wait, r.at - r.since);
     if (serving_) {
       serving_->longest_wait = r.at - r.since;
       serving_->why = why;
-      report_.longest_wait = std::max(report_.longest_wait, serving_->longest_wait);
     }
     in_routine_ = true;
     routine_ = r.routine;
@@ -200,12 +200,12 @@ class Timeline::Reader {
     const Time took = r.at - r.since;
     in_routine_ = false;
     service_end_ = r.at;
+    ++report_.served;
+    report_.in_all += took;
     if (!serving_) return;
     serving_->routine = r.routine;
     serving_->served = 1;
     serving_->shortest = serving_->longest = serving_->in_all = took;
-    ++report_.served;
-    report_.in_all += took;
     serving_ = nullptr;
   }
 

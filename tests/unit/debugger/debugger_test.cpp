@@ -520,6 +520,84 @@ TEST(Debugger, ARequestThatComesOverABridgeInPiecesIsOne) {
   EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
 }
 
+TEST(Debugger, ARequestThatIsPlayedAgainIsNamedWithWhatWasHeardBefore) {
+  constexpr std::string_view kStop = "breakpoint 1, unanswered, hit for the first time\n  01 03 00 0a 00 01 a4 08\n";
+  Bridged session(kListening, {2 * kSecond, 2'300 * kMillisecond});
+  EXPECT_TRUE(has(session("break unanswered; continue"), kStop));
+  EXPECT_TRUE(has(session("at 2004ms; continue"), kStop)) << "while it came in";
+  EXPECT_TRUE(has(session("at 2100ms; continue"), kStop)) << "after it";
+  session("at 2004ms; break received; delete 1");
+  EXPECT_TRUE(has(session("continue"), "received, hit for the first time\n  01 03 00 0a 00 01 a4 08\n"));
+}
+
+TEST(Debugger, WhyTellsOfTheRequestThatAMasterOnABridgeHasGivenUpByAskingAgain) {
+  Bridged session(
+      "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\n"
+      "INT 1\nLDB= SMB2, 9\nNOT\nCRETI\nLD SM0.0\nMOVB SMB2, VB1\nMOVB 1, VB0\nXMT VB0, 0\nRETI\n",
+      {2 * kSecond, 2'300 * kMillisecond});
+  session("break unanswered; continue");
+  const std::string why = session("why");
+  EXPECT_TRUE(has(why, " characters since 2000.000000 ms: INT 1 took them, and nothing was sent since"));
+  EXPECT_TRUE(has(why, "LDB= SMB2, 9"));
+}
+
+TEST(Debugger, AMessageShowsAllOfAnAddressWithACount) {
+  Session session(kEcho);
+  EXPECT_TRUE(
+      has(session("continue 50ms; set VB10=1 VB11=2; break 8 log 'got {VB10:2}'; send 41; continue"), "got 01 02\n"));
+}
+
+TEST(Debugger, AMessageOfWhatHappensHasItsTimeAndItsEvent) {
+  Session stops(kEcho), tells(kEcho);
+  const std::string text = stops("continue 50ms; break event 8 occurs; send 41; continue");
+  const std::size_t event = text.find("  event 8 (");
+  ASSERT_NE(event, std::string::npos) << text;
+  const std::size_t moment = text.rfind("\n  ", event) + 3;
+  EXPECT_TRUE(has(tells("continue 50ms; break event 8 occurs log 'event {event} at {time}.'; send 41; continue"),
+                  "event 8 at " + text.substr(moment, event - moment) + "."));
+}
+
+TEST(Debugger, AnAddressThatDoesNotExistIsNamedAmongOthersThatPrintIsGiven) {
+  Session session(kEcho);
+  EXPECT_TRUE(has(session.error_of("print VB0 VB9999"), "'VB9999' does not exist on CPU 214"));
+  EXPECT_TRUE(has(session.error_of("print VB0 and"), "column"));
+}
+
+TEST(Debugger, MemoryIsPrintedAsAnyType) {
+  Session session(kEcho);
+  session("set VD20=16#41200000 AC1=16#12345678");
+  EXPECT_TRUE(has(session("print VD20:word:2"), "VW20"));
+  EXPECT_TRUE(has(session.out.str(), "16#4120"));
+  EXPECT_TRUE(has(session("print VB20:real"), "10"));
+  EXPECT_TRUE(has(session("print AC1:word"), "16#5678"));
+  EXPECT_TRUE(has(session("print AC1:word + 1"), "= 22137 "));
+  EXPECT_TRUE(has(session.error_of("print T37:word"), "are for memory in bytes"));
+  EXPECT_TRUE(has(session.error_of("print VB2047:word:9000"), "does not exist on CPU 214"));
+  EXPECT_TRUE(has(session("print -VW40"), "= 0 ")) << "no sign";
+}
+
+TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
+  Session session(
+      "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nLD SM0.0\nDISI\nFILL 0, VW100, 200\nFILL 0, VW100, 200\n"
+      "FILL 0, VW100, 200\nFILL 0, VW100, 200\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW0\nRETI\n");
+  session("continue 50ms; send 01 02 03; break event 8 served; continue; scan");
+  const Time waited = session.simulation.time();
+  EXPECT_TRUE(has(session("timeline 2ms"), "interrupts served")) << waited;
+  EXPECT_FALSE(has(session.out.str(), "0 interrupts served"));
+}
+
+TEST(Debugger, HelpOnFaultListsTheKinds) {
+  Session session(kEcho);
+  for (const char* kind : {"  flip ", "  noise ", "  cut "}) EXPECT_TRUE(has(session("help fault"), kind));
+}
+
+TEST(Debugger, WhatAFaultMakesOfThePortsOwnCharactersIsNotLost) {
+  Session session(test::compile(test::slave_text()));
+  const std::string text =
+      session("continue 2s; break lost; fault flip:character=3,bit=5,of=answer; send 01 03 00 0a 00 01 crc; continue");
+  EXPECT_FALSE(has(text, "receiver is off"));
+}
+
 TEST(Debugger, ABroadcastThatComesOverABridgeInPiecesIsNeverUnanswered) {
   Bridged session(kListening, {2 * kSecond, 2'020 * kMillisecond});
   session.pieces = {{0x00, 0x03, 0x00}, {0x0a, 0x00, 0x01, 0xa5, 0xd9}};
@@ -1150,7 +1228,7 @@ TEST(Debugger, PastSaysHowFarBackItCanGoAndWhy) {
 TEST(Debugger, ThePastOfAPowerCycleBeginsWherePowerCameBackAndBackLeadsBeforeIt) {
   Session session(kNested);
   session("continue 50ms; power 1h; continue 20ms");
-  constexpr std::string_view kBegins = "power came back after 1 h; 'back' leads to before that";
+  constexpr std::string_view kBegins = "power came back after 1 h ('back' leads to before that)";
   EXPECT_TRUE(has(session("past"), std::string("from 0.000000 ms, where ") + std::string(kBegins)));
   EXPECT_TRUE(has(session.error_of("at -150ms"), kBegins));
   EXPECT_TRUE(has(session("who VW500"), std::string("since ") + std::string(kBegins)));

@@ -162,6 +162,15 @@ TEST(WrongAnswers, SendSaysThatAnotherMasterIsOnTheLineAndWhoSentWhatItTookForAn
   EXPECT_FALSE(has(alone("continue 100ms; send 41; continue"), "two masters"));
 }
 
+TEST(WrongAnswers, ARequestThatWasTakenForTheAnswerLeavesTheOwnOneUnansweredAndTheLineHasLostNothing) {
+  SystemSession session(polled("parity:exchange=90"), 0);
+  session("continue 1470ms; break unanswered; send 09 03 00 00 00 01 crc");
+  EXPECT_TRUE(has(session("continue"), "unanswered, hit"));
+  EXPECT_TRUE(has(session("why"), "what the master took for its answer was sent by scada: a request of its own"));
+  EXPECT_FALSE(has(session.out.str(), "which no S7-200 has sent"));
+  EXPECT_FALSE(has(session("rwhy"), "lost on the line"));
+}
+
 TEST(WrongAnswers, SendNamesAllOthersThatAskOnTheLine) {
   SystemSession session(
       "plcs: {slave: {program: ../modbus_slave.stl, station: 1}}\n"
