@@ -189,7 +189,7 @@ TEST_F(ScenarioSuite, ATargetThatCannotBeHadRunsNothing) {
 }
 
 TEST_F(ScenarioSuite, NoScanOfASystemIsPassedOverIfEveryOneIsWanted) {
-  const std::string two = scenario_of_two("two", "steps: [wait: 1ms]\n");
+  const std::string two = scenario_of_two("scans", "steps: [wait: 1ms]\n");
   const auto every_scan = [&](bool wanted) {
     const Suite suite = collected({.files = {two}, .every_scan = wanted});
     return std::ranges::all_of(suite.scenarios().at(0).plan->plcs,
