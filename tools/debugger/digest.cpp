@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -53,8 +54,8 @@ auto members(const Freeport& part) {
 }
 
 auto members(const PpiPort& part) {
-  const auto& [frame, received, sending, sent, lost, heard, job, master, frame_count, message, length] = part;
-  return std::tie(frame, received, sending, sent, lost, heard, job, master, frame_count, message, length);
+  const auto& [frame, received, sending, sent, lost, heard, job, master, frame_count, message, length, wanted_mode] = part;
+  return std::tie(frame, received, sending, sent, lost, heard, job, master, frame_count, message, length, wanted_mode);
 }
 
 auto members(const NetworkPort::Job& part) {
@@ -152,6 +153,12 @@ class Digest {
       add(all.data(), N);
     else
       for (const T& one : all) add(one);
+  }
+
+  template <class T>
+  void add(const std::optional<T>& one) {
+    add(one.has_value());
+    if (one) add(*one);
   }
 
   template <class T>
