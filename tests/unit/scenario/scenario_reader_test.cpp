@@ -619,7 +619,7 @@ TEST(ScenarioReader, AStepAboutAPlcOfASystemAsksTheStationThatItsFileGivesIt) {
     return dynamic_cast<const ExchangeStep&>(*s.steps[0].action).request[0].byte;
   };
   EXPECT_EQ(asked("steps:\n  - {read: holding 0, on: far}\n"), 20);
-  EXPECT_EQ(asked("on: far\nsteps:\n  - {write: coil 0, value: 1}\n"), 20);
+  EXPECT_EQ(asked("on: far\nsteps:\n  - {write: coils 0, value: 1}\n"), 20);
   EXPECT_EQ(asked("on: far\nsteps:\n  - {read: holding 0, station: 7}\n"), 7) << "the step says so itself";
   EXPECT_EQ(asked("station: 9\non: far\nsteps:\n  - {read: holding 0}\n"), 9) << "and so does the scenario";
   EXPECT_EQ(asked("on: bus\nsteps:\n  - {read: holding 0}\n"), 1) << "a line is no PLC";
