@@ -1378,6 +1378,11 @@ class PpiTests(Case):
             body = bytes.fromhex("02006c 3201 0000 0001 0014 0000 28 00 00 00 00 00 00 fd 00 00 09") + b"P_PROGRAM"
             connection.sendall(bytes([0x68, len(body), len(body), 0x68]) + body + bytes([sum(body) & 0xFF, 0x16]))
             self.assertEqual(connection.recv(1), accepted)
+            answer = accepted
+            while answer == accepted:  # RUN takes effect when its answer has been fetched
+                connection.sendall(bytes.fromhex("1002005c5e16"))
+                answer = connection.recv(1)
+            self.assertEqual(answer, b"\x68")
         deadline = time.monotonic() + LONG
         while running.said().count("the CPU went to STOP") < 2:
             self.assertLess(time.monotonic(), deadline, "it has run, and stopped itself once more")

@@ -2902,7 +2902,7 @@ class Times(Case):
         csv = self.ends(FINE, "times", "--csv").stdout
         piped = lambda *arguments: self.ends(FINE, *arguments, "--times", "/dev/stdin", stdin=None, input=csv).stdout
         by_name = self.ends(FINE, "times", "--times", "cpu214", "--band-table", "1").stdout
-        self.assertEqual(piped("times", "--band-table", "1"), by_name.replace("around cpu214", "around /dev/stdin", 1))
+        self.assertEqual(piped("times", "--band-table", "1"), by_name.replace("cpu214", "/dev/stdin", 2))
         for verb in (["send", SLAVE, "--crc", "0103000a0002"], ["master", SLAVE, "read", "40011"]):
             self.assertIn("of 4 tables", piped(*verb, "--times-band", "3"))
 

@@ -98,10 +98,8 @@ void add_bench(CLI::App& app, int& exit_code) {
   verb->add_option("--against", options->against, "an earlier result of --json: how many times as fast it is now")
       ->type_name("FILE");
   verb->add_flag("--json", options->json, "print as JSON");
-  auto* save =
-      verb->add_option("--save-programs", options->save,
-                       "only write the mixed programs, for a CPU 226XM, and long listings to DIR, which is made: to "
-                       "measure whole\nprocesses in pairs");
+  auto* save = verb->add_option("--save-programs", options->save,
+                                "only write the mixed programs, for a CPU 226XM, and long listings to DIR, which is made");
   save->type_name("DIR");
   for (const char* const of_measuring : {"PROGRAM", "--against", "--json"}) save->excludes(verb->get_option(of_measuring));
   verb->footer(
