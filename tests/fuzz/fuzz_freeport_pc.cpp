@@ -3,14 +3,11 @@
 // right check code; memory that a PC cannot reach stays as it is; after a quiet line a good read has its answer. A command
 // has one form, and an answer that is right has what it is to have.
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
-#include "interpreter/program/load.hpp"
 #include "serial_sim/pc_protocol/answer.hpp"
 #include "serial_sim/pc_protocol/command.hpp"
-#include "serial_sim/system/simulation.hpp"
+#include "tests/fuzz/slave.hpp"
 #include "tests/support/source_path.hpp"
 
 namespace s7200 {
@@ -22,32 +19,6 @@ using Data = std::span<const std::uint8_t>;
 constexpr std::uint8_t kStation = 2;
 constexpr std::uint32_t kStationByte = 4900, kLimitWord = 4902;  // in V memory, of the slave
 constexpr Time kQuiet = 400 * kMillisecond;                      // its message that breaks off has ended, and its answer
-
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
-
-class Input {
- public:
-  explicit Input(Data bytes) : bytes_(bytes) {}
-
-  bool empty() const { return bytes_.empty(); }
-  std::uint8_t byte() {
-    const std::uint8_t first = empty() ? std::uint8_t{0} : bytes_[0];
-    bytes_ = bytes_.subspan(empty() ? 0 : 1);
-    return first;
-  }
-  Bytes bytes(std::size_t count) {
-    Bytes all;
-    while (count-- > 0 && !empty()) all.push_back(byte());
-    return all;
-  }
-
- private:
-  Data bytes_;
-};
 
 /// What the slave sends, answer by answer.
 class Answers final : public TraceSink {
@@ -85,11 +56,9 @@ void check_judgement(Data command, Data response) {
 
 class Slave {
  public:
-  Slave() : simulation_(program()) {
+  Slave() : simulation_(program_at(test::source_path("stl_programs/freeport_host_slave.stl"), "224")) {
     simulation_.cpu().set_sink(&answers_);
-    simulation_.power_up();
-    require(simulation_.run_until_ready(200 * kMillisecond, 10 * kSecond), "the slave gets ready");
-    simulation_.configure_master(simulation_.cpu().state().port[0].format);
+    get_ready(simulation_);
     ready_ = simulation_.snapshot();
   }
 
@@ -102,18 +71,6 @@ class Slave {
   }
 
  private:
-  static std::shared_ptr<const Program> program() {
-    std::string why;
-    const std::string path = test::source_path("stl_programs/freeport_host_slave.stl");
-    const auto bytes = read_file(path, why);
-    auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
-    require(text.has_value(), "the program can be read");
-    const CpuModel& model = *find_cpu("224");
-    const auto result = check(std::move(text->parsed), model, default_times(model));
-    require(result.program != nullptr, "the program has no errors");
-    return result.program;
-  }
-
   void step(Input& input) {
     switch (input.byte() % 4) {
       case 0:
@@ -136,7 +93,7 @@ class Slave {
     Command command{.type = (how & 1) != 0 ? pc_protocol::Type::Write : pc_protocol::Type::Read,
                     .station = (how & 2) != 0 ? input.byte() : kStation,
                     .address = {.area = (how & 4) != 0 ? pc_protocol::Area::Q : pc_protocol::Area::V,
-                                .number = static_cast<std::uint16_t>(input.byte() * 256U + input.byte())},
+                                .number = static_cast<std::uint16_t>(input.word())},
                     .data = {}};
     if (command.type == pc_protocol::Type::Write) command.data = input.bytes(1 + input.byte() % pc_protocol::kMostBytes);
     return pc_protocol::to_bytes(command);

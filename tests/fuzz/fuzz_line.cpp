@@ -1,13 +1,11 @@
 // Whatever comes in on the line of the running slave: it stays in RUN, its answers carry its address and a right CRC, and
 // after a quiet line a good request is answered. The input is read as a list of frames and faults; a fault that comes as
 // text goes through parse_fault. S7200_FUZZ_PROGRAM names another slave than ours.
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
-#include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
-#include "serial_sim/system/simulation.hpp"
+#include "tests/fuzz/slave.hpp"
 #include "tests/support/source_path.hpp"
 
 namespace s7200 {
@@ -18,12 +16,6 @@ using serial::FaultKind;
 
 constexpr std::uint8_t kStation = 1;
 constexpr Time kLongest = 100 * kMillisecond;  // of a gap, a break …: what goes beyond only takes time
-
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
 
 /// What the slave sends, answer by answer.
 class Answers final : public TraceSink {
@@ -45,31 +37,11 @@ class Answers final : public TraceSink {
   Bytes sent_;
 };
 
-class Input {
- public:
-  Input(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
-
-  bool empty() const { return left_ == 0; }
-  std::uint8_t byte() { return left_ == 0 ? std::uint8_t{0} : (--left_, *data_++); }
-  std::uint32_t word() { return byte() * 256U + byte(); }
-  Bytes bytes(std::size_t count) {
-    Bytes all;
-    while (count-- > 0 && !empty()) all.push_back(byte());
-    return all;
-  }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t left_;
-};
-
 class Slave {
  public:
   Slave() : simulation_(program()) {
     simulation_.cpu().set_sink(&answers_);
-    simulation_.power_up();
-    require(simulation_.run_until_ready(200 * kMillisecond, 10 * kSecond), "the slave gets ready");
-    simulation_.configure_master(simulation_.cpu().state().port[0].format);
+    get_ready(simulation_);
     ready_ = simulation_.snapshot();
   }
 
@@ -86,14 +58,7 @@ class Slave {
   static std::shared_ptr<const Program> program() {
     const char* const named = std::getenv("S7200_FUZZ_PROGRAM");
     const std::string path = named ? named : test::source_path("stl_programs/modbus_slave.stl");
-    std::string why;
-    const auto bytes = read_file(path, why);
-    auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
-    require(text.has_value(), "the program can be read");
-    const CpuModel& model = *find_cpu("214");
-    const auto result = check(std::move(text->parsed), model, default_times(model));
-    require(result.program != nullptr, "the program has no errors");
-    return result.program;
+    return program_at(path, "214");
   }
 
   void step(Input& input) {
@@ -193,6 +158,6 @@ class Slave {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static s7200::Slave slave;
-  slave.run(s7200::Input(data, size));
+  slave.run(s7200::Input({data, size}));
   return 0;
 }
