@@ -297,6 +297,15 @@ test("tasks run the command with the problem matcher", () => {
   assert.equal(check.args[5], "$s7200");
 });
 
+test("a task gives full paths, as the problem matcher wants them", () => {
+  const { tasks } = stand_in();
+  const file_of = (file) => tasks.resolveTask({ definition: { type: "s7200", verb: "check", file } }).args[4].args[1][1];
+  assert.equal(manifest.contributes.problemMatchers[0].fileLocation, "absolute");
+  assert.equal(file_of("a.stl"), "${workspaceFolder}/a.stl");
+  assert.equal(file_of("/b/a.stl"), "/b/a.stl");
+  assert.equal(file_of("${file}"), "${file}");
+});
+
 // --- the package ---
 
 test("the package has what VS Code needs and nothing else", () => {

@@ -2,6 +2,7 @@
 // for requests that the Debug Adapter Protocol has not. Everything else is done by the command s7200.
 "use strict";
 const { execFile } = require("node:child_process");
+const path = require("node:path");
 const vscode = require("vscode");
 
 const TYPE = "s7200";
@@ -82,9 +83,12 @@ const operands = {
   },
 };
 
+// The problem matcher takes full paths: for others VS Code looks for the file, problem by problem, and it stops 100 ms after the task.
+const in_workspace = (file) => (path.isAbsolute(file) || file.startsWith("${") ? file : `\${workspaceFolder}/${file}`);
+
 function task(definition) {
   const { verb, file } = definition;
-  const execution = new vscode.ProcessExecution(command(), [verb, file, ...(definition.arguments || [])]);
+  const execution = new vscode.ProcessExecution(command(), [verb, in_workspace(file), ...(definition.arguments || [])]);
   return new vscode.Task(definition, vscode.TaskScope.Workspace, `${verb} ${file}`, TYPE, execution, "$s7200");
 }
 
