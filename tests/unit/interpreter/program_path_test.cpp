@@ -11,7 +11,9 @@ class Ways final : public TraceSink {
  public:
   explicit Ways(const Program& program) : path_(program) {}
   void record(const TraceRecord& record) override { keep(path_.of(record)); }
-  void instruction(const InstructionRecord& record) override { keep(path_.of(record)); }
+  void instruction(const InstructionRecord& record) override {
+    if (const std::string* way = path_.of(record)) keep(*way);
+  }
   bool wants_instructions() const override { return true; }
 
   std::vector<std::string> all;
