@@ -55,6 +55,13 @@ TEST(ProgramPath, WhatAlternatesIsTheSameWay) {
   EXPECT_EQ(ways_of("NETWORK 1\nLDN M0.0\n= M0.0\nNETWORK 2\nLD SM0.0\nINCW VW0\nMEND\n").size(), 2U);
 }
 
+TEST(ProgramPath, AWayThatIsTakenAgainLaterIsToldAgain) {
+  EXPECT_EQ(ways_of("NETWORK 1\nLD SM0.0\nINCW VW0\nNETWORK 2\nLDW= VW0, 4\nOW= VW0, 8\nOW= VW0, 16\nINCW VW2\n"
+                    "NETWORK 3\nLDW= VW0, 12\nINCW VW4\nMEND\n"),
+            (Texts{"main program: network 1", "main program: networks 1-2", "main program: networks 1-2",
+                   "main program: networks 1, 3", "main program: networks 1-2"}));
+}
+
 TEST(ProgramPath, TwoScansThatDoOtherThingsInTheSameNetworksGoTheSameWay) {
   EXPECT_EQ(ways_of("NETWORK 1\nLDN I0.0\nINCW VW0\nLD I0.0\nDECW VW0\nMEND\n"), Texts{"main program: network 1"});
 }
