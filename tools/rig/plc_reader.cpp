@@ -54,13 +54,12 @@ class PlcReader {
       PlcPlan& each = plan().plcs.emplace_back();
       each.name = name;
       if (station) each.address = static_cast<std::uint8_t>(*station + copy);
-      if (!model) continue;
+      if (!model || values_.complaints.count() > before) continue;  // the other copies would say the same
       each.program = read_program(plc, *model, station ? std::optional(*station + copy) : std::nullopt);
       if (each.program) each.program = with_system_block(*each.program, block);
       if (each.program) read_settings(map, each, copy, copies > 1);
       if (map.find("ppi_station"))
         for (std::uint8_t& ppi_station : block.ppi_stations) ++ppi_station;
-      if (values_.complaints.count() > before) return;  // the others would say the same
     }
   }
 
