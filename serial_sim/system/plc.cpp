@@ -119,7 +119,7 @@ void Plc::power_on(Time at) {
   powered_ = true;
   executed_before_ = executed();
   const s7200::State before = cpu_.state();
-  cpu_.power_up(true, &memory, at);
+  cpu_.power_up((before.image[sm::kScanStatus] & sm::kModeSwitchRun) != 0, &memory, at);
   // The field's levels do not depend on the PLC's power.
   for (std::uint32_t byte = 0; byte < before.terminals.size(); ++byte) cpu_.set_input(byte, before.terminals[byte], at);
   if (before.analog_terminals != s7200::State{}.analog_terminals) cpu_.poke(image::kAI, before.analog_terminals);

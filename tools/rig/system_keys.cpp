@@ -57,7 +57,7 @@ const std::array kKeys{
     SystemKey{Where::Plc, "station", "NUMBER", kept(fmt::format("address on the line, 1 to {}: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do", modbus::kLastStation))},
     SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
     SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
-    SystemKey{Where::Plc, "input", "PATH", "inputs over time, I, AIW and the potentiometers SMB28 and SMB29: CSV in the format of `s7200 run --input`"},
+    SystemKey{Where::Plc, "input", "PATH", "inputs over time, I, AIW, the potentiometers SMB28 and SMB29 and the mode switch SM0.7: CSV in the format of `s7200 run --input`"},
     SystemKey{Where::Plc, "clock", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
     SystemKey{Where::Plc, "starts", "TIME", "when it is powered up, `0s` if left out; of `copies` each as much later than the one before, so that they are not in step"},
     SystemKey{Where::Plc, "memory", "PATH", "retentive memory, EEPROM and clock: read at the start if it exists, written at the end"},
@@ -104,7 +104,7 @@ const std::array kKeys{
 
     SystemKey{Where::Event, "at", "TIME", "since the start; beside one of the following"},
     SystemKey{Where::Event, "power_off", "NAME", "a PLC or a peer loses power: it falls silent in the middle of a character and keeps what a real one keeps"},
-    SystemKey{Where::Event, "power_on", "NAME", "its power comes back; a PLC begins anew in RUN, a master at its first request"},
+    SystemKey{Where::Event, "power_on", "NAME", "its power comes back; a PLC begins anew in RUN, or stays in STOP if its mode switch, SM0.7, is in TERM, a master at its first request"},
     SystemKey{Where::Event, "cut", "LINE", "the cable is cut: both parts go on without each other"},
     SystemKey{Where::Event, "after", "NAME", "beside `cut`: the last station on the first part, in the order of `stations`"},
     SystemKey{Where::Event, "mend", "LINE", "the cable is whole again"},

@@ -231,6 +231,18 @@ TEST(SystemRig, ASlaveThatIsSwitchedOffIsSilentAndAnswersWhenItIsOnAgain) {
   EXPECT_EQ(rig->plc(1).cpu().state().error_count, 0U);
 }
 
+TEST(SystemRig, APlcWhoseModeSwitchIsInTermStaysInStopWhenItsPowerComesBack) {
+  const auto rig = rig_of(kThreeSlaves +
+                          "events: [{at: 1s, set: {SM0.7: 0}, plc: slave2}, {at: 2s, power_off: slave2}, {at: 2s, power_off: slave3},\n"
+                          "  {at: 3s, power_on: slave2}, {at: 3s, power_on: slave3}]\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(1900 * kMillisecond);
+  EXPECT_EQ(rig->plc(1).cpu().state().mode, Mode::Run) << "TERM lets it run on";
+  rig->system().run_until(4 * kSecond);
+  EXPECT_EQ(rig->plc(1).cpu().state().mode, Mode::Stop);
+  EXPECT_EQ(rig->plc(2).cpu().state().mode, Mode::Run);
+}
+
 TEST(SystemRig, NothingIsSetInAPlcWithoutPower) {
   const auto rig = rig_of(kThreeSlaves +
                           "events:\n"
