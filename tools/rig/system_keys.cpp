@@ -59,6 +59,7 @@ const std::array kKeys{
     SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
     SystemKey{Where::Plc, "input", "PATH", "inputs over time, I, AIW, the potentiometers SMB28 and SMB29 and the mode switch SM0.7: CSV in the format of `s7200 run --input`"},
     SystemKey{Where::Plc, "clock", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
+    SystemKey{Where::Plc, "clock_error", "NUMBERppm", "how far its crystal is off, `50ppm` is too fast: all that it counts by its clock, and its scans as a whole, but not the bits of its ports, of which a fault `baud` is, and not PTO and PWM; `0ppm` if left out, from -1000ppm to 1000ppm"},
     SystemKey{Where::Plc, "starts", "TIME", "when it is powered up, `0s` if left out; of `copies` each as much later than the one before, so that they are not in step"},
     SystemKey{Where::Plc, "memory", "PATH", "retentive memory, EEPROM and clock: read at the start if it exists, written at the end"},
     SystemKey{Where::Plc, "trace", "PATH", "interrupts, characters, attachments and errors are written there"},

@@ -89,6 +89,7 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"plcs: {a: {program: ../modbus_slave.stl, times: none.csv}}\n", 1, 49, "cannot read "},
       {"plcs: {a: {program: ../modbus_slave.stl, clock: noon}}\n", 1, 49,
        "'noon' is not a date and time between 1990 and 2089"},
+      {"plcs: {a: {program: ../modbus_slave.stl, clock_error: 50}}\n", 1, 55, "'50' is not from -1000ppm to 1000ppm"},
       {"plcs: {a: {program: ../modbus_slave.stl, trace_instructions: true}}\n", 1, 62, "there is no 'trace'"},
       {slave + "peers: {a: {polls: [{read: 40001}]}}\n", 2, 9, "two stations are called 'a', the first in line 1"},
       {"peers: {m: {}}\n", 1, 9, "'m' is neither a master nor another PLC"},
