@@ -333,6 +333,17 @@ class PtyTests(Case):
                 port.set()
                 self.assertEqual(port.ask(), ANSWER)
 
+    def test_characters_at_another_rate_are_counted_and_said_at_the_end(self):
+        running = self.serve()
+        port = self.open()
+        self.assertEqual(port.ask(), ANSWER)
+        port.set(baud=termios.B4800)
+        port.write(READ)
+        self.assertEqual(port.read(1, SILENCE * 2), b"")
+        running.end()
+        self.assertRegex(running.said(), r"port 0 received \d+ characters with framing errors: whoever sent them is not set "
+                                         r"to 9600 baud 8E1 like the port")
+
     def test_what_a_client_may_set_without_harm(self):
         self.serve()
         port = self.open()

@@ -308,6 +308,19 @@ TEST(SystemRig, AStationAtTheWrongRateIsNotUnderstoodAndComesBack) {
   EXPECT_EQ(right_rate.answered, 12U);
 }
 
+TEST(SystemRig, APortCountsTheCharactersWithFramingErrorsThatItReceives) {
+  const auto rig = rig_of(kThreeSlaves + "events: [{at: 1500ms, plc: slave2, set: {SMB30: 16#45}}]\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(1500 * kMillisecond);
+  EXPECT_EQ(rig->plc(1).framing_errors(), 0U);
+  const serial::System::Snapshot before = rig->system().snapshot();
+  rig->system().run_until(3 * kSecond);
+  EXPECT_GT(rig->plc(1).framing_errors(), 0U) << "it is at 19200 baud, the master at 9600";
+  EXPECT_EQ(rig->plc(0).framing_errors(), 0U);
+  rig->system().restore(before);
+  EXPECT_EQ(rig->plc(1).framing_errors(), 0U);
+}
+
 TEST(SystemRig, AFaultFromAnInstantOnIsThereUntilItIsCleared) {
   const auto rig = rig_of(kThreeSlaves +
                           "events: [{at: 2240ms, line: bus, fault: \"noise:ber=0.2\"}, {at: 3240ms, clear_faults: bus}]\n");
