@@ -17,7 +17,7 @@ Plc::Port::Port(Plc& of, std::uint8_t its_number, SharedLine& shared_line, Dispa
       tap(line.line(), uart.driver()) {
   uart.enable_receiver(false, 0);
   uart.set_bystander(this);
-  line.faults().add_plc(uart);
+  line.add_plc(uart);
 }
 
 void Plc::Port::configure(const SerialFormat& format, Time at) {

@@ -189,6 +189,20 @@ TEST(SystemRig, TwoMastersWithEqualTimeOutsRecoverWhenTheirClocksHaveDriftedApar
   EXPECT_GT(apart.answers, 100U) << "and recovered";
 }
 
+TEST(SystemRig, TheRequestOfAMasterProgramIsNoAnswerToAnotherMaster) {
+  const auto rig = rig_of(
+      "plcs:\n"
+      "  master: {program: ../modbus_master.stl, cpu: 224, set: {I0.2: 1, VB3840: 1}}\n"
+      "  slave: {program: ../modbus_slave.stl, station: 5}\n"
+      "peers: {panel: {polls: [{station: 9, read: 40001}], timeout: 310ms}}\n"
+      "lines: {bus: {stations: [master, slave, panel]}}\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(10 * kSecond);
+  EXPECT_GT(double_word(*rig, 0, 3846), 1U) << "the program asks station 1, which is not there";
+  EXPECT_GT(rig->poller(0)->state().asked, 10U);
+  EXPECT_EQ(rig->poller(0)->state().answered, 0U);
+}
+
 TEST(SystemRig, APlcThatStartsLaterHasItsFirstScanThen) {
   const auto rig = rig_of(
       "plcs: {a: {program: ../edge_counter.stl, copies: 2, starts: 37ms, set: {VW20: 5}}}\nlines: {bus: {stations: [a]}}\n");
