@@ -60,11 +60,13 @@ void set(Core& core, const ClockTime& to) {
   core.s.clock_set_at = core.s.time;
 }
 
-ClockTime now(const Core& core) { return advanced(core.s.clock, (core.s.time - core.s.clock_set_at) / kSecond); }
+ClockTime now(const Core& core) {
+  return advanced(core.s.clock, (core.s.time - core.s.clock_set_at) / core.by_own_clock(kSecond));
+}
 
 Time next_second(const Core& core) {
-  const Time begin = core.s.clock_set_at;
-  return begin + ((core.s.time - begin) / kSecond + 1) * kSecond;
+  const Time begin = core.s.clock_set_at, second = core.by_own_clock(kSecond);
+  return begin + ((core.s.time - begin) / second + 1) * second;
 }
 
 Bcd bcd_now(const Core& core) {
@@ -101,7 +103,7 @@ void write(Core& core, std::uint32_t buffer) {
 
 /// The clock has run on while power was off.
 void power_up(Core& core, const RetentiveMemory* memory) {
-  if (memory && !memory->ram_lost) set(core, advanced(memory->clock, memory->power_off / kSecond));
+  if (memory && !memory->ram_lost) set(core, advanced(memory->clock, memory->power_off / core.by_own_clock(kSecond)));
 }
 
 }  // namespace s7200::clock

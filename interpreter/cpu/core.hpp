@@ -3,6 +3,11 @@
 // An instruction sees the world as it was at its start. The clock is already at its end, so what it does to the outside
 // happens at its end.
 //
+// Not documented, modelled so: how far the clock of a real CPU is off; it is exact unless a clock error is set. With one,
+// all that the CPU counts by its clock is off: timers, timed interrupts, the times of RCV and NETR, the watchdog, clock bits
+// and time of day. Instructions take their nominal times, and the system's part of the next scan makes up for the
+// difference. The bits of its ports and the pulses of PTO and PWM stay nominal. [ClockError.AllThatCountsMillisecondsIsOff,
+// ClockError.ScansAreOffAsAWhole]
 // Not documented, modelled so: SM4.3 stays 1 until the next change to RUN. [Choices.SM43StaysUntilTheNextRun]
 #pragma once
 
@@ -122,6 +127,13 @@ class Core {
   /// Makes the loop look for other work before the next instruction.
   void attend() { loop.until = 0; }
 
+  // --- its clock ---
+
+  /// How far the crystal is off, in millionths; positive: it is too fast. Of this piece of hardware, so it is no state.
+  void set_clock_error(std::int32_t millionths) { clock_error_ = millionths; }
+  /// How long that takes by the CPU's clock which takes `nominal` by an exact one.
+  Time by_own_clock(Time nominal) const { return nominal - nominal * clock_error_ / 1'000'000; }
+
   // --- the outside ---
 
   /// Wakes the unit that `what` belongs to (UnitEvent). Each is pending at most once.
@@ -164,6 +176,7 @@ class Core {
   Ports port_;
   TraceSink* sink_ = nullptr;
   OutputListener* output_listener_ = nullptr;
+  std::int32_t clock_error_ = 0;
 };
 
 template <class Value>

@@ -68,6 +68,9 @@ class Cpu {
   /// Sets an input byte; edges of I0.0–I0.3 are events 0–7, and the high-speed counters count.
   void set_input(std::uint32_t byte, std::uint8_t value, Time at);
 
+  /// How far its crystal is off, in millionths; positive: it is too fast. Before it is powered up.
+  void set_clock_error(std::int32_t millionths) { core_.set_clock_error(millionths); }
+
   /// The time of day.
   void set_clock(const ClockTime& to);
   ClockTime clock() const;

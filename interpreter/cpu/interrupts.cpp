@@ -38,7 +38,7 @@ void attach(Core& core, std::uint8_t event, std::uint8_t routine) {
     const std::uint8_t timer = event - event::kTimed0;
     interval = std::max(core.s.image[sm::kTimedInterval[timer]] * kMillisecond, core.model().shortest_timed_interval);
     core.s.timed_interval[timer] = interval;
-    core.schedule(core.s.time + interval, kTimedInterrupt0 + timer);
+    core.schedule(core.s.time + core.by_own_clock(interval), kTimedInterrupt0 + timer);
     core.attend();
   }
   core.trace({.at = core.s.time,
@@ -173,7 +173,7 @@ void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time a
 /// A timed interrupt is due.
 void handle(Core& core, std::uint8_t what, Time at) {
   const auto timer = static_cast<std::uint8_t>(what - kTimedInterrupt0);
-  core.schedule(at + core.s.timed_interval[timer], what);
+  core.schedule(at + core.by_own_clock(core.s.timed_interval[timer]), what);
   occurred(core, static_cast<std::uint8_t>(event::kTimed0 + timer), at);
 }
 

@@ -15,8 +15,9 @@ using Phase = MessageReceiver::Phase;
 std::uint8_t timer_of(std::uint8_t port) { return static_cast<std::uint8_t>(kMessageTimer0 + port); }
 
 void start_timer(Core& core, std::uint8_t port, Time from, Time duration) {
-  const Time passed = (from + duration + kMillisecond - 1) / kMillisecond * kMillisecond;
-  const Time next_tick = (from / kMillisecond + 1) * kMillisecond;
+  const Time tick = core.by_own_clock(kMillisecond);
+  const Time passed = (from + core.by_own_clock(duration) + tick - 1) / tick * tick;
+  const Time next_tick = (from / tick + 1) * tick;
   core.schedule(std::max(passed, next_tick), timer_of(port));
 }
 

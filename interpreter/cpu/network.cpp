@@ -84,7 +84,7 @@ void send(Core& core, std::uint8_t number, std::uint8_t function, const Bytes& d
   const Bytes frame = ppi::to_frame({core.s.network[number].jobs.front().station, core.s.station[number], function, data});
   ppi::send(core, number, frame, at);
   const Time end = at + static_cast<Time>(frame.size()) * ppi::format_of(core.program(), number).character_time();
-  core.schedule(end + kReplyTimeout, timer_of(number));
+  core.schedule(end + core.by_own_clock(kReplyTimeout), timer_of(number));
 }
 
 void ask(Core& core, std::uint8_t number, Time at) {

@@ -15,35 +15,36 @@
 namespace s7200::scan {
 namespace {
 
-constexpr Time kHalfSecond = kSecond / 2;
-
-std::uint8_t clock_bits(Time time) {
-  const bool one_second = (time / kHalfSecond) % 2 == 0;
-  const bool one_minute = (time / (30 * kSecond)) % 2 == 0;
+std::uint8_t clock_bits(const Core& core, Time time) {
+  const bool one_second = (time / core.by_own_clock(kSecond / 2)) % 2 == 0;
+  const bool one_minute = (time / core.by_own_clock(30 * kSecond)) % 2 == 0;
   return static_cast<std::uint8_t>((one_minute ? sm::kClock1min : 0) | (one_second ? sm::kClock1s : 0));
 }
 
-std::uint16_t whole_milliseconds(Time time) {
-  return static_cast<std::uint16_t>(std::min<Time>(time / kMillisecond, 0xFFFF));
+std::uint16_t whole_milliseconds(const Core& core, Time time) {
+  return static_cast<std::uint16_t>(std::min<Time>(time / core.by_own_clock(kMillisecond), 0xFFFF));
 }
 
-void update_clocks(State& s, Time at) {
+void update_clocks(const Core& core, State& s, Time at) {
+  const Time half_second = core.by_own_clock(kSecond / 2);
   std::uint8_t& status = s.image[sm::kScanStatus];
-  status = static_cast<std::uint8_t>((status & ~(sm::kClock1min | sm::kClock1s)) | clock_bits(at));
-  s.next_clock = (at / kHalfSecond + 1) * kHalfSecond;
+  status = static_cast<std::uint8_t>((status & ~(sm::kClock1min | sm::kClock1s)) | clock_bits(core, at));
+  s.next_clock = (at / half_second + 1) * half_second;
 }
 
 /// SMB0 is updated at the end of each scan (S7-200 manual, SMB0): SM0.1–SM0.3 last one scan, SM0.6 alternates.
-void update_status(State& s) {
+void update_status(Core& core) {
+  State& s = core.s;
   std::uint8_t& status = s.image[sm::kScanStatus];
   constexpr std::uint8_t kOneScan = sm::kFirstScan | sm::kRetentiveLost | sm::kFromPowerUp;
   status = static_cast<std::uint8_t>((status & ~kOneScan) ^ sm::kAlternatingScan);
-  if (s.time >= s.next_clock) update_clocks(s, s.time);
+  if (s.time >= s.next_clock) update_clocks(core, s, s.time);
 }
 
-void update_times(State& s) {
+void update_times(Core& core) {
+  State& s = core.s;
   const Time scan = s.time - s.scan_begin;
-  const std::uint16_t last = whole_milliseconds(scan);
+  const std::uint16_t last = whole_milliseconds(core, scan);
   store16(&s.image[sm::kLastScan], last);
   if (scan < s.shortest_scan) {
     s.shortest_scan = scan;
@@ -58,12 +59,14 @@ void update_times(State& s) {
 void end(Core& core) {
   if (core.s.mode == Mode::Run) {
     ++core.s.scans;
-    update_status(core.s);
-    update_times(core.s);
+    update_status(core);
+    update_times(core);
     if (core.s.stop_after_scan) enter_stop(core);
     core.loop.paused = core.loop.pause_at_scan_end;
   }
+  const Time scan = core.s.time - core.s.scan_begin;
   begin(core);
+  core.s.phase_left = std::max<Time>(core.s.phase_left + core.by_own_clock(scan) - scan, 0);
 }
 
 void begin_phase(Core& core, Phase phase, Program::ScanPart part) {
@@ -160,7 +163,7 @@ void enter_run(Core& core) {
   constexpr std::uint8_t kKept = sm::kRetentiveLost | sm::kFromPowerUp | sm::kModeSwitchRun;
   std::uint8_t& status = s.image[sm::kScanStatus];
   status = static_cast<std::uint8_t>((status & kKept) | sm::kAlwaysOn | sm::kFirstScan);
-  update_clocks(s, s.time);
+  update_clocks(core, s, s.time);
   for (const Op& op : core.program().ops)
     if (op.instruction->hidden == Hidden::LoopMemory) core.put_bit(op[2].at, op[2].bit, true);
   core.trace({.at = s.time, .kind = TraceKind::ModeChange, .code = 1});
@@ -197,7 +200,7 @@ void begin(Core& core) {
   State& s = core.s;
   begin_phase(core, Phase::ReadInputs, Program::kReadInputs);
   s.scan_begin = s.time;
-  s.watchdog = s.mode == Mode::Run ? s.time + core.model().watchdog : kNever;
+  s.watchdog = s.mode == Mode::Run ? s.time + core.by_own_clock(core.model().watchdog) : kNever;
   if (core.sink()) core.trace({.at = s.time, .kind = TraceKind::ScanBegin, .count = s.scans + 1});
 }
 
@@ -206,9 +209,9 @@ void advance(Core& core) {
   while (core.s.phase != Phase::Program && core.s.time < core.loop.until && !core.loop.paused);
 }
 
-void pass(State& s, Time by) {
+void pass(const Core& core, State& s, Time by) {
   s.scan_begin += by;  // and the end of the scan before, when the clock bits were looked at
-  if (s.scan_begin >= s.next_clock) update_clocks(s, s.scan_begin);
+  if (s.scan_begin >= s.next_clock) update_clocks(core, s, s.scan_begin);
 }
 
 void end_main_program(Core& core) {
@@ -224,7 +227,7 @@ void stop(Core& core) {
 }
 
 void reset_watchdog(Core& core) {
-  core.s.watchdog = core.s.time + core.model().watchdog;
+  core.s.watchdog = core.s.time + core.by_own_clock(core.model().watchdog);
   core.attend();
 }
 

@@ -28,7 +28,7 @@ void begin(Core& core);
 void advance(Core& core);
 
 /// What goes on by itself over scans that are all alike.
-void pass(State& s, Time by);
+void pass(const Core& core, State& s, Time by);
 
 /// END and MEND.
 void end_main_program(Core& core);

@@ -52,14 +52,14 @@ void SteadyScans::use(SteadyScansUse use) {
   expected_.reset();
 }
 
-void SteadyScans::move_on(const Program& program, State& s, std::uint64_t pairs) const {
+void SteadyScans::move_on(const Core& core, State& s, std::uint64_t pairs) const {
   const Time by = static_cast<Time>(pairs) * length_;
   s.time += by;
   s.watchdog += by;
   s.scans += 2 * pairs;
   s.instructions += pairs * instructions_;
-  scan::pass(s, by);
-  timers::pass(program, s, by, second_);
+  scan::pass(core, s, by);
+  timers::pass(core, s, by, second_);
 }
 
 Time SteadyScans::go_on(Core& core, Time limit) {
@@ -111,7 +111,7 @@ void SteadyScans::end_look(const Core& core) {
   length_ = core.s.time - before_->time;
   second_ = core.s.previous_scan_begin - middle_;
   instructions_ = core.s.instructions - before_->instructions;
-  move_on(core.program(), *before_, 1);
+  move_on(core, *before_, 1);
   if (*before_ == core.s) {
     known_ = Known::Pair;
     stake_ = std::max(stake_ / 2, kLeastStake);
@@ -133,10 +133,10 @@ Time SteadyScans::pass(Core& core, Time horizon) {
   if (pairs == 0 || expected_) return 0;
   if (use_ == SteadyScansUse::Check) {
     expected_ = std::make_unique<State>(core.s);
-    move_on(core.program(), *expected_, pairs);
+    move_on(core, *expected_, pairs);
     return 0;
   }
-  move_on(core.program(), core.s, pairs);
+  move_on(core, core.s, pairs);
   passed_ += core.s.time - before;
   return core.s.time - before;
 }

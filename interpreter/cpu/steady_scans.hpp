@@ -65,7 +65,7 @@ class SteadyScans {
   void end_look(const Core& core);
   Time pass(Core& core, Time horizon);
   void check(const Core& core);
-  void move_on(const Program& program, State& s, std::uint64_t pairs) const;
+  void move_on(const Core& core, State& s, std::uint64_t pairs) const;
 
   SteadyScansUse use_ = kUsualUse;
   Known known_ = Known::Nothing;

@@ -9,9 +9,10 @@ namespace s7200::timers {
 namespace {
 
 /// Ticks of a time base in a scan. Ticks beyond 25 s are lost (A5E00066097-02, 9-146).
-std::int64_t ticks(Time base, Time from, Time to) {
+std::int64_t ticks(const Core& core, Time base, Time from, Time to) {
   constexpr Time kLongest = 25 * kSecond;
-  return std::min(to / base - from / base, kLongest / base);
+  const Time tick = core.by_own_clock(base);
+  return std::min(to / tick - from / tick, kLongest / base);
 }
 
 void put_bit(State& s, std::uint32_t timer, bool value) {
@@ -43,7 +44,8 @@ Time enabled_since(const TimerState& before, bool enabled, Time now) {
 }
 
 void await_tick_1ms(Core& core, Time from) {
-  core.s.next_tick_1ms = (from / kMillisecond + 1) * kMillisecond;
+  const Time tick = core.by_own_clock(kMillisecond);
+  core.s.next_tick_1ms = (from / tick + 1) * tick;
   core.schedule(core.s.next_tick_1ms, kTick1ms);
   core.attend();
 }
@@ -114,9 +116,9 @@ void count_scan(Core& core) {
   State& s = core.s;
   const Time from = s.previous_scan_begin, to = s.time;
   s.previous_scan_begin = to;
-  s.ticks_100ms = static_cast<std::int16_t>(ticks(100 * kMillisecond, from, to));
+  s.ticks_100ms = static_cast<std::int16_t>(ticks(core, 100 * kMillisecond, from, to));
   for (const std::uint8_t timer : core.program().timers_10ms)
-    if (s.timer[timer].enabled) add_ticks(s, timer, ticks(10 * kMillisecond, from, to));
+    if (s.timer[timer].enabled) add_ticks(s, timer, ticks(core, 10 * kMillisecond, from, to));
 }
 
 Time next_change(const Core& core) {
@@ -131,20 +133,22 @@ Time next_change(const Core& core) {
       // One of 100 ms that is off after the program may have been on in it, and have counted when it was executed.
       if (!timer.enabled && !(every_tick && base == 100 * kMillisecond)) continue;
       const std::int64_t ticks = every_tick ? 1 : timer.preset - value_of(s, number);
-      if (ticks > 0) next = std::min(next, (s.previous_scan_begin / base + ticks) * base);
+      const Time tick = core.by_own_clock(base);
+      if (ticks > 0) next = std::min(next, (s.previous_scan_begin / tick + ticks) * tick);
     }
   return next;
 }
 
-void pass(const Program& program, State& s, Time by, Time last_scan) {
+void pass(const Core& core, State& s, Time by, Time last_scan) {
+  const Program& program = core.program();
   if (!program.uses_timers) return;
   const Time from = s.previous_scan_begin, to = from + by;
   s.previous_scan_begin = to;
-  s.ticks_100ms = static_cast<std::int16_t>(ticks(100 * kMillisecond, to - last_scan, to));
+  s.ticks_100ms = static_cast<std::int16_t>(ticks(core, 100 * kMillisecond, to - last_scan, to));
   for (const auto* timers : {&program.timers_10ms, &program.timers_100ms})
     for (const std::uint8_t number : *timers) {
-      const Time base = timer_base(number).base;
-      if (s.timer[number].enabled) add_ticks(s, number, to / base - from / base);
+      const Time tick = core.by_own_clock(timer_base(number).base);
+      if (s.timer[number].enabled) add_ticks(s, number, to / tick - from / tick);
     }
 }
 

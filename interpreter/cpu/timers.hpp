@@ -22,7 +22,7 @@ void clear_current_values(Core& core, const Operand& first, std::uint32_t count)
 /// When the timers next change something that the program looks at; kNever if none does.
 Time next_change(const Core& core);
 /// Moves the timers on. `last_scan`: from the begin of the program in one scan to that in the last.
-void pass(const Program& program, State& s, Time by, Time last_scan);
+void pass(const Core& core, State& s, Time by, Time last_scan);
 
 // For the table of units.
 void power_up(Core& core, const RetentiveMemory* memory);

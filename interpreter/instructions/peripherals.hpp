@@ -21,7 +21,9 @@ inline void read_clock(Core& core, const Op& op) { clock::read(core, op[0].at); 
 inline void write_clock(Core& core, const Op& op) { clock::write(core, op[0].at); }
 
 /// BITIM: the milliseconds since power-up, modulo 2^32; CITIM: how many have passed since IN.
-inline std::uint32_t milliseconds(const Core& core) { return static_cast<std::uint32_t>(core.s.time / kMillisecond); }
+inline std::uint32_t milliseconds(const Core& core) {
+  return static_cast<std::uint32_t>(core.s.time / core.by_own_clock(kMillisecond));
+}
 inline void begin_interval(Core& core, const Op& op) { core.put(op[0], milliseconds(core)); }
 inline void read_interval(Core& core, const Op& op) { core.put(op[1], milliseconds(core) - core.get<std::uint32_t>(op[0])); }
 

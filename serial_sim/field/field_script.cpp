@@ -93,8 +93,11 @@ class Reader {
     const bool potentiometer =
         range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < potentiometers;
     const bool analog = range.area == Area::AI && range.number % 2 == 0;
-    if (range.area == Area::I || analog || potentiometer) return true;
-    error(fmt::format("'{}' is not an input; rows set I, words of AI at even addresses, and the {}", stl::shortened(address),
+    const bool mode_switch =
+        range.width == Width::Bit && range.at == sm::kScanStatus && 1U << range.bit == sm::kModeSwitchRun;
+    if (range.area == Area::I || analog || potentiometer || mode_switch) return true;
+    error(fmt::format("'{}' is not an input; rows set I, words of AI at even addresses, the {}, and the mode switch SM0.7",
+                      stl::shortened(address),
                       potentiometers == 1 ? "potentiometer SMB28" : "potentiometers SMB28 and SMB29"));
     return false;
   }

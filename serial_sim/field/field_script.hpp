@@ -14,7 +14,7 @@ namespace s7200::serial {
 /// One byte changes, or those bits of it that `mask` has.
 struct FieldChange {
   Time at = 0;
-  std::uint32_t place = 0;  ///< in the image: an input point's byte, AI, or a potentiometer in SM
+  std::uint32_t place = 0;  ///< in the image: an input point's byte, AI, or a potentiometer or the mode switch in SM
   std::uint8_t mask = 0xFF;
   std::uint8_t value = 0;
   bool operator==(const FieldChange&) const = default;
@@ -44,7 +44,7 @@ struct FieldScript {
 /// Reads
 ///
 ///   time,address,value
-///   10ms,I0.3,1                      a bit, byte or word of I, a word of AI, SMB28 or SMB29
+///   10ms,I0.3,1                      a bit, byte or word of I, a word of AI, SMB28, SMB29, or SM0.7
 ///   1.5s,I0.6,pulses,5kHz,200ms      whole pulses of that frequency, as many as the duration holds
 ///
 /// The heading may be left out, # at the start of a line or after a blank begins a comment, times ascend. Errors, each

@@ -17,7 +17,7 @@ Plc::Port::Port(Plc& of, std::uint8_t its_number, SharedLine& shared_line, Dispa
       tap(line.line(), uart.driver()) {
   uart.enable_receiver(false, 0);
   uart.set_bystander(this);
-  line.faults().add_plc(uart);
+  line.add_plc(uart);
 }
 
 void Plc::Port::configure(const SerialFormat& format, Time at) {
@@ -97,6 +97,7 @@ Ports Plc::devices() const {
 
 void Plc::power_up(const RetentiveMemory* memory, Time at) {
   executed_before_ = 0;
+  for (const auto& port : ports_) port->framing_errors = 0;
   powered_ = true;
   cpu_.power_up(true, memory, at);
   field_.power_up(at);
@@ -119,7 +120,7 @@ void Plc::power_on(Time at) {
   powered_ = true;
   executed_before_ = executed();
   const s7200::State before = cpu_.state();
-  cpu_.power_up(true, &memory, at);
+  cpu_.power_up((before.image[sm::kScanStatus] & sm::kModeSwitchRun) != 0, &memory, at);
   // The field's levels do not depend on the PLC's power.
   for (std::uint32_t byte = 0; byte < before.terminals.size(); ++byte) cpu_.set_input(byte, before.terminals[byte], at);
   if (before.analog_terminals != s7200::State{}.analog_terminals) cpu_.poke(image::kAI, before.analog_terminals);
@@ -192,7 +193,10 @@ void Plc::handle(const Event& event) {
 void Plc::hear(std::uint8_t port, const Event& event) {
   const Uart::Report report = ports_[port]->uart.handle(event);
   ports_[port]->line.note_activity(report);
-  if (report.received) cpu_.character_received(*report.received, port);
+  if (report.received) {
+    ports_[port]->framing_errors += report.received->framing_error;
+    cpu_.character_received(*report.received, port);
+  }
   if (report.sent) cpu_.character_sent(*report.sent, port);
 }
 
@@ -201,6 +205,7 @@ Plc::State Plc::state() const {
   for (std::size_t port = 0; port < ports_.size(); ++port) {
     state.uart[port] = ports_[port]->uart.state();
     state.actions[port] = ports_[port]->actions;
+    state.framing_errors[port] = ports_[port]->framing_errors;
   }
   return state;
 }
@@ -214,6 +219,7 @@ void Plc::restore(const State& state, Time now) {
   for (std::size_t port = 0; port < ports_.size(); ++port) {
     ports_[port]->uart.restore(state.uart[port]);
     ports_[port]->actions = state.actions[port];
+    ports_[port]->framing_errors = state.framing_errors[port];
     ports_[port]->tap.go_back(now);
   }
 }

@@ -54,6 +54,7 @@ class Plc final : private EventHandler, private OutputListener {
     Field::State field;
     bool powered = true;
     std::uint64_t executed_before = 0;  ///< instructions, before power came back last
+    std::array<std::uint64_t, kPorts.size()> framing_errors{};
     bool operator==(const State&) const = default;
   };
 
@@ -66,7 +67,8 @@ class Plc final : private EventHandler, private OutputListener {
   /// system's time `at` is now, or nothing has run yet.
   void power_up(const RetentiveMemory* memory = nullptr, Time at = 0);
 
-  /// Power goes off at `at`, and comes back: the CPU keeps what a real one keeps, and begins anew in RUN.
+  /// Power goes off at `at`, and comes back: the CPU keeps what a real one keeps, and begins anew in RUN, or stays in STOP
+  /// if its mode switch is in TERM.
   void power_off(Time at);
   void power_on(Time at);
   bool powered() const { return powered_; }
@@ -89,6 +91,9 @@ class Plc final : private EventHandler, private OutputListener {
 
   /// How the UART of a port is set: as of the last event that was handled, however far the CPU has run ahead of it.
   const SerialFormat& line_format(std::uint8_t port = 0) const { return ports_.at(port)->uart.state().format; }
+
+  /// Characters that a port has received with a stop bit at space level, breaks among them.
+  std::uint64_t framing_errors(std::uint8_t port = 0) const { return ports_.at(port)->framing_errors; }
 
   /// The line that a port is on.
   SharedLine& line(std::uint8_t port = 0) { return ports_.at(port)->line; }
@@ -147,6 +152,7 @@ class Plc final : private EventHandler, private OutputListener {
     Uart uart;
     WireTap tap;
     std::vector<PortAction> actions{};  ///< in order of time
+    std::uint64_t framing_errors = 0;
     std::function<void(const SerialFormat&, Time)> follower{};
 
    private:

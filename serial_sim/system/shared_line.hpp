@@ -36,9 +36,19 @@ class SharedLine final : private EventHandler {
   /// One that asks here, and lives as long as the line. Wiring, not state.
   void add_master(const Requester& master) { masters_.push_back(&master); }
 
-  /// Whether a master besides `one` has its request on the line.
+  /// A PLC, whose UART lives as long as the line; as Faults has it, one of several may be their master.
+  void add_plc(const Uart& plc) {
+    faults_.add_plc(plc);
+    plcs_.push_back(&plc);
+  }
+
+  /// Whether a master besides `one` has its request on the line, or the PLC that is the master of the others sends.
   bool another_sends(const Requester& one) const {
-    return std::ranges::any_of(masters_, [&](const Requester* each) { return each != &one && each->sends(); });
+    const auto is_sending_master = [&](const Uart* each) {
+      return each->driver() == faults_.state().master && each->state().sending;
+    };
+    return std::ranges::any_of(masters_, [&](const Requester* each) { return each != &one && each->sends(); }) ||
+           std::ranges::any_of(plcs_, is_sending_master);
   }
 
   /// The number of one more driver, at most Line::kDrivers.
@@ -60,6 +70,7 @@ class SharedLine final : private EventHandler {
   Line line_;
   Faults faults_;
   std::vector<const Requester*> masters_;
+  std::vector<const Uart*> plcs_;
   int drivers_ = 0;
   Time last_activity_ = 0;
 };

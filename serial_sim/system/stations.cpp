@@ -72,7 +72,7 @@ ResponderStation::ResponderStation(Dispatcher& events, SharedLine& line, std::un
     : PeerStation(events, line),
       tap_(line.line(), uart_.driver()),
       responder_(uart_, queue_, events.add(Rank::Peer, *this), std::move(automaton)) {
-  line.faults().add_plc(uart_);
+  line.add_plc(uart_);
 }
 
 void ResponderStation::handle(const Event& event) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numeric>
 
 #include "interpreter/base/word_bytes.hpp"
@@ -44,6 +45,18 @@ std::uint8_t sum(std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint8_t>(std::accumulate(bytes.begin(), bytes.end(), 0U) & 0xFF);
 }
 
+std::uint8_t data_check(std::span<const std::uint8_t> data, DataCheck by) {
+  if (by == DataCheck::Sum) return sum(data);
+  return std::accumulate(data.begin(), data.end(), std::uint8_t{0}, std::bit_xor<std::uint8_t>());
+}
+
+std::string wrong_data_check(std::span<const std::uint8_t> data, std::uint8_t check, DataCheck by) {
+  const DataCheck other = by == DataCheck::Sum ? DataCheck::Xor : DataCheck::Sum;
+  if (check != data_check(data, other)) return "wrong data check";
+  return fmt::format("wrong data check: it is {}",
+                     other == DataCheck::Xor ? "the XOR of the data, not the sum" : "the sum of the data, not the XOR");
+}
+
 Bytes message(Opcode opcode, std::uint8_t b1, std::uint8_t b2, std::uint8_t b3, std::uint8_t b4) {
   Bytes bytes{static_cast<std::uint8_t>(opcode), b1, b2, b3, b4};
   bytes.push_back(sum(bytes));
@@ -56,11 +69,11 @@ Bytes read_block(std::uint16_t address, std::size_t bytes) {
   return message(Opcode::ReadBlock, low_byte(address), high_byte(address), static_cast<std::uint8_t>(bytes - 1));
 }
 
-Bytes write_block(std::uint16_t address, std::span<const std::uint8_t> data) {
+Bytes write_block(std::uint16_t address, std::span<const std::uint8_t> data, DataCheck by) {
   Bytes bytes =
       message(Opcode::WriteBlock, low_byte(address), high_byte(address), static_cast<std::uint8_t>(data.size() - 1));
   bytes.insert(bytes.end(), data.begin(), data.end());
-  bytes.push_back(sum(data));
+  bytes.push_back(data_check(data, by));
   return bytes;
 }
 
@@ -88,7 +101,8 @@ bool is_whole_answer(std::span<const std::uint8_t> response) {
   return !response.empty() && response.size() == length_of_answer(response);
 }
 
-serial::Answer check_block_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) {
+serial::Answer check_block_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
+                                  DataCheck by) {
   serial::Answer answer;
   if (response.empty()) return answer;
   answer.verdict = serial::Verdict::Wrong;
@@ -110,7 +124,8 @@ serial::Answer check_block_answer(std::span<const std::uint8_t> request, std::sp
   if (sum(head.first(kMessageLength - 1)) != head.back()) return wrong("wrong check");
   if (!repeats(request, head)) return wrong("does not repeat the message: " + serial::to_hex(head));
   if (const auto data = response.subspan(kMessageLength); !data.empty()) {
-    if (sum(data.first(data.size() - 1)) != data.back()) return wrong("wrong data check");
+    const auto block = data.first(data.size() - 1);
+    if (data_check(block, by) != data.back()) return wrong(wrong_data_check(block, data.back(), by));
     answer.bytes.assign(data.begin(), data.end() - 1);
   } else if (opcode_of(request) == Opcode::SetUnitAddress || opcode_of(request) == Opcode::Highway) {
     answer.bytes.assign(head.begin() + 2, head.end() - 1);

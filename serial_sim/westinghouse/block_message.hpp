@@ -1,13 +1,15 @@
 // The six-byte messages of the PC1000 LAN and of the Westnet II highway, and the blocks of data after them.
 //
-//   opcode, four bytes, check    a check is the sum of the bytes before it; that of a block is the sum of its data only
+//   opcode, four bytes, check    a check is the sum of the bytes before it; that of a block is of its data only [L4]
 //
 // Words are low byte first.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/peers/answer.hpp"
@@ -42,12 +44,17 @@ inline constexpr std::uint8_t kRetestBit = 1;
 
 std::uint8_t sum(std::span<const std::uint8_t> bytes);
 
+/// What the check of a block is: the sum of its data, or their XOR.
+enum class DataCheck : std::uint8_t { Sum, Xor };
+inline constexpr std::array<std::string_view, 2> kDataCheckWords{"sum", "xor"};  ///< in its order
+std::uint8_t data_check(std::span<const std::uint8_t> data, DataCheck by);
+
 Bytes message(Opcode opcode, std::uint8_t b1 = 0, std::uint8_t b2 = 0, std::uint8_t b3 = 0, std::uint8_t b4 = 0);
 
 /// What the second to the sixth byte of the messages are; `bytes` is 1 to 256, `data` as long.
 Bytes set_unit_address(std::uint8_t unit);
 Bytes read_block(std::uint16_t address, std::size_t bytes);
-Bytes write_block(std::uint16_t address, std::span<const std::uint8_t> data);
+Bytes write_block(std::uint16_t address, std::span<const std::uint8_t> data, DataCheck by = DataCheck::Sum);
 Bytes write_bit(std::uint16_t address, std::uint8_t bit, bool on);
 Bytes retest();
 Bytes erase();
@@ -64,7 +71,11 @@ bool is_whole_answer(std::span<const std::uint8_t> response);
 
 /// `bytes` of the result: of a read the data, of a set unit address keyswitch and fault register, of a highway command the
 /// three bytes after it. An exception is a two-byte error of the highway.
-serial::Answer check_block_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
+serial::Answer check_block_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
+                                  DataCheck by = DataCheck::Sum);
+
+/// `wrong data check`, and whether it is right by the other rule.
+std::string wrong_data_check(std::span<const std::uint8_t> data, std::uint8_t check, DataCheck by);
 
 /// What `bytes` of the answer to a set unit address say: `keyswitch in stop, fault register 16#0204`.
 std::string unit_text(std::span<const std::uint8_t> bytes);

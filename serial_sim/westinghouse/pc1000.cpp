@@ -89,19 +89,12 @@ void Pc1000::set_byte(std::uint32_t address, std::uint8_t value) {
               static_cast<std::uint16_t>(address % 2 == 0 ? (word & 0xFF00) | value : (word & 0xFF) | value * 256U));
 }
 
-std::uint8_t Pc1000::data_check(Data data) const {
-  if (settings.data_check == Pc1000Settings::DataCheck::Sum) return sum(data);
-  std::uint8_t check = 0;
-  for (const std::uint8_t byte : data) check ^= byte;
-  return check;
-}
-
 Bytes Pc1000::read(Data message) const {
   const auto first = first_byte(message);
   if (!first) return {};
   Bytes reply = header_of(message);
   for (std::uint32_t i = 0; i <= message[kCount]; ++i) reply.push_back(byte(*first + i));
-  reply.push_back(data_check(std::span(reply).subspan(kMessageLength)));
+  reply.push_back(data_check(std::span(reply).subspan(kMessageLength), settings.data_check));
   return reply;
 }
 
@@ -109,7 +102,7 @@ Bytes Pc1000::write(Data message) {
   const auto first = first_byte(message);
   const bool allowed = settings.write == Pc1000Settings::WriteIn::Always || settings.key != Pc1000Settings::Key::Protect;
   const Data data = message.subspan(kMessageLength, message[kCount] + 1U);
-  if (!first || !allowed || data_check(data) != message.back()) return {};
+  if (!first || !allowed || data_check(data, settings.data_check) != message.back()) return {};
   for (std::uint32_t i = 0; i < data.size(); ++i) set_byte(*first + i, data[i]);
   return header_of(message);
 }

@@ -15,7 +15,6 @@ namespace s7200::westinghouse {
 struct Pc1000Settings {
   enum class Model : std::uint8_t { Pc1200, Pc1250, Pc1100 };
   enum class Key : std::uint8_t { Stop, Protect, Modify };
-  enum class DataCheck : std::uint8_t { Sum, Xor };
   enum class Addresses : std::uint8_t { Words, Bytes };
   enum class RetestIn : std::uint8_t { Stop, Always };
   enum class WriteIn : std::uint8_t { Always, Unprotected };
@@ -64,7 +63,6 @@ class Pc1000 {
   Bytes write(Data message);
   Bytes write_bit(Data message);
   Bytes erase(Data message);
-  std::uint8_t data_check(Data data) const;
   /// The first byte of a block among all of memory; nothing if the block runs past the end.
   std::optional<std::uint32_t> first_byte(Data message) const;
   std::uint8_t byte(std::uint32_t address) const;
@@ -105,7 +103,8 @@ void add_pc1000_settings(std::vector<Setting<Self>>& rows, Pc pc) {
   add({"key", "", "keyswitch", Word, {"stop", "protect", "modify"}}, &S::key);
   add({"fault", "", "the fault register", Hex, {}, 0, UINT16_MAX}, &S::fault);
   add({"lasting_fault", "", "what comes back into it after a retest", Hex, {}, 0, UINT16_MAX}, &S::lasting_fault);
-  add({"data_check", "L4", "check of a block of data", Word, {"sum", "xor"}}, &S::data_check);
+  add({"data_check", "L4", "check of a block of data", Word, {kDataCheckWords.begin(), kDataCheckWords.end()}},
+      &S::data_check);
   add({"key_upper_bits", "L5", "bits 4 to 7 of the keyswitch byte", Hex, {}, 0, 15}, &S::key_upper_bits);
   add({"set_nibble", "L6", "high nibble of a bit write that sets the bit; 0 resets it", Hex, {}, 1, 15}, &S::set_nibble);
   add({"addresses", "L7", "what addresses of blocks count; those of bits are words", Word, {"words", "bytes"}},

@@ -333,6 +333,17 @@ class PtyTests(Case):
                 port.set()
                 self.assertEqual(port.ask(), ANSWER)
 
+    def test_characters_at_another_rate_are_counted_and_said_at_the_end(self):
+        running = self.serve()
+        port = self.open()
+        self.assertEqual(port.ask(), ANSWER)
+        port.set(baud=termios.B4800)
+        port.write(READ)
+        self.assertEqual(port.read(1, SILENCE * 2), b"")
+        running.end()
+        self.assertRegex(running.said(), r"port 0 received \d+ characters with framing errors: whoever sent them is not set "
+                                         r"to 9600 baud 8E1 like the port")
+
     def test_what_a_client_may_set_without_harm(self):
         self.serve()
         port = self.open()
@@ -1346,6 +1357,25 @@ class PpiTests(Case):
         self.start("--speed", SPEED, "--pty", self.folder / "plc", program=self.program(self.COUNTING))
         with SerialPort(self.folder / "plc") as port:
             self.exercise(PpiMaster(port.write, port.read))
+
+    ECHOES_IN_RUN = ("LD SM0.1\nMOVB 16#48, SMB30\nATCH 0, 8\nENI\nLD SM0.7\n= SM30.0\nMEND\n"
+                     "INT 0\nLD SM0.0\nMOVB 1, VB100\nMOVB SMB2, VB101\nXMT VB100, 0\nRETI\n")
+
+    def test_the_mode_switch_turns_freeport_into_ppi_and_back(self):
+        status, its_answer = bytes.fromhex("100200494b16"), bytes.fromhex("100002000216")
+        switch = self.folder / "switch.csv"
+        switch.write_text("".join(f"{2 * i}s,SM0.7,{i % 2}\n" for i in range(60)), encoding="utf-8")
+        self.start("--pty", self.folder / "plc", "--input", switch, program=self.program(self.ECHOES_IN_RUN))
+        with SerialPort(self.folder / "plc") as port:
+            def until(request, answer):
+                def answered():
+                    port.write(request)
+                    return port.read(len(answer), SILENCE * 2) == answer
+                self.eventually(answered)
+            until(b"A", b"A")
+            until(status, its_answer)
+            self.assertEqual(PpiMaster(port.write, port.read).read_v(100, 2), b"\x01A")
+            until(b"B", b"B")
 
     def test_a_cpu_that_a_master_has_stopped_answers_and_is_not_said_to_be_silent(self):
         running = self.start("--pty", self.folder / "plc", program=self.program(self.COUNTING))

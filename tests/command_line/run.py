@@ -248,6 +248,14 @@ class Verbs(Case):
         doubled = self.json(FINE, "decode", loader, "--protocol", "pc500-loader", "--json")
         self.assertGreater(doubled["summary"]["wrong"], 0)
         self.assertIn("--dle plain: modbus never doubles a byte 10", self.ends(UNUSABLE, "decode", loader, "--dle", "plain").stderr)
+        lan = ("--protocol", "pc1000-lan", "--data-check", "xor")
+        self.ends(FINE, "master", "westinghouse:pc1200", *lan, "--plc", "data_check=xor", "unit", "5", "write", "16#4000=16#1234", "read", "16#4000",
+                  "--capture", loader)
+        self.assertEqual(self.json(FINE, "decode", loader, *lan, "--json")["summary"]["wrong"], 0)
+        by_sum = self.json(FINE, "decode", loader, *lan[:2], "--json")
+        self.assertEqual(by_sum["summary"]["wrong"], 2)
+        self.assertIn("wrong data check: it is the XOR of the data, not the sum", [frame["text"] for frame in by_sum["frames"]])
+        self.assertIn("--data-check xor: modbus has no blocks", self.ends(UNUSABLE, "decode", loader, "--data-check", "xor").stderr)
         self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
         loud = self.folder / "LINE.PCAP"
         self.ends(FINE, "master", "westinghouse:pc1200", "slave-id", "--capture", loud)

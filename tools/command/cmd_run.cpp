@@ -63,7 +63,7 @@ int run_run(const CLI::App& verb, RunOptions& options) {
     print_json(*rig, ending, options);
   else
     print_text(*rig, ending, options);
-  print_notes(fault_notes(*rig));
+  print_notes(line_notes(*rig));
   if (!all_written) return kUnusable;
   if (ending.reason == "endless scan") {
     print_error(

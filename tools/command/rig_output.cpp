@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/views/faults.hpp"
@@ -41,6 +42,8 @@ nlohmann::ordered_json poll_json(const std::string& name, const serial::Poller::
   json["longest_latency_ns"] = polls.answered > polls.wrong ? nlohmann::ordered_json(polls.most_latency) : nullptr;
   return json;
 }
+
+std::string set_to(const SerialFormat& format) { return fmt::format("{} baud {}", format.baud, character_text(format)); }
 
 /// What `of` says of each PLC, under its name if it has one.
 template <class Of>
@@ -103,11 +106,25 @@ std::vector<std::string> stop_notes(const Rig& rig) {
   return notes;
 }
 
+std::vector<std::string> framing_notes(const Rig& rig) {
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < rig.plan().plcs.size(); ++i) {
+    const serial::Plc& plc = rig.plc(i);
+    const std::string& name = rig.plan().plcs[i].name;
+    for (std::uint8_t port = 0; port < plc.cpu().program().model->ports; ++port) {
+      if (plc.framing_errors(port) == 0 || !plc.line(port).faults().state().injected.empty()) continue;
+      notes.push_back(
+          fmt::format("{}port {} received {} with framing errors: whoever sent them is not set to {} like the port{}",
+                      name.empty() ? "" : name + ": ", port, counted(plc.framing_errors(port), "character"),
+                      set_to(plc.port_format(port)), is_system(rig) ? ", or two stations sent at once" : ""));
+    }
+  }
+  return notes;
+}
+
 std::vector<std::string> line_notes(const Rig& rig) {
-  const auto set_to = [](const SerialFormat& format) {
-    return fmt::format("{} baud {}", format.baud, character_text(format));
-  };
-  std::vector<std::string> notes = fault_notes(rig);
+  std::vector<std::string> notes = fault_notes(rig), of_framing = framing_notes(rig);
+  notes.insert(notes.end(), of_framing.begin(), of_framing.end());
   for (const LinePlan& line : rig.plan().lines) {
     const StationPlan* first = nullptr;
     for (const StationPlan& station : line.stations) {

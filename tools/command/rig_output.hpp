@@ -32,7 +32,11 @@ std::string errors_text(const Rig& rig);
 std::vector<std::string> fault_notes(const Rig& rig);
 std::vector<std::string> stop_notes(const Rig& rig);
 
-/// Of the lines of a system: faults, and stations that are left at another rate or format than the first one there.
+/// Ports that have received characters with framing errors, on lines without faults.
+std::vector<std::string> framing_notes(const Rig& rig);
+
+/// Of the lines: faults, framing errors, and stations of a system that are left at another rate or format than the first one
+/// there.
 std::vector<std::string> line_notes(const Rig& rig);
 
 /// Of a line of a system. The rig outlives it.

@@ -1,6 +1,5 @@
 #include "tools/master/block_request.hpp"
 
-#include "serial_sim/westinghouse/block_message.hpp"
 #include "tools/views/register_text.hpp"
 
 namespace s7200::tools {
@@ -9,6 +8,19 @@ namespace {
 using Data = std::span<const std::uint8_t>;
 
 constexpr std::size_t kMostWords = westinghouse::kMostBlockBytes / 2;
+
+constexpr std::string_view kDataCheck = "--data-check";
+
+std::string fault_of_data_check(const std::string& word) {
+  if (std::ranges::find(westinghouse::kDataCheckWords, word) != westinghouse::kDataCheckWords.end()) return {};
+  return fmt::format("'{}' is not a check of a block; there are {}", stl::shortened(word),
+                     fmt::join(westinghouse::kDataCheckWords, ", "));
+}
+
+DataCheck data_check_of(const ProtocolUse& use) {
+  const auto given = use.given.find(kDataCheck);
+  return given != use.given.end() && given->second == westinghouse::kDataCheckWords[1] ? DataCheck::Xor : DataCheck::Sum;
+}
 
 std::uint16_t word_address(const std::string& text) {
   return static_cast<std::uint16_t>(parse_number(text, 0, UINT16_MAX, "address"));
@@ -27,8 +39,13 @@ void check_range(const std::string& text, std::uint16_t first, std::size_t count
 
 }  // namespace
 
+ProtocolOption data_check_option() {
+  return {kDataCheck, "FORM", fmt::format("of a block of data: {}", fmt::join(westinghouse::kDataCheckWords, ", ")),
+          std::string(westinghouse::kDataCheckWords[0]), fault_of_data_check};
+}
+
 serial::Answer BlockRequest::judge(Data request, Data response) const {
-  serial::Answer answer = westinghouse::check_block_answer(request, response);
+  serial::Answer answer = westinghouse::check_block_answer(request, response, about_.check);
   const bool reads = about_.first && about_.done.empty();
   if (answer.verdict != serial::Verdict::Right || !reads) return answer;
   for (std::size_t i = 0; i + 1 < answer.bytes.size(); i += 2)
@@ -72,8 +89,12 @@ nlohmann::ordered_json BlockRequest::subject_json(Data request) const {
   return json;
 }
 
+BlockParser::BlockParser(const ProtocolUse& use, bool sync)
+    : WordParser(use.station, UINT8_MAX), sync_(sync), check_(data_check_of(use)) {}
+
 void BlockParser::add(const Bytes& message, BlockRequest::About about) {
   about.sync = sync_;
+  about.check = check_;
   WordParser::add(std::make_shared<BlockRequest>(message, std::move(about)));
 }
 
@@ -103,7 +124,7 @@ void BlockParser::write(const Words& operands) {
     const std::size_t count = data.size() / 2;
     check_range(text_, first, count);
     const std::string subject = words_text(first, count);
-    add(westinghouse::write_block(first, data),
+    add(westinghouse::write_block(first, data, check_),
         {.subject = subject, .first = first, .count = count, .done = subject + " written"});
   }
 }
@@ -129,8 +150,9 @@ void BlockParser::raw(const Words& operands) {
   for (const std::string& operand : operands) {
     serial::Frame frame = parse_hex(operand);
     const std::uint8_t first = frame.front().byte;
-    add_raw(operand, first,
-            std::make_shared<BlockRequest>(std::move(frame), BlockRequest::About{.raw = true, .sync = sync_}));
+    add_raw(
+        operand, first,
+        std::make_shared<BlockRequest>(std::move(frame), BlockRequest::About{.raw = true, .sync = sync_, .check = check_}));
   }
 }
 

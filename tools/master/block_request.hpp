@@ -5,15 +5,22 @@
 #include <optional>
 #include <string>
 
+#include "serial_sim/westinghouse/block_message.hpp"
 #include "tools/master/words.hpp"
 
 namespace s7200::tools {
+
+using westinghouse::DataCheck;
+
+/// The option that says what the check of a block is.
+ProtocolOption data_check_option();
 
 class BlockRequest final : public ProtocolRequest {
  public:
   struct About {
     bool raw = false;
-    bool sync = false;                     ///< the line has a sync signal
+    bool sync = false;  ///< the line has a sync signal
+    DataCheck check = DataCheck::Sum;
     std::string subject{};                 ///< `words 16#1234…1235`
     std::optional<std::uint16_t> first{};  ///< word
     std::size_t count = 0;                 ///< words that are read, or written
@@ -43,7 +50,7 @@ class BlockRequest final : public ProtocolRequest {
 /// The verbs that both have.
 class BlockParser : public WordParser {
  public:
-  BlockParser(const ProtocolUse& use, bool sync) : WordParser(use.station, UINT8_MAX), sync_(sync) {}
+  BlockParser(const ProtocolUse& use, bool sync);
   virtual ~BlockParser() = default;
 
   void read(const Words& operands);
@@ -60,6 +67,7 @@ class BlockParser : public WordParser {
   void write_bits(const Words& operands, bool on);
 
   bool sync_;
+  DataCheck check_;
 };
 
 /// The rows of those verbs, for a parser derived from it. `reads`: what stands beside `read`.

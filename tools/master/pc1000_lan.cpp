@@ -73,14 +73,15 @@ const Protocol& pc1000_lan_protocol() {
       .format = {.parity = Parity::None},
       .over_modbus_tcp = false,
       .options =
-          {{kNoSync, "", "the line has no sync signal; without this option it is DTR of a serial device", {}, nullptr}},
+          {{kNoSync, "", "the line has no sync signal; without this option it is DTR of a serial device", {}, nullptr},
+           data_check_option()},
       .actions_help = "Actions of --protocol pc1000-lan; a PLC listens once it was addressed by its unit:\n" +
                       verbs_help(std::span<const LanVerb>(kVerbs)),
       .action_words = verb_words(std::span<const LanVerb>(kVerbs)),
       .actions = actions,
       .is_complete = westinghouse::is_whole_answer,
       .patience = {.timeout = 500 * kMillisecond, .retries = 2},
-      .choices = "--timeout, --retries [L10]",
+      .choices = "--timeout, --retries [L10], --data-check [L4]",
       .plcs = westinghouse::find_plc("pc1000-lan")};
   return protocol;
 }

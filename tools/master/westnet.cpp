@@ -62,12 +62,13 @@ const Protocol& westnet_protocol() {
                                  .station = {},
                                  .format = {.parity = Parity::None},
                                  .over_modbus_tcp = false,
-                                 .options = {},
+                                 .options = {data_check_option()},
                                  .actions_help = "Actions of --protocol westnet; the PLC is addressed first:\n" +
                                                  verbs_help(std::span<const WestnetVerb>(kVerbs)),
                                  .action_words = verb_words(std::span<const WestnetVerb>(kVerbs)),
                                  .actions = actions,
                                  .is_complete = westinghouse::is_whole_answer,
+                                 .choices = "--data-check [L4]",
                                  .plcs = westinghouse::find_plc("westnet")};
   return protocol;
 }

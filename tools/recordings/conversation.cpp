@@ -19,8 +19,8 @@ constexpr std::array kProtocols{
     RecordedProtocol{"modbus", modbus_reader},
     RecordedProtocol{"ppi", ppi_reader},
     RecordedProtocol{"freeport-pc", freeport_pc_reader},
-    RecordedProtocol{"pc1000-lan", pc1000_lan_reader},
-    RecordedProtocol{"westnet", westnet_reader},
+    RecordedProtocol{"pc1000-lan", block_reader, nullptr, block_xor_reader},
+    RecordedProtocol{"westnet", block_reader, nullptr, block_xor_reader},
     RecordedProtocol{"pc500-loader", pc500_loader_reader, pc500_loader_plain_dle_reader},
     RecordedProtocol{"hppc", hppc_reader},
 };

@@ -53,6 +53,8 @@ struct RecordedProtocol {
   /// If a byte 10 in data of the PLC is not doubled, as `master --dle plain` has it; null: the protocol leaves no such
   /// choice.
   std::unique_ptr<FrameReader> (*plain_dle_reader)() = nullptr;
+  /// If the check of a block is the XOR of its data, as `master --data-check xor` has it; null likewise.
+  std::unique_ptr<FrameReader> (*xor_check_reader)() = nullptr;
 };
 std::span<const RecordedProtocol> recorded_protocols();
 const RecordedProtocol* find_recorded_protocol(std::string_view name);

@@ -33,6 +33,10 @@ class Omissions {
   std::string why(const ReadFrame& request, Named& named) const {
     if (!request.frame.damaged.empty()) return "the request is damaged";
     if (!request.right) return "the request is wrong: " + request.text;
+    if (const ReadFrame* rest = rest_of(request)) {
+      named.insert(rest);
+      return "more characters follow it without a silence: " + serial::to_hex(rest->frame.bytes);
+    }
     if (request.other) {
       const ReadFrame& answer = frames_[*request.other];
       if (answer.latency > kLongestSpan)
@@ -55,6 +59,14 @@ class Omissions {
   static std::string may_be_its_answer(const ReadFrame& stray, Named& named) {
     named.insert(&stray);
     return fmt::format("what follows it ({}) may be its answer: {}", stray.frame.place, stray.text);
+  }
+
+  /// What else was in its frame, and is no message: whoever was asked heard both as one. Null: nothing.
+  const ReadFrame* rest_of(const ReadFrame& request) const {
+    const ReadFrame* next = &request + 1;
+    const bool same = next != frames_.data() + frames_.size() && next->direction == Direction::Unknown &&
+                      next->frame.stream == request.frame.stream && next->frame.place == request.frame.place;
+    return same ? next : nullptr;
   }
 
   std::string why_on_a_line(const ReadFrame& request, Named& named) const {

@@ -34,8 +34,8 @@ std::string why_nothing_is_asked(const std::vector<ReadFrame>& frames, const Pla
 /// `Run by s7200 test --target TARGET.`
 std::string how_to_run(std::string_view protocol, const PlaybackChoices& choices);
 
-/// A scenario that sends the requests with their gaps and expects the answers. Left out are requests that are damaged, and
-/// those whose answer is wrong: no slave can give it.
+/// A scenario that sends the requests with their gaps and expects the answers. Left out are requests that are damaged, or
+/// that other characters follow without a silence, and those whose answer is wrong: no slave can give it.
 Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices);
 
 }  // namespace s7200::tools

@@ -8,8 +8,10 @@
 namespace s7200::tools {
 
 /// The six-byte messages and their blocks. A block has no address: whoever was addressed last is asked.
-std::unique_ptr<FrameReader> pc1000_lan_reader();
-std::unique_ptr<FrameReader> westnet_reader();
+std::unique_ptr<FrameReader> block_reader();
+
+/// The same where the check of a block is the XOR of its data.
+std::unique_ptr<FrameReader> block_xor_reader();
 
 /// Step after step of the handshake. Its sides take turns, so that a step says whose it is.
 std::unique_ptr<FrameReader> pc500_loader_reader();

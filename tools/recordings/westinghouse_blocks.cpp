@@ -19,11 +19,13 @@ using serial::Verdict;
 
 class BlockReader final : public FrameReader {
  public:
+  explicit BlockReader(westinghouse::DataCheck by) : by_(by) {}
+
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
     const Data bytes(frame.bytes);
     ReadFrame read;
     if (open != nullptr && frame.direction != Direction::Request) {
-      const serial::Answer answer = westinghouse::check_block_answer(open->bytes, bytes);
+      const serial::Answer answer = westinghouse::check_block_answer(open->bytes, bytes, by_);
       if (fits(answer) || frame.direction == Direction::Answer) {
         read.direction = Direction::Answer;
         read.right = fits(answer);
@@ -46,7 +48,7 @@ class BlockReader final : public FrameReader {
   }
 
   bool may_be_echoed(const RecordedFrame& frame) const override {
-    return fits(westinghouse::check_block_answer(frame.bytes, frame.bytes));
+    return fits(westinghouse::check_block_answer(frame.bytes, frame.bytes, by_));
   }
 
   std::size_t first_message(Data bytes, const RecordedFrame* open) const override {
@@ -67,13 +69,13 @@ class BlockReader final : public FrameReader {
   }
 
   /// Of a whole message; those without data have none.
-  static bool data_check_right(Data bytes) {
+  bool data_check_right(Data bytes) const {
     if (bytes[0] != static_cast<std::uint8_t>(westinghouse::Opcode::WriteBlock)) return true;
     const Data data = bytes.subspan(westinghouse::kMessageLength);
-    return westinghouse::sum(data.first(data.size() - 1)) == data.back();
+    return westinghouse::data_check(data.first(data.size() - 1), by_) == data.back();
   }
 
-  static std::string request_text(Data bytes) {
+  std::string request_text(Data bytes) const {
     using westinghouse::Opcode;
     constexpr std::size_t kAddress = 1, kCount = 3;
     const unsigned address = load16_low_first(&bytes[kAddress]);
@@ -88,7 +90,7 @@ class BlockReader final : public FrameReader {
       case Opcode::WriteBlock: {
         const Data data = bytes.subspan(westinghouse::kMessageLength, bytes[kCount] + 1U);
         return fmt::format("write {} from word 16#{:04X} on: {}{}", count, address, to_hex(data),
-                           data_check_right(bytes) ? "" : "; wrong data check");
+                           data_check_right(bytes) ? "" : "; " + westinghouse::wrong_data_check(data, bytes.back(), by_));
       }
       case Opcode::Highway:
         return highway_text(bytes);
@@ -124,12 +126,13 @@ class BlockReader final : public FrameReader {
     }
   }
 
+  westinghouse::DataCheck by_;
   std::optional<std::uint8_t> unit_;  // that was addressed last
 };
 
 }  // namespace
 
-std::unique_ptr<FrameReader> pc1000_lan_reader() { return std::make_unique<BlockReader>(); }
-std::unique_ptr<FrameReader> westnet_reader() { return std::make_unique<BlockReader>(); }
+std::unique_ptr<FrameReader> block_reader() { return std::make_unique<BlockReader>(westinghouse::DataCheck::Sum); }
+std::unique_ptr<FrameReader> block_xor_reader() { return std::make_unique<BlockReader>(westinghouse::DataCheck::Xor); }
 
 }  // namespace s7200::tools

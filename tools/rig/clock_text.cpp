@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "interpreter/base/numbers.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -36,6 +38,16 @@ std::optional<ClockTime> parse_clock(std::string_view text) {
                    .minute = static_cast<std::uint8_t>(minute),
                    .second = static_cast<std::uint8_t>(second),
                    .weekday = static_cast<std::uint8_t>(weekday.c_encoding() + 1)};
+}
+
+std::optional<std::int32_t> parse_clock_error(std::string_view text) {
+  constexpr std::string_view kUnit = "ppm";
+  constexpr Between<std::int32_t> kRange{-1000, 1000};
+  if (!text.ends_with(kUnit)) return {};
+  text.remove_suffix(kUnit.size());
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto millionths = parse_decimal<std::int32_t>(text);
+  return millionths && kRange.has(*millionths) ? millionths : std::nullopt;
 }
 
 }  // namespace s7200::tools

@@ -1,6 +1,7 @@
-// The time of day on the command line: `2026-11-21 10:00:00`.
+// The time of day on the command line, `2026-11-21 10:00:00`, and how far a clock is off, `50ppm`.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -10,5 +11,8 @@ namespace s7200::tools {
 
 /// A date between 1990 and 2089 that exists, with its day of the week; nothing for anything else.
 std::optional<ClockTime> parse_clock(std::string_view text);
+
+/// `-50ppm`, from -1000ppm to 1000ppm: millionths; nothing for anything else.
+std::optional<std::int32_t> parse_clock_error(std::string_view text);
 
 }  // namespace s7200::tools

@@ -118,7 +118,7 @@ class EventReader {
     const auto number = name ? plc_named(*name) : std::nullopt;
     if (!number) return false;
     event.plc = *number;
-    event.set = read_assignments(what, *plan_.plcs[*number].program, values_);
+    if (const auto& program = plan_.plcs[*number].program) event.set = read_assignments(what, *program, values_);
     return true;
   }
 

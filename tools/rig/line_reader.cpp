@@ -163,10 +163,9 @@ class LineReader {
 
   void put_plc_on(const YamlNode& node, LinePlan& line, std::size_t number, std::uint8_t port) {
     const PlcPlan& plc = plan().plcs[number];
-    if (!plc.program) return;
-    const CpuModel& model = *plc.program->model;
-    if (port >= model.ports)
-      return values_.wrong(node, fmt::format("CPU {} has no port {}", model.name, port),
+    const CpuModel* const model = plc.program ? plc.program->model : nullptr;  // null after a complaint
+    if (model && port >= model->ports)
+      return values_.wrong(node, fmt::format("CPU {} has no port {}", model->name, port),
                            fmt::format("a second port needs {}", s7200::to_text(kTwoPorts)));
     put_on(node, line, {StationPlan::Kind::Plc, number, port}, plc.name);
   }

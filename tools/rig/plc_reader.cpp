@@ -54,13 +54,12 @@ class PlcReader {
       PlcPlan& each = plan().plcs.emplace_back();
       each.name = name;
       if (station) each.address = static_cast<std::uint8_t>(*station + copy);
-      if (!model) continue;
+      if (!model || values_.complaints.count() > before) continue;  // the other copies would say the same
       each.program = read_program(plc, *model, station ? std::optional(*station + copy) : std::nullopt);
       if (each.program) each.program = with_system_block(*each.program, block);
       if (each.program) read_settings(map, each, copy, copies > 1);
       if (map.find("ppi_station"))
         for (std::uint8_t& ppi_station : block.ppi_stations) ++ppi_station;
-      if (values_.complaints.count() > before) return;  // the others would say the same
     }
   }
 
@@ -197,6 +196,8 @@ class PlcReader {
     if (const YamlNode* clock = map.find("clock"))
       settings.clock = values_.value(clock, "a date and time between 1990 and 2089", "2026-11-21 10:00:00",
                                      [](const std::string& t) { return parse_clock(t); });
+    settings.clock_error =
+        values_.value(map.find("clock_error"), "from -1000ppm to 1000ppm", "50ppm", parse_clock_error).value_or(0);
     settings.starts = values_.duration(map.find("starts")).value_or(0) * (copy + 1);
     settings.memory.path = written_file(map, "memory", one_of_several);
     settings.trace = written_file(map, "trace", one_of_several);

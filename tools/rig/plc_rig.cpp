@@ -53,6 +53,7 @@ bool PlcRig::read_memory(std::string& why) { return memory_.read(*program_->mode
 
 void PlcRig::power_up(serial::Plc& plc) {
   if (plc.powered() && !sinks().empty()) plc.cpu().set_sink(&sinks());  // otherwise somebody may look at it by now
+  plc.cpu().set_clock_error(settings_.clock_error);
   plc.power_up(memory_.memory(), settings_.starts);
   if (settings_.clock) plc.cpu().set_clock(*settings_.clock);
   for (const Assignment& assignment : settings_.set) assign(plc.cpu(), assignment);

@@ -1,6 +1,7 @@
 // What is attached to one PLC: what it has kept, what drives its inputs, and what is recorded of it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct PlcSettings {
   std::vector<Assignment> set{};     ///< memory and input points, before the first scan
   std::string input{};               ///< inputs over time, as CSV
   std::optional<ClockTime> clock{};  ///< time of day at power-up
+  std::int32_t clock_error = 0;      ///< of its crystal, in millionths; positive: it is too fast
   Time starts = 0;                   ///< when it is powered up
   MemorySettings memory{};           ///< read at power-up, written by keep_memory()
   std::string trace{};

@@ -33,7 +33,7 @@ void read_file(const YamlNode& root, SystemReading& reading) {
   if (plan.lines.empty() && values.complaints.count() == 0)
     values.wrong(root, "the system has no line", "write for example lines: {bus: {stations: [master, slave]}}");
   std::vector<TimedEvent> events;
-  if (values.complaints.count() == 0)
+  if (values.complaints.count() == reading.file.programs.size())  // all else than programs is right
     for (const YamlNode* node : items_of(root, "events", "{at: 1s, power_off: slave}", values))
       if (auto event = read_timed_event(*node, plan, values)) events.push_back({std::move(*event), node});
   for (std::size_t plc = 0; plc < plan.plcs.size(); ++plc)

@@ -42,7 +42,7 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "line", "", "MAP", "how the master talks, if not as the program has set its port"},
     {Where::Scenario, "station", "", "NUMBER", "address of the slave, 0 to 247, or 255 for a Modbus TCP server itself; if left out that of the PLC that `on` names, in its system file, or 1"},
     {Where::Scenario, "set", kOfOneProgram, "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
-    {Where::Scenario, "input", kOfOneProgram, "PATH", "inputs over time, I, AIW and the potentiometers SMB28 and SMB29: CSV in the format of `s7200 run --input`"},
+    {Where::Scenario, "input", kOfOneProgram, "PATH", "inputs over time, I, AIW, the potentiometers SMB28 and SMB29 and the mode switch SM0.7: CSV in the format of `s7200 run --input`"},
     {Where::Scenario, "clock", kOfOneProgram, "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
     {Where::Scenario, "after", "", "TIME", "when the first step begins; if left out, when the first scan has ended and the line is quiet"},
     {Where::Scenario, "pause", "", "SPAN", kPause},

@@ -54,6 +54,18 @@ TEST(SteadyScans, AreNearlyAllOfAMinuteInWhichNothingHappens) {
   EXPECT_GT(both.passed(), 59 * kSecond);
 }
 
+TEST(SteadyScans, ArePassedOverWithAClockThatIsOff) {
+  for (const std::int32_t clock_error : {50, -50, 977}) {
+    Both both("LD SM0.5\n= Q0.0\nLD SM0.0\nTON T37, 100\nTON T33, 555\nA T33\nTON T101, 2000\nMEND\n");
+    both.each([clock_error](Plc& plc) {
+      plc.cpu.set_clock_error(clock_error);
+      plc.cpu.power_up();
+    });
+    for (int end = 1; end < 20; ++end) both.run_until(end * 1100 * ms);
+    EXPECT_GT(both.passed(), 15 * kSecond);
+  }
+}
+
 TEST(SteadyScans, AreNotPassedOverIfTheyAreOff) {
   PlcThat plc(SteadyScansUse::Off, kContactsOnly);
   plc.run_until(60 * kSecond);

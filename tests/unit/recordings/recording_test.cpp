@@ -1660,6 +1660,23 @@ TEST(Conversation, AScenarioLeavesOutWhatNoSlaveAnswersTheSame) {
   EXPECT_EQ(playback(read(recording), {}, {}).notes, std::vector<std::string>{"line 1: left out: the request is damaged"});
 }
 
+TEST(Conversation, AScenarioLeavesOutARequestAndTheCharactersThatFollowItWithoutASilence) {
+  LineRecording recording = recording_of(
+      "0.000 01 03 00 00 00 01 84 0A FF\n0.025 01 03 02 12 34 B5 33\n0.100 02 03 00 00 00 01 84 39\n");
+  for (int i = 0; i < 9; ++i) recording.frames[0].times.push_back(i * ms);
+  const Playback played = playback(read(recording), {}, {});
+  EXPECT_EQ(played.notes.front(), "line 1: left out: more characters follow it without a silence: ff");
+  EXPECT_EQ(played.scenario.find("send: 01 03"), std::string::npos) << played.scenario;
+  EXPECT_NE(played.scenario.find("send: 02 03"), std::string::npos);
+}
+
+TEST(Conversation, AScenarioLeavesOutADamagedRequestThatIsMarkedAsOne) {
+  const LineRecording recording = recording_of("0.000 TX 01 03 00 00 00 01 84 0B\n0.100 TX 02 03 00 00 00 01 84 39\n");
+  const Playback played = playback(read(recording), {}, {});
+  EXPECT_EQ(played.notes.front(), "line 1: left out: the request is wrong: wrong CRC, or not a whole frame");
+  EXPECT_EQ(played.scenario.find("send: 01 03"), std::string::npos) << played.scenario;
+}
+
 TEST(Conversation, AScenarioSaysWhichFramesItLeavesOutBecauseTheyAreNoRequests) {
   const LineRecording recording =
       recording_of("0.000 FF 00\n1.000 01 03 00 00 00 01 84 0A\n1.025 01 03 02 12 34 B5 33\n2.000 FF 01\n");

@@ -19,5 +19,13 @@ TEST(ClockText, TextThatIsNotATimeIsRefused) {
     EXPECT_FALSE(parse_clock(text)) << text;
 }
 
+TEST(ClockText, AClockErrorIsInMillionthsWithItsUnit) {
+  EXPECT_EQ(parse_clock_error("50ppm"), 50);
+  EXPECT_EQ(parse_clock_error("+50ppm"), 50);
+  EXPECT_EQ(parse_clock_error("-1000ppm"), -1000);
+  for (const char* text : {"", "50", "ppm", "1001ppm", "-1001ppm", "0.5ppm", "+-5ppm", "50 ppm", "1%"})
+    EXPECT_FALSE(parse_clock_error(text)) << text;
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -89,6 +89,7 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {"plcs: {a: {program: ../modbus_slave.stl, times: none.csv}}\n", 1, 49, "cannot read "},
       {"plcs: {a: {program: ../modbus_slave.stl, clock: noon}}\n", 1, 49,
        "'noon' is not a date and time between 1990 and 2089"},
+      {"plcs: {a: {program: ../modbus_slave.stl, clock_error: 50}}\n", 1, 55, "'50' is not from -1000ppm to 1000ppm"},
       {"plcs: {a: {program: ../modbus_slave.stl, trace_instructions: true}}\n", 1, 62, "there is no 'trace'"},
       {slave + "peers: {a: {polls: [{read: 40001}]}}\n", 2, 9, "two stations are called 'a', the first in line 1"},
       {"peers: {m: {}}\n", 1, 9, "'m' is neither a master nor another PLC"},
@@ -259,7 +260,7 @@ TEST(SystemFile, PowerThatStaysAsItIsIsNamed) {
 
 TEST(SystemFile, OfALineWithoutAStationThatCouldBeReadNoneIsNamed) {
   const SystemFile wrong =
-      read("plcs: {a: {program: missing.stl}}\nlines: {l: {stations: [a], faults: [{fault: flip, station: q}]}}\n");
+      read("plcs: {a: {program: ../modbus_slave.stl}}\nlines: {l: {stations: [b], faults: [{fault: flip, station: q}]}}\n");
   ASSERT_FALSE(wrong.ok());
   EXPECT_EQ(wrong.file.diagnostics.back().message, "'q' is not on line 'l'");
   EXPECT_EQ(wrong.file.diagnostics.back().hint, "");
@@ -330,6 +331,26 @@ TEST(SystemFile, AProgramWithErrorsIsShownWithItsOwnLines) {
   const SystemFile file = read("plcs: {a: {program: ../modbus_master.stl, cpu: 214}}\n");
   ASSERT_EQ(file.programs.size(), 1U);
   EXPECT_FALSE(file.programs.front().diagnostics.empty());
+}
+
+TEST(SystemFile, EventsAreCheckedWhenAProgramHasErrors) {
+  const std::string bad =
+      "plcs: {a: {program: ../modbus_master.stl, cpu: 214, copies: 2}, b: {program: ../modbus_slave.stl}}\n"
+      "lines: {l: {stations: [a, b]}}\nevents:\n";
+  const auto messages = [&](const std::string& event) {
+    std::vector<std::string> found;
+    for (const stl::Diagnostic& each : read(bad + "  - {at: 1s, " + event + "}\n").file.diagnostics)
+      found.push_back(each.message);
+    return found;
+  };
+  const std::string error = test::source_path("stl_programs/modbus_master.stl") + " has errors";
+  using Messages = std::vector<std::string>;
+  EXPECT_EQ(messages("power_off: c"), (Messages{error, "there is no PLC 'c'"}));
+  EXPECT_EQ(
+      messages("set: {VX: 1}, plc: b"),
+      (Messages{error, read("plcs: {b: {program: ../modbus_slave.stl, set: {VX: 1}}}\n").file.diagnostics.front().message}));
+  for (const char* const right : {"power_off: a2", "set: {VW0: 1}, plc: a1", "cut: l, after: a2"})
+    EXPECT_EQ(messages(right), Messages{error}) << right;
 }
 
 TEST(SystemFile, EveryKeyStandsInTheTableOnce) {

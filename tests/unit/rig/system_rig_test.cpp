@@ -162,6 +162,47 @@ TEST(SystemRig, TwoMasterProgramsThatStartApartCollideAndRecover) {
   }
 }
 
+/// What two equal master programs come to that are started together: answers and failures of both. They ask two slaves, each
+/// another one first, so that what they send at the same time differs.
+struct Outcome {
+  std::uint32_t answers = 0, failures = 0;
+};
+Outcome outcome_of_masters(const std::string& clock_of_one, const std::string& clock_of_other) {
+  const auto rig = rig_of(fmt::format(
+      "plcs:\n"
+      "  one: {{program: ../modbus_master.stl, cpu: 224, set: {{I0.2: 1, VB3840: 2, VB3841: 0}}, clock_error: {}}}\n"
+      "  other: {{program: ../modbus_master.stl, cpu: 224, set: {{I0.2: 1, VB3840: 2, VB3841: 1}}, clock_error: {}}}\n"
+      "  slave: {{program: ../modbus_slave.stl, copies: 2, station: 1}}\n"
+      "lines: {{bus: {{stations: [one, slave, other]}}}}\n",
+      clock_of_one, clock_of_other));
+  if (!rig) return {};
+  rig->system().run_until(240 * kSecond);
+  return {double_word(*rig, 0, 3842) + double_word(*rig, 1, 3842), double_word(*rig, 0, 3846) + double_word(*rig, 1, 3846)};
+}
+
+TEST(SystemRig, TwoMastersWithEqualTimeOutsRecoverWhenTheirClocksHaveDriftedApart) {
+  const Outcome in_step = outcome_of_masters("0ppm", "0ppm");
+  EXPECT_LE(in_step.answers, 1U) << "with exactly the same clock they collide for ever, but for chance";
+  EXPECT_GT(in_step.failures, 100U);
+  const Outcome apart = outcome_of_masters("50ppm", "-50ppm");
+  EXPECT_GT(apart.failures, 0U) << "they have collided";
+  EXPECT_GT(apart.answers, 100U) << "and recovered";
+}
+
+TEST(SystemRig, TheRequestOfAMasterProgramIsNoAnswerToAnotherMaster) {
+  const auto rig = rig_of(
+      "plcs:\n"
+      "  master: {program: ../modbus_master.stl, cpu: 224, set: {I0.2: 1, VB3840: 1}}\n"
+      "  slave: {program: ../modbus_slave.stl, station: 5}\n"
+      "peers: {panel: {polls: [{station: 9, read: 40001}], timeout: 310ms}}\n"
+      "lines: {bus: {stations: [master, slave, panel]}}\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(10 * kSecond);
+  EXPECT_GT(double_word(*rig, 0, 3846), 1U) << "the program asks station 1, which is not there";
+  EXPECT_GT(rig->poller(0)->state().asked, 10U);
+  EXPECT_EQ(rig->poller(0)->state().answered, 0U);
+}
+
 TEST(SystemRig, APlcThatStartsLaterHasItsFirstScanThen) {
   const auto rig = rig_of(
       "plcs: {a: {program: ../edge_counter.stl, copies: 2, starts: 37ms, set: {VW20: 5}}}\nlines: {bus: {stations: [a]}}\n");
@@ -231,6 +272,19 @@ TEST(SystemRig, ASlaveThatIsSwitchedOffIsSilentAndAnswersWhenItIsOnAgain) {
   EXPECT_EQ(rig->plc(1).cpu().state().error_count, 0U);
 }
 
+TEST(SystemRig, APlcWhoseModeSwitchIsInTermStaysInStopWhenItsPowerComesBack) {
+  const auto rig =
+      rig_of(kThreeSlaves +
+             "events: [{at: 1s, set: {SM0.7: 0}, plc: slave2}, {at: 2s, power_off: slave2}, {at: 2s, power_off: slave3},\n"
+             "  {at: 3s, power_on: slave2}, {at: 3s, power_on: slave3}]\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(1900 * kMillisecond);
+  EXPECT_EQ(rig->plc(1).cpu().state().mode, Mode::Run) << "TERM lets it run on";
+  rig->system().run_until(4 * kSecond);
+  EXPECT_EQ(rig->plc(1).cpu().state().mode, Mode::Stop);
+  EXPECT_EQ(rig->plc(2).cpu().state().mode, Mode::Run);
+}
+
 TEST(SystemRig, NothingIsSetInAPlcWithoutPower) {
   const auto rig = rig_of(kThreeSlaves +
                           "events:\n"
@@ -266,6 +320,19 @@ TEST(SystemRig, AStationAtTheWrongRateIsNotUnderstoodAndComesBack) {
   polls_until(*rig, kFourthRounds);
   const auto right_rate = polls_until(*rig, kFifthRounds);
   EXPECT_EQ(right_rate.answered, 12U);
+}
+
+TEST(SystemRig, APortCountsTheCharactersWithFramingErrorsThatItReceives) {
+  const auto rig = rig_of(kThreeSlaves + "events: [{at: 1500ms, plc: slave2, set: {SMB30: 16#45}}]\n");
+  ASSERT_TRUE(rig);
+  rig->system().run_until(1500 * kMillisecond);
+  EXPECT_EQ(rig->plc(1).framing_errors(), 0U);
+  const serial::System::Snapshot before = rig->system().snapshot();
+  rig->system().run_until(3 * kSecond);
+  EXPECT_GT(rig->plc(1).framing_errors(), 0U) << "it is at 19200 baud, the master at 9600";
+  EXPECT_EQ(rig->plc(0).framing_errors(), 0U);
+  rig->system().restore(before);
+  EXPECT_EQ(rig->plc(1).framing_errors(), 0U);
 }
 
 TEST(SystemRig, AFaultFromAnInstantOnIsThereUntilItIsCleared) {

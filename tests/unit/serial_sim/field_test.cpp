@@ -29,12 +29,13 @@ std::vector<std::string> errors_of(std::string_view csv) {
 TEST(FieldScript, RowsBecomeChangesOfBytes) {
   const FieldScript script = script_of(
       "time,address,value\n# nothing yet\n\n10ms, I0.3, 1\r\n10ms,IB1,16#FF # lamp test\n1.5s,AIW2,-2\n"
-      "2s,IW6,16#1234\n2s,SMB29,200");
+      "2s,IW6,16#1234\n2s,SMB29,200\n3s,SM0.7,0\n4s,SM0.7,1");
   const std::vector<FieldChange> expected{
       {10 * ms, image::kInputs, 0x08, 0x08},         {10 * ms, image::kInputs + 1, 0xFF, 0xFF},
       {1500 * ms, image::kAI + 2, 0xFF, 0xFF},       {1500 * ms, image::kAI + 3, 0xFF, 0xFE},
       {2 * kSecond, image::kInputs + 6, 0xFF, 0x12}, {2 * kSecond, image::kInputs + 7, 0xFF, 0x34},
-      {2 * kSecond, image::kSM + 29, 0xFF, 200}};
+      {2 * kSecond, image::kSM + 29, 0xFF, 200},     {3 * kSecond, sm::kScanStatus, 0x80, 0},
+      {4 * kSecond, sm::kScanStatus, 0x80, 0x80}};
   EXPECT_EQ(script.changes, expected);
   EXPECT_TRUE(script.pulses.empty());
 }
@@ -75,6 +76,8 @@ TEST(FieldScript, EveryWrongRowIsNamedWithItsLineAndWhatToDo) {
       {"1s,Q0.0,1", "'Q0.0' is not an input; rows set I"},
       {"1s,VB0,1", "'VB0' is not an input"},
       {"1s,SMB30,1", "'SMB30' is not an input"},
+      {"1s,SM0.5,1", "'SM0.5' is not an input"},
+      {"1s,SMB0,1", "'SMB0' is not an input"},
       {"1s,SMW28,1", "'SMW28' is not an input"},
       {"1s,AIW1,1", "AIW1 is an odd address; analog values are at even ones: AIW0"},
       {"1s,I8.0,1", "does not exist on CPU 214"},

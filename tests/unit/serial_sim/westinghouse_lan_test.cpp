@@ -92,6 +92,10 @@ TEST(Pc1000Lan, L3AGapOf100MillisecondsThrowsAMessageAwayAndTheAnswerComesOneCha
 TEST(Pc1000Lan, L4TheDataCheckIsTheSumOfTheData) {
   EXPECT_EQ(OnLine("W[0000]=1234")(read_block(0, 2)), "05 00 00 01 00 06 34 12 46");
   EXPECT_EQ(OnLine("W[0000]=1234 data_check=xor")(read_block(0, 2)), "05 00 00 01 00 06 34 12 26");
+  const Bytes by_xor{0x05, 0, 0, 1, 0, 6, 0x34, 0x12, 0x26};
+  EXPECT_EQ(check_block_answer(read_block(0, 2), by_xor, DataCheck::Xor).verdict, serial::Verdict::Right);
+  EXPECT_EQ(check_block_answer(read_block(0, 2), by_xor).fault, "wrong data check: it is the XOR of the data, not the sum");
+  EXPECT_EQ(write_block(0, Bytes{0x34, 0x12}, DataCheck::Xor).back(), 0x26);
 }
 
 TEST(Pc1000Lan, L5TheKeyswitchByteHasOneBitAPositionAndTheFaultMode) {

@@ -17,6 +17,7 @@
 
 namespace s7200::tools {
 
+using westinghouse::kDataCheckWords;
 using westinghouse::kDleWords;
 
 void RecordingOptions::add_to(CLI::App& verb) {
@@ -32,6 +33,10 @@ void RecordingOptions::add_to(CLI::App& verb) {
       ->type_name("NAME");
   verb.add_option("--dle", dle, "of pc500-loader: a byte 10 in what the PLC sends")
       ->check(CLI::IsMember(std::vector<std::string>(kDleWords.begin(), kDleWords.end())))
+      ->capture_default_str()
+      ->type_name("FORM");
+  verb.add_option("--data-check", data_check, "of pc1000-lan and westnet: what the check of a block of data is")
+      ->check(CLI::IsMember(std::vector<std::string>(kDataCheckWords.begin(), kDataCheckWords.end())))
       ->capture_default_str()
       ->type_name("FORM");
   add_line_options(verb, line, "as the protocol has it");
@@ -81,10 +86,17 @@ bool RecordingOptions::was_cut_short() const { return duration != kNever && inte
 
 RecordedProtocol RecordingOptions::spoken() const {
   RecordedProtocol spoken = *find_recorded_protocol(protocol);
-  if (dle == kDleWords[0]) return spoken;
-  if (!spoken.plain_dle_reader)
-    throw std::invalid_argument(fmt::format("--dle plain: {} never doubles a byte 10; pc500-loader does", protocol));
-  spoken.reader = spoken.plain_dle_reader;
+  if (dle != kDleWords[0]) {
+    if (!spoken.plain_dle_reader)
+      throw std::invalid_argument(fmt::format("--dle plain: {} never doubles a byte 10; pc500-loader does", protocol));
+    spoken.reader = spoken.plain_dle_reader;
+  }
+  if (data_check != kDataCheckWords[0]) {
+    if (!spoken.xor_check_reader)
+      throw std::invalid_argument(
+          fmt::format("--data-check xor: {} has no blocks of data; pc1000-lan and westnet have", protocol));
+    spoken.reader = spoken.xor_check_reader;
+  }
   return spoken;
 }
 

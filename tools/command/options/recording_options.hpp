@@ -9,6 +9,7 @@
 
 #include "interpreter/base/serial_format.hpp"
 #include "serial_sim/line/line_settings.hpp"
+#include "serial_sim/westinghouse/block_message.hpp"
 #include "serial_sim/westinghouse/loader_session.hpp"
 #include "tools/command/line_listener.hpp"
 #include "tools/recordings/conversation.hpp"
@@ -27,6 +28,7 @@ struct RecordingOptions {
   ReadingChoices reading{};
   serial::LineSettings line{};
   std::string dle{westinghouse::kDleWords[0]};
+  std::string data_check{westinghouse::kDataCheckWords[0]};
   std::string stamps = "begin";
   Time timeout = kMasterTimeout;  ///< of the master
   Time duration = kNever;         ///< of what is heard live

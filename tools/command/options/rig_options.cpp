@@ -33,8 +33,9 @@ void RigOptions::add_to(CLI::App& app) {
                  "memory to show at the end: VB0:16, VW100, AC0, VD20:real, Speed (repeatable)")
       ->type_name("ADDRESS[:COUNT]")
       ->allow_extra_args(false);
-  app.add_option("--input", settings_.input,
-                 "I, AIW, SMB28 and SMB29 over time, CSV rows such as 10ms,I0.3,1  1s,AIW0,6400  1s,I0.6,pulses,5kHz,200ms")
+  app.add_option(
+         "--input", settings_.input,
+         "I, AIW, SMB28, SMB29 and SM0.7 over time, CSV rows such as 10ms,I0.3,1  1s,SM0.7,0  1s,I0.6,pulses,5kHz,200ms")
       ->type_name("FILE");
   app.add_option("--output", settings_.output,
                  "write each change of an output (Q, AQ) to FILE, as CSV; - is standard output")
