@@ -107,6 +107,9 @@ void clear_current_values(Core& core, const Operand& first, std::uint32_t count)
 /// Both inputs of each counter count as 1 before, so an input that is 1 at the first execution has not risen.
 void power_up(Core& core, const RetentiveMemory*) { core.s.counter_inputs.fill(3); }
 
+/// The time in STOP is no time of a scan.
+void enter_run(Core& core) { core.s.previous_scan_begin = core.s.time; }
+
 void enter_stop(Core& core) {
   core.cancel(kTick1ms);
   core.s.next_tick_1ms = kNever;

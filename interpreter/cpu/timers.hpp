@@ -1,5 +1,6 @@
 // Timers of 1, 10 and 100 ms (facts 6.4): what adds the ticks, and when (S7-200 manual C230-02, 10-14 and 10-15).
-// Not documented, modelled so: timers do not count in STOP. [Timer.InStopTimersDoNotCount]
+// Not documented, modelled so: timers do not count in STOP, and go on in RUN from the value they have.
+// [Timer.InStopTimersDoNotCount, Timer.AfterAStopTimersGoOnFromTheirValue]
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
@@ -26,6 +27,7 @@ void pass(const Core& core, State& s, Time by, Time last_scan);
 
 // For the table of units.
 void power_up(Core& core, const RetentiveMemory* memory);
+void enter_run(Core& core);
 void enter_stop(Core& core);
 void count_scan(Core& core);
 /// 10 ms timers stay the same during a scan; 100 ms timers add the ticks of the previous scan when they are executed.

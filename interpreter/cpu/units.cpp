@@ -50,6 +50,7 @@ constexpr Unit kUnits[] = {
      .inputs_changed = interrupts::inputs_changed,
      .events = {kTimedInterrupt0, 2, interrupts::handle}},
     {.power_up = timers::power_up,
+     .enter_run = timers::enter_run,
      .enter_stop = timers::enter_stop,
      .begin_scan = timers::begin_scan,
      .events = {kTick1ms, 1, timers::handle}},

@@ -230,6 +230,19 @@ TEST(Timer, InStopTimersDoNotCount) {
   EXPECT_EQ(plc.value("T33"), slow);
 }
 
+TEST(Timer, AfterAStopTimersGoOnFromTheirValue) {
+  Plc plc("LD SM0.0\nTON T32, 30000\nTON T33, 30000\nTON T37, 30000\nTONR T5, 30000\nMEND\n");
+  plc.run_until(2 * kSecond);
+  scan::change_mode(plc.cpu.core(), Mode::Stop);
+  plc.run_until(12 * kSecond);
+  scan::change_mode(plc.cpu.core(), Mode::Run);
+  plc.run_until(13 * kSecond);
+  EXPECT_NEAR(plc.value("T32"), 3000, 3);
+  EXPECT_NEAR(plc.value("T33"), 300, 2);
+  EXPECT_NEAR(plc.value("T37"), 30, 1);
+  EXPECT_NEAR(plc.value("T5"), 30, 1);
+}
+
 TEST(Timer, OneMillisecondTimersCountAgainAfterAStop) {
   Plc plc("LD SM0.0\nTON T32, 5\nMEND\n");
   plc.run_until(20 * ms);
