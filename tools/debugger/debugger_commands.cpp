@@ -44,9 +44,11 @@ constexpr std::string_view kBackwards =
     "It stops at breakpoints and watches on the way, also before they were set unless they wait for a number of hits.";
 
 constexpr std::string_view kMoreAboutPrint =
-    R"(. What a pointer points to is a byte unless :word, :dword or :real
-is asked for; of one that points nowhere it says who wrote it. &VB100 is a pointer to VB100, as in VD20 = &VB100. SMB30
-is shown in words, timers with bit, preset and base. A double word that the program uses as a real is shown as one too.
+    R"(; all but /d show the bits of a real. VB100:real, VB100:word:4 or
+AC0:byte take memory in bytes and accumulators as another type: byte, word, dword, real. What a pointer points to is a
+byte unless one of them is asked for; of one that points nowhere it says who wrote it. &VB100 is a pointer to VB100, as in
+VD20 = &VB100. SMB30 is shown in words, timers with bit, preset and base. A double word that the program uses as a real is
+shown as one too.
 In expressions words and double words have a sign, and beside them a constant above 32767 or 2147483647 stands for its
 bits: VW20 = 16#FFFF is VW20 = -1. For example: print VD20:real:4 SMB30 T37, print /x VW100:8, print VW2 * 2 + 1.)";
 

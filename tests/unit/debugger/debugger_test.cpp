@@ -1,3 +1,9 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/base/text.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/slave_bench.hpp"
@@ -574,6 +580,22 @@ TEST(Debugger, MemoryIsPrintedAsAnyType) {
   EXPECT_TRUE(has(session.error_of("print T37:word"), "are for memory in bytes"));
   EXPECT_TRUE(has(session.error_of("print VB2047:word:9000"), "does not exist on CPU 214"));
   EXPECT_TRUE(has(session("print -VW40"), "= 0 ")) << "no sign";
+}
+
+TEST(Debugger, AFormOfARealThatIsComputedShowsItsBits) {
+  Session session(kEcho);
+  session("set VD20=16#41200000");
+  EXPECT_TRUE(has(session("print VD20:real * 2"), "= 20\n"));
+  EXPECT_TRUE(has(session("print /x VD20:real * 2"), "= 16#41A00000\n"));
+  EXPECT_TRUE(has(session("print /d VD20:real * 2"), "= 20\n"));
+  EXPECT_TRUE(has(session("print /x VD20:real"), "16#41200000\n")) << "as of memory";
+}
+
+TEST(Debugger, HelpOnPrintNamesTheTypesOfAPlainAddress) {
+  Session session(kEcho);
+  const std::string help = session("help print");
+  for (const std::string_view type : {"byte", "word", "dword", "real"}) EXPECT_TRUE(has(help, type));
+  EXPECT_TRUE(has(help, "VB100:word:4"));
 }
 
 TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
