@@ -205,9 +205,15 @@ void Debugger::go(const Run& run) {
 /// There is nothing to step through, and what can be done.
 void Debugger::report_standstill() {
   const State& state = simulation().cpu().state();
+  const bool powered = simulation().plc().powered();
   if (is_system()) {
     out_ << fmt::format("{} {} and executes nothing; 'continue' runs the others, 'station NAME' goes over to one of them\n",
-                        name_of(focus()), simulation().plc().powered() ? "is in STOP" : "is without power");
+                        name_of(focus()), powered ? "is in STOP" : "is without power");
+    return;
+  }
+  if (!powered) {
+    out_ << fmt::format("{}; 'continue' lets time pass, 'rstep' and 'back' return to before that\n",
+                        without_power_text(name_of(focus())));
     return;
   }
   out_ << fmt::format(

@@ -135,9 +135,10 @@ began. For example: send 01 03 00 0a 00 01 crc; continue; timeline, or timeline 
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
       {"power", "", "power [all] [TIME] [lost] | off | on",
        "switch power off and on again: the CPU begins with what it has kept",
-       R"(TIME is how long it was off, in ns, us, ms, s, min or h; the clock goes on: power 8h. lost: too long for the RAM,
-only the EEPROM is left. A new branch, from time 0: back takes it back. Of a system say which: all is every PLC at once,
-power all 8h; off and on switch this PLC alone, time goes on, and going back crosses both: power off; continue 2s; power on.)",
+       R"(off and on switch this PLC alone; time goes on, and going back crosses both: power off; continue 2s; power on.
+power alone, or with a TIME, does both at once and begins a new branch at time 0, which back takes back. TIME is how long
+it was off, in ns, us, ms, s, min or h; the clock goes on: power 8h. lost: too long for the RAM, only the EEPROM is left. Of
+a system that is every PLC: power all 8h.)",
        &Debugger::power, Takes::Power},
       {"save", "", "save FILE [!]",
        "write where this session stands, and its past; 'load' returns there, in another session too",
