@@ -41,13 +41,8 @@ std::vector<TraceLine> TraceLines::of(const InstructionRecord& record) {
   return {{record.end, std::move(way)}};
 }
 
-void TraceLines::note(const TraceRecord& record) {
-  reasons_.note(record);
-  path_.forget();
-}
-
-void TraceLines::forget() {
-  reasons_.forget();
+void TraceLines::forget(const TraceReasons::Disabled& interrupts) {
+  reasons_.forget(interrupts);
   path_.forget();
 }
 

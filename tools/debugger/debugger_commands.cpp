@@ -444,6 +444,9 @@ Debugger::Error Debugger::trace(const Arguments& arguments) {
   const std::string word = arguments.size() == 1 ? stl::lower_case(arguments[0]) : "";
   if (word != "on" && word != "off") return expects("trace", "on or off");
   tracing_ = word == "on";
+  traces_follow_ = false;
+  let_traces_follow();
+  for (Station& station : stations_) station.trace_lines.begin_way();
   return {};
 }
 
