@@ -130,7 +130,8 @@ class Session {
   // Running (session_steps.cpp).
   struct Run {
     Stepper::Goal goal;
-    std::string reason;  ///< of the stop when the goal is met
+    std::string reason;   ///< of the stop when the goal is met
+    Time until = kNever;  ///< of a step of a PLC that executes nothing
   };
   Json go_on(const Json& arguments);
   Json next(const Json& arguments);
@@ -200,6 +201,7 @@ class Session {
   Json send_frame(const Json& arguments);
   Json inject_fault(const Json& arguments);
   void change_mode(const std::string& word);
+  void switch_power(const std::string& word);
   Json force(const Json& arguments);
   Json unforce(const Json& arguments);
   Json timeline(const Json& arguments);

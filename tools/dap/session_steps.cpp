@@ -21,6 +21,9 @@
 namespace s7200::tools::dap {
 namespace {
 
+/// Of a step of the only PLC while it has no power.
+constexpr Time kStepWithoutPower = 100 * kMillisecond;
+
 std::uint64_t count_in(const Json& arguments) {
   const auto count = arguments.value("count", std::int64_t{1});
   if (count < 1) throw Refused("count must be a number above 0");
@@ -32,7 +35,8 @@ std::uint64_t count_in(const Json& arguments) {
 // --- forwards ---
 
 void Session::run_to(Stepper::Goal goal, const std::string& reason) {
-  running_ = Run{std::move(goal), reason};
+  const bool passes_time = stations() == 1 && !simulation().plc().powered() && reason == "step";
+  running_ = Run{std::move(goal), reason, passes_time ? simulation().time() + kStepWithoutPower : kNever};
   first_error_.reset();
   exceptions_.clear();
 }
@@ -101,21 +105,24 @@ void Session::run() {
   while (running_) {
     if (pause_asked_) return report({.reason = StopReason::Request, .station = looks_at()}, "pause");
     const History& history = debuggee_->history();
-    const bool stands = stations() == 1 && !simulation().system().has_schedule() && cpu().state().mode == Mode::Stop;
+    const bool stands = stations() == 1 && !simulation().system().has_schedule() && !simulation().plc().executes();
+    const bool passes_time = running_->until != kNever;
     const bool waits = simulation().has_master() && simulation().master().asks();
-    if (stands && !waits && !history.in_the_past())
+    if (stands && !waits && !passes_time && !history.in_the_past())
       return report({.reason = StopReason::CpuStopped, .station = looks_at()}, "");
     send_what_is_due();
     const bool more = frames_sent_ < frames_.size();
     const Time now = simulation().time();
-    Time limit = more && now < send_after_ ? send_after_ : kNever;
-    if (stands && !waits) limit = history.newest().time;
+    Time limit = std::min(more && now < send_after_ ? send_after_ : kNever, running_->until);
+    if (stands && !waits && !passes_time) limit = history.newest().time;
     const Stop stop = stepper_->run(running_->goal, limit, more || stands);
     if (const std::string failure = debuggee_->take_failure(); !failure.empty()) return report_failure(stop, failure);
     if (stop.reason == StopReason::Request) {
       if (!pause_asked_) return;
     } else if (!stop.hits.empty() || (stop.reason != StopReason::Limit && stop.reason != StopReason::Answer)) {
       return report(stop, running_->reason);
+    } else if (simulation().time() >= running_->until) {
+      return report({.reason = StopReason::Goal, .station = looks_at()}, running_->reason);
     }
   }
 }
@@ -292,7 +299,9 @@ Json Session::body_of(const Stop& stop, const std::string& reason) {
   const bool stopped = stop.reason == StopReason::CpuStopped;
   if (stopped && cpu().state().fatal_code != 0) body.update(body_of_fatal_error());
   if (!body.empty()) return body;
-  if (stopped) return {{"reason", "pause"}, {"description", said_of(looks_at()) + "the CPU is in STOP"}};
+  if (stopped)
+    return {{"reason", "pause"},
+            {"description", simulation().plc().powered() ? said_of(looks_at()) + "the CPU is in STOP" : without_power()}};
   if (stop.reason == StopReason::Oldest) {
     const std::string text = at_oldest_text(debuggee_->history());
     print(text);

@@ -802,6 +802,32 @@ TEST(DapSession, ARequestInStopIsGivenUpAndAModeRequestStartsTheProgram) {
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "mode run"}, {"context", "repl"}}), "is in RUN already"));
 }
 
+TEST(DapSession, TheOnlyPlcLosesPowerWhileStepsLetTimePassAndTheWayBackStays) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto console = [&](const char* line) { return editor("evaluate", {{"expression", line}, {"context", "repl"}}); };
+  const auto time = [&] { return editor.debuggee->simulation().time(); };
+  editor("stepScan", {{"threadId", 1}, {"count", 5}});
+  console("power off");
+  EXPECT_EQ(editor.frame()["name"], "without power");
+  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "power off"}, {"context", "repl"}}), "without power already"));
+  EXPECT_TRUE(has(editor.error_of("setExpression", {{"expression", "VW10"}, {"value", "1"}}), "'power on' in the console"));
+  const Time off = time();
+  editor("next", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "step");
+  EXPECT_EQ(time(), off + 100 * kMillisecond);
+  editor("continue", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor.last("stopped")["description"].get<std::string>(), "the PLC is without power"));
+  console("power on");
+  editor("stepScan", {{"threadId", 1}});
+  EXPECT_NE(editor.frame()["name"], "without power");
+  EXPECT_GT(time(), off);
+  editor("goToMoment", {{"time", "start"}});
+  EXPECT_EQ(time(), 0);
+  editor("goToMoment", {{"time", "end"}});
+  EXPECT_GT(time(), off + 100 * kMillisecond);
+}
+
 TEST(DapSession, SettingInThePastBeginsABranch) {
   Editor editor(kNested);
   editor.begin();
