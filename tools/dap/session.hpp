@@ -160,6 +160,7 @@ class Session {
   void report_stopped(Json body);
   Json body_of(const Stop& stop, const std::string& reason);
   Json body_of_hits(const Stop& stop);
+  static std::string exception_of(const Hit& hit);
   Json body_of_hit(const Hit& hit);
   static std::string_view reason_of(StopKind kind);
   Json body_of_fatal_error();

@@ -315,6 +315,12 @@ bool Session::has_gone_back_to(std::uint32_t op) {
   return stepper_->run_back_past_stops(goal::place(op)).reason == StopReason::Goal;
 }
 
+/// `run-time error 0006`, whichever codes its filter has.
+std::string Session::exception_of(const Hit& hit) {
+  if (hit.stop.on != StopPoint::On::RuntimeError || hit.stop.code || !hit.record) return hit.stop.name;
+  return fmt::format("{} {:04X}", hit.stop.name, hit.record->code);
+}
+
 Json Session::body_of_hits(const Stop& stop) {
   const auto own = std::ranges::find(stop.hits, stop.station, [](const Hit& hit) { return hit.stop.station; });
   Json body = body_of_hit(own == stop.hits.end() ? stop.hits.front() : *own);
@@ -324,8 +330,9 @@ Json Session::body_of_hits(const Stop& stop) {
     if (placed_[hit.stop.number].kind != StopKind::Exception)
       ids.push_back(hit.stop.number);
     else
-      exceptions_.try_emplace(hit.stop.station,
-                              Json{{"exceptionId", hit.stop.name}, {"description", text_of(hit)}, {"breakMode", "always"}});
+      exceptions_.try_emplace(
+          hit.stop.station,
+          Json{{"exceptionId", exception_of(hit)}, {"description", text_of(hit)}, {"breakMode", "always"}});
   }
   if (!ids.empty()) body["hitBreakpointIds"] = ids;
   return body;
@@ -358,8 +365,9 @@ std::string Session::text_of(const Hit& hit) const {
   const Listing& listing = stations_[hit.stop.station].listing;
   std::string text = said_of(hit.stop.station);
   const bool is_watch = hit.stop.is_watch();
-  text += fmt::format("{} {}: {}", is_watch ? "watch" : "breakpoint", hit.stop.number,
-                      is_watch ? value_text(hit, program) : hit.stop.name);
+  if (placed_.at(hit.stop.number).kind != StopKind::Exception)  // which the client knows by no number
+    text += fmt::format("{} {}: ", is_watch ? "watch" : "breakpoint", hit.stop.number);
+  text += is_watch ? value_text(hit, program) : hit.stop.name;
   if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) text += ", " + serial::to_hex(hit.frame);
   if (hit.asker && hit.asker->kind == Asker::Kind::Send) {
