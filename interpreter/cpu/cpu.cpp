@@ -47,7 +47,7 @@ void Cpu::run(Time limit, Time work) {
       if (s.phase != Phase::Program) continue;
     }
     if (core_.sink() && core_.sink()->wants_instructions())
-      execute_observed();
+      execute_observed(core_.sink()->watcher());
     else
       execute_plain();
   }
@@ -78,20 +78,33 @@ void Cpu::execute_plain() {
   s.instructions += executed;
 }
 
-void Cpu::execute_observed() {
+void Cpu::execute_observed(TraceSink& sink) {
+  switch (sink.watch()) {
+    case Watch::Flow:
+      return execute_watched<Watch::Flow>(sink);
+    case Watch::Values:
+      return execute_watched<Watch::Values>(sink);
+    case Watch::Stops:
+      return execute_watched<Watch::Stops>(sink);
+  }
+}
+
+template <Watch watch>
+void Cpu::execute_watched(TraceSink& sink) {
   State& s = core_.s;
   Loop& loop = core_.loop;
+  const Op* const ops = core_.program().ops.data();
+  const Time no_power_flow = core_.program().no_power_flow;
   while (s.time < loop.until) {
-    if (!core_.sink()->before(s.pc)) {
+    if (watch == Watch::Stops && !sink.before(s.pc)) {
       loop.paused = true;
       return;
     }
     loop.op = s.pc;
-    const Op& op = core_.program().ops[loop.op];
+    const Op& op = ops[loop.op];
     InstructionRecord record{.at = s.time, .op = loop.op};
-    const auto rules = op.instruction->rules();
-    for (std::size_t i = 0; i < rules.size(); ++i)
-      if (rules[i].role == Role::In) record.value[i] = peek(op, i);
+    const bool values = watch != Watch::Flow || op.is_contact;
+    if (values) look_at(op, op.inputs, record);
     ++s.instructions;
     record.powered = !(op.power_mask & ~s.stack.bits());
     if (record.powered) {
@@ -99,16 +112,21 @@ void Cpu::execute_observed() {
       s.pc = loop.op + 1;
       op.body(core_, op);
     } else {
-      s.time += core_.program().no_power_flow;
+      s.time += no_power_flow;
       s.pc = op.skip_to;
       s.eno &= !op.sets_eno;
     }
     record.end = s.time;
     record.top = s.stack.top();
-    for (std::size_t i = 0; i < rules.size(); ++i)
-      if (rules[i].role != Role::In) record.value[i] = peek(op, i);
-    core_.sink()->instruction(record);
+    if (values) look_at(op, op.outputs, record);
+    sink.instruction(record);
   }
+}
+
+/// `operands`: a bit each.
+inline void Cpu::look_at(const Op& op, std::uint8_t operands, InstructionRecord& record) const {
+  for (std::size_t i = 0; operands >> i != 0; ++i)
+    if (operands >> i & 1) record.value[i] = peek(op, i);
 }
 
 Time Cpu::next_action() const {

@@ -127,7 +127,10 @@ class Cpu {
 
  private:
   void execute_plain();
-  void execute_observed();
+  void execute_observed(TraceSink& sink);
+  template <Watch watch>
+  void execute_watched(TraceSink& sink);
+  void look_at(const Op& op, std::uint8_t operands, InstructionRecord& record) const;
 
   Core core_;
   SteadyScans steady_scans_;

@@ -69,7 +69,7 @@ void detach(Core& core, std::uint8_t event) {
 void enable(Core& core, bool enabled) {
   core.s.interrupts_enabled = enabled;
   core.put_mask(sm::kInterruptStatus, sm::kInterruptsEnabled, enabled);
-  if (core.sink())
+  if (core.sink())  // ENI in each scan is nothing to the outside: without a sink such scans are alike (Core::touched)
     core.trace({.at = core.s.time,
                 .kind = TraceKind::Enable,
                 .code = static_cast<std::uint16_t>(enabled ? 1 : 0),

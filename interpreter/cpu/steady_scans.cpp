@@ -38,8 +38,8 @@ Time next_change(const Core& core) {
 
 bool may_pass(const Core& core) {
   const TraceSink* const sink = core.sink();
-  return core.s.mode == Mode::Run && !core.s.in_interrupt && !core.loop.pause_at_scan_end &&
-         !core.program().looks.every_scan && !(sink && sink->wants_scans());
+  return core.s.mode == Mode::Run && !core.loop.pause_at_scan_end && !core.program().looks.every_scan &&
+         !(sink && sink->wants_scans());
 }
 
 }  // namespace

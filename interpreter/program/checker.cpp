@@ -16,6 +16,7 @@
 #include "interpreter/program/chains.hpp"
 #include "interpreter/program/data_block.hpp"
 #include "interpreter/program/german.hpp"
+#include "interpreter/program/networks.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/parameters.hpp"
 #include "interpreter/program/structure.hpp"
@@ -421,6 +422,10 @@ class Checker {
     op.in_segment = structure.in_segment[i];
     op.target = structure.target[i];
     op.skip_to = instruction.structure == Structure::For ? op.target : i + 1;
+    op.is_contact =
+        (instruction.structure == Structure::None || instruction.structure == Structure::Compare) && !is_box_or_coil(op);
+    for (std::size_t k = 0; k < instruction.rules().size(); ++k)
+      (instruction.operand[k].role == Role::In ? op.inputs : op.outputs) |= static_cast<std::uint8_t>(1u << k);
     Areas written = 0;
     for (std::size_t k = 0; k < op.operand.size(); ++k) {
       op.operand[k] = placed[k].operand;

@@ -40,6 +40,9 @@ struct Op {
   bool has_pointer = false;     ///< some operand is a pointer
   bool in_segment = false;      ///< between LSCR and SCRE
   bool sets_eno = false;        ///< a box with an ENO output, in a program that reads it
+  bool is_contact = false;      ///< neither a box nor a coil, nor part of the structure of the program
+  std::uint8_t inputs = 0;      ///< operands that it only reads, a bit each
+  std::uint8_t outputs = 0;     ///< the others that it has
   const Instruction* instruction = nullptr;
 
   const Operand& operator[](std::size_t i) const { return operand[i]; }

@@ -11,6 +11,7 @@
 #include "interpreter/program/operands.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/line_parts.hpp"
+#include "interpreter/trace/trace_reasons.hpp"
 
 namespace s7200 {
 namespace {
@@ -215,13 +216,6 @@ void EventText::append_to(fmt::memory_buffer& text, const TraceRecord& r) {
     case TraceKind::PpiIgnored:
       return add("PPI frame of ", counted(r.count, "character"), " ignored: its check sum or end is wrong");
   }
-}
-
-void EventLines::append_line(fmt::memory_buffer& text, const TraceRecord& record) {
-  begin_line(text, record.at);
-  text_.append_to(text, record);
-  append(text, reasons_.of(record), "\n");
-  reasons_.note(record);
 }
 
 std::string describe(const TraceRecord& record, const Program& program) {

@@ -9,7 +9,6 @@
 #include "interpreter/model/events.hpp"
 #include "interpreter/program/program.hpp"
 #include "interpreter/trace/trace.hpp"
-#include "interpreter/trace/trace_reasons.hpp"
 
 namespace s7200 {
 
@@ -34,20 +33,6 @@ class EventText {
   const Program& program_;
   std::array<std::string, kEvents> events_;
   std::array<Duration, 64> durations_;  ///< the last ones, each at a place of its own
-};
-
-class EventLines {
- public:
-  /// The program must live as long as this.
-  explicit EventLines(const Program& program) : text_(program), reasons_(program) {}
-
-  /// Appends `     154.215259  INT 123 ends: took 259.4 us` and a line end. Must be told every record, in their order: a
-  /// line says why as well (trace_reasons.hpp).
-  void append_line(fmt::memory_buffer& text, const TraceRecord& record);
-
- private:
-  EventText text_;
-  TraceReasons reasons_;
 };
 
 /// One line for a record, without the time and the line end: `INT 122 begins: event 8 (…), waited 12 us`.

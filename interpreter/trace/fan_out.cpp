@@ -30,6 +30,19 @@ bool FanOut::wants_instructions() const {
   return std::any_of(sinks_.begin(), sinks_.end(), [](const TraceSink* sink) { return sink->wants_instructions(); });
 }
 
+Watch FanOut::watch() const {
+  Watch closest = Watch::Flow;
+  for (const TraceSink* sink : sinks_)
+    if (sink->wants_instructions()) closest = std::max(closest, sink->watch());
+  return closest;
+}
+
+TraceSink& FanOut::watcher() {
+  const auto wants = [](const TraceSink* sink) { return sink->wants_instructions(); };
+  if (std::ranges::count_if(sinks_, wants) != 1) return *this;
+  return (*std::ranges::find_if(sinks_, wants))->watcher();
+}
+
 bool FanOut::wants_scans() const {
   return std::any_of(sinks_.begin(), sinks_.end(), [](const TraceSink* sink) { return sink->wants_scans(); });
 }

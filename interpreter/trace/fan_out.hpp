@@ -21,6 +21,8 @@ class FanOut final : public TraceSink {
   bool before(std::uint32_t op) override;
   void instruction(const InstructionRecord& record) override;
   bool wants_instructions() const override;
+  Watch watch() const override;
+  TraceSink& watcher() override;
   bool wants_scans() const override;
 
  private:

@@ -94,31 +94,34 @@ std::string ProgramPath::of(const TraceRecord& record) {
   return {};
 }
 
-std::string ProgramPath::of(const InstructionRecord& record) {
+const std::string* ProgramPath::of(const InstructionRecord& record) {
   const bool failed = std::exchange(failed_, false);
   if (in_interrupt_) {
     if (interrupt_ends_) in_interrupt_ = interrupt_ends_ = false;
-    return {};
+    return nullptr;
   }
   const Role role = role_[record.op];
-  if (!known_ || ended_ || role == Role::None) return {};
+  if (!known_ || ended_ || role == Role::None) return nullptr;
   const bool flows = role == Role::Coil ? record.top : record.powered;
   const bool happens = role == Role::Return || (flows && role != Role::End && !(role == Role::Call && failed));
   if (happens && course_.size() < kLongestCourse) course_.push_back(record.op);
   ended_ = role == Role::End || (role == Role::ConditionalEnd && record.powered);
-  if (!ended_) return {};
-  const bool same = as_before();
+  return ended_ && takes_new_way() ? &other_.text : nullptr;
+}
+
+/// At the end of the main program. `other_` is that way then.
+bool ProgramPath::takes_new_way() {
+  const auto known = before_.begin() + static_cast<std::ptrdiff_t>(known_before_);
+  bool is_new = std::find(before_.begin(), known, course_) == known;
+  if (is_new) {
+    if (course_ != other_.course) other_ = {course_, way_of(course_), {}};
+    is_new = std::none_of(before_.begin(), known, [&](const Course& one) { return way_of(one) == other_.way; });
+    if (is_new && other_.text.empty()) other_.text = "main program: " + text_of(other_.way);
+  }
   std::swap(before_[0], before_[1]);
   std::swap(before_[0], course_);
   known_before_ = std::min(known_before_ + 1, before_.size());
-  return same ? "" : "main program: " + text_of(way_of(before_[0]));
-}
-
-bool ProgramPath::as_before() const {
-  const auto known = before_.begin() + static_cast<std::ptrdiff_t>(known_before_);
-  if (std::find(before_.begin(), known, course_) != known) return true;
-  const Way way = way_of(course_);
-  return std::any_of(before_.begin(), known, [&](const Course& one) { return way_of(one) == way; });
+  return is_new;
 }
 
 void ProgramPath::add(Way& way, Step step) {
@@ -142,10 +145,13 @@ void ProgramPath::return_from_subroutine(std::vector<Called>& open) {
 void ProgramPath::take(std::vector<Called>& open, std::uint32_t op) const {
   const Role role = role_[op];
   if (role == Role::Return) return return_from_subroutine(open);
-  add(open.back().way, {.what = What::Network, .op = networks_.first_of(op)});
+  Way& way = open.back().way;
+  const std::uint32_t network = networks_.first_of(op);
+  if (way.empty() || way.back().what != What::Network || way.back().op != network)
+    add(way, {.what = What::Network, .op = network});
   if (role == Role::Box || role == Role::Coil) return;
   if (role == Role::Call) return open.push_back({.by = op});
-  add(open.back().way, {.what = role == Role::Jump ? What::Jump : What::Leave, .op = op});
+  add(way, {.what = role == Role::Jump ? What::Jump : What::Leave, .op = op});
   if (role == Role::ConditionalReturn) return_from_subroutine(open);
 }
 

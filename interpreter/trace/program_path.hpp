@@ -21,8 +21,9 @@ class ProgramPath {
   explicit ProgramPath(const Program& program, std::size_t deepest = 8);
 
   /// `main program: network 2, CALL 51 in line 79 (networks 5-6, JMP 255 in line 141, network 11)` at its end, if it took
-  /// another way than in the two scans before: what alternates is the same way. Nothing otherwise.
-  std::string of(const InstructionRecord& record);
+  /// another way than in the two scans before: what alternates is the same way. Null otherwise. The text stays until
+  /// it is told more.
+  const std::string* of(const InstructionRecord& record);
 
   /// How far it came, if the CPU goes to STOP meanwhile.
   std::string of(const TraceRecord& record);
@@ -55,8 +56,15 @@ class ProgramPath {
   /// way, which is made of it only if it is another one.
   using Course = std::vector<std::uint32_t>;
 
+  /// The last course that differed from those before it. Whoever asks a slave the same again makes it take that again.
+  struct Other {
+    Course course{};
+    Way way{};
+    std::string text{};  ///< if it was told
+  };
+
   static Role role_of(const Op& op);
-  bool as_before() const;
+  bool takes_new_way();
   Way way_of(const Course& course) const;
   static void add(Way& way, Step step);
   static void return_from_subroutine(std::vector<Called>& open);
@@ -74,6 +82,7 @@ class ProgramPath {
   bool failed_ = false;  ///< the instruction being executed has caused a run-time error
   Course course_;
   std::array<Course, 2> before_;  ///< in the last scan, and in that before it
+  Other other_;
   std::size_t known_before_ = 0;  ///< so many of them
 };
 

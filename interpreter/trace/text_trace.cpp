@@ -15,7 +15,6 @@ TextTrace::TextTrace(TakeLine take, std::shared_ptr<const Program> program, Trac
     : take_(std::move(take)),
       program_(std::move(program)),
       detail_(detail),
-      event_lines_(*program_),
       lines_(*program_),
       instruction_lines_(*program_) {}
 
@@ -25,14 +24,14 @@ bool TextTrace::wants(const TraceRecord& record) const {
 }
 
 void TextTrace::record(const TraceRecord& record) {
-  const bool wanted = wants(record);
-  if (detail_ == TraceDetail::Events) {
+  if (wants(record)) {
     line_.clear();
-    if (wanted) event_lines_.append_line(line_, record);
-    return put_line(record.at);
+    begin_line(line_, record.at);
+    lines_.append_to(line_, record);
+    append(line_, "\n");
+    put_line(record.at);
   }
-  const std::vector<TraceLine> lines = lines_.of(record);
-  if (wanted) write(lines);
+  for (const TraceLine& line : lines_.besides(record)) note(line.at, line.text);
 }
 
 void TextTrace::instruction(const InstructionRecord& record) {
@@ -41,22 +40,16 @@ void TextTrace::instruction(const InstructionRecord& record) {
     instruction_lines_.append_line(line_, record);
     put_line(record.end);
   }
-  write(lines_.of(record));
+  if (const auto line = lines_.of(record)) note(line->at, line->text);
 }
 
-void TextTrace::note(Time at, std::string_view what) { write({{at, std::string(what)}}); }
-
-void TextTrace::write(const std::vector<TraceLine>& lines) {
-  for (const TraceLine& line : lines) {
-    line_.clear();
-    begin_line(line_, line.at);
-    append(line_, line.text, "\n");
-    put_line(line.at);
-  }
+void TextTrace::note(Time at, std::string_view what) {
+  line_.clear();
+  begin_line(line_, at);
+  append(line_, what, "\n");
+  put_line(at);
 }
 
-void TextTrace::put_line(Time at) {
-  if (line_.size() > 0) take_(at, {line_.data(), line_.size()});
-}
+void TextTrace::put_line(Time at) { take_(at, {line_.data(), line_.size()}); }
 
 }  // namespace s7200

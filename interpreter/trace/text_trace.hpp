@@ -39,18 +39,17 @@ class TextTrace final : public TraceSink {
   void note(Time at, std::string_view what);
 
   bool wants_instructions() const override { return detail_ != TraceDetail::Events; }
+  Watch watch() const override { return detail_ == TraceDetail::Instructions ? Watch::Values : Watch::Flow; }
   bool wants_scans() const override { return detail_ == TraceDetail::Instructions; }
 
  private:
   bool wants(const TraceRecord& record) const;
-  void write(const std::vector<TraceLine>& lines);
   void put_line(Time at);
 
   TakeLine take_;
   std::shared_ptr<const Program> program_;
   TraceDetail detail_;
-  EventLines event_lines_;  // of Events
-  TraceLines lines_;        // of the others
+  TraceLines lines_;
   InstructionLines instruction_lines_;
   fmt::memory_buffer line_;
 };

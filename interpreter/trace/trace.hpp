@@ -76,7 +76,8 @@ struct TraceRecord {
   Time interval = 0;
 };
 
-/// One executed instruction and the values of its operands: inputs before it, outputs after it.
+/// One executed instruction and, as closely as it is watched, the values of its operands: inputs before it, outputs after
+/// it.
 struct InstructionRecord {
   Time at = 0;  ///< start
   Time end = 0;
@@ -86,15 +87,26 @@ struct InstructionRecord {
   std::array<std::optional<std::uint32_t>, 3> value{};
 };
 
+/// How closely a sink looks at instructions. Each way includes those before it.
+enum class Watch : std::uint8_t {
+  Flow,    ///< which ones had power flow, and the values that contacts saw
+  Values,  ///< those of all operands
+  Stops    ///< it is asked before each whether the CPU stops there
+};
+
 class TraceSink {
  public:
   virtual ~TraceSink() = default;
   virtual void record(const TraceRecord&) {}
-  /// Called before an instruction; returning false stops the CPU before it.
+  /// Called before an instruction, of a sink that stops the CPU; returning false stops it there.
   virtual bool before(std::uint32_t /*op*/) { return true; }
   virtual void instruction(const InstructionRecord&) {}
   /// Whether before() and instruction() are to be called at all.
   virtual bool wants_instructions() const { return false; }
+  /// How closely it looks at them then.
+  virtual Watch watch() const { return Watch::Stops; }
+  /// Who is to be told of them: it, or the only one that it would tell.
+  virtual TraceSink& watcher() { return *this; }
   /// Whether each scan matters, because its beginning is recorded or something in it is looked for. Otherwise scans that
   /// are all alike may be passed over.
   virtual bool wants_scans() const { return true; }

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "interpreter/trace/line_parts.hpp"
+
 namespace s7200 {
 namespace {
 
@@ -26,19 +31,30 @@ std::string unanswered_text(const TraceReasons::Unanswered& frame) {
 
 std::vector<TraceLine> TraceLines::of(const TraceRecord& record) {
   fmt::memory_buffer text;
+  append_to(text, record);
+  std::vector<TraceLine> lines{{record.at, fmt::to_string(text), is_trouble(record.kind)}};
+  std::ranges::move(besides(record), std::back_inserter(lines));
+  return lines;
+}
+
+void TraceLines::append_to(fmt::memory_buffer& text, const TraceRecord& record) {
   text_.append_to(text, record);
-  std::vector<TraceLine> lines{{record.at, fmt::to_string(text) + reasons_.of(record), is_trouble(record.kind)}};
+  append(text, reasons_.of(record));
+}
+
+std::vector<TraceLine> TraceLines::besides(const TraceRecord& record) {
+  std::vector<TraceLine> lines;
   for (const auto& unanswered : reasons_.unanswered(record)) lines.push_back({record.at, unanswered_text(unanswered), true});
   if (std::string way = path_.of(record); !way.empty()) lines.push_back({record.at, std::move(way)});
   reasons_.note(record);
   return lines;
 }
 
-std::vector<TraceLine> TraceLines::of(const InstructionRecord& record) {
+std::optional<TraceLine> TraceLines::of(const InstructionRecord& record) {
   reasons_.note(record);
-  std::string way = path_.of(record);
-  if (way.empty()) return {};
-  return {{record.end, std::move(way)}};
+  const std::string* const way = path_.of(record);
+  if (!way) return {};
+  return TraceLine{record.end, *way};
 }
 
 void TraceLines::forget(const TraceReasons::Disabled& interrupts) {

@@ -2,6 +2,7 @@
 // main program took.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,12 @@ class TraceLines {
   explicit TraceLines(const Program& program) : text_(program), reasons_(program), path_(program) {}
 
   std::vector<TraceLine> of(const TraceRecord& record);
-  std::vector<TraceLine> of(const InstructionRecord& record);
+  std::optional<TraceLine> of(const InstructionRecord& record);
+
+  /// The same in two steps. The first appends `INT 123 ends: took 259.4 us`: what happened and why.
+  void append_to(fmt::memory_buffer& text, const TraceRecord& record);
+  /// What it means for frames and for the way.
+  std::vector<TraceLine> besides(const TraceRecord& record);
 
   /// What it is told next need not follow on what it was told; interrupts are so then.
   void forget(const TraceReasons::Disabled& interrupts);

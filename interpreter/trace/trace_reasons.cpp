@@ -119,8 +119,7 @@ std::string ignored_because(const TraceRecord& record) {
 TraceReasons::TraceReasons(const Program& program) : program_(program) {
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
     const Instruction& instruction = *program.ops[op].instruction;
-    const bool none = instruction.structure == Structure::None || instruction.structure == Structure::Compare;
-    Role role = none ? Role::Contact : Role::Mark;
+    Role role = program.ops[op].is_contact ? Role::Contact : Role::Mark;
     if (begins_rung(program, op)) role = Role::FirstContact;
     if (is_box_or_coil(program.ops[op])) role = Role::Other;
     if (instruction.structure == Structure::Jump) role = Role::Jump;
@@ -162,7 +161,8 @@ std::string TraceReasons::of(const TraceRecord& record) {
         return "; it waits: interrupts are disabled";
     }
   }
-  const std::string why = record.kind == TraceKind::ServiceBegin ? cause_of(record) : "";
+  if (record.kind != TraceKind::ServiceBegin) return {};
+  const std::string why = cause_of(record);
   return why.empty() ? "" : ": " + why;
 }
 
@@ -225,6 +225,9 @@ std::string TraceReasons::contacts_text(const std::vector<InstructionRecord>& co
 }
 
 std::string TraceReasons::text_of(const Decision& decision) const {
+  if (decision.by_contacts)
+    return fmt::format("the contacts from {} on ({})", line_of(decision.contacts.front().op),
+                       contacts_text(decision.contacts));
   const stl::Statement& statement = program_.statement(decision.by.op);
   const std::string_view skipped = role_[decision.by.op] == Role::Other ? ", without power flow" : ", not taken";
   return fmt::format("{} in {}{}{}{}", short_text(statement), line_of(decision.by.op), decision.by.powered ? "" : skipped,
@@ -242,26 +245,26 @@ bool TraceReasons::has_own_contacts(const Way& way) const {
   return std::ranges::any_of(way.contacts, [&](const auto& one) { return is_own(one); });
 }
 
-std::optional<TraceReasons::Cause> TraceReasons::cause() const {
-  const Way& way = (in_interrupt_ ? interrupt_ : main_).way;
-  if (has_own_contacts(way))
-    return Cause{fmt::format("the contacts from {} on ({})", line_of(way.contacts.front().op), contacts_text(way.contacts)),
-                 way.contacts.back(),
-                 way.contacts.front(),
-                 true,
-                 in_interrupt_,
-                 way.contacts};
-  if (!way.decision) return {};
-  return cause_of(*way.decision);
+std::optional<TraceReasons::Cause> TraceReasons::cause() const { return cause_of(decision()); }
+
+std::optional<TraceReasons::Decision> TraceReasons::decision() const {
+  const Way& way = flow().way;
+  if (has_own_contacts(way)) return Decision{way.contacts.back(), way.contacts, in_interrupt_, true};
+  return way.decided ? std::optional(way.decision) : std::nullopt;
 }
 
 TraceReasons::Cause TraceReasons::cause_of(const Decision& decision) const {
-  return {text_of(decision), decision.by, decision.by, false, decision.in_interrupt, decision.contacts};
+  const InstructionRecord& first = decision.by_contacts ? decision.contacts.front() : decision.by;
+  return {text_of(decision), decision.by, first, decision.by_contacts, decision.in_interrupt, decision.contacts};
+}
+
+std::optional<TraceReasons::Cause> TraceReasons::cause_of(const std::optional<Decision>& decision) const {
+  return decision ? std::optional(cause_of(*decision)) : std::nullopt;
 }
 
 /// Which XMT was meant for it is not known: all are named, and the first one stands for them.
 std::optional<TraceReasons::Cause> TraceReasons::cause_of(const Frame& frame) const {
-  if (frame.kept_by.empty()) return frame.led_by;
+  if (frame.kept_by.empty()) return cause_of(frame.led_by);
   Cause cause = cause_of(frame.kept_by.front());
   for (auto one = frame.kept_by.begin() + 1; one != frame.kept_by.end(); ++one) cause.text += "; " + text_of(*one);
   return cause;
@@ -271,7 +274,7 @@ std::optional<TraceReasons::Cause> TraceReasons::cause_of(const Frame& frame) co
 /// program, which does so whatever has come in.
 bool TraceReasons::is_attached_already(const TraceRecord& record) const {
   const Reception& reception = reception_[port_of(record)];
-  return record.kind == TraceKind::Attach && reception.attached == record.routine && !cause();
+  return record.kind == TraceKind::Attach && reception.attached == record.routine && !is_decided();
 }
 
 /// Whether the program does not go on with a frame after `record`, and has sent nothing.
@@ -303,7 +306,7 @@ std::vector<TraceReasons::Unanswered> TraceReasons::unanswered(const TraceRecord
   if (!is_about_reception(record) || is_attached_already(record)) return all;
   const Reception& reception = reception_[port_of(record)];
   for (const Frame& frame : reception.earlier)
-    if (is_left(frame, record)) all.push_back(unanswered(frame, frame.cause));
+    if (is_left(frame, record)) all.push_back(unanswered(frame, cause_of(frame.cause)));
   if (is_left(reception.frame, record)) all.push_back(unanswered(reception.frame, cause_of_leaving(reception, record)));
   return all;
 }
@@ -312,7 +315,7 @@ std::optional<TraceReasons::Cause> TraceReasons::cause_of_leaving(const Receptio
                                                                   const TraceRecord& record) const {
   if (const auto own = cause()) return own;
   const bool known = reception.frame.cause || record.kind != TraceKind::Receive || record.op == kNoRoutine;
-  return known ? reception.frame.cause : received_again(reception, record);
+  return known ? cause_of(reception.frame.cause) : received_again(reception, record);
 }
 
 /// Nothing has decided that RCV is executed again: what has kept the program from an XMT before is the reason.
@@ -418,7 +421,7 @@ bool TraceReasons::goes_on(const Frame& frame, const TraceRecord& record) const 
 /// What the routine of a character came by last has decided what became of it.
 void TraceReasons::note_end_of_service() {
   for (std::size_t port = 0; port < kPorts.size(); ++port)
-    if (kPorts[port].received == serving_) reception_[port].frame.led_by = cause();
+    if (kPorts[port].received == serving_) reception_[port].frame.led_by = decision();
 }
 
 void TraceReasons::note_reception(const TraceRecord& record) {
@@ -432,20 +435,27 @@ void TraceReasons::note_reception(const TraceRecord& record) {
   if (is_left(frame, record)) frame = {};
   if (!goes_on(frame, record)) frame.attached_anew = true;
   frame.passed_on |= record.kind != TraceKind::Detach && !serves_character();
-  frame.cause = frame.characters > 0 ? cause() : std::nullopt;
+  frame.cause = frame.characters > 0 ? decision() : std::nullopt;
   reception.attached_by.reset();
   if (record.kind == TraceKind::Attach && record.op != kNoRoutine) reception.attached_by = record.op;
 }
 
 void TraceReasons::decide(Flow& flow, const InstructionRecord& by) const {
-  flow.way.decision = Decision{by, flow.way.contacts, in_interrupt_};
+  Decision& decision = flow.way.decision;
+  flow.way.decided = true;
+  decision.by = by;
+  decision.contacts = flow.way.contacts;
+  decision.in_interrupt = in_interrupt_;
   if (by.powered) flow.way.contacts.clear();
 }
 
 /// What decided on the call has led to all that follows in the subroutine; a call that is always executed decides nothing.
 void TraceReasons::call(Flow& flow, const InstructionRecord& by) const {
-  Way inside{.contacts = {}, .decision = flow.way.decision};
-  if (has_own_contacts(flow.way)) inside.decision = Decision{by, flow.way.contacts, in_interrupt_};
+  Way inside{.contacts = {}, .decided = flow.way.decided, .decision = flow.way.decision};
+  if (has_own_contacts(flow.way)) {
+    inside.decided = true;
+    inside.decision = Decision{by, flow.way.contacts, in_interrupt_};
+  }
   flow.way.called = by.at;
   flow.callers.push_back(std::exchange(flow.way, std::move(inside)));
 }
@@ -454,10 +464,11 @@ void TraceReasons::call(Flow& flow, const InstructionRecord& by) const {
 /// jump over the rest of it.
 void TraceReasons::return_to_caller(Flow& flow) {
   if (flow.callers.empty()) return;
-  const Way inside = std::exchange(flow.way, std::move(flow.callers.back()));
+  Way inside = std::exchange(flow.way, std::move(flow.callers.back()));
   flow.callers.pop_back();
-  if (!inside.decision || !inside.decision->by.powered || inside.decision->by.at <= flow.way.called) return;
-  flow.way.decision = inside.decision;
+  if (!inside.decided || !inside.decision.by.powered || inside.decision.by.at <= flow.way.called) return;
+  flow.way.decided = true;
+  flow.way.decision = std::move(inside.decision);
   flow.way.contacts.clear();
 }
 
@@ -475,7 +486,7 @@ void TraceReasons::note_transmit_passed(const Flow& flow, const InstructionRecor
 }
 
 void TraceReasons::note(const InstructionRecord& record) {
-  last_ = record;
+  last_ = {.at = record.at, .end = record.end, .op = record.op};
   const bool failed = std::exchange(failed_, false);
   Flow& flow = in_interrupt_ ? interrupt_ : main_;
   if (passes_transmit_[record.op] != 0) note_transmit_passed(flow, record);
@@ -511,7 +522,7 @@ void TraceReasons::note(const InstructionRecord& record) {
 void TraceReasons::note(const TraceRecord& record) {
   switch (record.kind) {
     case TraceKind::ScanBegin:
-      main_ = {};
+      main_.begin();
       return;
     case TraceKind::ModeChange:
       return forget({Disabled::By::NoEni});
@@ -522,7 +533,7 @@ void TraceReasons::note(const TraceRecord& record) {
       interrupt_ends_ = false;
       serving_ = record.event;
       begun_ = record;
-      interrupt_ = {};
+      interrupt_.begin();
       return;
     case TraceKind::ServiceEnd:
       interrupt_ends_ = true;
@@ -577,8 +588,8 @@ void TraceReasons::forget(const Disabled& interrupts) {
 void TraceReasons::forget_instructions() {
   last_.reset();
   in_interrupt_ = interrupt_ends_ = failed_ = false;
-  main_ = {};
-  interrupt_ = {};
+  main_.begin();
+  interrupt_.begin();
   reception_ = {};
 }
 

@@ -103,22 +103,37 @@ class TraceReasons {
     std::optional<Disabled> before{};
   };
 
-  /// A jump, or a conditional end of a routine, and the contacts in front of it.
+  /// A jump, or a conditional end of a routine, and the contacts in front of it; or contacts of a rung, after which none has
+  /// come so far. What it is in words is worked out when somebody asks.
   struct Decision {
-    InstructionRecord by{};
+    InstructionRecord by{};  ///< the last contact, if nothing has come after it
     std::vector<InstructionRecord> contacts{};
     bool in_interrupt = false;
+    bool by_contacts = false;
   };
   /// A routine that is open.
   struct Way {
     std::vector<InstructionRecord> contacts{};  ///< of the rung so far
-    std::optional<Decision> decision{};         ///< the last one that has led here
-    Time called = 0;                            ///< when it called another one
+    bool decided = false;
+    Decision decision{};  ///< the last one that has led here, if there was one
+    Time called = 0;      ///< when it called another one
+
+    /// As new, but keeps its room.
+    void begin() {
+      contacts.clear();
+      decided = false;
+      called = 0;
+    }
   };
   /// The main program, or the interrupt routine that runs.
   struct Flow {
     Way way{};                   ///< of the innermost subroutine
     std::vector<Way> callers{};  ///< of those that wait for it
+
+    void begin() {
+      way.begin();
+      callers.clear();
+    }
   };
   /// Characters without a pause.
   struct Part {
@@ -137,9 +152,9 @@ class TraceReasons {
     std::optional<InstructionRecord> executed{};  ///< the last ATCH of a routine that got one of them, of another event
     bool attached_anew = false;                   ///< another routine, or the same, since its last character
     bool passed_on = false;                       ///< and not by a routine that got one
-    std::optional<Cause> cause{};                 ///< that one of them was attached
+    std::optional<Decision> cause{};              ///< that one of them was attached
     std::vector<Part> parts{};                    ///< the last ones, between pauses
-    std::optional<Cause> led_by{};                ///< what the routine of the last one came by last
+    std::optional<Decision> led_by{};             ///< what the routine of the last one came by last
     std::vector<Decision> kept_by{};  ///< what has kept the program from each XMT first, since its last character
   };
   struct Reception {
@@ -150,6 +165,11 @@ class TraceReasons {
     std::optional<std::uint8_t> attached{};  ///< the routine that gets its characters; nothing: none, or it is not known
   };
   static constexpr std::size_t kEarlier = 8;
+
+  struct Executed {
+    Time at = 0, end = 0;
+    std::uint32_t op = 0;
+  };
 
   /// What an instruction is for a decision.
   enum class Role : std::uint8_t { Other, Contact, FirstContact, Mark, Jump, Call, Return, ConditionalEnd };
@@ -170,7 +190,11 @@ class TraceReasons {
   void decide(Flow& flow, const InstructionRecord& by) const;
   void call(Flow& flow, const InstructionRecord& by) const;
   static void return_to_caller(Flow& flow);
+  const Flow& flow() const { return in_interrupt_ ? interrupt_ : main_; }
+  bool is_decided() const { return flow().way.decided || has_own_contacts(flow().way); }
+  std::optional<Decision> decision() const;
   Cause cause_of(const Decision& decision) const;
+  std::optional<Cause> cause_of(const std::optional<Decision>& decision) const;
   std::optional<Cause> cause_of(const Frame& frame) const;
   std::optional<Cause> cause_of_leaving(const Reception& reception, const TraceRecord& record) const;
   Cause received_again(const Reception& reception, const TraceRecord& record) const;
@@ -192,7 +216,7 @@ class TraceReasons {
   std::optional<Disabled> disabled_;                       ///< nothing: not known
   std::optional<Enabled> enabled_;                         ///< by the last ENI, if they may have been disabled before it
   std::deque<Service> services_;                           ///< the last, newest last
-  std::optional<InstructionRecord> last_;                  ///< executed
+  std::optional<Executed> last_;
   bool in_interrupt_ = false, interrupt_ends_ = false;
   bool failed_ = false;       ///< the instruction being executed has caused a run-time error
   std::uint8_t serving_ = 0;  ///< event, in an interrupt

@@ -21,8 +21,10 @@ class Generator {
   /// Fills memory with values that matter: limits, zeros, pointers good and bad, tables, digits, reals.
   void fill(Memory& memory);
 
- private:
+  /// Any number less than `n`.
   std::size_t below(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+
+ private:
   bool chance(std::size_t percent) { return below(100) < percent; }
   template <class T>
   const T& one_of(const std::vector<T>& choices) {

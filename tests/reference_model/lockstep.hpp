@@ -1,4 +1,5 @@
-// Interpreter and reference model side by side, compared after each instruction.
+// Interpreter and reference model side by side, compared after each instruction of an observed CPU,
+// and after a few at once where nobody looks: that is the fast loop.
 #pragma once
 
 #include <cstdint>

@@ -123,11 +123,21 @@ test("a launch and an attach can be begun from snippets, with attributes that th
 });
 
 test("F5 without a launch.json debugs the program in the editor", () => {
-  const { configurations, window } = stand_in();
+  const { configurations, window, shown } = stand_in();
   assert.equal(configurations.resolveDebugConfiguration(undefined, {}), undefined, "nothing is open");
-  window.activeTextEditor = { document: { languageId: "s7200-stl", uri: { fsPath: "/a.stl" } } };
-  assert.equal(configurations.resolveDebugConfiguration(undefined, {}).program, "/a.stl");
-  assert.equal(configurations.provideDebugConfigurations()[0].request, "launch");
+  assert.deepEqual(shown, ["Open the STL program that is to be debugged."]);
+  for (const languageId of ["s7200-stl", "plaintext"]) {
+    window.activeTextEditor = { document: { languageId, uri: { fsPath: "/a.stl" } } };
+    assert.equal(configurations.resolveDebugConfiguration(undefined, {}).program, "/a.stl", languageId);
+  }
+});
+
+// A new launch.json gets both the initial configurations of package.json and those of a provider for them.
+test("a configuration is offered once in a new launch.json, and once without one", () => {
+  const { configurations, offered_when } = stand_in();
+  assert.equal(manifest.contributes.debuggers[0].initialConfigurations.length, 1);
+  assert.equal(offered_when, "dynamic");
+  assert.deepEqual(configurations.provideDebugConfigurations(), manifest.contributes.debuggers[0].initialConfigurations);
 });
 
 test("words under the cursor are operands", () => {
@@ -152,37 +162,47 @@ test("the snippets are programs", () => {
 // --- the code ---
 
 function stand_in() {
-  const registered = { commands: {}, asked: [] };
-  const window = { showInputBox: async () => "VW3300", showErrorMessage() {}, showInformationMessage() {} };
+  const settings = { path: S7200, status: true };
+  const registered = { commands: {}, asked: [], shown: [], settings };
+  const show = (message) => { registered.shown.push(message); };
+  const window = { showInputBox: async () => "VW3300", showErrorMessage: show, showInformationMessage: show };
   registered.window = window;
+  const session = {
+    type: "s7200",
+    customRequest: async (request, args) => {
+      registered.asked.push([request, args]);
+      return request === "stlStatus" ? { lines: [{ line: 3, powerFlow: true, text: "S0=1 VB0=16#05" }] } : { text: "said" };
+    },
+  };
+  registered.session = session;
   const vscode = {
     registered,
-    workspace: { getConfiguration: () => ({ get: (key) => ({ path: "/opt/s7200", status: true })[key] }) },
+    workspace: { getConfiguration: () => ({ get: (key) => settings[key] }) },
     window,
     debug: {
       activeDebugConsole: { appendLine: (text) => { registered.printed = text; } },
-      activeDebugSession: {
-        type: "s7200",
-        customRequest: async (request, args) => {
-          registered.asked.push([request, args]);
-          return request === "stlStatus" ? { lines: [{ line: 3, powerFlow: true, text: "S0=1 VB0=16#05" }] } : { text: "said" };
-        },
-      },
+      activeDebugSession: session,
       registerDebugAdapterDescriptorFactory: (type, factory) => { registered.factory = factory; },
-      registerDebugConfigurationProvider: (type, provider) => { registered.configurations = provider; },
+      registerDebugConfigurationProvider: (type, provider, when) => {
+        registered.configurations = provider;
+        registered.offered_when = when;
+      },
     },
     languages: {
       registerInlineValuesProvider: (where, provider) => { registered.status = provider; },
       registerHoverProvider: (where, provider) => { registered.hover = provider; },
+      registerEvaluatableExpressionProvider: (where, provider) => { registered.operands = provider; },
     },
     tasks: { registerTaskProvider: (type, provider) => { registered.tasks = provider; } },
     commands: { registerCommand: (name, run) => { registered.commands[name] = run; } },
     DebugAdapterExecutable: class { constructor(...args) { this.args = args; } },
     DebugAdapterServer: class { constructor(...args) { this.args = args; } },
+    EvaluatableExpression: class { constructor(range) { this.range = range; } },
     Hover: class { constructor(...args) { this.args = args; } },
     InlineValueText: class { constructor(...args) { this.args = args; } },
     ProcessExecution: class { constructor(...args) { this.args = args; } },
     Task: class { constructor(...args) { this.args = args; } },
+    DebugConfigurationProviderTriggerKind: { Initial: "initial", Dynamic: "dynamic" },
     TaskScope: { Workspace: 2 }, TaskGroup: { Build: "build" },
   };
   const load = Module._load;
@@ -217,10 +237,18 @@ test("every command of package.json does what the session offers", async () => {
   assert.equal(registered.printed, "said");
 });
 
-test("the adapter is the command, or a port to attach to", () => {
+test("the adapter is the command, or a port to attach to", async () => {
   const { factory } = stand_in();
-  assert.deepEqual(factory.createDebugAdapterDescriptor({ configuration: { request: "launch" } }).args, ["/opt/s7200", ["dap"]]);
-  assert.deepEqual(factory.createDebugAdapterDescriptor({ configuration: { request: "attach", port: 4711 } }).args, [4711, "127.0.0.1"]);
+  const adapter = async (configuration) => (await factory.createDebugAdapterDescriptor({ configuration })).args;
+  assert.deepEqual(await adapter({ request: "launch" }), [S7200, ["dap"]]);
+  assert.deepEqual(await adapter({ request: "attach", port: 4711 }), [4711, "127.0.0.1"]);
+});
+
+test("a launch says that the command cannot be run", async () => {
+  const { factory, settings } = stand_in();
+  settings.path = "no-such-s7200";
+  await assert.rejects(factory.createDebugAdapterDescriptor({ configuration: { request: "launch" } }),
+    /^Error: Cannot run 'no-such-s7200' \(spawn no-such-s7200 ENOENT\)\. Put s7200 in the path, or say where it is in the setting/);
 });
 
 test("the STL status stands beside its lines", async () => {
@@ -239,10 +267,43 @@ test("pointing at a line says which power flow S0 is", async () => {
   assert.deepEqual(asked, [["stlStatus", { source: { path: "/a.stl" }, line: 3, endLine: 3 }]]);
 });
 
+// As VS Code finds a word: the match that the position is in.
+function document_of(line) {
+  return {
+    getWordRangeAtPosition: ({ character }, regexp) =>
+      [...line.matchAll(new RegExp(regexp, "g"))].find((one) => one.index <= character && character <= one.index + one[0].length)?.[0],
+  };
+}
+
+test("pointing at an operand asks for the value of all of it", () => {
+  const { operands } = stand_in();
+  for (const operand of ["M31.7", "VW3300", "*VD100", "AC0", '"Pump 1"', "Pump"]) {
+    const asked = operands.provideEvaluatableExpression(document_of(`MOVW ${operand}, 5`), { character: 7 });
+    assert.equal(asked.range, operand);
+  }
+  assert.equal(operands.provideEvaluatableExpression(document_of("MOVW VW0, 5"), { character: 10 }), undefined);
+});
+
+test("a refused command is shown once, by VS Code", async () => {
+  const { commands, session, shown } = stand_in();
+  session.customRequest = async () => { throw new Error("refused"); };
+  await commands["s7200.timeline"]();
+  assert.deepEqual(shown, []);
+});
+
 test("tasks run the command with the problem matcher", () => {
   const [check] = stand_in().tasks.provideTasks();
-  assert.deepEqual(check.args[4].args, ["/opt/s7200", ["check", "${file}"]]);
+  assert.deepEqual(check.args[4].args, [S7200, ["check", "${file}"]]);
   assert.equal(check.args[5], "$s7200");
+});
+
+test("a task gives full paths, as the problem matcher wants them", () => {
+  const { tasks } = stand_in();
+  const file_of = (file) => tasks.resolveTask({ definition: { type: "s7200", verb: "check", file } }).args[4].args[1][1];
+  assert.equal(manifest.contributes.problemMatchers[0].fileLocation, "absolute");
+  assert.equal(file_of("a.stl"), "${workspaceFolder}/a.stl");
+  assert.equal(file_of("/b/a.stl"), "/b/a.stl");
+  assert.equal(file_of("${file}"), "${file}");
 });
 
 // --- the package ---

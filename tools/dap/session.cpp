@@ -24,6 +24,14 @@ namespace {
 
 constexpr Time kSendAfter = kSecond;  // every program has set its port up by then
 
+constexpr std::string_view kCancelled = "cancelled";  // as the protocol says it
+
+/// VS Code pops up what the user is to see. What it asks while he types, points or steps has its own place for a refusal,
+/// and it is VS Code that cancels.
+bool pops_up(std::string_view command, std::string_view message) {
+  return command != "evaluate" && command != "stlStatus" && message != kCancelled;
+}
+
 Json capabilities() {
   Json filters = Json::array();
   for (const ExceptionFilter& filter : kExceptionFilters)
@@ -209,7 +217,7 @@ void Session::respond(const Json& request, bool success, Json body, const std::s
                 {"command", text_in(request, "command")}};
   if (!success) {
     response["message"] = message;
-    body = {{"error", {{"id", 1}, {"format", message}, {"showUser", true}}}};
+    body = {{"error", {{"id", 1}, {"format", message}, {"showUser", pops_up(text_in(request, "command"), message)}}}};
   }
   if (!body.is_null()) response["body"] = std::move(body);
   send_(response);
@@ -247,7 +255,7 @@ void Session::print(const std::string& text, const std::string& category, std::o
   send_event("output", std::move(body));
 }
 
-void Session::refuse_interrupted() const { throw Refused("cancelled"); }
+void Session::refuse_interrupted() const { throw Refused(std::string(kCancelled)); }
 
 Json Session::client_place(std::uint32_t op) const {
   const stl::Position& position = cpu().program().statement(op).position;

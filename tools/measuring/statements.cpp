@@ -50,7 +50,7 @@ const std::array kPrintedTimes{
                 "saving a value to EEPROM takes 15 to 20 ms",
                 15 * kMillisecond,
                 20 * kMillisecond,
-                "S7-200 manual C230-02, 7-16"},
+                "S7-200 manual C230-02 7-16"},
     about(kCpu22xRelease1, "RCV", {}, "RCV takes 80 us", 80 * kMicrosecond, kGerman2002),
     about(kCpu22xRelease1, "RET", {}, "RET takes 13 us", 13 * kMicrosecond, kGerman2002),
     about(kCpu22xRelease1, "RETI", {}, "RETI takes 23 us", 23 * kMicrosecond, kGerman2002),

@@ -433,7 +433,7 @@ void Timeline::record(const TraceRecord& record) {
 void Timeline::instruction(const InstructionRecord& record) {
   if (looking_ && looks_ == Looks::AtInstructions) {
     reasons_.note(record);
-    if (std::string way = path_.of(record); !way.empty()) reader_->read_way(record.end, std::move(way));
+    if (const std::string* way = path_.of(record)) reader_->read_way(record.end, *way);
   }
   if (next_wants_instructions()) next_->instruction(record);
 }

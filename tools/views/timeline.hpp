@@ -88,6 +88,7 @@ class Timeline final : public TraceSink {
   bool wants_instructions() const override {
     return (looking_ && looks_ == Looks::AtInstructions) || next_wants_instructions();
   }
+  Watch watch() const override { return next_wants_instructions() ? next_->watch() : Watch::Flow; }
 
  private:
   class Reader;

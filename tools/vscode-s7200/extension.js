@@ -1,16 +1,31 @@
 // What VS Code cannot be told in package.json: where the debug adapter is, the STL status beside the lines, tasks, and commands
 // for requests that the Debug Adapter Protocol has not. Everything else is done by the command s7200.
 "use strict";
+const { execFile } = require("node:child_process");
+const path = require("node:path");
 const vscode = require("vscode");
 
 const TYPE = "s7200";
+const PROGRAMS = [{ language: "s7200-stl" }, { language: "plaintext" }];  // a published listing is a text
 
 const command = () => vscode.workspace.getConfiguration("s7200").get("path") || "s7200";
 
+// VS Code itself says nothing about a command that is not in the path: the session just does not begin.
+function runs(file) {
+  return new Promise((resolve, reject) => {
+    execFile(file, ["--version"], (error) => {
+      const advice = "Put s7200 in the path, or say where it is in the setting s7200.path.";
+      if (error) reject(new Error(`Cannot run '${file}' (${error.message}). ${advice}`));
+      else resolve();
+    });
+  });
+}
+
 const adapters = {
-  createDebugAdapterDescriptor(session) {
+  async createDebugAdapterDescriptor(session) {
     const { request, port } = session.configuration;
     if (request === "attach") return new vscode.DebugAdapterServer(port, "127.0.0.1");
+    await runs(command());
     return new vscode.DebugAdapterExecutable(command(), ["dap"]);
   },
 };
@@ -20,7 +35,10 @@ const configurations = {
   resolveDebugConfiguration(folder, configuration) {
     if (configuration.type) return configuration;
     const editor = vscode.window.activeTextEditor;
-    if (!editor || editor.document.languageId !== "s7200-stl") return undefined;
+    if (!editor || !PROGRAMS.some(({ language }) => language === editor.document.languageId)) {
+      vscode.window.showInformationMessage("Open the STL program that is to be debugged.");
+      return undefined;
+    }
     return { type: TYPE, request: "launch", name: "Debug this STL program", program: editor.document.uri.fsPath, stopOnEntry: true };
   },
   provideDebugConfigurations() {
@@ -55,9 +73,22 @@ const statusHover = {
   },
 };
 
+const OPERAND = /[*&]?[A-Za-z]+\d+(?:\.\d)?|"[^"\n]*"|[A-Za-z_]\w*/;
+
+// What VS Code asks the value of while somebody points at it. On its own it would ask for M31 of M31.7.
+const operands = {
+  provideEvaluatableExpression(document, position) {
+    const range = document.getWordRangeAtPosition(position, OPERAND);
+    return range && new vscode.EvaluatableExpression(range);
+  },
+};
+
+// The problem matcher takes full paths: for others VS Code looks for the file, problem by problem, and it stops 100 ms after the task.
+const in_workspace = (file) => (path.isAbsolute(file) || file.startsWith("${") ? file : `\${workspaceFolder}/${file}`);
+
 function task(definition) {
   const { verb, file } = definition;
-  const execution = new vscode.ProcessExecution(command(), [verb, file, ...(definition.arguments || [])]);
+  const execution = new vscode.ProcessExecution(command(), [verb, in_workspace(file), ...(definition.arguments || [])]);
   return new vscode.Task(definition, vscode.TaskScope.Workspace, `${verb} ${file}`, TYPE, execution, "$s7200");
 }
 
@@ -85,12 +116,8 @@ async function ask(request, argument, prompt, placeHolder) {
     args[argument] = await vscode.window.showInputBox({ prompt, placeHolder });
     if (!args[argument]) return undefined;
   }
-  try {
-    const body = await session.customRequest(request, args);
-    if (body && body.text) vscode.debug.activeDebugConsole.appendLine(body.text);
-  } catch (error) {
-    vscode.window.showErrorMessage(error.message);
-  }
+  const body = await session.customRequest(request, args).catch(() => undefined);  // VS Code itself shows a refusal
+  if (body && body.text) vscode.debug.activeDebugConsole.appendLine(body.text.trimEnd());
   return undefined;
 }
 
@@ -118,9 +145,10 @@ const COMMANDS = {
 function activate(context) {
   context.subscriptions.push(
     vscode.debug.registerDebugAdapterDescriptorFactory(TYPE, adapters),
-    vscode.debug.registerDebugConfigurationProvider(TYPE, configurations),
-    vscode.languages.registerInlineValuesProvider([{ language: "s7200-stl" }, { language: "plaintext" }], status),
-    vscode.languages.registerHoverProvider([{ language: "s7200-stl" }, { language: "plaintext" }], statusHover),
+    vscode.debug.registerDebugConfigurationProvider(TYPE, configurations, vscode.DebugConfigurationProviderTriggerKind.Dynamic),
+    vscode.languages.registerInlineValuesProvider(PROGRAMS, status),
+    vscode.languages.registerHoverProvider(PROGRAMS, statusHover),
+    vscode.languages.registerEvaluatableExpressionProvider(PROGRAMS, operands),
     vscode.tasks.registerTaskProvider(TYPE, tasks),
     ...Object.entries(COMMANDS).map(([name, args]) =>
       vscode.commands.registerCommand(`s7200.${name}`, () => ask(name, ...args))));

@@ -84,6 +84,19 @@ TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   EXPECT_EQ(editor.value("1 + 1"), "2");
 }
 
+TEST(DapSession, ARefusalPopsUpUnlessTheEditorAsksInPassing) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto pops_up = [&](const char* request, const Json& arguments) {
+    return editor.ask(request, arguments)["body"]["error"]["showUser"];
+  };
+  EXPECT_EQ(pops_up("evaluate", {{"expression", "no such"}, {"context", "watch"}}), false);
+  EXPECT_EQ(pops_up("stlStatus", {{"source", {{"path", "another.stl"}}}, {"line", 0}}), false);
+  EXPECT_EQ(pops_up("sendFrame", {{"frame", "zz"}}), true);
+  editor.session.refuse({{"seq", 99}, {"type", "request"}, {"command", "stackTrace"}}, "cancelled");
+  EXPECT_EQ(editor.messages.back()["body"]["error"]["showUser"], false) << "the editor has cancelled it";
+}
+
 TEST(DapSession, BackToAWriteFromOutsideStopsBeforeItAndFindsTheEarlierOneNext) {
   Editor editor(kNested);
   editor.begin();

@@ -11,7 +11,9 @@ class Ways final : public TraceSink {
  public:
   explicit Ways(const Program& program) : path_(program) {}
   void record(const TraceRecord& record) override { keep(path_.of(record)); }
-  void instruction(const InstructionRecord& record) override { keep(path_.of(record)); }
+  void instruction(const InstructionRecord& record) override {
+    if (const std::string* way = path_.of(record)) keep(*way);
+  }
   bool wants_instructions() const override { return true; }
 
   std::vector<std::string> all;
@@ -51,6 +53,13 @@ TEST(ProgramPath, JumpsThatAreTakenAreNamedAndThoseOfALoopCounted) {
 
 TEST(ProgramPath, WhatAlternatesIsTheSameWay) {
   EXPECT_EQ(ways_of("NETWORK 1\nLDN M0.0\n= M0.0\nNETWORK 2\nLD SM0.0\nINCW VW0\nMEND\n").size(), 2U);
+}
+
+TEST(ProgramPath, AWayThatIsTakenAgainLaterIsToldAgain) {
+  EXPECT_EQ(ways_of("NETWORK 1\nLD SM0.0\nINCW VW0\nNETWORK 2\nLDW= VW0, 4\nOW= VW0, 8\nOW= VW0, 16\nINCW VW2\n"
+                    "NETWORK 3\nLDW= VW0, 12\nINCW VW4\nMEND\n"),
+            (Texts{"main program: network 1", "main program: networks 1-2", "main program: networks 1-2",
+                   "main program: networks 1, 3", "main program: networks 1-2"}));
 }
 
 TEST(ProgramPath, TwoScansThatDoOtherThingsInTheSameNetworksGoTheSameWay) {

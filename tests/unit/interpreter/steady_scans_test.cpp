@@ -112,6 +112,34 @@ TEST(SteadyScans, AreKnownUntilSomethingComesFromOutside) {
   EXPECT_EQ(plc.cpu.alike_until(), plc.cpu.time());
 }
 
+TEST(SteadyScans, EndWithWhateverIsDoneToTheCpu) {
+  struct Deed {
+    const char* what;
+    void (*do_to)(Cpu& cpu);
+  };
+  static constexpr MemoryRange kI00{.area = Area::I, .width = Width::Bit, .at = image::kI};
+  constexpr Deed kDeeds[] = {
+      {"memory written", [](Cpu& cpu) { cpu.poke(image::kM, std::array<std::uint8_t, 1>{}); }},
+      {"a point forced", [](Cpu& cpu) { cpu.force(kI00, 1); }},
+      {"and unforced", [](Cpu& cpu) { cpu.unforce(kI00); }},
+      {"an input", [](Cpu& cpu) { cpu.set_input(1, 1, cpu.time()); }},
+      {"the clock set", [](Cpu& cpu) { cpu.set_clock({}); }},
+      {"a state restored", [](Cpu& cpu) { cpu.restore(State(cpu.state())); }},
+      {"an instruction skipped", [](Cpu& cpu) { cpu.go_to(cpu.state().pc); }},
+      {"the logic stack set", [](Cpu& cpu) { cpu.set_stack(cpu.state().stack); }},
+      {"a character received", [](Cpu& cpu) { cpu.character_received({}); }},
+      {"power switched on", [](Cpu& cpu) { cpu.power_up(true, nullptr, cpu.time()); }},
+  };
+  PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
+  plc.run_until(kSecond);
+  for (const Deed& deed : kDeeds) {
+    plc.run_until(plc.cpu.time() + kSecond);
+    ASSERT_GT(plc.cpu.alike_until(), plc.cpu.time()) << "before: " << deed.what;
+    deed.do_to(plc.cpu);
+    EXPECT_EQ(plc.cpu.alike_until(), plc.cpu.time()) << deed.what;
+  }
+}
+
 TEST(SteadyScans, AreKnownInARunOfManyShortOnesToo) {
   PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
   for (Time end = 0; end < kSecond; end += kMillisecond) plc.run_until(end);
