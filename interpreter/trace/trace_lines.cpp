@@ -57,13 +57,8 @@ std::optional<TraceLine> TraceLines::of(const InstructionRecord& record) {
   return TraceLine{record.end, *way};
 }
 
-void TraceLines::note(const TraceRecord& record) {
-  reasons_.note(record);
-  path_.forget();
-}
-
-void TraceLines::forget() {
-  reasons_.forget();
+void TraceLines::forget(const TraceReasons::Disabled& interrupts) {
+  reasons_.forget(interrupts);
   path_.forget();
 }
 

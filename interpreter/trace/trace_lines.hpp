@@ -44,12 +44,11 @@ class TraceLines {
   /// What it means for frames and for the way.
   std::vector<TraceLine> besides(const TraceRecord& record);
 
-  /// While nobody reads: what is known of the reasons stays true, the way begins anew.
-  void note(const TraceRecord& record);
-  void note(const InstructionRecord& record) { reasons_.note(record); }
+  /// What it is told next need not follow on what it was told; interrupts are so then.
+  void forget(const TraceReasons::Disabled& interrupts);
 
-  /// What it is told next need not follow on what it was told.
-  void forget();
+  /// Which way the main program takes is said anew.
+  void begin_way() { path_.forget(); }
 
  private:
   EventText text_;

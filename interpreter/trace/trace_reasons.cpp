@@ -149,9 +149,18 @@ const std::string& TraceReasons::place_of(std::uint32_t op) {
 
 std::string TraceReasons::of(const TraceRecord& record) {
   if (has_place(record)) return place_of(record.op);
-  if (record.kind == TraceKind::EventOccurred && disabled_ == true)
-    return fmt::format("; it waits: {}",
-                       disabled_by_ ? "interrupts are disabled by DISI in " + line_of(*disabled_by_) : "no ENI so far");
+  if (record.kind == TraceKind::EventOccurred && disabled_) {
+    switch (disabled_->by) {
+      case Disabled::By::Nothing:
+        break;
+      case Disabled::By::NoEni:
+        return "; it waits: no ENI so far";
+      case Disabled::By::Disi:
+        return "; it waits: interrupts are disabled by DISI in " + line_of(disabled_->disi);
+      case Disabled::By::Forgotten:
+        return "; it waits: interrupts are disabled";
+    }
+  }
   if (record.kind != TraceKind::ServiceBegin) return {};
   const std::string why = cause_of(record);
   return why.empty() ? "" : ": " + why;
@@ -178,12 +187,17 @@ std::string TraceReasons::executed_before(const TraceRecord& first, Time since) 
                      line_of(first.op));
 }
 
+std::string TraceReasons::disabled_text(const std::optional<Disabled>& before) const {
+  if (!before) return "interrupts may have been disabled";
+  if (before->by == Disabled::By::NoEni) return "no ENI";
+  return before->by == Disabled::By::Disi ? "DISI in " + line_of(before->disi) : "interrupts were disabled";
+}
+
 std::string TraceReasons::held_up_by(const TraceRecord& begin) const {
   if (begin.at <= begin.since) return {};
   std::string why;
-  if (enabled_ && enabled_->at > begin.since)
-    why = fmt::format("{} until ENI in {}", disabled_by_ ? "DISI in " + line_of(*disabled_by_) : "no ENI",
-                      line_of(enabled_->op));
+  if (enabled_ && enabled_->record.at > begin.since)
+    why = fmt::format("{} until ENI in {}", disabled_text(enabled_->before), line_of(enabled_->record.op));
   std::size_t others = 0;
   for (const Service& service : services_) others += service.end > begin.since ? 1 : 0;
   if (others > 0) {
@@ -511,19 +525,9 @@ void TraceReasons::note(const TraceRecord& record) {
       main_.begin();
       return;
     case TraceKind::ModeChange:
-      forget();
-      disabled_ = true;
-      return;
+      return forget({Disabled::By::NoEni});
     case TraceKind::Enable:
-      if (record.code == 1) {
-        if (disabled_ == true) enabled_ = record;
-        disabled_ = false;
-      } else {
-        if (disabled_ != true) disabled_by_ = record.op;
-        disabled_ = true;
-        enabled_.reset();
-      }
-      return;
+      return note_enable(record);
     case TraceKind::ServiceBegin:
       in_interrupt_ = true;
       interrupt_ends_ = false;
@@ -563,9 +567,19 @@ void TraceReasons::note(const TraceRecord& record) {
   }
 }
 
-void TraceReasons::forget() {
-  disabled_.reset();
-  disabled_by_.reset();
+void TraceReasons::note_enable(const TraceRecord& record) {
+  const bool enabled = disabled_ && disabled_->by == Disabled::By::Nothing;
+  if (record.code == 1) {
+    if (!enabled) enabled_ = {record, disabled_};
+    disabled_ = Disabled{};
+  } else {
+    if (enabled || !disabled_) disabled_ = {Disabled::By::Disi, record.op};
+    enabled_.reset();
+  }
+}
+
+void TraceReasons::forget(const Disabled& interrupts) {
+  disabled_ = interrupts;
   enabled_.reset();
   services_.clear();
   forget_instructions();

@@ -39,6 +39,12 @@ class TraceReasons {
   /// Of a ServiceBegin: that interrupts were disabled, which other routines ran, or a long instruction; nothing otherwise.
   std::string held_up_by(const TraceRecord& begin) const;
 
+  /// Whether interrupts are disabled, and by what.
+  struct Disabled {
+    enum class By : std::uint8_t { Nothing, NoEni, Disi, Forgotten } by{};
+    std::uint32_t disi = 0;  ///< of several in a row the first one
+  };
+
   /// What decided that the program has come where it is.
   struct Cause {
     std::string text;         ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`
@@ -80,7 +86,8 @@ class TraceReasons {
   void note(const TraceRecord& record);
   void note(const InstructionRecord& record);
 
-  void forget();
+  /// What comes next need not follow on what has come; interrupts are so then.
+  void forget(const Disabled& interrupts);
   void forget_instructions();
 
  private:
@@ -90,6 +97,11 @@ class TraceReasons {
     std::uint8_t event = 0, routine = 0;
   };
   static constexpr std::size_t kServices = 32;  ///< more than all queues hold
+
+  struct Enabled {
+    TraceRecord record{};
+    std::optional<Disabled> before{};
+  };
 
   /// A jump, or a conditional end of a routine, and the contacts in front of it; or contacts of a rung, after which none has
   /// come so far. What it is in words is worked out when somebody asks.
@@ -164,6 +176,8 @@ class TraceReasons {
 
   const std::string& place_of(std::uint32_t op);
   std::string cause_of(const TraceRecord& begin) const;
+  std::string disabled_text(const std::optional<Disabled>& before) const;
+  void note_enable(const TraceRecord& record);
   std::string executed_meanwhile(const TraceRecord& begin) const;
   std::string executed_before(const TraceRecord& first, Time since) const;
   std::string line_of(std::uint32_t op) const;
@@ -199,9 +213,8 @@ class TraceReasons {
   const Program& program_;
   std::unordered_map<std::uint32_t, std::string> places_;  ///< by op, as far as they have come
   std::vector<Role> role_;                                 ///< by op
-  std::optional<bool> disabled_;                           ///< nothing: not known
-  std::optional<std::uint32_t> disabled_by_;               ///< the last DISI
-  std::optional<TraceRecord> enabled_;                     ///< the last ENI after that
+  std::optional<Disabled> disabled_;                       ///< nothing: not known
+  std::optional<Enabled> enabled_;                         ///< by the last ENI, if they may have been disabled before it
   std::deque<Service> services_;                           ///< the last, newest last
   std::optional<Executed> last_;
   bool in_interrupt_ = false, interrupt_ends_ = false;

@@ -221,6 +221,13 @@ class Prompt(unittest.TestCase):
         self.quit(terminal)
         self.assertIn("\x1b[1;40r", terminal.text)
 
+    def test_the_layout_shows_comments_as_far_as_the_terminal_is_wide(self):
+        program = self.folder / "long_comment.stl"
+        program.write_text("LD      SM0.0   // " + "x" * 120 + "!\nMEND\n")
+        terminal = self.session(str(program), size=(200, 40))
+        self.assertIn("x" * 120 + "!", terminal.command("layout on; scan 2"))
+        self.quit(terminal)
+
     def test_the_layout_shows_memory_once_and_says_how_much_has_no_room(self):
         terminal = self.session()
         terminal.command("display VB0:160")

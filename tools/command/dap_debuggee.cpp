@@ -39,6 +39,9 @@ class RigDebuggee final : public dap::Debuggee {
     return true;
   }
 
+  std::string source() const override {
+    return options_->rig.plan() ? options_->program.path : rig_->plan().plcs.front().program->source.name;
+  }
   History& history() override { return *history_; }
   std::shared_ptr<const Program> program(std::size_t station) const override { return rig_->plan().plcs[station].program; }
   std::string name(std::size_t station) const override { return rig_->plan().plcs[station].name; }

@@ -97,8 +97,13 @@ class StepsOfSession {
     if (!why_not.empty()) return left_out_.push_back(why_not);
     step.on = place(station);
     if (const auto* const cancel = std::get_if<CancelRequest>(&action)) return cut_short(*cancel, step.on, at);
-    if (const auto* const power = std::get_if<SetPower>(&action))
-      step = {.at = at, .event = fmt::format("power_{}: {}", power->on ? "on" : "off", places_[station].name)};
+    const auto* const power = std::get_if<SetPower>(&action);
+    if (power && places_.empty())
+      return fail(
+          fmt::format("power was switched {} at {} while time went on, for which scenarios of one program have no "
+                      "step: 'power TIME' switches it off and on again",
+                      power->on ? "on" : "off", moment_text(at)));
+    if (power) step = {.at = at, .event = fmt::format("power_{}: {}", power->on ? "on" : "off", places_[station].name)};
     if (step.send && at < cut_until_[step.on]) return join(*step.send, step.on, at);
     if (step.does_something()) steps_.insert(place_for(step), std::move(step));
   }

@@ -15,6 +15,9 @@ class Debuggee {
  public:
   virtual ~Debuggee() = default;
 
+  /// The file that it was begun with: a program, or a system.
+  virtual std::string source() const = 0;
+
   /// It has the stations.
   virtual History& history() = 0;
   virtual std::shared_ptr<const Program> program(std::size_t station) const = 0;

@@ -363,7 +363,7 @@ Json Session::configuration_done(const Json&) {
 
 void Session::start() {
   const std::string mode = attached_ ? "attach" : "launch";
-  send_event("process", {{"name", cpu().program().source.name}, {"isLocalProcess", false}, {"startMethod", mode}});
+  send_event("process", {{"name", debuggee_->source()}, {"isLocalProcess", false}, {"startMethod", mode}});
   if (!stop_on_entry_) return run_to(goal::none(), "");
   if (attached_ && standing_at(cpu().state())) return stopped_at("entry", "attached");
   run_to([](const State&, std::uint32_t, const Stepper::Progress&) { return true; }, "entry");

@@ -130,7 +130,8 @@ class Session {
   // Running (session_steps.cpp).
   struct Run {
     Stepper::Goal goal;
-    std::string reason;  ///< of the stop when the goal is met
+    std::string reason;   ///< of the stop when the goal is met
+    Time until = kNever;  ///< of a step of a PLC that executes nothing
   };
   Json go_on(const Json& arguments);
   Json next(const Json& arguments);
@@ -159,6 +160,7 @@ class Session {
   void report_stopped(Json body);
   Json body_of(const Stop& stop, const std::string& reason);
   Json body_of_hits(const Stop& stop);
+  static std::string exception_of(const Hit& hit);
   Json body_of_hit(const Hit& hit);
   static std::string_view reason_of(StopKind kind);
   Json body_of_fatal_error();
@@ -200,6 +202,7 @@ class Session {
   Json send_frame(const Json& arguments);
   Json inject_fault(const Json& arguments);
   void change_mode(const std::string& word);
+  void switch_power(const std::string& word);
   Json force(const Json& arguments);
   Json unforce(const Json& arguments);
   Json timeline(const Json& arguments);

@@ -21,6 +21,8 @@ std::span<const Session::ConsoleCommand> Session::console_commands() {
        [](Session& session, Rest rest) { return session.set_in_console(rest); }},
       {"mode", "mode run | stop        what a programming device asks the CPU for\n",
        [](Session& session, Rest rest) { return session.change_mode(rest), std::string(); }},
+      {"power", "power off | on         of this PLC; time goes on, a step without power lets 100 ms pass\n",
+       [](Session& session, Rest rest) { return session.switch_power(rest), std::string(); }},
       {"send",
        "send HEX… | 'TEXT' [crc]  sends a frame, with its Modbus CRC if crc is given\n"
        "send read 40011:2 | write 00003=on [station n]  a Modbus request\n"

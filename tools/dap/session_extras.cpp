@@ -82,6 +82,15 @@ void Session::change_mode(const std::string& word) {
   act(*set);
 }
 
+void Session::switch_power(const std::string& word) {
+  const std::string name = stl::lower_case(word);
+  if (name != "off" && name != "on") throw Refused("power expects off or on");
+  const bool on = name == "on";
+  if (simulation().plc().powered() == on)
+    throw Refused(fmt::format("{}the PLC is {} power already", said_of(looks_at()), on ? "with" : "without"));
+  act(SetPower{on});
+}
+
 // --- force ---
 
 Json Session::forced() const {

@@ -150,16 +150,17 @@ Json Session::set_expression(const Json& arguments) {
   return assign(required(arguments, "expression").get<std::string>(), required(arguments, "value").get<std::string>());
 }
 
-/// There is no command for its power: it comes back when the system file says so.
 std::string Session::without_power() const {
-  return simulation().plc().powered() ? std::string() : said_of(looks_at()) + "the PLC is without power";
+  return simulation().plc().powered()
+             ? std::string()
+             : said_of(looks_at()) + "the PLC is without power; 'power on' in the console brings it back";
 }
 
 /// In the past it begins a new branch, and says so.
 void Session::act(Action action) {
-  const bool of_line = std::holds_alternative<SendFrame>(action) || std::holds_alternative<CancelRequest>(action) ||
-                       std::holds_alternative<InjectFault>(action);
-  if (const std::string why = without_power(); !of_line && !why.empty()) throw Refused(why);
+  const bool reaches_it = std::holds_alternative<SendFrame>(action) || std::holds_alternative<CancelRequest>(action) ||
+                          std::holds_alternative<InjectFault>(action) || std::holds_alternative<SetPower>(action);
+  if (const std::string why = without_power(); !reaches_it && !why.empty()) throw Refused(why);
   History& history = debuggee_->history();
   const bool branches = history.in_the_past();
   const Time left = history.newest().time;

@@ -38,6 +38,14 @@ std::string hex_of(const std::string& value) { return value.substr(0, value.find
 
 bool wants_hex(const Json& arguments) { return arguments.contains("format") && arguments["format"].value("hex", false); }
 
+/// `modbus_slave.stl!INT 123, line 40`, as much of it as is asked for.
+void format_name(Json& frame, const Json& format) {
+  auto name = frame["name"].get<std::string>();
+  if (format.value("module", false)) name = frame["source"].value("name", "") + "!" + name;
+  if (format.value("line", false)) name += fmt::format(", line {}", frame["line"].get<int>());
+  frame["name"] = name;
+}
+
 /// What a byte of UTF-8 counts in UTF-16, in which the protocol counts: the first one of each character stands for it all.
 std::size_t units_of(char byte) {
   const auto bits = static_cast<std::uint8_t>(byte);
@@ -103,7 +111,7 @@ Json Session::stack_trace(const Json& arguments) {
   const auto levels = arguments.value("levels", std::size_t{0});
   const auto end = levels == 0 ? total : std::min(total, start + levels);
   Json shown = Json::array();
-  for (std::size_t i = start; i < end; ++i) shown.push_back(frames[i]);
+  for (std::size_t i = start; i < end; ++i) format_name(shown.emplace_back(frames[i]), object_in(arguments, "format"));
   return {{"stackFrames", shown}, {"totalFrames", total}};
 }
 
@@ -174,7 +182,7 @@ Json Session::evaluated(const std::string& expression, bool hex) {
   if (!parsed) throw Refused(one_word ? why : why_no_expression);
   const auto value = parsed->value(cpu(), why);
   if (!value) throw Refused("cannot be computed: " + why);
-  const auto bits = double_word_of(*value);
+  const auto bits = bits_of(*value);
   const std::string text = hex && bits ? fmt::format("16#{:X}", *bits) : number_text(*value);
   return {{"result", text}, {"type", value->real ? "REAL" : "DINT"}, {"variablesReference", 0}};
 }

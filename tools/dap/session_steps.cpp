@@ -21,6 +21,9 @@
 namespace s7200::tools::dap {
 namespace {
 
+/// Of a step of the only PLC while it has no power.
+constexpr Time kStepWithoutPower = 100 * kMillisecond;
+
 std::uint64_t count_in(const Json& arguments) {
   const auto count = arguments.value("count", std::int64_t{1});
   if (count < 1) throw Refused("count must be a number above 0");
@@ -32,7 +35,8 @@ std::uint64_t count_in(const Json& arguments) {
 // --- forwards ---
 
 void Session::run_to(Stepper::Goal goal, const std::string& reason) {
-  running_ = Run{std::move(goal), reason};
+  const bool passes_time = stations() == 1 && !simulation().plc().powered() && reason == "step";
+  running_ = Run{std::move(goal), reason, passes_time ? simulation().time() + kStepWithoutPower : kNever};
   first_error_.reset();
   exceptions_.clear();
 }
@@ -101,21 +105,24 @@ void Session::run() {
   while (running_) {
     if (pause_asked_) return report({.reason = StopReason::Request, .station = looks_at()}, "pause");
     const History& history = debuggee_->history();
-    const bool stands = stations() == 1 && !simulation().system().has_schedule() && cpu().state().mode == Mode::Stop;
+    const bool stands = stations() == 1 && !simulation().system().has_schedule() && !simulation().plc().executes();
+    const bool passes_time = running_->until != kNever;
     const bool waits = simulation().has_master() && simulation().master().asks();
-    if (stands && !waits && !history.in_the_past())
+    if (stands && !waits && !passes_time && !history.in_the_past())
       return report({.reason = StopReason::CpuStopped, .station = looks_at()}, "");
     send_what_is_due();
     const bool more = frames_sent_ < frames_.size();
     const Time now = simulation().time();
-    Time limit = more && now < send_after_ ? send_after_ : kNever;
-    if (stands && !waits) limit = history.newest().time;
+    Time limit = std::min(more && now < send_after_ ? send_after_ : kNever, running_->until);
+    if (stands && !waits && !passes_time) limit = history.newest().time;
     const Stop stop = stepper_->run(running_->goal, limit, more || stands);
     if (const std::string failure = debuggee_->take_failure(); !failure.empty()) return report_failure(stop, failure);
     if (stop.reason == StopReason::Request) {
       if (!pause_asked_) return;
     } else if (!stop.hits.empty() || (stop.reason != StopReason::Limit && stop.reason != StopReason::Answer)) {
       return report(stop, running_->reason);
+    } else if (simulation().time() >= running_->until) {
+      return report({.reason = StopReason::Goal, .station = looks_at()}, running_->reason);
     }
   }
 }
@@ -292,7 +299,9 @@ Json Session::body_of(const Stop& stop, const std::string& reason) {
   const bool stopped = stop.reason == StopReason::CpuStopped;
   if (stopped && cpu().state().fatal_code != 0) body.update(body_of_fatal_error());
   if (!body.empty()) return body;
-  if (stopped) return {{"reason", "pause"}, {"description", said_of(looks_at()) + "the CPU is in STOP"}};
+  if (stopped)
+    return {{"reason", "pause"},
+            {"description", simulation().plc().powered() ? said_of(looks_at()) + "the CPU is in STOP" : without_power()}};
   if (stop.reason == StopReason::Oldest) {
     const std::string text = at_oldest_text(debuggee_->history());
     print(text);
@@ -306,6 +315,12 @@ bool Session::has_gone_back_to(std::uint32_t op) {
   return stepper_->run_back_past_stops(goal::place(op)).reason == StopReason::Goal;
 }
 
+/// `run-time error 0006`, whichever codes its filter has.
+std::string Session::exception_of(const Hit& hit) {
+  if (hit.stop.on != StopPoint::On::RuntimeError || hit.stop.code || !hit.record) return hit.stop.name;
+  return fmt::format("{} {:04X}", hit.stop.name, hit.record->code);
+}
+
 Json Session::body_of_hits(const Stop& stop) {
   const auto own = std::ranges::find(stop.hits, stop.station, [](const Hit& hit) { return hit.stop.station; });
   Json body = body_of_hit(own == stop.hits.end() ? stop.hits.front() : *own);
@@ -315,8 +330,9 @@ Json Session::body_of_hits(const Stop& stop) {
     if (placed_[hit.stop.number].kind != StopKind::Exception)
       ids.push_back(hit.stop.number);
     else
-      exceptions_.try_emplace(hit.stop.station,
-                              Json{{"exceptionId", hit.stop.name}, {"description", text_of(hit)}, {"breakMode", "always"}});
+      exceptions_.try_emplace(
+          hit.stop.station,
+          Json{{"exceptionId", exception_of(hit)}, {"description", text_of(hit)}, {"breakMode", "always"}});
   }
   if (!ids.empty()) body["hitBreakpointIds"] = ids;
   return body;
@@ -349,8 +365,9 @@ std::string Session::text_of(const Hit& hit) const {
   const Listing& listing = stations_[hit.stop.station].listing;
   std::string text = said_of(hit.stop.station);
   const bool is_watch = hit.stop.is_watch();
-  text += fmt::format("{} {}: {}", is_watch ? "watch" : "breakpoint", hit.stop.number,
-                      is_watch ? value_text(hit, program) : hit.stop.name);
+  if (placed_.at(hit.stop.number).kind != StopKind::Exception)  // which the client knows by no number
+    text += fmt::format("{} {}: ", is_watch ? "watch" : "breakpoint", hit.stop.number);
+  text += is_watch ? value_text(hit, program) : hit.stop.name;
   if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) text += ", " + serial::to_hex(hit.frame);
   if (hit.asker && hit.asker->kind == Asker::Kind::Send) {

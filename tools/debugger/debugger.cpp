@@ -11,6 +11,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/past_words.hpp"
+#include "tools/debugger/trace_of_past.hpp"
 #include "tools/debugger/two_masters.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/interruption.hpp"
@@ -195,6 +196,7 @@ void Debugger::go(const Run& run) {
   const std::uint64_t errors_before = errors_of_all();
   const Time now = history_.now().time, end = now < kNever - run.limit ? now + run.limit : kNever;
   begin_live_status();
+  let_traces_follow();
   const Stop stop = at_length([&] { return stepper_.run(run.goal, end, run.stop_at_answer); });
   live_status_.reset();
   write_trace(kNever);
@@ -205,9 +207,15 @@ void Debugger::go(const Run& run) {
 /// There is nothing to step through, and what can be done.
 void Debugger::report_standstill() {
   const State& state = simulation().cpu().state();
+  const bool powered = simulation().plc().powered();
   if (is_system()) {
     out_ << fmt::format("{} {} and executes nothing; 'continue' runs the others, 'station NAME' goes over to one of them\n",
-                        name_of(focus()), simulation().plc().powered() ? "is in STOP" : "is without power");
+                        name_of(focus()), powered ? "is in STOP" : "is without power");
+    return;
+  }
+  if (!powered) {
+    out_ << fmt::format("{}; 'continue' lets time pass, 'rstep' and 'back' return to before that\n",
+                        without_power_text(name_of(focus())));
     return;
   }
   out_ << fmt::format(
@@ -217,10 +225,16 @@ void Debugger::report_standstill() {
 
 /// What ran before says nothing of what comes.
 void Debugger::note_going_elsewhere() {
-  for (Station& station : stations_) {
-    station.last_op.reset();
-    station.trace_lines.forget();
-  }
+  for (Station& station : stations_) station.last_op.reset();
+  traces_follow_ = false;
+}
+
+/// Before something is traced.
+void Debugger::let_traces_follow() {
+  if (!tracing_ || std::exchange(traces_follow_, true)) return;
+  std::vector<TraceLines*> traces;
+  for (Station& station : stations_) traces.push_back(&station.trace_lines);
+  at_length([&] { return tell_what_was_before(history_, traces, options_.stop_request); });
 }
 
 void Debugger::remember() {
@@ -251,6 +265,7 @@ void Debugger::act(Action action, std::size_t station) {
   const bool branches = history_.in_the_past();
   const Time left = history_.newest().time;
   if (branches) remember();
+  let_traces_follow();
   Told told([&](const TraceRecord& record) { print_trace(history_.told_of(), record); });
   history_.act(std::move(action), station, &told);
   write_trace(kNever);
@@ -347,9 +362,8 @@ void Debugger::print_unasked(const SentByPlc& sent) {
 
 void Debugger::print_trace(std::size_t station, const TraceRecord& record) {
   if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = {station, record};
-  TraceLines& lines = stations_[station].trace_lines;
-  if (!tracing_) return lines.note(record);
-  const std::vector<TraceLine> of_record = lines.of(record);
+  if (!tracing_) return;
+  const std::vector<TraceLine> of_record = stations_[station].trace_lines.of(record);
   if (record.kind != TraceKind::ScanBegin && is_shown(record)) print_trace_lines(station, of_record);
 }
 

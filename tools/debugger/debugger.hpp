@@ -190,6 +190,7 @@ class Debugger {
   void act(Action action, std::size_t station);
   void remember();
   void note_going_elsewhere();
+  void let_traces_follow();
   void note_new_branch();
   void note_the_past();
   void report(const Stop& stop, const Run& run, std::uint64_t errors);
@@ -404,6 +405,7 @@ class Debugger {
   std::size_t unasked_ = 0;  ///< transmissions of the run under way
   int next_number_ = 1;      ///< of a breakpoint or watch
   bool tracing_ = false;
+  bool traces_follow_ = false;  ///< they have been told all that was before where it stands
   bool quit_asked_ = false;
   bool expectation_failed_ = false;
   std::size_t undone_ = 0;  ///< commands, after a stop request

@@ -44,9 +44,11 @@ constexpr std::string_view kBackwards =
     "It stops at breakpoints and watches on the way, also before they were set unless they wait for a number of hits.";
 
 constexpr std::string_view kMoreAboutPrint =
-    R"(. What a pointer points to is a byte unless :word, :dword or :real
-is asked for; of one that points nowhere it says who wrote it. &VB100 is a pointer to VB100, as in VD20 = &VB100. SMB30
-is shown in words, timers with bit, preset and base. A double word that the program uses as a real is shown as one too.
+    R"(; all but /d show the bits of a real. VB100:real, VB100:word:4 or
+AC0:byte take memory in bytes and accumulators as another type: byte, word, dword, real. What a pointer points to is a
+byte unless one of them is asked for; of one that points nowhere it says who wrote it. &VB100 is a pointer to VB100, as in
+VD20 = &VB100. SMB30 is shown in words, timers with bit, preset and base. A double word that the program uses as a real is
+shown as one too.
 In expressions words and double words have a sign, and beside them a constant above 32767 or 2147483647 stands for its
 bits: VW20 = 16#FFFF is VW20 = -1. For example: print VD20:real:4 SMB30 T37, print /x VW100:8, print VW2 * 2 + 1.)";
 
@@ -133,9 +135,10 @@ began. For example: send 01 03 00 0a 00 01 crc; continue; timeline, or timeline 
       {"past", "", "past", "how far back it can go, and what that takes", "", &Debugger::past},
       {"power", "", "power [all] [TIME] [lost] | off | on",
        "switch power off and on again: the CPU begins with what it has kept",
-       R"(TIME is how long it was off, in ns, us, ms, s, min or h; the clock goes on: power 8h. lost: too long for the RAM,
-only the EEPROM is left. A new branch, from time 0: back takes it back. Of a system say which: all is every PLC at once,
-power all 8h; off and on switch this PLC alone, time goes on, and going back crosses both: power off; continue 2s; power on.)",
+       R"(off and on switch this PLC alone; time goes on, and going back crosses both: power off; continue 2s; power on.
+power alone, or with a TIME, does both at once and begins a new branch at time 0, which back takes back. TIME is how long
+it was off, in ns, us, ms, s, min or h; the clock goes on: power 8h. lost: too long for the RAM, only the EEPROM is left. Of
+a system that is every PLC: power all 8h.)",
        &Debugger::power, Takes::Power},
       {"save", "", "save FILE [!]",
        "write where this session stands, and its past; 'load' returns there, in another session too",
@@ -441,6 +444,9 @@ Debugger::Error Debugger::trace(const Arguments& arguments) {
   const std::string word = arguments.size() == 1 ? stl::lower_case(arguments[0]) : "";
   if (word != "on" && word != "off") return expects("trace", "on or off");
   tracing_ = word == "on";
+  traces_follow_ = false;
+  let_traces_follow();
+  for (Station& station : stations_) station.trace_lines.begin_way();
   return {};
 }
 

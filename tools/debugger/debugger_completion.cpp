@@ -133,7 +133,8 @@ Debugger::Arguments Debugger::words_after(const Command& command, const Argument
       break;
     case Takes::Power:
       if (!is_system() || !is_first) add({"lost"});
-      if (is_system() && is_first) add({"all", "off", "on"});
+      if (is_first) add({"off", "on"});
+      if (is_system() && is_first) add({"all"});
       break;
     case Takes::Stations:
       for (const DebuggedStation& station : options_.stations) all.push_back(station.name);

@@ -68,11 +68,10 @@ bool has_operator(const std::vector<std::string>& words) {
 }
 
 std::string number_text(const Value& value, const PrintForm* form) {
-  if (value.real) return number_text(value);
-  const auto bits = double_word_of(value);
+  const auto bits = bits_of(value);
   if (!bits) return number_text(value) + " (more than a double word)";
-  return form ? form->text(*bits, Width::Double, false)
-              : fmt::format("{} ({})", number_text(value), hex_text(*bits, Width::Double));
+  if (form) return form->text(*bits, Width::Double, value.real);
+  return value.real ? number_text(value) : fmt::format("{} ({})", number_text(value), hex_text(*bits, Width::Double));
 }
 
 }  // namespace

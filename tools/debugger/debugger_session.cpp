@@ -218,12 +218,9 @@ std::string Debugger::requests_under_way() {
   return text;
 }
 
-/// Of this station of a system, as its events do.
+/// Of the PLC that it looks at; time goes on.
 Debugger::Error Debugger::switch_power(bool on) {
   const std::string_view word = on ? "on" : "off";
-  if (!is_system())
-    return fmt::format("power {} is for a PLC of a system; 'power 8h' switches the only PLC off, and on again after 8 h",
-                       word);
   if (simulation().plc().powered() == on)
     return fmt::format("power {}: {} is {} power already", word, name_of(focus()), on ? "with" : "without");
   act(SetPower{on});
@@ -250,7 +247,7 @@ Debugger::Error Debugger::power(const Arguments& arguments) {
     return expects("power",
                    fmt::format("{}how long it was off, in {}, and lost if that was too long for the RAM: power {}8h, "
                                "power {}lost",
-                               is_system() ? "off, on, or all, " : "", kTimeUnits, is_system() ? "all " : "",
+                               is_system() ? "off, on, or all, " : "off, on, or ", kTimeUnits, is_system() ? "all " : "",
                                is_system() ? "all " : ""));
   const std::string requests = requests_under_way();
   remember();

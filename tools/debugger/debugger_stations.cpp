@@ -11,7 +11,9 @@
 
 namespace s7200::tools {
 
-std::string Debugger::name_of(std::size_t station) const { return stl::printable(options_.stations[station].name); }
+std::string Debugger::name_of(std::size_t station) const {
+  return is_system() ? stl::printable(options_.stations[station].name) : "the PLC";
+}
 
 std::string Debugger::said_of(std::size_t station) const { return is_system() ? name_of(station) + ": " : ""; }
 

@@ -422,6 +422,10 @@ std::optional<std::uint32_t> double_word_of(const Value& value) {
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(value.number));
 }
 
+std::optional<std::uint32_t> bits_of(const Value& value) {
+  return value.real ? std::bit_cast<std::uint32_t>(static_cast<float>(value.number)) : double_word_of(value);
+}
+
 std::string number_text(const Value& value) {
   return value.real ? fmt::format("{:.7g}", value.number) : fmt::format("{:.0f}", value.number);
 }

@@ -48,6 +48,9 @@ struct Value {
 /// The bits of an integer that fits a double word, with a sign or without; nothing of anything else.
 std::optional<std::uint32_t> double_word_of(const Value& value);
 
+/// The bits of a real as a double word holds them, and of an integer that fits one.
+std::optional<std::uint32_t> bits_of(const Value& value);
+
 /// `7`, `1.5`
 std::string number_text(const Value& value);
 

@@ -366,7 +366,7 @@ class History final {
   std::vector<std::unique_ptr<Journal>> journals_;  // by host port
   PlcRequests requests_;
   std::vector<WriteMarker> markers_;    // by station
-  bool alone_;                          // one CPU that always has power
+  bool alone_;                          // one CPU, whose power no system file switches
   std::shared_ptr<std::size_t> bytes_;  ///< of all checkpoints
   CheckpointPtr origin_;
   BranchPtr branch_;

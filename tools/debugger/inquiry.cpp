@@ -68,9 +68,12 @@ bool Inquiry::hear_the_witness() {
   return heard;
 }
 
+/// In an interrupt routine it is what led there, unless it stands there because a request was given up.
+bool Inquiry::goes_back_to_frames() const { return in_main_ || (request_ && request_->in_vain); }
+
 void Inquiry::add(Time at, std::string text, const Keeper& keeper) {
   answers.unanswered.push_back({at, std::move(text)});
-  if (in_main_ && !answers.left) answers.left = keeper.by;
+  if (goes_back_to_frames() && !answers.left) answers.left = keeper.by;
 }
 
 /// What was a request of another master was not lost.
@@ -91,12 +94,12 @@ void find_what_the_line_lost(Inquiry& inquiry) {
 }
 
 void Inquiry::add_lost(TraceLine line) {
-  if (in_main_) answers.lost_on_line = line.at;
+  if (goes_back_to_frames()) answers.lost_on_line = line.at;
   add_first(std::move(line));
 }
 
 void Inquiry::note_left(const TraceReasons::Cause& cause) {
-  if (in_main_) answers.left = decision_of(cause);
+  if (goes_back_to_frames()) answers.left = decision_of(cause);
 }
 
 std::string Inquiry::left_text(const TraceReasons::Unanswered& frame) const {

@@ -53,7 +53,7 @@ class Inquiry {
 
   DecisionSearch answers{};
 
-  /// What decided about a frame is where to go back to in the main program, unless that is known already.
+  /// What decided about a frame is where to go back to, unless that is known already.
   void add(Time at, std::string text, const Keeper& keeper);
   void add_first(TraceLine line) { answers.unanswered.insert(answers.unanswered.begin(), std::move(line)); }
   /// What the line has lost or damaged.
@@ -68,6 +68,7 @@ class Inquiry {
  private:
   Time beginning() const;
   std::optional<Time> when_stopped() const;
+  bool goes_back_to_frames() const;
   Moment in_front_of(const InstructionRecord& from, std::uint32_t op, bool in_interrupt);
 
   History& history_;

@@ -29,8 +29,8 @@ struct DecisionSearch {
   std::vector<TraceLine> unanswered{};
   /// What decided about the last of them; nothing if there is none, or if that is not known.
   std::optional<LastDecision> left{};
-  /// When the line had lost or damaged the request or its answer; nothing if it did not, or it was asked in an interrupt
-  /// routine.
+  /// When the line had lost or damaged the request or its answer; nothing if it did not, or if `why` was asked in an
+  /// interrupt routine while somebody waits for an answer.
   std::optional<Time> lost_on_line{};
   bool interrupted = false;
 

@@ -408,6 +408,11 @@ void Timeline::begin() {
   looking_ = true;
 }
 
+void Timeline::begin_amid(const TraceReasons::Disabled& interrupts) {
+  begin();
+  reasons_.forget(interrupts);
+}
+
 /// `  line 82: XMT VB200, 0  // answer` of what stands there: not of an event, whose routine says why it waited.
 std::string Timeline::place_text(const TraceRecord& record) {
   const bool shown =

@@ -72,6 +72,8 @@ class Timeline final : public TraceSink {
   ~Timeline() override;
 
   void begin();
+  /// Without having been told what was before, when interrupts were so.
+  void begin_amid(const TraceReasons::Disabled& interrupts);
   void end() { looking_ = false; }
 
   /// What is done to the PLC from outside, in words.

@@ -23,6 +23,7 @@ class BareDebuggee final : public Debuggee {
   }
 
   serial::Simulation& simulation() { return *simulation_; }
+  std::string source() const override { return program_->source.name; }
   History& history() override { return *history_; }
   std::shared_ptr<const Program> program(std::size_t) const override { return program_; }
   std::string name(std::size_t) const override { return {}; }

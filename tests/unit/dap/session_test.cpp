@@ -420,6 +420,16 @@ TEST(DapSession, RunTimeErrorsStopByTheirCodes) {
   EXPECT_TRUE(has(editor.error_of("exceptionInfo", {{"threadId", 1}}), "has not stopped for an exception"));
 }
 
+TEST(DapSession, AnExceptionIsNamedByItsCodeAndByNoNumberThatTheClientDoesNotKnow) {
+  Editor editor("LD SM0.0\nMOVD 16#7F000000, VD0\nMOVB 1, *VD0\nMEND\n");
+  editor.begin();
+  editor("setExceptionBreakpoints", {{"filters", Json::array({"error"})}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor("exceptionInfo", {{"threadId", 1}})["exceptionId"], "run-time error 0006");
+  EXPECT_TRUE(editor.last("stopped")["text"].get<std::string>().starts_with("run-time error, "));
+  EXPECT_FALSE(has(editor.printed(), "breakpoint "));
+}
+
 TEST(DapSession, ARunTimeErrorOfABadPointerTellsItsValueAndWhoWroteIt) {
   Editor editor("LD SM0.0\nMOVD 16#7F000000, VD10\nMOVB 1, *VD10\nMEND\n");
   editor.begin();
@@ -813,6 +823,43 @@ TEST(DapSession, ARequestInStopIsGivenUpAndAModeRequestStartsTheProgram) {
   editor("stepScan", {{"threadId", 1}});
   EXPECT_NE(editor.frame()["name"], "STOP");
   EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "mode run"}, {"context", "repl"}}), "is in RUN already"));
+}
+
+TEST(DapSession, TheOnlyPlcLosesPowerWhileStepsLetTimePassAndTheWayBackStays) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto console = [&](const char* line) { return editor("evaluate", {{"expression", line}, {"context", "repl"}}); };
+  const auto time = [&] { return editor.debuggee->simulation().time(); };
+  editor("stepScan", {{"threadId", 1}, {"count", 5}});
+  console("power off");
+  EXPECT_EQ(editor.frame()["name"], "without power");
+  EXPECT_TRUE(has(editor.error_of("evaluate", {{"expression", "power off"}, {"context", "repl"}}), "without power already"));
+  EXPECT_TRUE(has(editor.error_of("setExpression", {{"expression", "VW10"}, {"value", "1"}}), "'power on' in the console"));
+  const Time off = time();
+  editor("next", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "step");
+  EXPECT_EQ(time(), off + 100 * kMillisecond);
+  editor("continue", {{"threadId", 1}});
+  EXPECT_TRUE(has(editor.last("stopped")["description"].get<std::string>(), "the PLC is without power"));
+  console("power on");
+  editor("stepScan", {{"threadId", 1}});
+  EXPECT_NE(editor.frame()["name"], "without power");
+  EXPECT_GT(time(), off);
+  editor("goToMoment", {{"time", "start"}});
+  EXPECT_EQ(time(), 0);
+  editor("goToMoment", {{"time", "end"}});
+  EXPECT_GT(time(), off + 100 * kMillisecond);
+}
+
+TEST(DapSession, AStackTraceNamesLineAndFileIfItIsAskedTo) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto name = [&](const Json& format) {
+    return editor("stackTrace", {{"threadId", 1}, {"format", format}})["stackFrames"][0]["name"].get<std::string>();
+  };
+  EXPECT_EQ(name({{"hex", true}}), "main");
+  EXPECT_EQ(name({{"line", true}}), "main, line 2");
+  EXPECT_EQ(name({{"module", true}, {"line", true}}), "test.stl!main, line 2");
 }
 
 TEST(DapSession, SettingInThePastBeginsABranch) {

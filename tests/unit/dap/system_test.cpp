@@ -15,6 +15,7 @@ class SystemDebuggee final : public Debuggee {
  public:
   explicit SystemDebuggee(std::string_view text) : bench(text), history_(bench.stations, {}) {}
 
+  std::string source() const override { return "system.yaml"; }
   History& history() override { return history_; }
   std::shared_ptr<const Program> program(std::size_t station) const override {
     return bench.rig->plan().plcs[station].program;
@@ -58,9 +59,10 @@ struct SystemEditor {
     EXPECT_TRUE(response["success"]) << response.dump(1);
     return response.value("body", Json::object());
   }
-  Json stopped() const {
+  Json stopped() const { return last("stopped"); }
+  Json last(const std::string& event) const {
     for (auto i = messages.rbegin(); i != messages.rend(); ++i)
-      if ((*i)["type"] == "event" && (*i)["event"] == "stopped") return (*i)["body"];
+      if ((*i)["type"] == "event" && (*i)["event"] == event) return (*i)["body"];
     return {};
   }
   Json frame(int thread) { return (*this)("stackTrace", {{"threadId", thread}})["stackFrames"][0]; }
@@ -87,6 +89,11 @@ TEST(DapSystem, EachPlcIsAThreadUnderItsName) {
   EXPECT_EQ(editor.stopped()["threadId"], kSlave1Thread) << "the one that is looked at first";
   EXPECT_EQ(editor.stopped()["allThreadsStopped"], true);
   EXPECT_EQ(editor("loadedSources")["sources"].size(), 2U) << "two slaves with one program";
+}
+
+TEST(DapSystem, TheProcessIsNamedByTheFileOfTheSystem) {
+  SystemEditor editor;
+  EXPECT_EQ(editor.last("process")["name"], "system.yaml");
 }
 
 TEST(DapSystem, ABreakpointHoldsAtEveryPlcThatHasTheLineAndTheStopSaysWhereItIs) {

@@ -1,3 +1,9 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "interpreter/base/text.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/slave_bench.hpp"
@@ -576,6 +582,22 @@ TEST(Debugger, MemoryIsPrintedAsAnyType) {
   EXPECT_TRUE(has(session("print -VW40"), "= 0 ")) << "no sign";
 }
 
+TEST(Debugger, AFormOfARealThatIsComputedShowsItsBits) {
+  Session session(kEcho);
+  session("set VD20=16#41200000");
+  EXPECT_TRUE(has(session("print VD20:real * 2"), "= 20\n"));
+  EXPECT_TRUE(has(session("print /x VD20:real * 2"), "= 16#41A00000\n"));
+  EXPECT_TRUE(has(session("print /d VD20:real * 2"), "= 20\n"));
+  EXPECT_TRUE(has(session("print /x VD20:real"), "16#41200000\n")) << "as of memory";
+}
+
+TEST(Debugger, HelpOnPrintNamesTheTypesOfAPlainAddress) {
+  Session session(kEcho);
+  const std::string help = session("help print");
+  for (const std::string_view type : {"byte", "word", "dword", "real"}) EXPECT_TRUE(has(help, type));
+  EXPECT_TRUE(has(help, "VB100:word:4"));
+}
+
 TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
   Session session(
       "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nLD SM0.0\nDISI\nFILL 0, VW100, 200\nFILL 0, VW100, 200\n"
@@ -1042,6 +1064,61 @@ TEST(Debugger, TraceShowsInterruptsWhileRunning) {
   Session session(kNested);
   EXPECT_FALSE(has(session("continue 20ms"), "INT 0 begins"));
   EXPECT_TRUE(has(session("trace on; continue 20ms"), "INT 0 begins"));
+}
+
+/// I0.0 has an interrupt, which waits for the ENI after a long instruction.
+constexpr std::string_view kDisables =
+    "LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nDISI // not now\nSQRT VD8, VD12\nENI\nLD SM0.0\nMOVB 1, VB0\nMEND\n"
+    "INT 0\nLD SM0.0\nINCW VW20\nRETI\n";
+
+TEST(Debugger, ATraceAfterGoingBackNamesTheDisiThatWasExecutedBeforeThat) {
+  Session session(kDisables);
+  session("continue 50ms; until 6; over");
+  EXPECT_EQ(session.line(), 7u) << "disabled, and the interrupt waits from here on";
+  session("input I0.0=1; continue 30ms; back");
+  EXPECT_EQ(session.line(), 7u);
+  EXPECT_TRUE(has(session("trace on; continue 20ms"), ": DISI in line 5 until ENI in line 7\n"));
+  session("at -25ms; runtil 7; input I0.0=0; input I0.0=1");
+  EXPECT_TRUE(has(session.out.str(), "it waits: interrupts are disabled by DISI in line 5\n"));
+}
+
+TEST(Debugger, ATimelineNamesTheDisiThatWasExecutedBeforeIt) {
+  Session session(kDisables);
+  session("continue 50ms; until 6; over; input I0.0=1; step 6");
+  EXPECT_TRUE(has(session("timeline 300us"), "DISI in line 5 until ENI in line 7"));
+}
+
+/// Of what commands print, the lines of a trace within (from, to].
+std::string trace_within(const std::string& printed, Time from, Time to) {
+  std::string lines;
+  for (const std::string& line : stl::split_lines(printed)) {
+    const std::size_t number = std::min(line.find_first_not_of(' '), line.size());
+    const std::size_t point = line.find_first_not_of("0123456789", number);
+    if (number < 2 || point == std::string::npos || line[point] != '.') continue;
+    const auto at = static_cast<Time>(std::llround(std::stod(line.substr(number)) * kMillisecond));
+    if (at > from && at <= to) lines.append(line).append("\n");
+  }
+  return lines;
+}
+
+TEST(Debugger, ATraceAfterGoingBackIsThatOfARunThatOnlyWentForward) {
+  for (const std::string_view program : {kDisables, kNested, kEcho}) {
+    Session session(program);
+    std::string forward = session("trace on");
+    for (int i = 0; i < 8; ++i)
+      forward += session(
+          fmt::format("continue {}us; input I0.0={}{}", 20'000 + 1'300 * i, 1 - i % 2, i == 4 ? "; send 41 42" : ""));
+    forward += session("continue 100ms; continue 50ms");
+    const Time newest = session.state().time;
+    for (int ms = 30; ms < 190; ms += 17) {
+      session(fmt::format("at {}ms", ms));
+      const Time from = session.state().time;
+      std::string again;
+      while (session.state().time < newest) again += session("continue 50ms");
+      EXPECT_EQ(trace_within(again, from, newest), trace_within(forward, from, newest)) << "from " << ms << " ms";
+    }
+    EXPECT_NE(trace_within(forward, 0, newest), "");
+  }
 }
 
 // --- back ---

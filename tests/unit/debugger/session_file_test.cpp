@@ -262,7 +262,7 @@ TEST(PowerCommand, SaysThatARequestUnderWayWentDownToo) {
 
 TEST(PowerCommand, WrongWordsTellWhatIsExpected) {
   Session session(kNested);
-  EXPECT_TRUE(has(session.error_of("power soon"), "power expects how long it was off"));
+  EXPECT_TRUE(has(session.error_of("power soon"), "power expects off, on, or how long it was off"));
   EXPECT_TRUE(has(session.error_of("load"), "load expects a file"));
   EXPECT_TRUE(has(session.error_of("save"), "save expects a file"));
   EXPECT_TRUE(has(session.error_of("record a.yaml"), "scenarios cannot be written here"));

@@ -109,6 +109,34 @@ TEST(Standstill, AfterAFatalErrorOnlyPowerBringsTheProgramBack) {
   EXPECT_TRUE(has(session("step"), "'restart' powers it up again"));
 }
 
+TEST(Standstill, TheOnlyPlcLosesPowerWhileTimeGoesOnAndThePastIsLeftAsItWas) {
+  Session session(kEcho);
+  session("continue 100ms; set VW200=7; send 41; continue");
+  EXPECT_TRUE(has(session("power off"), "the PLC has no power from now on; 'power on' brings it back\n"));
+  const Time off = session.simulation.time();
+  EXPECT_TRUE(has(session("step"), "the PLC is without power; 'power on' brings it back; 'continue' lets time pass"));
+  EXPECT_EQ(session.simulation.time(), off) << "there is nothing to step through";
+  EXPECT_TRUE(has(session.error_of("set VW200=1"), "the PLC is without power"));
+  EXPECT_TRUE(has(session.error_of("power off"), "the PLC is without power already"));
+  EXPECT_TRUE(has(session("send 41; continue"), "answer   none within 1 s"));
+  EXPECT_TRUE(has(session("continue 2s"), "without power\n"));
+  EXPECT_GE(session.simulation.time(), off + 3 * kSecond);
+  session("power on; continue 100ms");
+  EXPECT_TRUE(has(session("send 42; continue"), "answer   42"));
+  const serial::Simulation::Snapshot there = session.simulation.system().snapshot();
+  const std::string file = test::scratch_folder() + "power_of_one.json";
+  session("save " + file + " !");
+  session("at 1s");
+  EXPECT_FALSE(session.simulation.plc().powered());
+  session("rcontinue");
+  EXPECT_TRUE(session.simulation.plc().powered()) << "back to the first answer";
+  session("at end");
+  EXPECT_TRUE(session.simulation.system().snapshot() == there);
+  Session other(kEcho);
+  other("load " + file);
+  EXPECT_TRUE(other.simulation.system().snapshot() == there);
+}
+
 TEST(Standstill, AProgrammingDeviceOnTheLineIsAnsweredInStop) {
   Session session("LD SM0.0\nSTOP\nMEND\n");
   session("continue");

@@ -449,8 +449,6 @@ TEST(SystemDebugger, PowerOffAndOnAreOfThePlcLookedAtAndInThePast) {
   SystemSession other(kPollers, 0);
   other("load " + file);
   EXPECT_TRUE(other.system().snapshot() == there);
-  Session one(kNested);
-  EXPECT_TRUE(has(one.error_of("power off"), "power off is for a PLC of a system"));
 }
 
 /// A slave that is polled twice a second with a fault of its line.

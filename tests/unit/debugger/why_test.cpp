@@ -1,4 +1,6 @@
 // What `why` says of a frame without an answer when it is not the program that has left it.
+#include <fmt/format.h>
+
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/debugger/session.hpp"
 
@@ -41,6 +43,20 @@ TEST(Why, AnEventThatWasNeverAttachedIsNamed) {
   Session session("LD SM0.1\nMOVB 9, SMB30\nMEND\n");
   session("continue 50ms; break unanswered; send 41; continue");
   EXPECT_TRUE(has(session("why"), "event 8 is not attached; no instruction has attached it since power-up\n"));
+}
+
+TEST(Why, ARequestGivenUpInAnInterruptRoutineLeadsToWhatLeftItToo) {
+  const std::string program = test::changed(std::string(kStopsListening), "ENI\n", "MOVB 10, SMB34\nATCH 2, 10\nENI\n") +
+                              "INT 2\nLD SM0.0\nSQRT VD8, VD12\nRETI\n";  // half of the time
+  bool given_up_in_it = false;
+  for (int ms = 1; ms < 10 && !given_up_in_it; ms += 3) {
+    Session session(program);
+    session(fmt::format("continue 50ms; input I0.0=1; scan 3; continue {}ms; break unanswered; send 41 42; continue", ms));
+    given_up_in_it = session.state().in_interrupt;
+    session("rwhy");
+    EXPECT_EQ(session.line(), 12u) << "the DTCH";
+  }
+  EXPECT_TRUE(given_up_in_it);
 }
 
 TEST(Why, AFrameOfLongAgoIsNoPartOfTheOneThatIsAskedAbout) {
