@@ -71,11 +71,11 @@ def collected():
 
 
 def marks():
-    """Those of settings, `{"coils", "M10",`, and of a master's options, `"--timeout [L10]"`."""
+    """Those of settings, `{"coils", "M10",`, and of a master's options, `"--timeout [L10], --data-check [L4]"`."""
     for path in sorted((ROOT / "serial_sim" / "westinghouse").glob("*.[ch]pp")):
         yield from re.findall(r'(?:\{"\w+"|settings\(\s*rows),\s*"([A-Z]\d+)"', path.read_text(encoding="utf-8"))
     for path in sorted((ROOT / "tools" / "master").glob("*.cpp")):
-        yield from re.findall(r'\[([A-Z]\d+)\]"', path.read_text(encoding="utf-8"))
+        yield from re.findall(r"\[([A-Z]\d+)\]", path.read_text(encoding="utf-8"))
 
 
 def main():

@@ -16,6 +16,10 @@ needed_to_build=(
   /usr/include/CLI/CLI.hpp:libcli11-dev
   /usr/include/nlohmann/json.hpp:nlohmann-json3-dev
   /usr/include/yaml-cpp/yaml.h:libyaml-cpp-dev
+)
+
+# What it needs besides where it is configured with tests, which it is unless BUILD_TESTING is OFF.
+needed_to_build_tests=(
   /usr/include/gtest/gtest.h:libgtest-dev
   /usr/include/benchmark/benchmark.h:libbenchmark-dev
 )
@@ -29,6 +33,7 @@ needed_to_package=(
 # What the tests need besides: masters and decoders of others, that s7200 has to agree with, and what shows its manual pages,
 # completes its command lines and runs it in the pipelines of others.
 needed_to_test=(
+  "${needed_to_build_tests[@]}"
   "${needed_to_package[@]}"
   /usr/include/modbus/modbus.h:libmodbus-dev
   /usr/lib/python3/dist-packages/pymodbus:python3-pymodbus
@@ -76,12 +81,15 @@ install_missing_packages() {
   fi
 }
 
+# Options of cmake for build.
+configured_with=()
+
 # build PRESET [TARGET...]: all targets if none is named.
 build() {
   local preset=$1
   shift
   mkdir -p build
-  if ! cmake --preset "$preset" >"build/$preset-configure.log" 2>&1; then
+  if ! cmake --preset "$preset" "${configured_with[@]}" >"build/$preset-configure.log" 2>&1; then
     cat "build/$preset-configure.log" >&2
     exit 2
   fi

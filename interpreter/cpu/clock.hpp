@@ -15,6 +15,9 @@
 
 namespace s7200::clock {
 
+/// A CPU 212 has none.
+inline constexpr CpuSet kCpusWithClock = kFrom214;
+
 /// The eight bytes of TODR and TODW.
 using Bcd = std::array<std::uint8_t, 8>;
 Bcd bcd_now(const Core& core);

@@ -120,18 +120,12 @@ class Request {
   }
 
  private:
-  static constexpr std::size_t kUserDataHead = 8;  ///< 00 01 12 length kind group service number
-
-  /// Of user data; 0 where there is none.
-  std::uint8_t parameter(std::size_t at) const { return at < parameters_.size() ? parameters_[at] : std::uint8_t{0}; }
-  std::uint8_t group() const { return parameter(5) & 0x0F; }
-  std::uint8_t service() const { return parameter(6); }
-  std::uint8_t number() const { return parameter(7); }
-
   Reply user_data() {
-    if (parameters_.size() < kUserDataHead) return user_data_reply(refused(Refusal::Malformed));
-    if (group() == kClockGroup && service() == kReadClock) return read_clock();
-    if (group() == kClockGroup && service() == kSetClock) return set_clock();
+    const auto asked = user_data_in(parameters_);
+    if (!asked) return user_data_reply(refused(Refusal::Malformed));
+    if ((core_.model().self & clock::kCpusWithClock) == 0) return user_data_reply(refused(Refusal::Unknown));
+    if (asked->group == kClockGroup && asked->service == kReadClock) return read_clock();
+    if (asked->group == kClockGroup && asked->service == kSetClock) return set_clock();
     return user_data_reply(refused(Refusal::Unknown));
   }
 
@@ -143,8 +137,8 @@ class Request {
   void trace(std::uint16_t code) const {
     TraceRecord record{
         .at = core_.s.time, .kind = TraceKind::PpiService, .event = source_, .port = port_, .code = code, .op = kind_};
-    if (kind_ == kUserData && parameters_.size() >= kUserDataHead)
-      record.routine = group(), record.byte = service(), record.count = 1;
+    if (const auto asked = kind_ == kUserData ? user_data_in(parameters_) : std::nullopt)
+      record.routine = asked->group, record.byte = asked->service, record.count = 1;
     else if (kind_ == kRequest && !parameters_.empty())
       record.byte = parameters_[0], record.count = 1;
     core_.trace(record);
@@ -292,21 +286,15 @@ class Request {
     return {.parameters = {parameters_[0]}};
   }
 
-  // The clock: FF 09 00 0A 00 century and then the bytes of TODR, whose last two are milliseconds and day of the week.
-
   Reply read_clock() {
     trace(0);
-    const clock::Bcd now = clock::bcd_now(core_);
-    Reply reply{.data = {kDone, kInBytes, 0, 10, 0, static_cast<std::uint8_t>(now[0] >= 0x90 ? 0x19 : 0x20)}};
-    append(reply.data, now);
-    return user_data_reply(std::move(reply));
+    return user_data_reply({.data = data_of_clock(clock::bcd_now(core_))});
   }
 
   Reply set_clock() {
-    constexpr std::size_t kFirst = 6;
-    clock::Bcd to{};
-    if (data_.size() != kFirst + to.size()) return user_data_reply(refused(Refusal::Malformed));
-    std::copy(data_.begin() + kFirst, data_.end(), to.begin());
+    const auto wanted = clock_in(data_);
+    if (!wanted) return user_data_reply(refused(Refusal::Malformed));
+    clock::Bcd to = wanted->todr;
     to[6] = 0;
     to[7] &= 0x0F;
     if (!clock::is_time(to) || !clock::set_bcd(core_, to)) return user_data_reply(refused(Refusal::Malformed));
@@ -317,11 +305,11 @@ class Request {
 
   static constexpr std::uint8_t kNotStored = 0x0A;  ///< no data follow
 
-  /// 00 01 12 08 12 group service number 00 00 error(2)
   Reply user_data_reply(Reply reply) {
-    const auto error = static_cast<std::uint16_t>(reply.refusal);
-    reply.parameters = {0, 1, 0x12, 8, 0x12, static_cast<std::uint8_t>(group() | 0x80), service(), number(), 0, 0};
-    append16(reply.parameters, error);
+    UserData answer = user_data_in(parameters_).value_or(UserData{});
+    answer.is_answer = true;
+    answer.error = static_cast<std::uint16_t>(reply.refusal);
+    reply.parameters = parameters_of(answer);
     if (reply.data.empty()) reply.data = {kNotStored, 0, 0, 0};
     return reply;
   }

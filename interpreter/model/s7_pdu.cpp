@@ -15,6 +15,9 @@ void append(Bytes& to, std::uint8_t type, std::size_t count, std::size_t block, 
   append16(to, first & 0xFFFF);
 }
 
+constexpr std::size_t kGroup = 5, kService = 6, kNumber = 7, kError = 10;  // places in the parameters of user data
+constexpr std::uint8_t kAsksForGroup = 0x40, kAnswersGroup = 0x80;
+
 }  // namespace
 
 std::uint8_t code_of(Area area) {
@@ -72,7 +75,8 @@ std::optional<Width> width_of(std::uint8_t type) {
 }
 
 void append(Bytes& to, const Variable& variable) {
-  append(to, variable.type, variable.count, variable.area == Area::V ? 1 : 0, code_of(variable.area), variable.first);
+  append(to, variable.type, variable.count, variable.area == Area::V ? kBlockOfV : 0, code_of(variable.area),
+         variable.first);
 }
 
 WireVariable variable_at(std::span<const std::uint8_t> bytes) {
@@ -84,6 +88,44 @@ std::size_t data_bytes(std::uint8_t type, std::size_t length) {
 }
 
 void append_identification(Bytes& to) { append(to, kByte, kIdentificationBytes, 0, kSystemInformation, 0); }
+
+Bytes parameters_of(const UserData& user_data) {
+  const std::uint8_t side = user_data.is_answer ? kAnswersGroup : kAsksForGroup;
+  Bytes bytes{0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(side | user_data.group), user_data.service, user_data.number};
+  if (!user_data.is_answer) return bytes;
+  bytes[3] = 8, bytes[4] = 0x12;
+  append16(bytes, 0);
+  append16(bytes, user_data.error);
+  return bytes;
+}
+
+std::optional<UserData> user_data_in(std::span<const std::uint8_t> parameters) {
+  if (parameters.size() <= kNumber) return {};
+  UserData found{.group = static_cast<std::uint8_t>(parameters[kGroup] & 0x0F),
+                 .service = parameters[kService],
+                 .number = parameters[kNumber],
+                 .is_answer = (parameters[kGroup] & 0xF0) == kAnswersGroup};
+  if (!found.is_answer) return found;
+  if (parameters.size() < kError + 2) return {};
+  found.error = load16(&parameters[kError]);
+  return found;
+}
+
+Bytes data_of_clock(const std::array<std::uint8_t, 8>& todr) {
+  constexpr std::uint8_t kFirstYear = 0x90;
+  Bytes bytes{kDone, kInBytes, 0, 10, 0, static_cast<std::uint8_t>(todr[0] >= kFirstYear ? 0x19 : 0x20)};
+  bytes.insert(bytes.end(), todr.begin(), todr.end());
+  return bytes;
+}
+
+std::optional<WireClock> clock_in(std::span<const std::uint8_t> data) {
+  constexpr std::size_t kCentury = 5, kTodr = 6;
+  WireClock clock{};
+  if (data.size() != kTodr + clock.todr.size()) return {};
+  clock.century = data[kCentury];
+  std::copy(data.begin() + kTodr, data.end(), clock.todr.begin());
+  return clock;
+}
 
 Bytes pdu(Kind kind, std::uint16_t number, const Bytes& parameters, const Bytes& data) {
   Bytes bytes{kProtocol, kind, 0, 0};

@@ -13,6 +13,8 @@
 // - The status is 02 while the bit of the timer or counter is 1, as in a recording of a timer at 32767, otherwise 00, as of
 //   one that runs. What is written has the same form; its status is not looked at.
 //   [S7Services.TimersAndCountersHaveAStatusAndTheirCurrentValue]
+// - A current value that is written is taken as it is, as MOVW writes it: of a timer 8000 to FFFF too, which it never counts
+//   to; it goes on from there as from a negative number. [S7Services.ANegativeCurrentValueOfATimerIsWritten]
 // - High-speed counters have area and type 20. [S7Services.HighSpeedCountersAreReadAsDoubleWords]
 // - S is area 04, as the client library HslCommunication has it for the S7-200; python-snap7, and facts 10.9
 //   after it, have 03 for it, which libnodave and Wireshark call the system information of this family.
@@ -97,6 +99,28 @@ inline constexpr std::string_view kProgram = "P_PROGRAM";
 
 /// Of user data: the clock, and what is done with it.
 inline constexpr std::uint8_t kClockGroup = 7, kReadClock = 1, kSetClock = 2;
+
+/// The parameters of user data: 00 01 12 length(1) request or answer(1) group service number, and then, of an answer,
+/// 00 00 error(2).
+struct UserData {
+  std::uint8_t group = 0, service = 0, number = 0;
+  bool is_answer = false;
+  std::uint16_t error = 0;  ///< of an answer
+};
+Bytes parameters_of(const UserData& user_data);
+/// Nothing if they are too few.
+std::optional<UserData> user_data_in(std::span<const std::uint8_t> parameters);
+
+/// The clock in data: FF 09 00 0A 00, the century, and then the eight bytes of TODR, whose last two are milliseconds and day
+/// of the week. All are BCD.
+struct WireClock {
+  std::uint8_t century;
+  std::array<std::uint8_t, 8> todr;
+};
+/// From 1990 to 2089, as the clock has two figures for the year.
+Bytes data_of_clock(const std::array<std::uint8_t, 8>& todr);
+/// Nothing if there is none, as in the answer to one that was set.
+std::optional<WireClock> clock_in(std::span<const std::uint8_t> data);
 
 /// A number of two bytes, as everything in a PDU counts.
 inline void append16(Bytes& to, std::size_t value) {

@@ -13,6 +13,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/peers/answer.hpp"
+#include "serial_sim/westinghouse/words.hpp"
 
 namespace s7200::westinghouse {
 
@@ -46,7 +47,7 @@ std::uint8_t sum(std::span<const std::uint8_t> bytes);
 
 /// What the check of a block is: the sum of its data, or their XOR.
 enum class DataCheck : std::uint8_t { Sum, Xor };
-inline constexpr std::array<std::string_view, 2> kDataCheckWords{"sum", "xor"};  ///< in its order
+inline constexpr auto kDataCheckWords = words_of<DataCheck>({{DataCheck::Sum, "sum"}, {DataCheck::Xor, "xor"}});
 std::uint8_t data_check(std::span<const std::uint8_t> data, DataCheck by);
 
 Bytes message(Opcode opcode, std::uint8_t b1 = 0, std::uint8_t b2 = 0, std::uint8_t b3 = 0, std::uint8_t b4 = 0);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/line/frame.hpp"
@@ -62,9 +63,9 @@ std::uint32_t hppc_address(std::span<const std::uint8_t> bytes) {
   return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8 | static_cast<std::uint32_t>(bytes[2]) << 16;
 }
 
-Bytes hppc_read(std::uint32_t address, std::uint8_t count) {
+Bytes hppc_read(std::uint32_t address, std::uint8_t count, const HppcLayout& layout) {
   Bytes operands;
-  add_hppc_address(operands, address);
+  if (layout.read_request == HppcLayout::ReadRequest::AddressAndNumber) add_hppc_address(operands, address);
   operands.push_back(count);
   return operands;
 }
@@ -75,7 +76,8 @@ Bytes hppc_write(std::uint32_t address, std::span<const std::uint8_t> data) {
   return operands;
 }
 
-Bytes hppc_bit_write(std::uint32_t address, std::uint16_t pattern, std::uint16_t mask) {
+Bytes hppc_bit_write(std::uint32_t address, std::uint16_t pattern, std::uint16_t mask, const HppcLayout& layout) {
+  if (layout.bit_write == HppcLayout::BitWrite::MaskFirst) std::swap(pattern, mask);
   Bytes operands;
   add_hppc_address(operands, address);
   for (const std::uint16_t word : {pattern, mask}) {
@@ -86,12 +88,16 @@ Bytes hppc_bit_write(std::uint32_t address, std::uint16_t pattern, std::uint16_t
 }
 
 Bytes hppc_monitor(std::uint32_t network, std::span<const std::uint32_t> bytes, std::span<const std::uint32_t> words,
-                   std::span<const std::uint32_t> double_words) {
+                   std::span<const std::uint32_t> double_words, const HppcLayout& layout) {
   Bytes operands;
   add_hppc_address(operands, network);
   for (const auto& list : {bytes, words, double_words}) operands.push_back(static_cast<std::uint8_t>(list.size()));
   for (const auto& list : {bytes, words, double_words})
-    for (const std::uint32_t address : list) add_hppc_address(operands, address);
+    for (const std::uint32_t address : list) {
+      const std::size_t end = operands.size() + layout.monitor_address_bytes;
+      add_hppc_address(operands, address);
+      operands.resize(end);
+    }
   return operands;
 }
 

@@ -7,6 +7,7 @@
 // Addresses have three bytes, low byte first.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -16,12 +17,14 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/peers/answer.hpp"
+#include "serial_sim/westinghouse/words.hpp"
 
 namespace s7200::westinghouse {
 
 /// Both are CCITT's but for one entry of the document's table, which is not a misprint according to its text.
 enum class FcsTable : std::uint8_t { Document, Polynomial };
-inline constexpr std::array<std::string_view, 2> kFcsWords{"document", "polynomial"};  ///< in its order
+inline constexpr auto kFcsWords =
+    words_of<FcsTable>({{FcsTable::Document, "document"}, {FcsTable::Polynomial, "polynomial"}});
 
 std::uint16_t hppc_fcs(std::span<const std::uint8_t> bytes, FcsTable table);
 
@@ -34,7 +37,7 @@ enum class HppcOpcode : std::uint8_t {
   Error = 0x10
 };
 
-/// How the layouts that the document leaves open are read [H4] [H5] [H6].
+/// How the layouts that the document leaves open are meant [H4] [H5] [H6].
 struct HppcLayout {
   enum class ReadRequest : std::uint8_t { AddressAndNumber, Number };
   enum class BitWrite : std::uint8_t { PatternFirst, MaskFirst };
@@ -45,6 +48,12 @@ struct HppcLayout {
 
   bool operator==(const HppcLayout&) const = default;
 };
+inline constexpr auto kReadRequestWords = words_of<HppcLayout::ReadRequest>(
+    {{HppcLayout::ReadRequest::AddressAndNumber, "address_and_number"}, {HppcLayout::ReadRequest::Number, "number"}});
+inline constexpr auto kBitWriteWords = words_of<HppcLayout::BitWrite>(
+    {{HppcLayout::BitWrite::PatternFirst, "pattern_first"}, {HppcLayout::BitWrite::MaskFirst, "mask_first"}});
+inline constexpr std::array<std::uint8_t, 2> kMonitorAddressBytes{3, 4};
+inline constexpr std::array<std::string_view, 2> kMonitorAddressWords{"3", "4"};  ///< in the same order
 
 inline constexpr std::uint8_t kIop = 0x20, kApl = 0x40, kAll = 0xFF;
 inline constexpr std::size_t kShortestHppc = 8, kLongestHppc = 0x400, kHppcHeader = 6;
@@ -55,12 +64,12 @@ inline constexpr std::size_t kMostMonitored = 256;
 Bytes hppc_message(std::uint8_t destination, std::uint8_t source, HppcOpcode opcode, std::span<const std::uint8_t> operands,
                    FcsTable table);
 
-/// Operands of the requests.
-Bytes hppc_read(std::uint32_t address, std::uint8_t count);
+/// Operands of the requests. A read that has no address is from 0 on.
+Bytes hppc_read(std::uint32_t address, std::uint8_t count, const HppcLayout& layout = {});
 Bytes hppc_write(std::uint32_t address, std::span<const std::uint8_t> data);
-Bytes hppc_bit_write(std::uint32_t address, std::uint16_t pattern, std::uint16_t mask);
+Bytes hppc_bit_write(std::uint32_t address, std::uint16_t pattern, std::uint16_t mask, const HppcLayout& layout = {});
 Bytes hppc_monitor(std::uint32_t network, std::span<const std::uint32_t> bytes, std::span<const std::uint32_t> words,
-                   std::span<const std::uint32_t> double_words);
+                   std::span<const std::uint32_t> double_words, const HppcLayout& layout = {});
 
 std::uint32_t hppc_address(std::span<const std::uint8_t> bytes);
 void add_hppc_address(Bytes& to, std::uint32_t address);

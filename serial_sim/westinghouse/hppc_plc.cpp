@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "interpreter/base/word_bytes.hpp"
+#include "serial_sim/westinghouse/words.hpp"
 
 namespace s7200::westinghouse {
 namespace {
@@ -219,35 +220,37 @@ const std::vector<Setting<HppcPlc>>& HppcPlc::settings() {
       const auto layout = [](auto& plc) -> auto& { return plc.settings_.layout; };
       rows.push_back(setting_of<HppcPlc>(std::move(form), layout, member));
     };
-    add({"port", "", "where the computer is plugged in", Word, {"sim0", "iop"}}, &S::port);
-    add({"run", "", "whether the processor runs", Word, {"running", "stopped"}}, &S::run);
-    add({"fcs",
-         "",
-         "frame check: with the odd entry of the document's table, or without",
-         Word,
-         {kFcsWords.begin(), kFcsWords.end()}},
-        &S::fcs);
+    add({"port", "", "where the computer is plugged in", Word,
+         words_of<S::Port>({{S::Port::Sim0, "sim0"}, {S::Port::Iop, "iop"}})},
+        &S::port);
+    add({"run", "", "whether the processor runs", Word,
+         words_of<S::Run>({{S::Run::Running, "running"}, {S::Run::Stopped, "stopped"}})},
+        &S::run);
+    add({"fcs", "", "frame check: with the odd entry of the document's table, or without", Word, kFcsWords}, &S::fcs);
     add({"edit_lo", "H8", "register in error responses", Hex, {}, 0, UINT16_MAX}, &S::edit_lo);
     add({"answer_after", "", "characters of silence before an answer", Decimal, {}, 1, 200}, &S::answer_after);
     add_line_settings(
         rows, "H1", [](auto& plc) -> auto& { return plc.settings_.line; });
     add({"search_ms", "H2", "milliseconds after power-up that it looks for its line", Decimal, {}, 0, 10'000},
         &S::search_ms);
-    add({"zero_byte", "H3", "the fifth byte of a message", Word, {"ignored", "checked"}}, &S::zero_byte);
-    add_to_layout({"read_request", "H4", "operands of a read", Word, {"address_and_number", "number"}}, &L::read_request);
-    add_to_layout({"bit_write", "H5", "order of the words of a bit write", Word, {"pattern_first", "mask_first"}},
-                  &L::bit_write);
+    add({"zero_byte", "H3", "the fifth byte of a message", Word,
+         words_of<S::ZeroByte>({{S::ZeroByte::Ignored, "ignored"}, {S::ZeroByte::Checked, "checked"}})},
+        &S::zero_byte);
+    add_to_layout({"read_request", "H4", "operands of a read", Word, kReadRequestWords}, &L::read_request);
+    add_to_layout({"bit_write", "H5", "order of the words of a bit write", Word, kBitWriteWords}, &L::bit_write);
     add_to_layout({"monitor_address_bytes", "H6", "bytes of each address of a monitor", Decimal, {}, 3, 4},
                   &L::monitor_address_bytes);
     add({"status", "H7", "status in the answer to a monitor; FF: as the processor and the networks are"}, &S::status);
-    add({"errors", "H8", "what it does with a request that is wrong", Word, {"answered", "ignored"}}, &S::errors);
-    rows.push_back(
-        {{"table", "H10", "parameter table as in section 6.6, or as in the printed example", Word, {"section66", "example"}},
-         [](const HppcPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.table); },
-         [](HppcPlc& plc, std::uint32_t value) {
-           plc.settings_.table = static_cast<S::Table>(value);
-           plc.put_table();
-         }});
+    add({"errors", "H8", "what it does with a request that is wrong", Word,
+         words_of<S::Errors>({{S::Errors::Answered, "answered"}, {S::Errors::Ignored, "ignored"}})},
+        &S::errors);
+    rows.push_back({{"table", "H10", "parameter table as in section 6.6, or as in the printed example", Word,
+                     words_of<S::Table>({{S::Table::Section66, "section66"}, {S::Table::Example, "example"}})},
+                    [](const HppcPlc& plc) { return static_cast<std::uint32_t>(plc.settings_.table); },
+                    [](HppcPlc& plc, std::uint32_t value) {
+                      plc.settings_.table = static_cast<S::Table>(value);
+                      plc.put_table();
+                    }});
     return rows;
   }();
   return kSettings;

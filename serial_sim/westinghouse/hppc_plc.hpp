@@ -1,6 +1,12 @@
 // An HPPC at its loader port.
 //
 // [H1] … [H10] name the choices of ../shared/reference/westinghouse_protocols.md.
+//
+// Not documented, modelled so:
+// - It answers whoever asked. [Hppc.ItAnswersWhoeverAsked]
+// - Its answer begins one character after the request. [Hppc.AnAnswerBeginsOneCharacterAfterTheRequest]
+// - After power has been off it has its memory and looks for its line again.
+//   [Hppc.AfterPowerHasBeenOffItSearchesForItsLineAgainAndHasItsMemory]
 #pragma once
 
 #include "serial_sim/westinghouse/hppc_message.hpp"
@@ -20,7 +26,7 @@ struct HppcSettings {
   Port port = Port::Sim0;
   Run run = Run::Running;
   FcsTable fcs = FcsTable::Document;
-  std::uint16_t edit_lo = 0;  ///< the register in error responses
+  std::uint16_t edit_lo = 0;  ///< [H8] the register in error responses
 
   SerialFormat line{.parity = Parity::None};  ///< [H1]
   std::uint16_t search_ms = 0;                ///< [H2] for its line, after power-up: it hears nothing

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "serial_sim/westinghouse/words.hpp"
+
 namespace s7200::westinghouse {
 
 void LanPlc::begin_anew() {
@@ -81,9 +83,10 @@ const std::vector<Setting<LanPlc>>& LanPlc::settings() {
         rows, [](auto& plc) -> auto& { return plc.pc_; });
     add_line_settings(
         rows, "L1", [](auto& plc) -> auto& { return plc.settings_.line; });
-    add({"sync", "L2", "whether characters count only while the sync signal is high", Word, {"required", "ignored"}},
+    add({"sync", "L2", "whether characters count only while the sync signal is high", Word,
+         words_of<S::Sync>({{S::Sync::Required, "required"}, {S::Sync::Ignored, "ignored"}})},
         &S::sync);
-    add({"gap_ms", "L3", "between two characters of a message, at most", Decimal, {}, 1, 10'000}, &S::gap_ms);
+    add({"gap_ms", "L3", "milliseconds between two characters of a message, at most", Decimal, {}, 1, 10'000}, &S::gap_ms);
     add({"answer_after", "L3", "characters of silence before an answer", Decimal, {}, 1, 200}, &S::answer_after);
     return rows;
   }();

@@ -1,4 +1,9 @@
 // A PLC on the PC1000 LAN: who is addressed, the sync signal, and when a message counts.
+//
+// Not documented, modelled so:
+// - Operands that are 00 in every message of the document have to be 00. [Pc1000Lan.L8WhatIsWrongOrRefusedIsNotAnswered]
+// - After power has been off it has its memory, and no unit is addressed.
+//   [Pc1000Lan.AfterPowerHasBeenOffMemoryIsKeptAndNoUnitIsAddressed]
 #pragma once
 
 #include "serial_sim/westinghouse/pc1000.hpp"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "interpreter/base/word_bytes.hpp"
+#include "serial_sim/westinghouse/words.hpp"
 
 namespace s7200::westinghouse {
 namespace {
@@ -202,14 +203,19 @@ const std::vector<Setting<LoaderPlc>>& LoaderPlc::settings() {
     add_line_settings(
         rows, "", [](auto& plc) -> auto& { return plc.settings_.line; });
     add({"latency_us", "", "microseconds from a request to its answer", Decimal, {}, 0, 10'000}, &S::latency_us);
-    add({"directory", "S1", "block whose address is the first of the directory", Word, {"db0", "db1"}}, &S::directory);
+    add({"directory", "S1", "block whose address is the first of the directory", Word,
+         words_of<S::Directory>({{S::Directory::Db0, "db0"}, {S::Directory::Db1, "db1"}})},
+        &S::directory);
     add({"head_bytes", "S2", "bytes 00 before the pointers of the system parameters", Decimal, {}, 0, 16}, &S::head_bytes);
     add({"tail_bytes", "S2", "bytes 00 after the pointers of the system parameters", Decimal, {}, 0, 64}, &S::tail_bytes);
-    add({"dle", "S3", "how the PLC sends a byte 10 in data", Word, {kDleWords.begin(), kDleWords.end()}}, &S::dle);
+    add({"dle", "S3", "how the PLC sends a byte 10 in data", Word, kDleWords}, &S::dle);
     add({"timeout_ms", "S4", "milliseconds that it waits for each byte within a session", Decimal, {}, 1, 10'000},
         &S::timeout_ms);
-    add({"nak", "S4", "whether it answers what does not fit with 10 15", Word, {"sent", "silent"}}, &S::nak);
-    add({"writable", "S5", "what can be written: all of memory, or user memory and images only", Word, {"all", "areas"}},
+    add({"nak", "S4", "whether it answers what does not fit with 10 15", Word,
+         words_of<S::Nak>({{S::Nak::Sent, "sent"}, {S::Nak::Silent, "silent"}})},
+        &S::nak);
+    add({"writable", "S5", "what can be written: all of memory, or user memory and images only", Word,
+         words_of<S::Writable>({{S::Writable::All, "all"}, {S::Writable::Areas, "areas"}})},
         &S::writable);
     return rows;
   }();

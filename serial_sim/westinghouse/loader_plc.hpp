@@ -1,6 +1,10 @@
 // A PC503 at its loader port, the programming port of PC500 and PC2000.
 //
 // [S1] … [S5] name the choices of ../shared/reference/westinghouse_protocols.md.
+//
+// Not documented, modelled so:
+// - It answers 400 us after a request, less than the document's 500. [Loader.AnAnswerBegins400MicrosecondsAfterTheRequest]
+// - After power has been off it has its memory, and the session is over. [Loader.AfterPowerHasBeenOffTheSessionIsOver]
 #pragma once
 
 #include "serial_sim/westinghouse/loader_session.hpp"

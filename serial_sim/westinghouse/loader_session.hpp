@@ -16,6 +16,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/peers/answer.hpp"
+#include "serial_sim/westinghouse/words.hpp"
 
 namespace s7200::westinghouse {
 
@@ -23,7 +24,7 @@ enum class LoaderOpcode : std::uint8_t { Write = 0x03, Read = 0x04, Pointers = 0
 
 /// Whether the PLC doubles a data byte 10 in its answers [S3]; the computer does always.
 enum class Dle : std::uint8_t { Doubled, Plain };
-inline constexpr std::array<std::string_view, 2> kDleWords{"doubled", "plain"};  ///< in its order
+inline constexpr auto kDleWords = words_of<Dle>({{Dle::Doubled, "doubled"}, {Dle::Plain, "plain"}});
 
 inline constexpr std::uint8_t kStx = 0x02, kEtx = 0x03, kEot = 0x04, kAck = 0x06, kDle = 0x10, kNak = 0x15;
 inline constexpr std::uint8_t kHeader = 0x16, kEnd = 0x12;

@@ -8,6 +8,7 @@
 #include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "serial_sim/modbus/functions.hpp"
+#include "serial_sim/westinghouse/words.hpp"
 
 namespace s7200::westinghouse {
 namespace {
@@ -72,6 +73,7 @@ void ModbusPlc::wake(Time now) {
 void ModbusPlc::restart(Time) {
   frame_.clear();
   damaged_ = false;
+  wake_at(kNever);
 }
 
 /// [M1] Section 4.1 gives function 7 to the HPPC, section 4.2.2, which the rows follow, to NCMZ.
@@ -304,24 +306,31 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
     add({"err", "", "error register in the answer to function 17", Hex, {}, 0, UINT16_MAX}, &S::err);
     add({"mode_chg", "", "mode change register in the answer to function 17", Hex, {}, 0, UINT16_MAX}, &S::mode_chg);
     add({"exception", "M8", "answered to all that could be done: 04, 06; 00 for none"}, &S::exception);
-    add({"function_7", "M1", "section of the document that says which models have it", Word, {"section422", "section41"}},
+    add({"function_7", "M1", "section of the document that says which models have it", Word,
+         words_of<S::Function7>({{S::Function7::Section422, "section422"}, {S::Function7::Section41, "section41"}})},
         &S::function_7);
     add_line_settings(
         rows, "M2", [](auto& plc) -> auto& { return plc.settings_.line; });
     add({"silence", "M2", "silence that ends a frame, in tenths of a character", Decimal, {}, 1, 200}, &S::silence);
-    add({"broadcasts", "M3", "functions carried out for all: 5, 6, 16; or 15 and 21 as well", Word, {"three", "writes"}},
+    add({"broadcasts", "M3", "functions carried out for all: 5, 6, 16; or 15 and 21 as well", Word,
+         words_of<S::Broadcasts>({{S::Broadcasts::Three, "three"}, {S::Broadcasts::Writes, "writes"}})},
         &S::broadcasts);
-    add({"ncmz_preset", "M4", "what function 6 reaches on NCMZ", Word, {"registers", "memory"}}, &S::ncmz_preset);
+    add({"ncmz_preset", "M4", "what function 6 reaches on NCMZ", Word,
+         words_of<S::NcmzPreset>({{S::NcmzPreset::Registers, "registers"}, {S::NcmzPreset::Memory, "memory"}})},
+        &S::ncmz_preset);
     add({"status_coil", "M5", "coil that is bit 0 in the answer to function 7", Decimal, {}, 1, UINT16_MAX},
         &S::status_coil);
-    add({"loopback_length", "M6", "what it does with a loopback of another length than 8", Word, {"silent", "refused"}},
+    add({"loopback_length", "M6", "what it does with a loopback of another length than 8", Word,
+         words_of<S::WrongLength>({{S::WrongLength::Silent, "silent"}, {S::WrongLength::Refused, "refused"}})},
         &S::loopback_length);
-    add({"most_registers", "", "registers that one request reads or writes at most", Decimal, {}, 1, 125},
+    add({"most_registers", "M7", "registers that one request reads or writes at most", Decimal, {}, 1, 125},
         &S::most_registers);
     add({"most_read_bits", "M7", "coils or inputs that one request reads at most", Decimal, {}, 1, 2000},
         &S::most_read_bits);
     add({"most_written_coils", "M7", "coils that one request writes at most", Decimal, {}, 1, 1968}, &S::most_written_coils);
-    add({"checks", "M8", "which fault counts if both are there", Word, {"quantity_first", "address_first"}}, &S::checks);
+    add({"checks", "M8", "which fault counts if both are there", Word,
+         words_of<S::Checks>({{S::Checks::QuantityFirst, "quantity_first"}, {S::Checks::AddressFirst, "address_first"}})},
+        &S::checks);
     add({"first_address", "M9", "address of the first coil, input or register on the wire", Decimal, {}, 0, 1},
         &S::first_address);
     add({"coils", "M10", "how many coils it has", Decimal, {}, 0, UINT16_MAX}, &S::coils);
@@ -330,26 +339,19 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
     add({"holding_registers", "M10", "how many holding registers it has", Decimal, {}, 0, UINT16_MAX},
         &S::holding_registers);
     add({"holding_word", "M11", "word of the memory that HR1 is", Hex, {}, 0, UINT16_MAX}, &S::holding_word);
-    add({"slave_id_layout",
-         "M12",
-         "answer to function 17: with a byte before the error register or without",
-         Word,
-         {"packed", "aligned"}},
+    add({"slave_id_layout", "M12", "answer to function 17: with a byte before the error register or without", Word,
+         words_of<S::Layout>({{S::Layout::Packed, "packed"}, {S::Layout::Aligned, "aligned"}})},
         &S::slave_id_layout);
-    add({"slave_id_order",
-         "M12",
-         "order of the bytes of words in the answer to function 17",
-         Word,
-         {"high_first", "low_first"}},
+    add({"slave_id_order", "M12", "order of the bytes of words in the answer to function 17", Word,
+         words_of<S::ByteOrder>({{S::ByteOrder::HighFirst, "high_first"}, {S::ByteOrder::LowFirst, "low_first"}})},
         &S::slave_id_order);
-    add({"read_answer",
-         "M13",
-         "answer to function 20: as Modbus has it, or a byte count and data",
-         Word,
-         {"record", "plain"}},
+    add({"read_answer", "M13", "answer to function 20: as Modbus has it, or a byte count and data", Word,
+         words_of<S::ReadAnswer>({{S::ReadAnswer::Record, "record"}, {S::ReadAnswer::Plain, "plain"}})},
         &S::read_answer);
     add({"segment_bytes", "M14", "bytes from one segment to the next", Decimal, {}, 1, UINT16_MAX}, &S::segment_bytes);
-    add({"memory_order", "M14", "order of the bytes of a word", Word, {"high_first", "low_first"}}, &S::memory_order);
+    add({"memory_order", "M14", "order of the bytes of a word", Word,
+         words_of<S::ByteOrder>({{S::ByteOrder::HighFirst, "high_first"}, {S::ByteOrder::LowFirst, "low_first"}})},
+        &S::memory_order);
     add({"most_bytes", "M15", "bytes that function 20 reads or function 21 writes at most", Decimal, {}, 1, 244},
         &S::most_bytes);
     return rows;

@@ -2,6 +2,12 @@
 //
 // [M1], [M2] and so on name the choices of ../shared/reference/westinghouse_protocols.md where the document is silent. Each
 // is a setting; its default is what the reference says.
+//
+// Not documented, modelled so:
+// - A request that is not as long as its function has it is not answered. One of function 15, 16, 20 or 21 is answered with
+//   exception 03 if all that says how long it is is there. [WestinghouseModbus.WhatIsMalformedIsNotAnswered,
+//   WestinghouseModbus.WhatSaysAnotherLengthThanItHasIsAnsweredWithException3]
+// - After power has been off it has its memory and settings. [WestinghouseModbus.AfterPowerHasBeenOffItHasItsMemory]
 #pragma once
 
 #include <span>
@@ -26,7 +32,7 @@ struct ModbusSettings {
   Model plc = Model::Pc1200;
   std::uint8_t slv_id = 0, run = 0xFF, mode = 0, version = 0;  ///< function 17
   std::uint16_t err = 0, mode_chg = 0;
-  std::uint8_t exception = 0;  ///< answered instead of doing anything: 04 or 06; 0: none
+  std::uint8_t exception = 0;  ///< [M8] answered instead of doing anything: 04 or 06; 0: none
 
   Function7 function_7 = Function7::Section422;                                          ///< [M1]
   SerialFormat line{.parity = Parity::None};                                             ///< [M2]

@@ -9,6 +9,7 @@
 #include "serial_sim/westinghouse/block_message.hpp"
 #include "serial_sim/westinghouse/memory.hpp"
 #include "serial_sim/westinghouse/plc.hpp"
+#include "serial_sim/westinghouse/words.hpp"
 
 namespace s7200::westinghouse {
 
@@ -99,20 +100,29 @@ void add_pc1000_settings(std::vector<Setting<Self>>& rows, Pc pc) {
   const auto add = [&](SettingForm form, auto member) {
     rows.push_back(setting_of<Self>(std::move(form), settings, member));
   };
-  add({"plc", "", "model; a PC1100 does not erase", Word, {"pc1200", "pc1250", "pc1100"}}, &S::plc);
-  add({"key", "", "keyswitch", Word, {"stop", "protect", "modify"}}, &S::key);
+  add({"plc", "", "model; a PC1100 does not erase", Word,
+       words_of<S::Model>({{S::Model::Pc1200, "pc1200"}, {S::Model::Pc1250, "pc1250"}, {S::Model::Pc1100, "pc1100"}})},
+      &S::plc);
+  add({"key", "", "keyswitch", Word,
+       words_of<S::Key>({{S::Key::Stop, "stop"}, {S::Key::Protect, "protect"}, {S::Key::Modify, "modify"}})},
+      &S::key);
   add({"fault", "", "the fault register", Hex, {}, 0, UINT16_MAX}, &S::fault);
   add({"lasting_fault", "", "what comes back into it after a retest", Hex, {}, 0, UINT16_MAX}, &S::lasting_fault);
-  add({"data_check", "L4", "check of a block of data", Word, {kDataCheckWords.begin(), kDataCheckWords.end()}},
-      &S::data_check);
+  add({"data_check", "L4", "check of a block of data", Word, kDataCheckWords}, &S::data_check);
   add({"key_upper_bits", "L5", "bits 4 to 7 of the keyswitch byte", Hex, {}, 0, 15}, &S::key_upper_bits);
   add({"set_nibble", "L6", "high nibble of a bit write that sets the bit; 0 resets it", Hex, {}, 1, 15}, &S::set_nibble);
-  add({"addresses", "L7", "what addresses of blocks count; those of bits are words", Word, {"words", "bytes"}},
+  add({"addresses", "L7", "what addresses of blocks count; those of bits are words", Word,
+       words_of<S::Addresses>({{S::Addresses::Words, "words"}, {S::Addresses::Bytes, "bytes"}})},
       &S::addresses);
   add({"error", "L8", "code of the error that answers what is wrong or refused; 00 for silence"}, &S::error);
-  add({"retest", "L9", "keyswitch that lets a retest clear the fault register", Word, {"stop", "always"}}, &S::retest);
-  add({"write", "L9", "keyswitch that lets blocks and bits be written", Word, {"always", "unprotected"}}, &S::write);
-  add({"erases", "L9", "what is erased: all memory, or the holding registers 1 to 2048", Word, {"memory", "registers"}},
+  add({"retest", "L9", "keyswitch that lets a retest clear the fault register", Word,
+       words_of<S::RetestIn>({{S::RetestIn::Stop, "stop"}, {S::RetestIn::Always, "always"}})},
+      &S::retest);
+  add({"write", "L9", "keyswitch that lets blocks and bits be written", Word,
+       words_of<S::WriteIn>({{S::WriteIn::Always, "always"}, {S::WriteIn::Unprotected, "unprotected"}})},
+      &S::write);
+  add({"erases", "L9", "what is erased: all memory, or the holding registers 1 to 2048", Word,
+       words_of<S::Erases>({{S::Erases::Memory, "memory"}, {S::Erases::Registers, "registers"}})},
       &S::erases);
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "serial_sim/westinghouse/words.hpp"
+
 namespace s7200::westinghouse {
 namespace {
 
@@ -141,15 +143,25 @@ const std::vector<Setting<WestnetPlc>>& WestnetPlc::settings() {
         rows, [](auto& plc) -> auto& { return plc.pc_; });
     add_line_settings(
         rows, "W1", [](auto& plc) -> auto& { return plc.settings_.line; });
-    add({"gap_ms", "W1", "between two characters of a message, at most", Decimal, {}, 1, 10'000}, &S::gap_ms);
+    add({"gap_ms", "W1", "milliseconds between two characters of a message, at most", Decimal, {}, 1, 10'000}, &S::gap_ms);
     add({"answer_after", "W1", "characters of silence before an answer", Decimal, {}, 1, 200}, &S::answer_after);
-    add({"free_status", "W2", "drop in the session status of a free PLC", Word, {"zeros", "addressed"}}, &S::free_status);
-    add({"busy_code", "W3", "how the 12 of error 12 is meant", Word, {"hex", "decimal"}}, &S::busy_code);
-    add({"new_address", "W4", "what addressing another drop does to a session", Word, {"keeps_session", "closes_session"}},
+    add({"free_status", "W2", "drop in the session status of a free PLC", Word,
+         words_of<S::FreeStatus>({{S::FreeStatus::Zeros, "zeros"}, {S::FreeStatus::Addressed, "addressed"}})},
+        &S::free_status);
+    add({"busy_code", "W3", "how the 12 of error 12 is meant", Word,
+         words_of<S::BusyCode>({{S::BusyCode::Hex, "hex"}, {S::BusyCode::Decimal, "decimal"}})},
+        &S::busy_code);
+    add({"new_address", "W4", "what addressing another drop does to a session", Word,
+         words_of<S::NewAddress>(
+             {{S::NewAddress::KeepsSession, "keeps_session"}, {S::NewAddress::ClosesSession, "closes_session"}})},
         &S::new_address);
     add({"error_byte", "W5", "first byte of an error"}, &S::error_byte);
-    add({"status", "W5", "how long the highway status shows an error", Word, {"until_success", "once"}}, &S::status);
-    add({"missing_plc", "W6", "addressing a drop without PLC", Word, {"acknowledged", "refused"}}, &S::missing_plc);
+    add({"status", "W5", "how long the highway status shows an error", Word,
+         words_of<S::Status>({{S::Status::UntilSuccess, "until_success"}, {S::Status::Once, "once"}})},
+        &S::status);
+    add({"missing_plc", "W6", "addressing a drop without PLC", Word,
+         words_of<S::MissingPlc>({{S::MissingPlc::Acknowledged, "acknowledged"}, {S::MissingPlc::Refused, "refused"}})},
+        &S::missing_plc);
     add({"malformed", "W7", "answered as an error to what is not understood; 00 for silence"}, &S::malformed);
     return rows;
   }();

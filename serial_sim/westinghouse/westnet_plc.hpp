@@ -1,6 +1,11 @@
 // Westnet II: a computer's own programmable controller interface (PCI), and a PLC at another drop of the highway.
 //
 // [W1] … [W7] name the choices of ../shared/reference/westinghouse_protocols.md.
+//
+// Not documented, modelled so:
+// - Operands that are 00 in every message of the document have to be 00. [Westnet.W7WhatIsNotUnderstoodIsNotAnswered]
+// - After power has been off it has its memory; no drop is addressed, and no session is open.
+//   [Westnet.AfterPowerHasBeenOffNoDropIsAddressedAndNoSessionIsOpen]
 #pragma once
 
 #include "serial_sim/westinghouse/pc1000.hpp"

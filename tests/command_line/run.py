@@ -247,7 +247,7 @@ class Verbs(Case):
         self.assertEqual(plain["summary"]["wrong"], 0)
         doubled = self.json(FINE, "decode", loader, "--protocol", "pc500-loader", "--json")
         self.assertGreater(doubled["summary"]["wrong"], 0)
-        self.assertIn("--dle plain: modbus never doubles a byte 10", self.ends(UNUSABLE, "decode", loader, "--dle", "plain").stderr)
+        self.assertIn("--dle plain: modbus has no such option; it is for pc500-loader", self.ends(UNUSABLE, "decode", loader, "--dle", "plain").stderr)
         lan = ("--protocol", "pc1000-lan", "--data-check", "xor")
         self.ends(FINE, "master", "westinghouse:pc1200", *lan, "--plc", "data_check=xor", "unit", "5", "write", "16#4000=16#1234", "read", "16#4000",
                   "--capture", loader)
@@ -255,7 +255,7 @@ class Verbs(Case):
         by_sum = self.json(FINE, "decode", loader, *lan[:2], "--json")
         self.assertEqual(by_sum["summary"]["wrong"], 2)
         self.assertIn("wrong data check: it is the XOR of the data, not the sum", [frame["text"] for frame in by_sum["frames"]])
-        self.assertIn("--data-check xor: modbus has no blocks", self.ends(UNUSABLE, "decode", loader, "--data-check", "xor").stderr)
+        self.assertIn("--data-check xor: modbus has no such option; it is for pc1000-lan, westnet", self.ends(UNUSABLE, "decode", loader, "--data-check", "xor").stderr)
         self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
         loud = self.folder / "LINE.PCAP"
         self.ends(FINE, "master", "westinghouse:pc1200", "slave-id", "--capture", loud)
@@ -724,6 +724,40 @@ class Verbs(Case):
                            (["bits", "1=2"], "is not a pattern with its mask"), (["read-register", "0"], "register 0 is not from 1")):
             self.assertIn(why, self.ends(UNUSABLE, *hppc, *words).stderr)
         self.assertIn("'x' is not a frame check", self.ends(UNUSABLE, *hppc, "--fcs", "x", "resync").stderr)
+
+    def test_an_hppc_of_another_layout_is_understood_by_master_and_decode(self):
+        heard = self.folder / "hppc.pcap"
+        layout = ["--bit-write", "mask_first", "--monitor-address-bytes", "4", "--read-request", "number"]
+        out = self.ends(FINE, "master", "--protocol", "hppc", "westinghouse:hppc", *layout, "--plc", "bit_write=mask_first", "--plc", "read_request=number",
+                        "--plc", "monitor_address_bytes=4", "--plc", "M[00000]=12,34", "--capture", heard, "read", "0:2", "bits",
+                        "16#ABFFE=16#F000/16#FF00", "monitor", "w:16#ABFFE").stdout
+        for line in ("  16#00001  16#34     52", "  bits of the word at 16#ABFFE written", "  16#ABFFE  16#F000  61440"):
+            self.assertIn(line + "\n", out)
+        texts = [frame["text"] for frame in self.json(FINE, "decode", heard, "--protocol", "hppc", *layout, "--json")["frames"]]
+        for text in ("read 2 bytes from 16#00000 on", "write bits of the word at 16#ABFFE: 16#F000, those of the mask 16#FF00",
+                     "status 16#00, 16#ABFFE is 16#F000"):
+            self.assertIn(text, texts)
+        self.assertIn("not with --read-request number", self.ends(UNUSABLE, "master", "--protocol", "hppc", "westinghouse:hppc", *layout,
+                                                                  "read", "16#80000").stderr)
+
+    def test_a_cpu_212_has_no_clock_to_set(self):
+        idle = self.program("LD SM0.0\nINCW VW0\nMEND\n")
+        self.assertIn("CPU 212 has no time-of-day clock", self.ends(UNUSABLE, "run", idle, "--cpu", "212", "--clock", "2026-11-21 10:00:00").stderr)
+        self.assertIn("function not available", self.ends(FAILED, "master", "--protocol", "ppi", idle, "--cpu", "212", "clock").stdout)
+        scenario = self.program(f"program: {idle}\ncpu: 212\nclock: 2026-11-21 10:00:00\nsteps: [wait: 1ms]\n", "clock.yaml")
+        self.assertIn("CPU 212 has no time-of-day clock", self.ends(UNUSABLE, "test", scenario).stderr)
+
+    def test_a_port_that_does_not_speak_ppi_any_more_is_named_after_the_session(self):
+        idle = self.program("LD SM0.0\nINCW VW0\nMEND\n")
+        ppi = ["master", "--protocol", "ppi", idle, "--timeout", "50ms"]
+        note = "port 0 is in Freeport mode: it does not speak PPI there"
+        self.assertIn(note, self.ends(FAILED, *ppi, "write", "SMB30=9", "read", "VB0").stderr)
+        self.assertIn(note, self.ends(FAILED, *ppi, "--set", "SMB30=9", "read", "VB0").stderr)
+        self.assertNotIn(note, self.ends(FINE, *ppi, "read", "VB0").stderr)
+
+    def test_a_finding_of_a_system_names_its_plc_once(self):
+        scenario = self.program(f"system: {SOURCE}/stl_programs/systems/gateway.yaml\nsteps:\n  - {{memory: {{VW0: 1}}, on: pump}}\n", "finding.yaml")
+        self.assertIn("VW0 of pump is not what was expected", self.ends(FAILED, "test", scenario).stdout)
 
     def test_strict_ends_at_the_first_run_time_error(self):
         wrong = self.program("LD SM0.0\nINCW VW0\nMOVD 0, *VD100\nINCW VW2\nMEND\n")

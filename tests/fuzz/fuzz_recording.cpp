@@ -56,7 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto protocols = recorded_protocols();
   RecordedProtocol protocol = protocols[data[0] % protocols.size()];
   const unsigned choices = data[1];
-  if ((choices & 1U) != 0 && protocol.plain_dle_reader) protocol.reader = protocol.plain_dle_reader;
+  if ((choices & 1U) != 0)
+    for (const ReaderOption& option : protocol.options) protocol.choose(option.name, option.words.back());
   const Stamps stamps{.character = (choices & 2U) != 0 ? 1'145'833 : 0, .at_end = (choices & 4U) != 0};
   std::string why;
   const auto recording =

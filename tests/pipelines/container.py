@@ -79,6 +79,10 @@ class Container(Case):
         installed = re.findall(r"apt-get install ([^&;]*)", " ".join(all_of(self.final, "RUN")))
         self.assertEqual([words.split()[-1] for words in installed], ["/tmp/s7200_*.deb"])
 
+    def test_without_tests_no_package_is_needed_that_only_tests_use(self):
+        needed = self.ends(FINE, "bash", "-c", 'source tools/packages.sh; echo "${needed_to_build[@]}"', cwd=SOURCE).stdout
+        self.assertNotRegex(needed, "gtest|benchmark")
+
     def test_both_stages_are_slim_debian_12(self):
         self.assertEqual([all_of(stage, "FROM")[0].split()[0] for stage in (self.build, self.final)], ["debian:12-slim"] * 2)
 

@@ -39,6 +39,25 @@ class Plugin(Case):
                           "    plc = s7200_plc(SLAVE, '--set', 'VW20=1234', '--dump', 'VW20')\n"
                           "    assert '1234' in plc.stop() and plc.stop() == plc.stop()\n")
 
+    def test_a_plc_that_prints_much_runs_on(self):
+        self.pytest(FINE, "import time\n"
+                          "def test_it(s7200_plc):\n"
+                          "    plc = s7200_plc(SLAVE, '--trace', '-')\n"
+                          "    time.sleep(1)\n"
+                          "    assert len(plc.stop()) > 4 * 65536\n")
+
+    def test_when_a_plc_cannot_be_stopped_the_others_are_all_the_same(self):
+        shown = self.pytest(FAILED, "import os, pytest_s7200, signal\n"
+                                    "ports = []\n"
+                                    "def test_one(s7200_plc):\n"
+                                    "    plcs = [s7200_plc(SLAVE) for _ in range(3)]\n"
+                                    "    ports.extend(plc.port for plc in plcs)\n"
+                                    "    plcs[1]._process.send_signal(signal.SIGSTOP)\n"
+                                    "    pytest_s7200.PATIENCE = 1\n"
+                                    "def test_two():\n"
+                                    "    assert [os.path.lexists(port) for port in ports] == [False, True, False]\n")
+        self.assertIn("2 passed, 1 error", shown)
+
     def test_a_program_with_errors_fails_the_test_with_what_s7200_says(self):
         (self.folder / "wrong.stl").write_text("FROB\n", encoding="utf-8")
         shown = self.pytest(FAILED, f"def test_it(s7200_plc):\n    s7200_plc({str(self.folder / 'wrong.stl')!r})\n")

@@ -37,7 +37,7 @@ class Service(Case):
         (tree / "tools/packages.sh").write_text(
             "needed_to_build=(cmake:cmake)\n"
             f"install_missing_packages() {{ echo install \"$@\" >>{self.folder}/log; }}\n"
-            f"build() {{ echo build \"$@\" >>{self.folder}/log; mkdir -p build/release/tools; "
+            f"build() {{ echo build \"$@\" \"${{configured_with[@]}}\" >>{self.folder}/log; mkdir -p build/release/tools; "
             f"ln -sf {S7200} build/release/tools/s7200; echo built; }}\n", encoding="utf-8")
         return tree
 
@@ -89,7 +89,7 @@ class GitHub(Service):
     def test_without_the_command_it_is_built_of_the_checkout_of_the_action(self):
         tree = self.checkout()
         done = self.run_step(FINE, str(PASSES), environment=WITHOUT, folder=tree / "tools/pipelines/github")
-        self.assertEqual(self.built(), ["install cmake:cmake", "build release s7200"])
+        self.assertEqual(self.built(), ["install cmake:cmake", "build release s7200 -DBUILD_TESTING=OFF"])
         self.assertNotIn("built", done.stdout, "what the build says is not among the results")
 
 
@@ -121,7 +121,7 @@ class GitLab(Service):
     def test_without_the_command_it_is_built_of_the_checkout(self):
         self.checkout()
         self.run_job(FINE, environment=WITHOUT, S7200_SCENARIOS=str(PASSES))
-        self.assertEqual(self.built(), ["install cmake:cmake", "build release s7200"])
+        self.assertEqual(self.built(), ["install cmake:cmake", "build release s7200 -DBUILD_TESTING=OFF"])
 
     @unittest.skipIf(shutil.which("s7200", path=WITHOUT["PATH"]), "s7200 is installed here")
     def test_without_command_and_checkout_the_job_says_what_to_do(self):

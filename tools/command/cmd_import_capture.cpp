@@ -55,7 +55,8 @@ int run_import_capture(const ImportCaptureOptions& options) {
   if (!read) return kUnusable;
   PlaybackChoices choices = options.choices;
   choices.name = read->name;
-  if (options.recording.protocol == "ppi") choices.ppi_station = ppi_station_asked(read->frames, choices.station);
+  const RecordedProtocol protocol = options.recording.spoken();
+  if (protocol.of_the_cpu) choices.ppi_station = ppi_station_asked(read->frames, choices.station);
   choices.program = seen_from(options.program, options);
   if (options.cpu != Scenario{}.cpu) choices.cpu = options.cpu;
   const auto [scenario, notes] = playback(read->frames, read->stamps, choices);
@@ -63,7 +64,7 @@ int run_import_capture(const ImportCaptureOptions& options) {
   if (scenario.empty())
     return print_error(fmt::format("{}: {}", read->name, why_nothing_is_asked(read->frames, choices))), kUnusable;
   const std::string text = fmt::format("{} {} by s7200 import-capture. {}\n{}", kImportBeginning, stl::printable(read->name),
-                                       how_to_run(options.recording.protocol, choices), scenario);
+                                       how_to_run(protocol, choices), scenario);
   const int exit_code =
       options.to_file() ? write_stl(options.output, {options.recording.file, options.program}, options.force, text) : kFine;
   if (exit_code == kFine && options.json) {

@@ -165,9 +165,11 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
     const auto format = [&](const serial::MasterSettings& master) { return master.over(simulation.port_format()); };
     exit_code = run_menu(options, {.open = open, .format = format});
   } else if (ready) {
-    print_note_if_any(slave.note_on_port(options.protocol->wants_freeport));
+    const std::string note = slave.note_on_port(options.protocol->wants_freeport);
+    print_note_if_any(note);
     exit_code = run_session(
         options, session, actions, output, [&] { return options.rig.failed_strictly(rig->cpu()); }, plant);
+    if (note.empty() && !options.protocol->wants_freeport) print_note_if_any(slave.note_on_port(false));
   } else {
     if (!why.empty()) print_error(why);
     output.begin();

@@ -11,15 +11,8 @@ constexpr std::size_t kMostWords = westinghouse::kMostBlockBytes / 2;
 
 constexpr std::string_view kDataCheck = "--data-check";
 
-std::string fault_of_data_check(const std::string& word) {
-  if (std::ranges::find(westinghouse::kDataCheckWords, word) != westinghouse::kDataCheckWords.end()) return {};
-  return fmt::format("'{}' is not a check of a block; there are {}", stl::shortened(word),
-                     fmt::join(westinghouse::kDataCheckWords, ", "));
-}
-
 DataCheck data_check_of(const ProtocolUse& use) {
-  const auto given = use.given.find(kDataCheck);
-  return given != use.given.end() && given->second == westinghouse::kDataCheckWords[1] ? DataCheck::Xor : DataCheck::Sum;
+  return static_cast<DataCheck>(use.chosen(kDataCheck, westinghouse::kDataCheckWords));
 }
 
 std::uint16_t word_address(const std::string& text) {
@@ -40,8 +33,9 @@ void check_range(const std::string& text, std::uint16_t first, std::size_t count
 }  // namespace
 
 ProtocolOption data_check_option() {
-  return {kDataCheck, "FORM", fmt::format("of a block of data: {}", fmt::join(westinghouse::kDataCheckWords, ", ")),
-          std::string(westinghouse::kDataCheckWords[0]), fault_of_data_check};
+  return word_option(kDataCheck, "FORM",
+                     fmt::format("of a block of data: {}", fmt::join(westinghouse::kDataCheckWords, ", ")),
+                     "a check of a block", westinghouse::kDataCheckWords);
 }
 
 serial::Answer BlockRequest::judge(Data request, Data response) const {

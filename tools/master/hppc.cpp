@@ -3,23 +3,42 @@
 
 #include "serial_sim/westinghouse/hppc_message.hpp"
 #include "tools/master/words.hpp"
+#include "tools/views/hppc_text.hpp"
 #include "tools/views/register_text.hpp"
 
 namespace s7200::tools {
 namespace {
 
 using westinghouse::FcsTable;
+using westinghouse::HppcLayout;
 using westinghouse::HppcOpcode;
+using westinghouse::kBitWriteWords;
 using westinghouse::kFcsWords;
+using westinghouse::kMonitorAddressWords;
+using westinghouse::kReadRequestWords;
 using Data = std::span<const std::uint8_t>;
 
-constexpr std::string_view kFcs = "--fcs", kNoResync = "--no-resync";
+constexpr std::string_view kFcs = "--fcs", kNoResync = "--no-resync", kReadRequest = "--read-request",
+                           kBitWrite = "--bit-write", kMonitorAddress = "--monitor-address-bytes";
 constexpr std::uint8_t kWholeTable = 0x34;  // bytes of the parameter table up to the number of holding registers
 constexpr std::size_t kAddress = 3;
 constexpr std::uint32_t kLastAddress = westinghouse::kHppcMemory - 1;
 
 serial::Frame frame_of(HppcOpcode opcode, const Bytes& operands, FcsTable table) {
   return serial::to_frame(westinghouse::hppc_message(westinghouse::kIop, westinghouse::kApl, opcode, operands, table));
+}
+
+/// What the document leaves open of messages.
+struct Form {
+  FcsTable table = FcsTable::Document;
+  HppcLayout layout{};
+};
+
+Form form_of(const ProtocolUse& use) {
+  return {static_cast<FcsTable>(use.chosen(kFcs, kFcsWords)),
+          {static_cast<HppcLayout::ReadRequest>(use.chosen(kReadRequest, kReadRequestWords)),
+           static_cast<HppcLayout::BitWrite>(use.chosen(kBitWrite, kBitWriteWords)),
+           westinghouse::kMonitorAddressBytes[use.chosen(kMonitorAddress, kMonitorAddressWords)]}};
 }
 
 /// Holding registers n to n + count - 1 lie downwards from where register 1 is.
@@ -44,14 +63,14 @@ class HppcRequest final : public ProtocolRequest {
     std::vector<std::size_t> asked{};                       ///< which of the three, in the order of the action
   };
 
-  HppcRequest(About about, FcsTable table) : about_(std::move(about)), table_(table) {}
-  HppcRequest(serial::Frame raw, FcsTable table) : raw_(std::move(raw)), table_(table) {}
+  HppcRequest(About about, const Form& form) : about_(std::move(about)), form_(form) {}
+  HppcRequest(serial::Frame raw, const Form& form) : raw_(std::move(raw)), form_(form) {}
 
   serial::Frame frame() override {
     if (!raw_.empty()) return raw_;
     step_ = 1;
-    if (about_.registers) return frame_of(HppcOpcode::Parameters, {kWholeTable}, table_);
-    return frame_of(about_.opcode, about_.operands, table_);
+    if (about_.registers) return frame_of(HppcOpcode::Parameters, {kWholeTable}, form_.table);
+    return frame_of(about_.opcode, about_.operands, form_.table);
   }
 
   std::optional<serial::Frame> next(Data response, Time) override;
@@ -68,11 +87,10 @@ class HppcRequest final : public ProtocolRequest {
   /// What the operands of the last answer say; empty if they are right.
   std::string take(serial::Answer& answer) const;
   std::vector<std::string> monitored_lines(const serial::Answer& answer) const;
-  std::string parameters_text(Data operands) const;
 
   serial::Frame raw_;
   About about_;
-  FcsTable table_;
+  Form form_;
   int step_ = 1;
 };
 
@@ -93,7 +111,7 @@ std::string HppcRequest::why_not_there(Data table) const {
 
 std::optional<serial::Frame> HppcRequest::next(Data response, Time) {
   if (!about_.registers || step_ != 1) return {};
-  const serial::Answer answer = westinghouse::check_hppc_answer({}, response, table_);
+  const serial::Answer answer = westinghouse::check_hppc_answer({}, response, form_.table);
   if (answer.verdict != serial::Verdict::Right || answer.bytes.size() < kAddress) return {};
   const Data table = Data(answer.bytes).subspan(kAddress);
   const auto found = westinghouse::holding_registers(table);
@@ -102,20 +120,21 @@ std::optional<serial::Frame> HppcRequest::next(Data response, Time) {
   const Registers& registers = *about_.registers;
   const std::uint32_t lowest = registers.lowest(found->base);
   if (registers.values.empty())
-    return frame_of(HppcOpcode::Read, westinghouse::hppc_read(lowest, static_cast<std::uint8_t>(2 * registers.count)),
-                    table_);
+    return frame_of(HppcOpcode::Read,
+                    westinghouse::hppc_read(lowest, static_cast<std::uint8_t>(2 * registers.count), form_.layout),
+                    form_.table);
   Bytes data;
   for (auto value = registers.values.rbegin(); value != registers.values.rend(); ++value) {
     data.push_back(static_cast<std::uint8_t>(*value & 0xFF));
     data.push_back(static_cast<std::uint8_t>(*value >> 8));
   }
-  return frame_of(HppcOpcode::Write, westinghouse::hppc_write(lowest, data), table_);
+  return frame_of(HppcOpcode::Write, westinghouse::hppc_write(lowest, data), form_.table);
 }
 
 serial::Answer HppcRequest::judge(Data request, Data response) const {
   if (about_.registers) {
     const Data asked = first_message(request), answered = first_message(response);
-    serial::Answer answer = westinghouse::check_hppc_answer(asked, answered, table_);
+    serial::Answer answer = westinghouse::check_hppc_answer(asked, answered, form_.table);
     if (answer.verdict != serial::Verdict::Right) return answer;
     request = request.subspan(asked.size());
     response = response.subspan(answered.size());
@@ -126,7 +145,7 @@ serial::Answer HppcRequest::judge(Data request, Data response) const {
       return answer;
     }
   }
-  serial::Answer answer = westinghouse::check_hppc_answer(request, response, table_);
+  serial::Answer answer = westinghouse::check_hppc_answer(request, response, form_.table);
   if (answer.verdict == serial::Verdict::Silent && about_.registers) {
     answer.verdict = serial::Verdict::Wrong;
     answer.fault = "no answer to the second of two steps";
@@ -177,16 +196,9 @@ std::string HppcRequest::take(serial::Answer& answer) const {
   }
 }
 
-std::string HppcRequest::parameters_text(Data operands) const {
-  std::string text = fmt::format("parameter table at 16#{:05X}", westinghouse::hppc_address(operands));
-  if (const auto found = westinghouse::holding_registers(operands.subspan(kAddress)))
-    text += fmt::format(", holding register 1 at 16#{:05X}", found->base);
-  return operands.size() == kAddress ? text : fmt::format("{}: {}", text, serial::to_hex(operands.subspan(kAddress)));
-}
-
 std::string HppcRequest::in_short(const serial::Answer& answer, Data, Data) const {
   if (!raw_.empty()) return answer.bytes.empty() ? "done" : serial::to_hex(answer.bytes);
-  if (about_.opcode == HppcOpcode::Parameters && !about_.registers) return parameters_text(answer.bytes);
+  if (about_.opcode == HppcOpcode::Parameters && !about_.registers) return hppc_parameters_text(answer.bytes);
   if (about_.opcode == HppcOpcode::Monitor) return fmt::format("{}", fmt::join(monitored_lines(answer), " "));
   std::string text;
   for (const std::uint16_t value : answer.values)
@@ -207,12 +219,7 @@ std::vector<std::string> HppcRequest::in_lines(const serial::Answer& answer, Dat
 }
 
 std::vector<std::string> HppcRequest::monitored_lines(const serial::Answer& answer) const {
-  constexpr std::array<std::string_view, 5> kStatus{"special function data valid", "network not found",
-                                                    "controlled by an MCR", "controlled by a skip", "processor not running"};
-  std::string status;
-  for (std::size_t bit = 0; bit < kStatus.size(); ++bit)
-    if ((answer.bytes[0] >> bit & 1) != 0) status.append(status.empty() ? "" : ", ").append(kStatus[bit]);
-  std::vector<std::string> lines{fmt::format("  status 16#{:02X}{}{}", answer.bytes[0], status.empty() ? "" : ": ", status)};
+  std::vector<std::string> lines{"  " + hppc_status_text(answer.bytes[0])};
   const auto& [single, words, doubles] = about_.monitored;
   std::array<std::size_t, 3> place{1, 1 + single.size(), 1 + single.size() + 2 * words.size()}, next{};
   for (const std::size_t size : about_.asked) {
@@ -244,24 +251,13 @@ nlohmann::ordered_json HppcRequest::subject_json(Data request) const {
   return json;
 }
 
-FcsTable fcs_of(const ProtocolUse& use) {
-  const auto given = use.given.find(kFcs);
-  return given != use.given.end() && given->second == kFcsWords[1] ? FcsTable::Polynomial : FcsTable::Document;
-}
-
-std::string fault_of_fcs(const std::string& word) {
-  return std::ranges::find(kFcsWords, word) != kFcsWords.end()
-             ? std::string()
-             : fmt::format("'{}' is not a frame check; there are {}", stl::shortened(word), fmt::join(kFcsWords, ", "));
-}
-
 std::uint32_t address_of(const std::string& text) {
   return static_cast<std::uint32_t>(parse_number(text, 0, kLastAddress, "address"));
 }
 
 class Parser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX), table_(fcs_of(use)) {}
+  explicit Parser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX), form_(form_of(use)) {}
 
   std::vector<MasterAction> parse(const Words& words);
 
@@ -272,14 +268,15 @@ class Parser final : public WordParser {
   void set_registers(const Words& operands);
   void parameters(const Words& operands);
   void monitor(const Words& operands);
-  void resync(const Words&) { add({.operands = westinghouse::hppc_read(0, 0), .first = 0}); }
+  void resync(const Words&) { add({.operands = westinghouse::hppc_read(0, 0, form_.layout), .first = 0}); }
   void raw(const Words& operands);
 
  private:
-  void add(HppcRequest::About about) { WordParser::add(std::make_shared<HppcRequest>(std::move(about), table_)); }
+  void add(HppcRequest::About about) { WordParser::add(std::make_shared<HppcRequest>(std::move(about), form_)); }
   void add_registers(Registers registers);
+  void refuse_without_address(std::string_view why) const;
 
-  FcsTable table_;
+  Form form_;
 };
 
 using HppcVerb = Verb<Parser>;
@@ -310,13 +307,19 @@ std::string bytes_text(std::uint32_t first, std::size_t count) {
   return fmt::format("bytes 16#{:05X}…{:05X}", first, first + count - 1);
 }
 
+void Parser::refuse_without_address(std::string_view why) const {
+  if (form_.layout.read_request == HppcLayout::ReadRequest::AddressAndNumber) return;
+  refuse(fmt::format("{}: not with {} {}: {}", text_, kReadRequest, kReadRequestWords[1], why));
+}
+
 void Parser::read(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, ':');
     text_ = "read " + operand;
     const std::uint32_t first = address_of(parts ? parts->first : operand);
     const auto count = static_cast<std::uint8_t>(parts ? parse_number(parts->second, 1, UINT8_MAX, "count") : 1);
-    add({.operands = westinghouse::hppc_read(first, count),
+    if (first != 0) refuse_without_address("a read has no address then, and begins at 16#00000");
+    add({.operands = westinghouse::hppc_read(first, count, form_.layout),
          .subject = bytes_text(first, count),
          .first = first,
          .count = count});
@@ -353,7 +356,7 @@ void Parser::bits(const Words& operands) {
     const auto pattern = static_cast<std::uint16_t>(parse_number(words->first, 0, UINT16_MAX, "pattern"));
     const auto mask = static_cast<std::uint16_t>(parse_number(words->second, 0, UINT16_MAX, "mask"));
     add({.opcode = HppcOpcode::BitWrite,
-         .operands = westinghouse::hppc_bit_write(first, pattern, mask),
+         .operands = westinghouse::hppc_bit_write(first, pattern, mask, form_.layout),
          .subject = fmt::format("bits of the word at 16#{:05X}", first),
          .first = first,
          .count = 2});
@@ -373,6 +376,7 @@ void Parser::registers(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, ':');
     text_ = "read-register " + operand;
+    refuse_without_address("registers cannot be read without their address");
     add_registers({static_cast<std::uint16_t>(parse_number(parts ? parts->first : operand, 1, UINT16_MAX, "register")),
                    static_cast<std::uint16_t>(parts ? parse_number(parts->second, 1, UINT16_MAX, "count") : 1)});
   }
@@ -417,7 +421,7 @@ void Parser::monitor(const Words& operands) {
   const std::size_t sum = bytes.size() + 2 * words.size() + 4 * double_words.size();
   if (sum == 0 || sum > UINT8_MAX + 1U) refuse(fmt::format("{}: {} bytes; a monitor takes 1 to 256", text_, sum));
   if (bytes.size() > UINT8_MAX) refuse(fmt::format("{}: {} addresses of one size; there may be 255", text_, bytes.size()));
-  about.operands = westinghouse::hppc_monitor(network, bytes, words, double_words);
+  about.operands = westinghouse::hppc_monitor(network, bytes, words, double_words, form_.layout);
   if (network != 0) about.subject = fmt::format("network {}", network);
   add(std::move(about));
 }
@@ -426,14 +430,15 @@ void Parser::raw(const Words& operands) {
   for (const std::string& operand : operands) {
     serial::Frame frame = parse_hex(operand);
     const std::uint8_t first = frame.front().byte;
-    add_raw(operand, first, std::make_shared<HppcRequest>(std::move(frame), table_));
+    add_raw(operand, first, std::make_shared<HppcRequest>(std::move(frame), form_));
   }
 }
 
 std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
 
-serial::Frame resynchronisation() {
-  return frame_of(HppcOpcode::Read, westinghouse::hppc_read(0, 0), FcsTable::Document);  // the same with either table
+serial::Frame resynchronisation(const ProtocolUse& use) {
+  const Form form = form_of(use);
+  return frame_of(HppcOpcode::Read, westinghouse::hppc_read(0, 0, form.layout), form.table);
 }
 
 constexpr std::uint8_t kLinkError = 0x01;
@@ -447,9 +452,19 @@ const Protocol& hppc_protocol() {
       .station = {},
       .format = {.parity = Parity::None},
       .over_modbus_tcp = false,
-      .options = {{kFcs, "TABLE",
-                   fmt::format("frame check: {}, with the odd entry of its table, or {}", kFcsWords[0], kFcsWords[1]),
-                   std::string(kFcsWords[0]), fault_of_fcs},
+      .options = {word_option(
+                      kFcs, "TABLE",
+                      fmt::format("frame check: {}, with the odd entry of its table, or {}", kFcsWords[0], kFcsWords[1]),
+                      "a frame check", kFcsWords),
+                  word_option(kReadRequest, "FORM",
+                              fmt::format("operands of a read: {}", fmt::join(kReadRequestWords, ", ")), "a form of a read",
+                              kReadRequestWords),
+                  word_option(kBitWrite, "FORM",
+                              fmt::format("order of the words of a bit write: {}", fmt::join(kBitWriteWords, ", ")),
+                              "an order of the words of a bit write", kBitWriteWords),
+                  word_option(kMonitorAddress, "BYTES",
+                              fmt::format("of each address of a monitor: {}", fmt::join(kMonitorAddressWords, ", ")),
+                              "a length of an address", kMonitorAddressWords),
                   {kNoResync, "", "nothing is read from location zero before a request is repeated", {}, nullptr}},
       .actions_help =
           "Actions of --protocol hppc; in brackets its opcodes:\n" + verbs_help(std::span<const HppcVerb>(kVerbs)),
@@ -462,7 +477,9 @@ const Protocol& hppc_protocol() {
                    .first = resynchronisation,
                    .without_first = kNoResync,
                    .repeats = [](std::uint16_t code) { return code == kLinkError; }},
-      .choices = "--timeout, --retries, --before-retry, --no-resync [H9]",
+      .choices =
+          "--timeout, --retries, --before-retry, --no-resync [H9],\n"
+          "                                        --read-request [H4], --bit-write [H5], --monitor-address-bytes [H6]",
       .plcs = westinghouse::find_plc("hppc")};
   return protocol;
 }

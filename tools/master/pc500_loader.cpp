@@ -156,17 +156,7 @@ nlohmann::ordered_json LoaderRequest::subject_json(Data) const {
   return json;
 }
 
-Dle dle_of(const ProtocolUse& use) {
-  const auto given = use.given.find(kDle);
-  return given != use.given.end() && given->second == kDleWords[1] ? Dle::Plain : Dle::Doubled;
-}
-
-std::string fault_of_dle(const std::string& word) {
-  return std::ranges::find(kDleWords, word) != kDleWords.end()
-             ? std::string()
-             : fmt::format("'{}' is not a way to send a byte 10; there are {}", stl::shortened(word),
-                           fmt::join(kDleWords, ", "));
-}
+Dle dle_of(const ProtocolUse& use) { return static_cast<Dle>(use.chosen(kDle, kDleWords)); }
 
 /// `QB3`, `16#EF83`
 std::uint16_t address_of(const std::string& text) {
@@ -271,8 +261,8 @@ const Protocol& pc500_loader_protocol() {
       .station = {},
       .format = {},
       .over_modbus_tcp = false,
-      .options = {{kDle, "FORM", fmt::format("a byte 10 in what the PLC sends: {}", fmt::join(kDleWords, ", ")),
-                   std::string(kDleWords[0]), fault_of_dle}},
+      .options = {word_option(kDle, "FORM", fmt::format("a byte 10 in what the PLC sends: {}", fmt::join(kDleWords, ", ")),
+                              "a way to send a byte 10", kDleWords)},
       .actions_help = "Actions of --protocol pc500-loader; in brackets its operations:\n" +
                       verbs_help(std::span<const LoaderVerb>(kVerbs)),
       .action_words = verb_words(std::span<const LoaderVerb>(kVerbs)),

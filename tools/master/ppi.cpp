@@ -92,7 +92,7 @@ class PpiRequest final : public ProtocolRequest {
  private:
   bool reads() const { return wanted_.pdu.size() > s7::kRequestHead && wanted_.pdu[s7::kRequestHead] == s7::kRead; }
   void take(Data pdu, serial::Answer& answer) const;
-  bool is_to_this(Data parameters) const;
+  bool is_to_this(const s7::UserData& answer) const;
   void take_value(Data data, serial::Answer& answer) const;
   std::string value_text(const serial::Answer& answer, std::uint32_t i) const;
 
@@ -147,14 +147,10 @@ serial::Answer PpiRequest::judge(Data, Data response) const {
   return answer;
 }
 
-constexpr std::size_t kUserDataParameters = 12;  ///< of an answer: 00 01 12 08 12 group service number 00 00 error(2)
-
 /// The same group and service as in the request.
-bool PpiRequest::is_to_this(Data parameters) const {
-  constexpr std::size_t kGroup = 5, kService = 6;
-  const Data asked = Data(wanted_.pdu).subspan(s7::kRequestHead);
-  return parameters.size() >= kUserDataParameters && (parameters[kGroup] & 0x0F) == (asked[kGroup] & 0x0F) &&
-         parameters[kService] == asked[kService];
+bool PpiRequest::is_to_this(const s7::UserData& answer) const {
+  const auto asked = s7::user_data_in(Data(wanted_.pdu).subspan(s7::kRequestHead));
+  return answer.is_answer && answer.group == asked->group && answer.service == asked->service;
 }
 
 void PpiRequest::take(Data pdu, serial::Answer& answer) const {
@@ -167,11 +163,12 @@ void PpiRequest::take(Data pdu, serial::Answer& answer) const {
     return;
   }
   const Data parameters = pdu.subspan(head, load16(&pdu[6])), data = pdu.subspan(head + parameters.size());
-  if (user_data && !is_to_this(parameters)) {
+  const auto answered = user_data ? s7::user_data_in(parameters) : std::nullopt;
+  if (user_data && !(answered && is_to_this(*answered))) {
     answer = wrong("not the answer to this request: another group or service");
     return;
   }
-  const std::uint16_t error = user_data ? load16(&parameters[kUserDataParameters - 2]) : load16(&pdu[10]);
+  const std::uint16_t error = answered ? answered->error : load16(&pdu[10]);
   if (error != 0) {
     answer.verdict = serial::Verdict::Exception;
     answer.exception = error;
@@ -415,7 +412,7 @@ void Parser::write(const Words& operands) {
     text_ = "write " + operand;
     MemoryRange range = range_of(parts->first);
     Bytes value = value_bytes(range, parts->second, text_);
-    if (range.area == Area::T && has_negative(value))
+    if (range.area == Area::T && has_negative(value))  // a CPU may take it, but never counts to it
       refuse(fmt::format("{}: a timer counts from 0 to {}", text_, INT16_MAX));
     if (is_element(range)) value = elements_of(range.area, value);
     if (range.width == Width::Bit && range.count != 1) refuse(fmt::format("{}: one bit at a time", text_));
@@ -440,8 +437,7 @@ void Parser::change_mode(s7::Function function, Bytes parameters) {
 
 void Parser::add_clock(std::uint8_t service, const Bytes& data) {
   add({service == s7::kReadClock ? Wanted::Kind::Clock : Wanted::Kind::Command,
-       s7::pdu(s7::kUserData, kOnlyRequest,
-               {0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(0x40 | s7::kClockGroup), service, 0}, data)});
+       s7::pdu(s7::kUserData, kOnlyRequest, s7::parameters_of({.group = s7::kClockGroup, .service = service}), data)});
 }
 
 void Parser::clock(const Words&) { add_clock(s7::kReadClock, {0x0A, 0, 0, 0}); }
@@ -452,8 +448,8 @@ void Parser::set_clock(const Words& operands) {
   const auto time = parse_clock(text);
   if (!time) refuse(fmt::format("'{}' is not a time; write for example 2026-11-22T15:45:30", stl::shortened(operands[0])));
   const auto bcd = [](int value) { return static_cast<std::uint8_t>(value / 10 << 4 | value % 10); };
-  add_clock(s7::kSetClock, {0xFF, s7::kInBytes, 0, 10, 0, bcd(time->year >= 90 ? 19 : 20), bcd(time->year), bcd(time->month),
-                            bcd(time->day), bcd(time->hour), bcd(time->minute), bcd(time->second), 0, time->weekday});
+  add_clock(s7::kSetClock, s7::data_of_clock({bcd(time->year), bcd(time->month), bcd(time->day), bcd(time->hour),
+                                              bcd(time->minute), bcd(time->second), 0, time->weekday}));
 }
 
 void Parser::raw(const Words& operands) {
@@ -499,7 +495,10 @@ const Protocol& ppi_protocol() {
       .options = {{kOwnStation, "NUMBER", "the master's own; a programming device has 0, a panel 1", "0",
                    fault_of_own_station}},
       .actions_help = "Actions of --protocol ppi, to station 2 unless another is given:\n" +
-                      verbs_help(std::span<const PpiVerb>(kVerbs)),
+                      verbs_help(std::span<const PpiVerb>(kVerbs)) +
+                      "  On the line each but status is two exchanges or more, the request and polls for its answer: "
+                      "exchange=2 of a fault\n"
+                      "  is the first poll.\n",
       .action_words = verb_words(std::span<const PpiVerb>(kVerbs)),
       .actions = actions,
       .is_complete = is_complete,

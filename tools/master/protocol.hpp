@@ -1,6 +1,7 @@
 // What a master needs of a protocol. Each is a file of its own that implements this, and a row in protocols.cpp.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -78,11 +79,11 @@ struct MasterAction {
 
 /// An option that only some protocols have.
 struct ProtocolOption {
-  std::string_view name;                               ///< `--end-character`
-  std::string_view value;                              ///< its value in the help: `FORM`; empty for a flag
-  std::string meaning;                                 ///< for the help
-  std::string standard{};                              ///< value without the option
-  std::string (*check)(const std::string&) = nullptr;  ///< what is wrong with a value; nothing if it is right
+  std::string_view name;                                   ///< `--end-character`
+  std::string_view value;                                  ///< its value in the help: `FORM`; empty for a flag
+  std::string meaning;                                     ///< for the help
+  std::string standard{};                                  ///< value without the option
+  std::function<std::string(const std::string&)> check{};  ///< what is wrong with a value; nothing if it is right
 };
 
 /// How a protocol is to be used.
@@ -94,14 +95,18 @@ struct ProtocolUse {
   bool options_are_open = true;                             ///< so that a message may name one that helps
 
   bool has(std::string_view option) const { return given.contains(option); }
+
+  /// The place among its words of what is given for an option; 0 if nothing is.
+  std::size_t chosen(std::string_view option, std::span<const std::string_view> words) const;
 };
 
 /// How a master waits for answers, and what it does before it asks again, unless options say otherwise.
 struct Patience {
   Time timeout = kSecond;
   int retries = 0;
-  Time pause = 0;                                  ///< before it asks again
-  serial::Frame (*first)() = nullptr;              ///< is sent before that, whatever is answered
+  Time pause = 0;  ///< before it asks again
+  /// Is sent before that, whatever is answered; null: nothing.
+  serial::Frame (*first)(const ProtocolUse& use) = nullptr;
   std::string_view without_first{};                ///< the option that leaves that out
   bool (*repeats)(std::uint16_t error) = nullptr;  ///< a refusal that it asks again after; null: none
 };

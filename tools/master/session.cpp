@@ -51,7 +51,7 @@ void MasterSession::prepare_to_repeat(const MasterAction& action) {
   if (settings_.patience.pause > 0) slave_.wait(settings_.patience.pause);
   if (settings_.patience.first == nullptr) return;
   serial::Request request = request_of(action);
-  request.frame = settings_.patience.first();
+  request.frame = settings_.patience.first(settings_.use);
   slave_.exchange(request);
   slave_.wait(settings_.pause == kNever ? slave_.pause() : settings_.pause);
 }

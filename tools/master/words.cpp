@@ -43,6 +43,22 @@ serial::Frame parse_hex(const std::string& text) {
   return std::move(parsed.frame);
 }
 
+ProtocolOption word_option(std::string_view name, std::string_view value, std::string meaning, std::string_view kind,
+                           std::span<const std::string_view> words) {
+  const auto fault = [kind, words](const std::string& word) {
+    return std::ranges::find(words, word) != words.end()
+               ? std::string()
+               : fmt::format("'{}' is not {}; there are {}", stl::shortened(word), kind, fmt::join(words, ", "));
+  };
+  return {name, value, std::move(meaning), std::string(words.front()), fault};
+}
+
+std::size_t ProtocolUse::chosen(std::string_view option, std::span<const std::string_view> words) const {
+  const auto found = given.find(option);
+  if (found == given.end()) return 0;
+  return static_cast<std::size_t>(std::ranges::find(words, found->second) - words.begin());
+}
+
 void WordParser::station(const Words& operands) {
   station_ = static_cast<std::uint8_t>(parse_number(operands[0], 0, last_station_, "station"));
   actions_.push_back({.kind = MasterAction::Kind::Station, .text = text_, .station = station_});

@@ -38,6 +38,11 @@ Bytes byte_values_of(const std::string& text);
 /// Throws std::invalid_argument.
 serial::Frame parse_hex(const std::string& text);
 
+/// An option that takes one of these words, which live as long as it; without it the first one holds. `kind`: what they are
+/// called, `a frame check`.
+ProtocolOption word_option(std::string_view name, std::string_view value, std::string meaning, std::string_view kind,
+                           std::span<const std::string_view> words);
+
 /// A word that begins an action, the operands it takes, and the member of `Parser` that reads them.
 template <class Parser>
 struct Verb {

@@ -7,6 +7,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "serial_sim/westinghouse/block_message.hpp"
+#include "serial_sim/westinghouse/hppc_message.hpp"
+#include "serial_sim/westinghouse/loader_session.hpp"
 #include "tools/recordings/readers.hpp"
 #include "tools/recordings/westinghouse.hpp"
 
@@ -15,14 +18,27 @@ namespace {
 
 using Data = std::span<const std::uint8_t>;
 
+constexpr std::array kBlockOptions{
+    ReaderOption{"--data-check", "FORM", "what the check of a block of data is", westinghouse::kDataCheckWords},
+};
+constexpr std::array kLoaderOptions{
+    ReaderOption{"--dle", "FORM", "a byte 10 in what the PLC sends", westinghouse::kDleWords},
+};
+constexpr std::array kHppcOptions{
+    ReaderOption{"--read-request", "FORM", "operands of a read", westinghouse::kReadRequestWords},
+    ReaderOption{"--bit-write", "FORM", "order of the words of a bit write", westinghouse::kBitWriteWords},
+    ReaderOption{"--monitor-address-bytes", "BYTES", "of each address of a monitor", westinghouse::kMonitorAddressWords},
+};
+
 constexpr std::array kProtocols{
-    RecordedProtocol{"modbus", modbus_reader},
-    RecordedProtocol{"ppi", ppi_reader},
-    RecordedProtocol{"freeport-pc", freeport_pc_reader},
-    RecordedProtocol{"pc1000-lan", block_reader, nullptr, block_xor_reader},
-    RecordedProtocol{"westnet", block_reader, nullptr, block_xor_reader},
-    RecordedProtocol{"pc500-loader", pc500_loader_reader, pc500_loader_plain_dle_reader},
-    RecordedProtocol{"hppc", hppc_reader},
+    RecordedProtocol{.name = "modbus", .reader = modbus_reader},
+    RecordedProtocol{.name = "ppi", .reader = ppi_reader, .of_the_cpu = true},
+    RecordedProtocol{.name = "freeport-pc", .reader = freeport_pc_reader},
+    RecordedProtocol{.name = "pc1000-lan", .reader = block_reader, .options = kBlockOptions, .of_other_makes = true},
+    RecordedProtocol{.name = "westnet", .reader = block_reader, .options = kBlockOptions, .of_other_makes = true},
+    RecordedProtocol{
+        .name = "pc500-loader", .reader = pc500_loader_reader, .options = kLoaderOptions, .of_other_makes = true},
+    RecordedProtocol{.name = "hppc", .reader = hppc_reader, .options = kHppcOptions, .of_other_makes = true},
 };
 
 /// The characters [begin, end) of a frame.
@@ -80,6 +96,14 @@ Direction other_way_round(Direction direction) {
 
 std::span<const RecordedProtocol> recorded_protocols() { return kProtocols; }
 
+bool RecordedProtocol::choose(std::string_view option, std::string_view word) {
+  const auto row = std::ranges::find(options, option, &ReaderOption::name);
+  if (row == options.end()) return false;
+  const auto place = std::ranges::find(row->words, word) - row->words.begin();
+  chosen.at(static_cast<std::size_t>(row - options.begin())) = static_cast<std::uint8_t>(place);
+  return true;
+}
+
 const RecordedProtocol* find_recorded_protocol(std::string_view name) {
   const auto found = std::ranges::find(kProtocols, name, &RecordedProtocol::name);
   return found == kProtocols.end() ? nullptr : &*found;
@@ -87,7 +111,7 @@ const RecordedProtocol* find_recorded_protocol(std::string_view name) {
 
 Conversation::Stream& Conversation::stream_of(const RecordedFrame& frame) {
   Stream& stream = streams_[frame.stream];
-  if (!stream.reader) stream.reader = protocol_.reader();
+  if (!stream.reader) stream.reader = protocol_.reader(protocol_.chosen);
   return stream;
 }
 

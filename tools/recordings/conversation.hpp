@@ -1,6 +1,7 @@
 // Frames of a recording as requests and answers of a protocol.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,15 +47,28 @@ class FrameReader {
   virtual bool messages_share_frames() const { return false; }
 };
 
+/// What the document of a protocol leaves open of its frames: an option with the name that it has for `master`.
+struct ReaderOption {
+  std::string_view name, value, meaning;    ///< `--dle`, `FORM`, and for the help
+  std::span<const std::string_view> words;  ///< it takes one of them; without it the first one holds
+};
+
+constexpr std::size_t kMostReaderOptions = 3;
+
+/// Which of its words, for each option of a protocol in the order of its row.
+using ChosenWords = std::array<std::uint8_t, kMostReaderOptions>;
+
 /// A protocol that recordings are read in.
 struct RecordedProtocol {
   std::string_view name;  ///< as for `master --protocol`
-  std::unique_ptr<FrameReader> (*reader)();
-  /// If a byte 10 in data of the PLC is not doubled, as `master --dle plain` has it; null: the protocol leaves no such
-  /// choice.
-  std::unique_ptr<FrameReader> (*plain_dle_reader)() = nullptr;
-  /// If the check of a block is the XOR of its data, as `master --data-check xor` has it; null likewise.
-  std::unique_ptr<FrameReader> (*xor_check_reader)() = nullptr;
+  std::unique_ptr<FrameReader> (*reader)(const ChosenWords& chosen);
+  std::span<const ReaderOption> options{};
+  bool of_the_cpu = false;      ///< the CPU answers by itself, as its PPI station, whatever its program
+  bool of_other_makes = false;  ///< no program of ours answers, but PLCs of another make do
+  ChosenWords chosen{};
+
+  /// False if the protocol has no such option. `word` is one of its words.
+  bool choose(std::string_view option, std::string_view word);
 };
 std::span<const RecordedProtocol> recorded_protocols();
 const RecordedProtocol* find_recorded_protocol(std::string_view name);

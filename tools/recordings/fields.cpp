@@ -216,6 +216,12 @@ std::optional<LeadingTime> leading_time(std::string_view text) {
   return time_since(text);
 }
 
+Direction direction_of_brackets(std::string_view bytes) {
+  if (bytes.starts_with('[')) return Direction::Request;
+  if (bytes.starts_with('<')) return Direction::Answer;
+  return Direction::Unknown;
+}
+
 Direction direction_of(std::string_view text) {
   static constexpr std::array kRequests{"TX", "SENT", "SEND", "WRITE", "WRITTEN", "REQUEST", "QUERY", "MASTER", "->", ">"};
   static constexpr std::array kAnswers{"RX", "RECV", "RECEIVED", "READ", "RESPONSE", "ANSWER", "REPLY", "SLAVE", "<-", "<"};

@@ -46,6 +46,9 @@ std::optional<LeadingTime> leading_time(std::string_view text);
 /// What a word says: TX, sent, request, > … ask; RX, received, response, < … answer.
 Direction direction_of(std::string_view text);
 
+/// Of bytes in brackets: what is sent stands as [01][03], what is received as <01><03>.
+Direction direction_of_brackets(std::string_view bytes);
+
 /// `01 03 00`, `0x01,0x3`, `[01][03]`, `010300`; nothing if there is anything else.
 std::optional<Bytes> bytes_of_text(std::string_view text);
 

@@ -43,7 +43,7 @@ std::size_t first_freeport_pc_message(Data bytes, const RecordedFrame* open) {
 
 }  // namespace
 
-std::unique_ptr<FrameReader> freeport_pc_reader() {
+std::unique_ptr<FrameReader> freeport_pc_reader(const ChosenWords&) {
   return std::make_unique<PlainReader<read_freeport_pc, first_freeport_pc_message>>();
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/word_bytes.hpp"
@@ -9,6 +10,7 @@
 #include "serial_sim/westinghouse/hppc_message.hpp"
 #include "tools/recordings/readers.hpp"
 #include "tools/recordings/westinghouse.hpp"
+#include "tools/views/hppc_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -16,9 +18,13 @@ namespace {
 using Data = std::span<const std::uint8_t>;
 using serial::to_hex;
 using serial::Verdict;
+using BitWrite = westinghouse::HppcLayout::BitWrite;
+using ReadRequest = westinghouse::HppcLayout::ReadRequest;
 
 class HppcReader final : public FrameReader {
  public:
+  explicit HppcReader(const westinghouse::HppcLayout& layout) : layout_(layout) {}
+
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
     const Data bytes(frame.bytes);
     ReadFrame read;
@@ -65,13 +71,15 @@ class HppcReader final : public FrameReader {
     return {};
   }
 
-  static std::string request_text(Data bytes) {
+  std::string request_text(Data bytes) const {
     using westinghouse::HppcOpcode;
     const Data operands = operands_of(bytes);
     const auto address = [&] { return westinghouse::hppc_address(operands); };
     switch (static_cast<HppcOpcode>(bytes[kOpcode])) {
       case HppcOpcode::Read:
-        if (operands.size() == kAddress + 1)
+        if (layout_.read_request == ReadRequest::Number && operands.size() == 1)
+          return fmt::format("read {} from 16#00000 on", plural(operands[0], "byte"));
+        if (layout_.read_request == ReadRequest::AddressAndNumber && operands.size() == kAddress + 1)
           return fmt::format("read {} from 16#{:05X} on", plural(operands[kAddress], "byte"), address());
         break;
       case HppcOpcode::Write:
@@ -80,9 +88,12 @@ class HppcReader final : public FrameReader {
                              to_hex(operands.subspan(kAddress + 1)));
         break;
       case HppcOpcode::BitWrite:
-        if (operands.size() == kAddress + 4)
+        if (operands.size() == kAddress + 4) {
+          unsigned pattern = load16_low_first(&operands[kAddress]), mask = load16_low_first(&operands[kAddress + 2]);
+          if (layout_.bit_write == BitWrite::MaskFirst) std::swap(pattern, mask);
           return fmt::format("write bits of the word at 16#{:05X}: 16#{:04X}, those of the mask 16#{:04X}", address(),
-                             load16_low_first(&operands[kAddress]), load16_low_first(&operands[kAddress + 2]));
+                             pattern, mask);
+        }
         break;
       case HppcOpcode::Parameters:
         if (operands.size() == 1) return fmt::format("parameter table, {}", plural(operands[0], "byte"));
@@ -100,7 +111,7 @@ class HppcReader final : public FrameReader {
     return fmt::format("opcode {:02X}{}{}", bytes[kOpcode], operands.empty() ? "" : ": ", to_hex(operands));
   }
 
-  static std::string answer_text(Data request, Data bytes, std::optional<westinghouse::FcsTable> table) {
+  std::string answer_text(Data request, Data bytes, std::optional<westinghouse::FcsTable> table) const {
     if (!table) return "wrong frame check";
     const serial::Answer answer = westinghouse::check_hppc_answer(request, bytes, *table);
     if (answer.verdict == Verdict::Exception)
@@ -108,20 +119,12 @@ class HppcReader final : public FrameReader {
     if (answer.verdict != Verdict::Right) return answer.fault;
     const Data operands(answer.bytes);
     const auto opcode = static_cast<westinghouse::HppcOpcode>(request[kOpcode]);
-    if (opcode == westinghouse::HppcOpcode::Parameters && operands.size() >= kAddress) return parameters_text(operands);
+    if (opcode == westinghouse::HppcOpcode::Parameters && operands.size() >= kAddress) return hppc_parameters_text(operands);
     if (opcode == westinghouse::HppcOpcode::Read && !operands.empty() && operands.size() == 1U + operands[0])
       return fmt::format("{}{}{}", plural(operands[0], "byte"), operands[0] == 0 ? "" : ": ", to_hex(operands.subspan(1)));
     if (const auto monitored = monitored_by(operands_of(request)); monitored && opcode == westinghouse::HppcOpcode::Monitor)
       if (std::string text = monitored_text(*monitored, operands); !text.empty()) return text;
     return operands.empty() ? "done" : to_hex(operands);
-  }
-
-  static std::string parameters_text(Data operands) {
-    const Data table = operands.subspan(kAddress);
-    std::string text = fmt::format("parameter table at 16#{:05X}", westinghouse::hppc_address(operands));
-    if (const auto found = westinghouse::holding_registers(table))
-      text += fmt::format(", holding register 1 at 16#{:05X}", found->base);
-    return table.empty() ? text : fmt::format("{}: {}", text, to_hex(table));
   }
 
   struct Monitored {
@@ -131,24 +134,25 @@ class HppcReader final : public FrameReader {
     std::string_view name() const { return bytes == 1 ? "byte" : bytes == 2 ? "word" : "double word"; }
   };
 
-  /// In the order of the message; nothing if its operands are not those of a monitor with addresses of three bytes.
-  static std::optional<std::vector<Monitored>> monitored_by(Data operands) {
+  /// In the order of the message; nothing if its operands are not those of a monitor with addresses of such a length.
+  std::optional<std::vector<Monitored>> monitored_by(Data operands) const {
+    const std::size_t width = layout_.monitor_address_bytes;
     constexpr std::size_t kSizes = 3, kHead = kAddress + kSizes;
     if (operands.size() < kHead) return {};
     std::vector<Monitored> monitored;
     for (std::size_t size = 0; size < kSizes; ++size)
       for (unsigned i = 0; i < operands[kAddress + size]; ++i) {
-        const std::size_t place = kHead + kAddress * monitored.size();
-        if (place + kAddress > operands.size()) return {};
+        const std::size_t place = kHead + width * monitored.size();
+        if (place + width > operands.size()) return {};
         monitored.push_back({westinghouse::hppc_address(operands.subspan(place)), std::size_t{1} << size});
       }
-    return kHead + kAddress * monitored.size() == operands.size() ? std::optional(monitored) : std::nullopt;
+    return kHead + width * monitored.size() == operands.size() ? std::optional(monitored) : std::nullopt;
   }
 
   /// Empty if there are more or fewer bytes than were asked for.
   static std::string monitored_text(const std::vector<Monitored>& monitored, Data operands) {
     if (operands.empty()) return "";
-    std::string text = fmt::format("status 16#{:02X}", operands[0]);
+    std::string text = hppc_status_text(operands[0]);
     std::size_t place = 1;
     for (const Monitored& each : monitored) {
       if (place + each.bytes > operands.size()) return "";
@@ -159,10 +163,18 @@ class HppcReader final : public FrameReader {
     }
     return place == operands.size() ? text : "";
   }
+
+  westinghouse::HppcLayout layout_;
 };
 
 }  // namespace
 
-std::unique_ptr<FrameReader> hppc_reader() { return std::make_unique<HppcReader>(); }
+std::unique_ptr<FrameReader> hppc_reader(const ChosenWords& chosen) {
+  const auto [read_request, bit_write, wide_addresses] = chosen;
+  return std::make_unique<HppcReader>(
+      westinghouse::HppcLayout{.read_request = static_cast<ReadRequest>(read_request),
+                               .bit_write = static_cast<BitWrite>(bit_write),
+                               .monitor_address_bytes = westinghouse::kMonitorAddressBytes[wide_addresses]});
+}
 
 }  // namespace s7200::tools

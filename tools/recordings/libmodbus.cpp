@@ -11,16 +11,18 @@
 namespace s7200::tools {
 namespace {
 
-/// What is sent as [01][03], what is received as <01><03>; nothing else is a frame: `[1]:  4369` is a register.
+/// Only bytes in brackets are a frame: `[1]:  4369` is a register.
 std::optional<RecordedFrame> frame_in(std::string_view line) {
   constexpr std::size_t kByte = 4;
   const std::string_view text = stl::trim(line);
   if (text.empty() || text.size() % kByte != 0) return {};
-  const bool sent = text[0] == '[';
+  const Direction direction = direction_of_brackets(text);
+  if (direction == Direction::Unknown) return {};
+  const bool sent = direction == Direction::Request;
   const auto digit = [&](std::size_t at) { return std::isxdigit(static_cast<unsigned char>(text[at])) != 0; };
   for (std::size_t at = 0; at < text.size(); at += kByte)
     if (text[at] != (sent ? '[' : '<') || text[at + 3] != (sent ? ']' : '>') || !digit(at + 1) || !digit(at + 2)) return {};
-  return RecordedFrame{.direction = sent ? Direction::Request : Direction::Answer, .bytes = *bytes_of_text(text)};
+  return RecordedFrame{.direction = direction, .bytes = *bytes_of_text(text)};
 }
 
 bool is_of_mbpoll(std::string_view line) { return line.starts_with("mbpoll ") || line.starts_with("-- Polling slave "); }

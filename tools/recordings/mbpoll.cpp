@@ -137,7 +137,8 @@ void read_values_of_mbpoll(std::span<const std::string> lines, LineRecording& re
   for (const std::string& line : lines) reader.take(line, ++number);
   recording.notes.emplace_back(
       recording.frames.empty()
-          ? "mbpoll prints frames only with its option -v"
+          ? "mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it prints "
+            "without"
           : "mbpoll printed values and no frames: these are the frames that reads of them have, if references count from 1");
 }
 

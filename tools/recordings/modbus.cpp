@@ -151,6 +151,8 @@ std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
 
 }  // namespace
 
-std::unique_ptr<FrameReader> modbus_reader() { return std::make_unique<PlainReader<read_modbus, first_modbus_message>>(); }
+std::unique_ptr<FrameReader> modbus_reader(const ChosenWords&) {
+  return std::make_unique<PlainReader<read_modbus, first_modbus_message>>();
+}
 
 }  // namespace s7200::tools

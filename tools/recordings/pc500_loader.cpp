@@ -240,9 +240,8 @@ class LoaderReader final : public FrameReader {
 
 }  // namespace
 
-std::unique_ptr<FrameReader> pc500_loader_reader() { return std::make_unique<LoaderReader>(westinghouse::Dle::Doubled); }
-std::unique_ptr<FrameReader> pc500_loader_plain_dle_reader() {
-  return std::make_unique<LoaderReader>(westinghouse::Dle::Plain);
+std::unique_ptr<FrameReader> pc500_loader_reader(const ChosenWords& chosen) {
+  return std::make_unique<LoaderReader>(static_cast<westinghouse::Dle>(chosen[0]));
 }
 
 }  // namespace s7200::tools

@@ -8,7 +8,6 @@
 
 #include "interpreter/base/ppi_frame.hpp"
 #include "serial_sim/line/frame.hpp"
-#include "serial_sim/westinghouse/plcs.hpp"
 #include "tools/scenario/text.hpp"
 #include "tools/scenario/transcript_writer.hpp"
 
@@ -267,11 +266,11 @@ std::string why_nothing_is_asked(const std::vector<ReadFrame>& frames, const Pla
   return fmt::format("no request in it{}; s7200 decode shows what is", any ? " that can be asked again" : "");
 }
 
-std::string how_to_run(std::string_view protocol, const PlaybackChoices& choices) {
+std::string how_to_run(const RecordedProtocol& protocol, const PlaybackChoices& choices) {
   if (!choices.program.empty()) return "Run by s7200 test.";
-  const bool of_simulated_plc = protocol != "modbus" && westinghouse::find_plc(protocol) != nullptr;
-  return fmt::format("Run by s7200 test --target TARGET{}.",
-                     of_simulated_plc ? fmt::format(", such as westinghouse:MODEL with --protocol {}", protocol) : "");
+  return fmt::format(
+      "Run by s7200 test --target TARGET{}.",
+      protocol.of_other_makes ? fmt::format(", such as westinghouse:MODEL with --protocol {}", protocol.name) : "");
 }
 
 Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices) {

@@ -32,7 +32,7 @@ std::optional<std::uint8_t> ppi_station_asked(const std::vector<ReadFrame>& fram
 std::string why_nothing_is_asked(const std::vector<ReadFrame>& frames, const PlaybackChoices& choices);
 
 /// `Run by s7200 test --target TARGET.`
-std::string how_to_run(std::string_view protocol, const PlaybackChoices& choices);
+std::string how_to_run(const RecordedProtocol& protocol, const PlaybackChoices& choices);
 
 /// A scenario that sends the requests with their gaps and expects the answers. Left out are requests that are damaged, or
 /// that other characters follow without a silence, and those whose answer is wrong: no slave can give it.

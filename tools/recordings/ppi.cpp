@@ -138,14 +138,11 @@ std::optional<Pdu> pdu_of(Data bytes, std::string& why) {
 
 std::string error_text(std::uint16_t error) { return serial::error_text(error, s7_error_name(error)); }
 
-/// 00 01 12 length kind group service number, and in an answer 00 00 error(2).
 std::string user_data_text(const Pdu& pdu) {
-  constexpr std::size_t kGroup = 5, kService = 6, kError = 10;
-  if (pdu.parameters.size() <= kService) return "user data";
-  const std::uint8_t group = pdu.parameters[kGroup] & 0x0F, service = pdu.parameters[kService];
-  const bool answer = (pdu.parameters[kGroup] & 0xF0) == 0x80;
-  if (answer && pdu.parameters.size() >= kError + 2)
-    if (const std::uint16_t error = load16(&pdu.parameters[kError]); error != 0) return error_text(error);
+  const auto user_data = s7::user_data_in(pdu.parameters);
+  if (!user_data) return "user data";
+  const auto& [group, service, number, answer, error] = *user_data;
+  if (error != 0) return error_text(error);
   const std::string clock = s7_clock_text(pdu.data);
   if (group == s7::kClockGroup && service == s7::kReadClock) return answer ? "clock: " + clock : "read the clock";
   if (group == s7::kClockGroup && service == s7::kSetClock) return answer ? "clock set" : "set the clock to " + clock;
@@ -329,6 +326,6 @@ class PpiReader final : public FrameReader {
 
 }  // namespace
 
-std::unique_ptr<FrameReader> ppi_reader() { return std::make_unique<PpiReader>(); }
+std::unique_ptr<FrameReader> ppi_reader(const ChosenWords&) { return std::make_unique<PpiReader>(); }
 
 }  // namespace s7200::tools

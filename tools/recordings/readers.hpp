@@ -22,9 +22,9 @@ inline bool fits(const serial::Answer& answer) {
   return answer.verdict == serial::Verdict::Right || answer.verdict == serial::Verdict::Exception;
 }
 
-std::unique_ptr<FrameReader> modbus_reader();
-std::unique_ptr<FrameReader> ppi_reader();
-std::unique_ptr<FrameReader> freeport_pc_reader();
+std::unique_ptr<FrameReader> modbus_reader(const ChosenWords& chosen);
+std::unique_ptr<FrameReader> ppi_reader(const ChosenWords& chosen);
+std::unique_ptr<FrameReader> freeport_pc_reader(const ChosenWords& chosen);
 
 /// Of a protocol whose frames say all by themselves: it keeps nothing from frame to frame.
 template <ReadFrame (*Read)(const RecordedFrame& frame, const RecordedFrame* open),

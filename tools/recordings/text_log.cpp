@@ -10,13 +10,6 @@
 namespace s7200::tools {
 namespace {
 
-/// Some write frames as [01][03] where they are sent, and as <01><03> where they are received.
-Direction direction_of_brackets(std::string_view bytes) {
-  if (bytes.starts_with('[')) return Direction::Request;
-  if (bytes.starts_with('<')) return Direction::Answer;
-  return Direction::Unknown;
-}
-
 /// An arrow between two names says who talks to whom, not which of them is the master.
 Direction direction_of_heading(std::string_view text) {
   static const std::regex kArrow(R"(\w\s*(-+>|<-+)\s*\w)");

@@ -1,4 +1,4 @@
-// The protocols of the Westinghouse PLCs in recordings.
+// The protocols of the Westinghouse PLCs in recordings, with what is chosen of their options.
 #pragma once
 
 #include <memory>
@@ -8,18 +8,12 @@
 namespace s7200::tools {
 
 /// The six-byte messages and their blocks. A block has no address: whoever was addressed last is asked.
-std::unique_ptr<FrameReader> block_reader();
-
-/// The same where the check of a block is the XOR of its data.
-std::unique_ptr<FrameReader> block_xor_reader();
+std::unique_ptr<FrameReader> block_reader(const ChosenWords& chosen);
 
 /// Step after step of the handshake. Its sides take turns, so that a step says whose it is.
-std::unique_ptr<FrameReader> pc500_loader_reader();
-
-/// The same of a PLC that does not double a byte 10 in its data.
-std::unique_ptr<FrameReader> pc500_loader_plain_dle_reader();
+std::unique_ptr<FrameReader> pc500_loader_reader(const ChosenWords& chosen);
 
 /// With either table of the frame check.
-std::unique_ptr<FrameReader> hppc_reader();
+std::unique_ptr<FrameReader> hppc_reader(const ChosenWords& chosen);
 
 }  // namespace s7200::tools

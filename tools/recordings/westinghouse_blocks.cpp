@@ -132,7 +132,8 @@ class BlockReader final : public FrameReader {
 
 }  // namespace
 
-std::unique_ptr<FrameReader> block_reader() { return std::make_unique<BlockReader>(westinghouse::DataCheck::Sum); }
-std::unique_ptr<FrameReader> block_xor_reader() { return std::make_unique<BlockReader>(westinghouse::DataCheck::Xor); }
+std::unique_ptr<FrameReader> block_reader(const ChosenWords& chosen) {
+  return std::make_unique<BlockReader>(static_cast<westinghouse::DataCheck>(chosen[0]));
+}
 
 }  // namespace s7200::tools

@@ -1,9 +1,12 @@
 #include "tools/rig/clock_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 
 #include "interpreter/base/numbers.hpp"
+#include "interpreter/cpu/clock.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -22,6 +25,11 @@ unsigned number(std::string_view digits) {
 }
 
 }  // namespace
+
+std::string why_no_clock(const CpuModel& model) {
+  if ((model.self & clock::kCpusWithClock) != 0) return {};
+  return fmt::format("CPU {} has no time-of-day clock", model.name);
+}
 
 std::optional<ClockTime> parse_clock(std::string_view text) {
   if (!has_form(text)) return {};

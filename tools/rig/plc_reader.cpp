@@ -193,9 +193,11 @@ class PlcReader {
     if (const YamlNode* set = map.find("set")) settings.set = read_assignments(*set, *plc.program, values_);
     settings.input = path(map, "input");
     read_inputs(map, plc);
-    if (const YamlNode* clock = map.find("clock"))
+    if (const YamlNode* clock = map.find("clock")) {
       settings.clock = values_.value(clock, "a date and time between 1990 and 2089", "2026-11-21 10:00:00",
                                      [](const std::string& t) { return parse_clock(t); });
+      if (const std::string why = why_no_clock(*plc.program->model); !why.empty()) values_.wrong(*clock, why);
+    }
     settings.clock_error =
         values_.value(map.find("clock_error"), "from -1000ppm to 1000ppm", "50ppm", parse_clock_error).value_or(0);
     settings.starts = values_.duration(map.find("starts")).value_or(0) * (copy + 1);

@@ -51,10 +51,10 @@ bool PlcRig::claim(WrittenFiles& files, std::string& why) {
 
 bool PlcRig::read_memory(std::string& why) { return memory_.read(*program_->model, why); }
 
-void PlcRig::power_up(serial::Plc& plc) {
+void PlcRig::power_up(serial::Plc& plc, Time at) {
   if (plc.powered() && !sinks().empty()) plc.cpu().set_sink(&sinks());  // otherwise somebody may look at it by now
   plc.cpu().set_clock_error(settings_.clock_error);
-  plc.power_up(memory_.memory(), settings_.starts);
+  plc.power_up(memory_.memory(), at);
   if (settings_.clock) plc.cpu().set_clock(*settings_.clock);
   for (const Assignment& assignment : settings_.set) assign(plc.cpu(), assignment);
 }

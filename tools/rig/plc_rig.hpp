@@ -46,9 +46,9 @@ class PlcRig {
   bool open(std::string& why) { return traces_.open(why); }
   bool put(std::string& why) { return traces_.put(why); }
 
-  /// At time 0, or as late as it starts: the program begins with its memory, clock and assignments, and the records watch
-  /// it.
-  void power_up(serial::Plc& plc);
+  /// It has power for the first time, from `at` on: the program begins with its memory, clock and assignments, and the
+  /// records watch it.
+  void power_up(serial::Plc& plc, Time at);
 
   /// Writes into the trace what is done to the PLC from outside.
   void note(Time at, std::string_view what) {

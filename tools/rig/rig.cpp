@@ -7,6 +7,7 @@
 
 #include "serial_sim/modbus/answer.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_trace.hpp"
 #include "tools/views/memory.hpp"
 
@@ -124,6 +125,7 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
   if (settings.port >= model.ports)
     problems.push_back(
         fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, to_text(kTwoPorts)));
+  if (const std::string why = why_no_clock(model); settings.clock && !why.empty()) problems.push_back(why);
   auto field = read_field(settings.input, model, problems);
   if (!field || !problems.empty()) return nullptr;
   const auto port = static_cast<std::uint8_t>(settings.port);
@@ -190,7 +192,7 @@ void Rig::power_up() {
   auto rig = plc_rigs_.begin();
   for (std::size_t number = 0; number < plcs_.size(); ++number, ++rig) {
     if (plan_.plcs[number].settings.starts == 0) {
-      rig->power_up(*plcs_[number]);
+      rig->power_up(*plcs_[number], 0);
       continue;
     }
     if (!rig->sinks().empty()) plcs_[number]->cpu().set_sink(&rig->sinks());
@@ -213,8 +215,14 @@ std::vector<std::string> Rig::finish() {
   for (PlcRig& plc : plc_rigs_) plc.close(problems);
   for (CaptureFiles& captures : captures_) captures.close(problems);
   auto rig = plc_rigs_.begin();
-  for (serial::Plc* plc : plcs_) (rig++)->keep_memory(plc->cpu(), problems);
+  for (std::size_t number = 0; number < plcs_.size(); ++number, ++rig)
+    if (has_begun(number)) rig->keep_memory(plcs_[number]->cpu(), problems);
   return problems;
+}
+
+/// Whether it has had power. Until then it has read nothing of what it is to begin with.
+bool Rig::has_begun(std::size_t plc) const {
+  return plan_.plcs[plc].settings.starts == 0 || plcs_[plc]->powered() || plcs_[plc]->cpu().time() > 0;
 }
 
 void Rig::carry_out(const EventPlan& event) {
@@ -293,8 +301,8 @@ void Rig::switch_power(const StationPlan& station, bool on) {
   if (station.kind == StationPlan::Kind::Plc) {
     serial::Plc& plc = *plcs_[station.number];
     if (plc.powered() == on) return;
-    const bool starts = on && plc.cpu().time() == 0 && plan_.plcs[station.number].settings.starts == now;
-    if (starts) return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(station.number))->power_up(plc);
+    if (!has_begun(station.number))
+      return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(station.number))->power_up(plc, now);
     on ? system_.power_on(plc) : system_.power_off(plc);
   } else if (serial::ResponderStation* const responder = responders_[station.number]) {
     if (responder->powered() == on) return;

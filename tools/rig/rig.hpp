@@ -103,7 +103,7 @@ class Rig final {
   /// Writes what is recorded so far, for whoever follows a run in real time. A trace of a system is a second behind.
   void flush_records();
 
-  /// Completes the records and keeps the memories. Returns what could not be written.
+  /// Completes the records and keeps the memories of the PLCs that have had power. Returns what could not be written.
   std::vector<std::string> finish();
 
  private:
@@ -111,6 +111,7 @@ class Rig final {
   void add_plc(std::size_t number);
   void wire_sync();
   void tell(const EventPlan& event, Time at);
+  bool has_begun(std::size_t plc) const;
   void switch_power(const StationPlan& station, bool on);
   void add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station);
   void join(const Spot& spot);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -111,6 +112,34 @@ void warn_of_power_that_stays_as_it_is(SystemReading& reading, const std::vector
   }
 }
 
+/// The same of cables and faults.
+void warn_of_lines_that_stay_as_they_are(SystemReading& reading, const std::vector<TimedEvent>& events) {
+  struct Now {
+    std::optional<std::size_t> near{};  // of the cut
+    bool faults = false;
+  };
+  std::vector<Now> lines;
+  for (const LinePlan& line : reading.file.plan.lines) lines.push_back({.faults = !line.faults.empty()});
+  for (const auto& [event, node] : events) {
+    using What = EventPlan::What;
+    constexpr std::array kOfLines{What::Cut, What::Mend, What::Fault, What::ClearFaults};
+    if (std::ranges::find(kOfLines, event.what) == kOfLines.end()) continue;
+    const std::string name = reading.file.plan.lines[event.line].name;
+    const auto warn = [&, at = node](std::string_view why) {
+      reading.file.file.diagnostics.push_back({.severity = stl::Severity::Warning,
+                                               .position = at->position,
+                                               .message = fmt::format("line '{}' {}: this does nothing", name, why)});
+    };
+    Now& now = lines[event.line];
+    if (event.what == What::Cut && now.near == event.near) warn("is cut there already");
+    if (event.what == What::Mend && !now.near) warn("is not cut");
+    if (event.what == What::ClearFaults && !now.faults) warn("has no fault");
+    if (event.what == What::Cut) now.near = event.near;
+    if (event.what == What::Mend) now.near.reset();
+    if (event.what == What::Fault || event.what == What::ClearFaults) now.faults = event.what == What::Fault;
+  }
+}
+
 }  // namespace
 
 /// Of a PLC one port is enough.
@@ -131,6 +160,7 @@ void warn_of_system(SystemReading& reading, const std::vector<TimedEvent>& event
   warn_of_several_ppi_masters(reading);
   warn_of_modbus_stations_that_are_the_same(reading);
   warn_of_power_that_stays_as_it_is(reading, events);
+  warn_of_lines_that_stay_as_they_are(reading, events);
 }
 
 }  // namespace s7200::tools

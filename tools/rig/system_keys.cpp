@@ -53,7 +53,7 @@ const std::array kKeys{
     SystemKey{Where::Plc, "times", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
     SystemKey{Where::Plc, "ppi_baud", "NUMBER", ppi_baud_meaning()},
     SystemKey{Where::Plc, "ppi_station", "NUMBER", ppi_station_meaning()},
-    SystemKey{Where::Plc, "copies", "NUMBER", kept(fmt::format("so many PLCs like this, 1 to {}, with a number after the name: `slave1`, `slave2`, …; `station` and `ppi_station` go up by one with each", serial::Line::kDrivers))},
+    SystemKey{Where::Plc, "copies", "NUMBER", kept(fmt::format("how many PLCs like this one, 1 to {}; each has a number after the name: `slave1`, `slave2`, …; `station` and `ppi_station` go up by one with each", serial::Line::kDrivers))},
     SystemKey{Where::Plc, "station", "NUMBER", kept(fmt::format("address on the line, 1 to {}: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do", modbus::kLastStation))},
     SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
     SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
@@ -69,21 +69,21 @@ const std::array kKeys{
 
     SystemKey{Where::Line, "stations", "LIST", kept(fmt::format("who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; {} at most", serial::Line::kDrivers))},
     SystemKey{Where::Line, "baud", "NUMBER", kept(fmt::format("of the masters and bridges on it and of who joins it, {} to {}; as its first PLC sets its port if left out (an S7-200, if there is one), like the next three", kLeastBaud, kMostBaud))},
-    SystemKey{Where::Line, "parity", "none, even, odd", ""},
-    SystemKey{Where::Line, "data_bits", "7, 8", ""},
-    SystemKey{Where::Line, "stop_bits", "1, 2", ""},
+    SystemKey{Where::Line, "parity", "none, even, odd", "parity bit of a character"},
+    SystemKey{Where::Line, "data_bits", "7, 8", "data bits of a character"},
+    SystemKey{Where::Line, "stop_bits", "1, 2", "stop bits of a character"},
     SystemKey{Where::Line, "turn_round", "TIME", "how long a master on it leaves it quiet between an answer and its next request; 7 characters and 10 ms if left out"},
     SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`, or a map if it is of one station; `master` says whose characters are requests"},
     SystemKey{Where::Line, "master", "NAME", "which station asks the others, for `faults` of requests or answers, as in `of=answer`; if left out, the first PLC to send, where several are on the line and no one has asked them"},
-    SystemKey{Where::Line, "contention", "SEED, space", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed, 1 if left out; `space` wins always, as if each driver only pulled the line down"},
+    SystemKey{Where::Line, "contention", "SEED, space", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed, 1 if left out; with `space` the level is always space, as if each driver only pulled the line down"},
     SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx, tx and line) or FILE.pcap (frames); rx and tx are those of its first PLC, an S7-200 if there is one"},
 
     SystemKey{Where::Fault, "fault", "TEXT", "in the form of `s7200 run --fault`: `parity:character=each`"},
     SystemKey{Where::Fault, "station", "NAME", "whose it is: what this station sends is disturbed, be it request or answer, or its clock is off, or it hears its echo; noise, and what happens at an instant, is of the line"},
 
     SystemKey{Where::Master, "polls", "LIST", "what the master asks in Modbus RTU, in turn and without end"},
-    SystemKey{Where::Master, "starts", "TIME", "its first request, so long after it has power; `1s` if left out"},
-    SystemKey{Where::Master, "every", "TIME", "a round begins no sooner than so long after the one before; at once if left out"},
+    SystemKey{Where::Master, "starts", "TIME", "when it sends its first request after it has power; `1s` if left out"},
+    SystemKey{Where::Master, "every", "TIME", "the shortest time from the start of a round to the start of the next; without it rounds follow each other at once"},
     SystemKey{Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
 
     SystemKey{Where::Poll, "station", "NUMBER, FIRST..LAST", kept(fmt::format("who is asked, 1 to {}; several are asked one after the other; 1 if left out", modbus::kLastStation))},
@@ -114,7 +114,7 @@ const std::array kKeys{
     SystemKey{Where::Event, "fault", "TEXT", "a fault of `line` from then on, in the form of `s7200 run --fault`"},
     SystemKey{Where::Event, "line", "LINE", "beside `fault`"},
     SystemKey{Where::Event, "station", "NAME", "beside `fault`, if it is of one station"},
-    SystemKey{Where::Event, "clear_faults", "LINE", "no fault there any more"},
+    SystemKey{Where::Event, "clear_faults", "LINE", "all faults of that line end"},
 };
 // clang-format on
 

@@ -70,9 +70,11 @@ class HeadReader {
     if (const auto station = read_station(map)) scenario.station = *station;
     if (const YamlNode* set = map.find("set")) scenario.set = read_assignments(values_, *set, scenario.addresses());
     if (const auto path = optional_path(map, "input")) read_field(*map.find("input"), *path, scenario);
-    if (const YamlNode* clock = map.find("clock"))
+    if (const YamlNode* clock = map.find("clock")) {
       scenario.clock = values_.value(clock, "a date and time between 1990 and 2089", "2026-11-21 10:00:00",
                                      [](const std::string& t) { return parse_clock(t); });
+      if (const std::string why = why_no_clock(*find_cpu(scenario.cpu)); !why.empty()) values_.wrong(*clock, why);
+    }
     if (const auto after = values_.time(map.find("after"))) scenario.after = *after;
     if (const auto pause = values_.span(map.find("pause"))) scenario.pause = *pause;
     if (const auto timeout = values_.time(map.find("timeout"))) scenario.line.timeout = *timeout;

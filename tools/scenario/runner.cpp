@@ -90,7 +90,8 @@ void Run::do_step(const Step& step) {
 
 void Run::add(Finding finding) {
   if (!scenario_.steps.empty()) finding.step = std::min(step_, scenario_.steps.size() - 1);
-  if (step_ < scenario_.steps.size() && !scenario_.steps[step_].on.empty())
+  const bool names_plc = plant_ && finding.what.find(plant_->of_plc("")) != std::string::npos;
+  if (step_ < scenario_.steps.size() && !scenario_.steps[step_].on.empty() && !names_plc)
     finding.what += " of " + scenario_.steps[step_].on;
   result_.findings.push_back(std::move(finding));
 }

@@ -49,8 +49,7 @@ bool SimulatedSlave::wait_until_ready(Time after, std::string& why) {
 
 std::string SimulatedSlave::note_on_port(bool wants_freeport) const {
   if (simulation_.freeport().active == wants_freeport) return {};
-  if (!wants_freeport)
-    return fmt::format("the program has switched port {} to Freeport mode: it does not speak PPI there", simulation_.port());
+  if (!wants_freeport) return fmt::format("port {} is in Freeport mode: it does not speak PPI there", simulation_.port());
   return why_no_freeport(simulation_.cpu(), simulation_.port());
 }
 

@@ -30,12 +30,12 @@ std::string_view s7_error_name(std::uint16_t code) {
   }
 }
 
-/// As it comes: FF 09 00 0A 00 century year month day hour minute second milliseconds weekday, in BCD.
 std::string s7_clock_text(std::span<const std::uint8_t> data) {
-  constexpr std::size_t kLength = 14;
-  if (data.size() < kLength) return {};
-  return fmt::format("{:02x}{:02x}-{:02x}-{:02x} {:02x}:{:02x}:{:02x}", data[5], data[6], data[7], data[8], data[9],
-                     data[10], data[11]);
+  const auto clock = s7::clock_in(data);
+  if (!clock) return {};
+  const auto& [year, month, day, hour, minute, second, milliseconds, weekday] = clock->todr;
+  return fmt::format("{:02x}{:02x}-{:02x}-{:02x} {:02x}:{:02x}:{:02x}", clock->century, year, month, day, hour, minute,
+                     second);
 }
 
 std::string s7_identification_text(std::span<const std::uint8_t> bytes) {

@@ -488,6 +488,17 @@ TEST(S7Services, TimersAndCountersHaveAStatusAndTheirCurrentValue) {
   EXPECT_EQ(code_of(master.ask(reading({variable(2, 2, 0x1E, 5)}))), 0x06) << "bytes of a counter";
 }
 
+TEST(S7Services, ANegativeCurrentValueOfATimerIsWritten) {
+  Plc plc("LD SM0.0\nTON T37, 1000\nMEND\n");
+  plc.run_until(50 * ms);
+  Master master(plc);
+  EXPECT_EQ(code_of(master.ask(writing(variable(0x1F, 1, 0x1F, 37), 0x09, 5, {0, 0, 0, 0xFF, 0x00}))), 0xFF);
+  const auto after = static_cast<std::int16_t>(plc.value("T37"));
+  EXPECT_LT(after, -200);
+  plc.run_until(plc.cpu.time() + 500 * ms);
+  EXPECT_NEAR(static_cast<std::int16_t>(plc.value("T37")), after + 5, 1);
+}
+
 TEST(S7Services, HighSpeedCountersAreReadAsDoubleWords) {
   Plc plc("LD SM0.1\nHDEF 0, 0\nMOVB 16#F8, SMB37\nMOVD +5, SMD38\nHSC 0\nMEND\n");
   plc.run_until(5 * ms);
@@ -633,6 +644,14 @@ TEST(S7Services, TheClockIsReadAndSet) {
   EXPECT_EQ((Bytes{now.begin() + 22, now.begin() + 33}), (Bytes{0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45}));
   const Bytes bad = master.ask(user_data(7, 2, {0xFF, 9, 0, 10, 0, 0x20, 0x2A, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01}));
   EXPECT_EQ(load16(&bad[20]), 0x8704) << "not BCD";
+}
+
+TEST(S7Services, ACpu212HasNoClock) {
+  Plc plc(kQuiet, cpu212());
+  Master master(plc);
+  for (const Bytes& asked : {user_data(7, 1, {0x0A, 0, 0, 0}),
+                             user_data(7, 2, {0xFF, 9, 0, 10, 0, 0x20, 0x26, 0x11, 0x22, 0x15, 0x45, 0x30, 0x00, 0x01})})
+    EXPECT_EQ(load16(&master.ask(asked).at(20)), 0x8104);
 }
 
 TEST(S7Services, UserDataThatNameNoServiceGetTheirError) {

@@ -47,7 +47,7 @@ TEST(WestinghouseMaster, H9AnHppcIsResynchronisedAfterSilenceAndALinkErrorAndAsk
   EXPECT_EQ(patience.timeout, kSecond);
   EXPECT_EQ(patience.retries, 2);
   EXPECT_EQ(patience.pause, 500 * kMillisecond);
-  EXPECT_EQ(serial::to_hex(patience.first()), "0c 00 20 40 00 0c 00 00 00 00 2b e8");
+  EXPECT_EQ(serial::to_hex(patience.first({})), "0c 00 20 40 00 0c 00 00 00 00 2b e8");
   EXPECT_TRUE(patience.repeats(0x01));
   EXPECT_FALSE(patience.repeats(0x10));
 }
@@ -69,6 +69,38 @@ TEST(WestinghouseMaster, EachChoiceOfTheReferenceIsASettingOfAPlcOrAnOptionOfThe
       const std::string mark = letter + std::to_string(number);
       EXPECT_TRUE(marks.contains(mark)) << mark;
     }
+}
+
+std::string hppc_frame(const std::string& text, std::string_view option, const std::string& word) {
+  const ProtocolUse use{.station = 5, .given = {{std::string(option), word}}};
+  return serial::to_hex(parsed(hppc_protocol(), text, use).at(0).request->frame());
+}
+
+/// Without length, addresses, opcode and frame check.
+std::string hppc_operands(const std::string& text, std::string_view option, const std::string& word) {
+  const std::string hex = hppc_frame(text, option, word);
+  constexpr std::size_t kHead = 18, kCheck = 6;
+  return hex.substr(kHead, hex.size() - kHead - kCheck);
+}
+
+TEST(WestinghouseMaster, H4AReadWithoutAnAddressIsFromZeroOn) {
+  EXPECT_EQ(hppc_operands("read 0:2", "--read-request", "number"), "02");
+  EXPECT_EQ(hppc_operands("resync", "--read-request", "number"), "00");
+  EXPECT_EQ(serial::to_hex(hppc_protocol().patience.first({.given = {{"--read-request", "number"}}})),
+            hppc_frame("resync", "--read-request", "number"));
+  for (const char* const words : {"read 16#80000:2", "read-register 1"})
+    EXPECT_THROW(hppc_frame(words, "--read-request", "number"), std::invalid_argument) << words;
+  EXPECT_EQ(hppc_operands("read 16#80000:2", "--read-request", "address_and_number"), "00 00 08 02");
+}
+
+TEST(WestinghouseMaster, H5ABitWriteMayHaveTheMaskBeforeThePattern) {
+  EXPECT_EQ(hppc_operands("bits 16#ABFFE=16#F000/16#FF01", "--bit-write", "mask_first"), "fe bf 0a 01 ff 00 f0");
+  EXPECT_EQ(hppc_operands("bits 16#ABFFE=16#F000/16#FF01", "--bit-write", "pattern_first"), "fe bf 0a 00 f0 01 ff");
+}
+
+TEST(WestinghouseMaster, H6AMonitorMayHaveAddressesOfFourBytes) {
+  EXPECT_EQ(hppc_operands("monitor 5 w:16#ABFFE", "--monitor-address-bytes", "4"), "05 00 00 00 01 00 fe bf 0a 00");
+  EXPECT_EQ(hppc_operands("monitor 5 w:16#ABFFE", "--monitor-address-bytes", "3"), "05 00 00 00 01 00 fe bf 0a");
 }
 
 TEST(WestinghouseMaster, ActionsOfTheLanAreSixByteMessages) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <sstream>
@@ -15,6 +16,7 @@
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/record/pcap_capture.hpp"
 #include "serial_sim/westinghouse/hppc_message.hpp"
+#include "tools/master/protocol.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/playback.hpp"
@@ -150,8 +152,10 @@ TEST(Recordings, OnlyWhatMbpollPrintsInBracketsIsAFrame) {
   EXPECT_EQ(log.frames[0].bytes, kRequest);
   EXPECT_EQ(log.frames[0].place, "line 3");
   EXPECT_EQ(log.frames[1].bytes, kAnswer);
-  EXPECT_EQ(refusal_of("mbpoll 1.0-0\n-- Polling slave 1...\n[1]: \t4369\n"),
-            "no frame in it; mbpoll prints frames only with its option -v");
+  EXPECT_EQ(
+      refusal_of("mbpoll 1.0-0\n-- Polling slave 1...\n[1]: \t4369\n"),
+      "no frame in it; mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it "
+      "prints without");
 }
 
 TEST(Recordings, TheCounterOfModbusPollIsNoData) {
@@ -1408,9 +1412,46 @@ TEST(Conversation, OperandsOfAnHppcAreAddressesAndValues) {
   const std::uint32_t byte[]{0xABFFC}, word[]{0xABFFE};
   EXPECT_EQ(said(HppcOpcode::Monitor, hppc_monitor(5, byte, word, {}), {0x02, 0x11, 0x34, 0x12}),
             (Texts{"> monitor network 5, byte at 16#ABFFC, word at 16#ABFFE",
-                   "< status 16#02, 16#ABFFC is 16#11, 16#ABFFE is 16#1234"}));
+                   "< status 16#02: network not found, 16#ABFFC is 16#11, 16#ABFFE is 16#1234"}));
   EXPECT_EQ(said(HppcOpcode::Parameters, {0}, {0, 0, 8}),
             (Texts{"> parameter table, 0 bytes", "< parameter table at 16#80000"}));
+}
+
+TEST(Conversation, OperandsOfAnHppcAreReadInTheLayoutThatIsChosen) {
+  using namespace westinghouse;
+  const auto said = [&](std::string_view option, std::string_view word, HppcOpcode opcode, const Bytes& operands) {
+    RecordedProtocol hppc = *find_recorded_protocol("hppc");
+    EXPECT_TRUE(hppc.choose(option, word));
+    std::string text = "0.000";
+    for (const std::uint8_t byte : hppc_message(kIop, kApl, opcode, operands, FcsTable::Document))
+      text += fmt::format(" {:02x}", byte);
+    return conversation(recording_of(text + "\n"), hppc, {}).front().text;
+  };
+  const HppcLayout layout{HppcLayout::ReadRequest::Number, HppcLayout::BitWrite::MaskFirst, 4};
+  EXPECT_EQ(said("--read-request", "number", HppcOpcode::Read, hppc_read(0, 2, layout)), "read 2 bytes from 16#00000 on");
+  EXPECT_EQ(said("--bit-write", "mask_first", HppcOpcode::BitWrite, hppc_bit_write(0xABFFE, 0xF000, 0xFF00, layout)),
+            "write bits of the word at 16#ABFFE: 16#F000, those of the mask 16#FF00");
+  const std::uint32_t words[]{0xABFFC, 0xABFFE};
+  EXPECT_EQ(said("--monitor-address-bytes", "4", HppcOpcode::Monitor, hppc_monitor(5, {}, words, {}, layout)),
+            "monitor network 5, word at 16#ABFFC, word at 16#ABFFE");
+}
+
+TEST(Conversation, EveryProtocolIsOneOfTheMasterWithTheSameOptions) {
+  std::vector<std::string_view> recorded, asked;
+  for (const RecordedProtocol& protocol : recorded_protocols()) recorded.push_back(protocol.name);
+  for (const Protocol* protocol : protocols()) asked.push_back(protocol->name);
+  std::ranges::sort(recorded);
+  std::ranges::sort(asked);
+  EXPECT_EQ(recorded, asked);
+  for (const RecordedProtocol& protocol : recorded_protocols())
+    for (const ReaderOption& option : protocol.options) {
+      const Protocol* const master = find_protocol(protocol.name);
+      ASSERT_TRUE(master) << protocol.name;
+      const auto same = std::ranges::find(master->options, option.name, &ProtocolOption::name);
+      ASSERT_NE(same, master->options.end()) << option.name;
+      EXPECT_EQ(same->standard, option.words.front());
+      for (const std::string_view word : option.words) EXPECT_EQ(same->check(std::string(word)), "");
+    }
 }
 
 TEST(Conversation, ALoaderSessionIsReadStepByStep) {
@@ -1432,7 +1473,7 @@ TEST(Conversation, OfALoaderWithPlainDleTheFrameEndsDataThatAreMoreThanWasCounte
   const std::string parameters = "00 00 00 00 00 ef 00 ef 80 ee 00 ec 00 ed 00 ea 00 28 04 cf ff";
   const auto data = [&](const std::string& end) {
     RecordedProtocol plain = *find_recorded_protocol("pc500-loader");
-    plain.reader = plain.plain_dle_reader;
+    EXPECT_TRUE(plain.choose("--dle", "plain"));
     const auto frames = conversation(recording_of("0.020 02\n0.030 10 06\n0.040 18\n0.050 02\n0.060 10 06\n0.070 16 10 03\n"
                                                   "0.080 10 06 10 04\n0.090 10 06 02\n0.100 10 06\n0.110 " +
                                                   parameters + end + "\n"),
@@ -1661,8 +1702,8 @@ TEST(Conversation, AScenarioLeavesOutWhatNoSlaveAnswersTheSame) {
 }
 
 TEST(Conversation, AScenarioLeavesOutARequestAndTheCharactersThatFollowItWithoutASilence) {
-  LineRecording recording = recording_of(
-      "0.000 01 03 00 00 00 01 84 0A FF\n0.025 01 03 02 12 34 B5 33\n0.100 02 03 00 00 00 01 84 39\n");
+  LineRecording recording =
+      recording_of("0.000 01 03 00 00 00 01 84 0A FF\n0.025 01 03 02 12 34 B5 33\n0.100 02 03 00 00 00 01 84 39\n");
   for (int i = 0; i < 9; ++i) recording.frames[0].times.push_back(i * ms);
   const Playback played = playback(read(recording), {}, {});
   EXPECT_EQ(played.notes.front(), "line 1: left out: more characters follow it without a silence: ff");

@@ -109,6 +109,8 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {slave + "peers: {m: {westinghouse: pc1000-lan, sync: b.Q0.0}}\n", 2, 45, "'b.Q0.0' is not an output of a PLC"},
       {slave + "peers: {m: {westinghouse: pc1000-lan, sync: Q0}}\n", 2, 45, "'Q0' is not an output of a PLC"},
       {slave + "peers: {m: {westinghouse: hppc, sync: a.Q0.0}}\n", 2, 39, "this PLC has no sync signal, or ignores it"},
+      {"plcs: {a: {program: ../edge_counter.stl, cpu: 212, clock: 2026-11-21 10:00:00}}\n", 1, 60,
+       "CPU 212 has no time-of-day clock"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 38400}}\n", 1, 52, "'38400' is not a rate of PPI"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 187500}}\n", 1, 52, "PPI at 187500 baud needs CPU 22x"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_station: 127}}\n", 1, 55, "'127' is not a PPI station from 1 to 126"},
@@ -258,6 +260,19 @@ TEST(SystemFile, PowerThatStaysAsItIsIsNamed) {
             std::vector<std::string>{"'a' has no power already: this does nothing"});
 }
 
+TEST(SystemFile, ALineThatStaysAsItIsIsNamed) {
+  const std::string system = "plcs: {a: {program: ../modbus_slave.stl, copies: 3}}\nlines: {l: {stations: [a]}}\nevents:\n";
+  using Warnings = std::vector<std::string>;
+  const std::string cut = "  - {at: 1s, cut: l, after: a1}\n", mend = "  - {at: 3s, mend: l}\n";
+  EXPECT_EQ(warnings_of(system + cut + "  - {at: 2s, cut: l, after: a2}\n" + mend), Warnings{});
+  EXPECT_EQ(warnings_of(system + cut + "  - {at: 2s, cut: l, after: a1}\n" + mend),
+            Warnings{"line 'l' is cut there already: this does nothing"});
+  EXPECT_EQ(warnings_of(system + mend), Warnings{"line 'l' is not cut: this does nothing"});
+  const std::string fault = "  - {at: 1s, fault: flip, line: l}\n", clear = "  - {at: 2s, clear_faults: l}\n";
+  EXPECT_EQ(warnings_of(system + fault + clear), Warnings{});
+  EXPECT_EQ(warnings_of(system + clear), Warnings{"line 'l' has no fault: this does nothing"});
+}
+
 TEST(SystemFile, OfALineWithoutAStationThatCouldBeReadNoneIsNamed) {
   const SystemFile wrong =
       read("plcs: {a: {program: ../modbus_slave.stl}}\nlines: {l: {stations: [b], faults: [{fault: flip, station: q}]}}\n");
@@ -359,6 +374,56 @@ TEST(SystemFile, EveryKeyStandsInTheTableOnce) {
         std::ranges::count_if(system_keys(), [&](const SystemKey& k) { return k.where == key.where && k.key == key.key; }),
         1)
         << key.key;
+}
+
+/// A system with all kinds of entries, in which `key` has a value that no key takes, on a line of its own.
+std::string with_nonsense_at(const SystemKey& key) {
+  using Where = SystemKey::Where;
+  using Entries = std::vector<std::pair<std::string_view, std::string>>;
+  const auto map = [&key](Where where, const Entries& usual) {
+    std::string text;
+    for (const auto& [name, value] : usual)
+      if (where != key.where || name != key.key) text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", name, value);
+    if (where == key.where) text += fmt::format("{}\n{}: [[nonsense]]\n", text.empty() ? "" : ", ", key.key);
+    return "{" + text + "}";
+  };
+  const auto in = [&key](Where where, std::initializer_list<std::string_view> keys) {
+    return key.where == where && std::ranges::find(keys, key.key) != keys.end();
+  };
+  Entries poll{{"read", "40001"}}, event{{"at", "1s"}}, bridge;
+  if (in(Where::Poll, {"write", "value"})) poll = {{"write", "40001"}};
+  if (in(Where::Event, {"at"})) event.emplace_back("power_off", "a");
+  if (in(Where::Event, {"after"})) event.emplace_back("cut", "bus");
+  if (in(Where::Event, {"plc"})) event.emplace_back("set", "{VW0: 1}");
+  if (in(Where::Event, {"line", "station"})) event.emplace_back("fault", "parity:character=each");
+  if (in(Where::Event, {"station"})) event.emplace_back("line", "bus");
+  if (key.where != Where::Event) event.emplace_back("power_off", "a");
+  if (key.where != Where::Bridge) bridge.emplace_back("pty", "link");
+  const std::string fault = map(Where::Fault, {{"fault", "parity:character=each"}, {"station", "a"}});
+  const std::string peers =
+      fmt::format("{{m: {}, o: {}}}", map(Where::Master, {{"polls", "[" + map(Where::Poll, poll) + "]"}}),
+                  map(Where::OtherPlc, {{"westinghouse", "modbus"}}));
+  return map(Where::File,
+             {{"plcs", "{a: " + map(Where::Plc, {{"program", "../modbus_slave.stl"}}) + "}"},
+              {"peers", peers},
+              {"bridges", "{b: " + map(Where::Bridge, bridge) + "}"},
+              {"lines", "{bus: " + map(Where::Line, {{"stations", "[a, m, o, b]"}, {"faults", "[" + fault + "]"}}) + "}"},
+              {"events", "[" + map(Where::Event, event) + "]"}});
+}
+
+TEST(SystemKeys, EachRowHasAReader) {
+  for (const SystemKey& key : system_keys()) {
+    const std::string text = with_nonsense_at(key);
+    const auto line =
+        static_cast<std::uint32_t>(std::count(text.begin(), text.begin() + text.find("[[nonsense]]"), '\n') + 1);
+    const SystemFile file = read_system(text, test::source_path("stl_programs/systems/test.yaml"));
+    EXPECT_TRUE(std::ranges::any_of(file.file.diagnostics,
+                                    [&](const stl::Diagnostic& d) {
+                                      return d.severity == stl::Severity::Error && d.position.line == line &&
+                                             d.message.find("has no place") == std::string::npos;
+                                    }))
+        << text << (file.file.diagnostics.empty() ? "accepted" : file.file.diagnostics.front().message);
+  }
 }
 
 }  // namespace

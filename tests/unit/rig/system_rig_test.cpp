@@ -221,6 +221,52 @@ TEST(SystemRig, APlcThatStartsLaterHasItsFirstScanThen) {
   }
 }
 
+/// A PLC that starts at 5 s, with the memory of one whose VW100 was 7 when its power went off.
+std::unique_ptr<Rig> late_starter(const std::string& memory, const std::string& events) {
+  const auto before = rig_of(fmt::format(
+      "plcs: {{a: {{program: ../edge_counter.stl, memory: {}, set: {{VW100: 7}}}}}}\nlines: {{bus: {{stations: [a]}}}}\n",
+      memory));
+  if (!before) return nullptr;
+  before->system().run_until(kSecond);
+  EXPECT_TRUE(before->finish().empty());
+  return rig_of(fmt::format(
+      "plcs: {{a: {{program: ../edge_counter.stl, memory: {}, starts: 5s, set: {{VW20: 5}}, clock: 2026-11-21 10:00:00}}}}\n"
+      "lines: {{bus: {{stations: [a]}}}}\n"
+      "events: [{}]\n",
+      memory, events));
+}
+
+std::string text_of(const std::string& path) {
+  std::string why;
+  return read_text(path, why).value_or(why);
+}
+
+TEST(SystemRig, TheMemoryOfAPlcThatNeverHadPowerIsLeftAsItIs) {
+  const std::string memory = test::scratch_folder() + "never_powered.json";
+  const auto rig = late_starter(memory, "");
+  ASSERT_TRUE(rig);
+  const std::string kept = text_of(memory);
+  rig->system().run_until(3 * kSecond);
+  EXPECT_TRUE(rig->finish().empty());
+  EXPECT_EQ(text_of(memory), kept);
+  rig->system().run_until(6 * kSecond);
+  EXPECT_TRUE(rig->finish().empty());
+  EXPECT_NE(text_of(memory), kept) << "it has had power since";
+}
+
+TEST(SystemRig, APlcBeginsWithItsSettingsWhenAnEventPowersItUpBeforeItStarts) {
+  const auto rig = late_starter(test::scratch_folder() + "powered_early.json", "{at: 2s, power_on: a}");
+  ASSERT_TRUE(rig);
+  for (const Time end : {3 * kSecond, 6 * kSecond}) {
+    rig->system().run_until(end);
+    ASSERT_TRUE(rig->plc(0).powered());
+    EXPECT_EQ(word(*rig, 0, 20), 5U);
+    EXPECT_EQ(word(*rig, 0, 100), 7U) << "of its memory";
+    EXPECT_EQ(rig->plc(0).cpu().clock().year, 26);
+    EXPECT_EQ(rig->plc(0).cpu().clock().second, (end - 2 * kSecond) / kSecond);
+  }
+}
+
 TEST(SystemRig, APlcHearsNothingBeforeItStarts) {
   const auto rig = rig_of(
       "plcs: {slave: {program: ../modbus_slave.stl, station: 1, starts: 2500ms}}\n"

@@ -164,6 +164,19 @@ TEST(Hppc, H8WhatIsNotForItOrNoMessageIsNotAnswered) {
   EXPECT_EQ(bench.fault_of("M[90000]=07"), "");
 }
 
+TEST(Hppc, ItAnswersWhoeverAsked) {
+  Bench bench("hppc");
+  const Bytes message = hppc_message(kIop, 0x77, HppcOpcode::Read, hppc_read(0, 0), FcsTable::Document);
+  EXPECT_EQ(bench.ask(serial::to_hex(message)).substr(6, 5), "77 20");
+}
+
+TEST(Hppc, AnAnswerBeginsOneCharacterAfterTheRequest) {
+  Bench bench("hppc");
+  bench.master().requester().start({.frame = serial::to_frame(request(HppcOpcode::Read, hppc_read(0, 0)))},
+                                   bench.system().time());
+  EXPECT_EQ(*bench.system().finish_exchange(bench.master()).latency(), bench.plc().format().character_time());
+}
+
 TEST(Hppc, H8AMessageEndsWithAGapOf500MillisecondsOrAfter10Seconds) {
   Bench bench("hppc");
   const Bytes resync = request(HppcOpcode::Read, hppc_read(0, 0));

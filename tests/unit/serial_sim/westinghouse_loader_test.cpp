@@ -49,6 +49,12 @@ TEST(Loader, TheLineIs9600Baud8E1) {
   EXPECT_EQ(Bench("pc500-loader").plc().format(), (SerialFormat{9600, 8, Parity::Even, 1}));
 }
 
+TEST(Loader, AnAnswerBegins400MicrosecondsAfterTheRequest) {
+  Bench bench("pc500-loader");
+  bench.master().requester().start({.frame = serial::to_frame(Bytes{kStx})}, bench.system().time());
+  EXPECT_EQ(*bench.system().finish_exchange(bench.master()).latency(), 400 * kMicrosecond);
+}
+
 TEST(Loader, AReadOrAWriteIsOneSession) {
   Bench bench("pc500-loader");
   EXPECT_EQ(session(bench, loader_read(0xEF80, 4)).bytes, head_and({0x12, 0x34, 0x56, 0x78}));

@@ -2,12 +2,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/line/frame_splitter.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "serial_sim/westinghouse/hppc_plc.hpp"
+#include "serial_sim/westinghouse/lan_plc.hpp"
+#include "serial_sim/westinghouse/loader_plc.hpp"
 #include "serial_sim/westinghouse/modbus_plc.hpp"
+#include "serial_sim/westinghouse/westnet_plc.hpp"
 #include "tests/unit/serial_sim/westinghouse_bench.hpp"
 
 namespace s7200::westinghouse {
@@ -217,6 +225,63 @@ TEST(WestinghouseModbus, WhatIsMalformedIsNotAnswered) {
   EXPECT_EQ(bench.ask("01"), "");
   EXPECT_EQ(bench.ask("01 07 41"), "");
   EXPECT_EQ(asked(bench, "07"), "07 00");
+}
+
+TEST(WestinghouseModbus, WhatSaysAnotherLengthThanItHasIsAnsweredWithException3) {
+  Bench bench("modbus", "HR1=1234");
+  for (const char* const rest :
+       {"0f 00 00 00 01 01 01 00", "0f 00 00 00 01 01", "10 00 00 00 01 02 00 01 00", "10 00 00 00 01 02 00",
+        "14 07 06 00 00 00 00 00 01 00", "15 08 06 00 00 00 00 00 01 01 00"})
+    EXPECT_EQ(asked(bench, rest).substr(3), "03") << rest;
+  EXPECT_EQ(bench.fault_of("HR1=1234"), "");
+}
+
+TEST(WestinghouseModbus, AfterPowerHasBeenOffItHasItsMemory) {
+  Bench bench("modbus", "slave=11 HR1=1234");
+  bench.lose_power();
+  EXPECT_EQ(asked(bench, "03 00 00 00 01", 17), "03 02 12 34");
+}
+
+/// The marks behind the fields of a header's settings, `///< [M7]`, by the fields' names.
+std::map<std::string, std::set<std::string>> marks_of_fields(const std::string& header) {
+  std::map<std::string, std::set<std::string>> marks;
+  std::istringstream lines(text_of("serial_sim/westinghouse/" + header));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = line.find(';'), comment = line.find("///<");
+    if (end == std::string::npos || (comment != std::string::npos && comment < end)) continue;
+    std::set<std::string> found;
+    static const std::regex kMark(R"(\[([A-Z]\d+)\])"), kName(R"((\w+)(?: = [^,;{]+|\{[^;]*\})?(?=[,;]))");
+    for (std::sregex_iterator at(line.begin(), line.end(), kMark), none; at != none; ++at) found.insert((*at)[1]);
+    const std::string declared = line.substr(0, end + 1);
+    for (std::sregex_iterator at(declared.begin(), declared.end(), kName), none; at != none; ++at)
+      marks[(*at)[1]].insert(found.begin(), found.end());
+  }
+  return marks;
+}
+
+/// How many rows have a field of their name; it has their mark.
+template <class Plc>
+int rows_with_their_marks(std::initializer_list<const char*> headers) {
+  std::map<std::string, std::set<std::string>> marks;
+  for (const char* const header : headers) marks.merge(marks_of_fields(header));
+  int count = 0;
+  for (const Setting<Plc>& row : Plc::settings()) {
+    const auto field = marks.find(std::string(row.form.name));
+    if (field == marks.end()) continue;
+    ++count;
+    std::set<std::string> expected;
+    if (!row.form.choice.empty()) expected.emplace(row.form.choice);
+    EXPECT_EQ(field->second, expected) << row.form.name;
+  }
+  return count;
+}
+
+TEST(WestinghouseSetting, AFieldHasTheMarkOfItsRow) {
+  EXPECT_EQ(rows_with_their_marks<ModbusPlc>({"modbus_plc.hpp"}), 28);
+  EXPECT_EQ(rows_with_their_marks<LanPlc>({"lan_plc.hpp", "pc1000.hpp"}), 16);
+  EXPECT_EQ(rows_with_their_marks<WestnetPlc>({"westnet_plc.hpp", "pc1000.hpp"}), 25);
+  EXPECT_EQ(rows_with_their_marks<LoaderPlc>({"loader_plc.hpp"}), 8);
+  EXPECT_EQ(rows_with_their_marks<HppcPlc>({"hppc_plc.hpp", "hppc_message.hpp"}), 13);
 }
 
 TEST(WestinghouseModbus, AnotherAddressIsNotAnswered) {

@@ -216,7 +216,8 @@ SessionSettings MasterOptions::session(bool broadcasts_are_silent) const {
           pause,
           silence == kNever ? std::nullopt : std::optional(silence),
           broadcasts_are_silent,
-          patience};
+          patience,
+          use(false)};
 }
 
 MasterOutputSettings MasterOptions::output() const {

@@ -17,8 +17,33 @@
 
 namespace s7200::tools {
 
-using westinghouse::kDataCheckWords;
-using westinghouse::kDleWords;
+namespace {
+
+/// The names of the protocols that have the option.
+std::string protocols_with(std::string_view option) {
+  std::vector<std::string_view> names;
+  for (const RecordedProtocol& protocol : recorded_protocols())
+    if (std::ranges::find(protocol.options, option, &ReaderOption::name) != protocol.options.end())
+      names.push_back(protocol.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Those of all protocols. What several have means the same to each of them.
+void add_reader_options(CLI::App& verb, std::map<std::string, std::string>& chosen) {
+  for (const RecordedProtocol& protocol : recorded_protocols())
+    for (const ReaderOption& option : protocol.options) {
+      const std::string name(option.name);
+      if (verb.get_option_no_throw(name) != nullptr) continue;
+      verb.add_option_function<std::string>(
+              name, [&chosen, name](const std::string& word) { chosen[name] = word; },
+              fmt::format("of {}: {}", protocols_with(name), option.meaning))
+          ->check(CLI::IsMember(std::vector<std::string>(option.words.begin(), option.words.end())))
+          ->default_str(std::string(option.words.front()))
+          ->type_name(std::string(option.value));
+    }
+}
+
+}  // namespace
 
 void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
@@ -31,14 +56,7 @@ void RecordingOptions::add_to(CLI::App& verb) {
       ->check(CLI::IsMember(names))
       ->capture_default_str()
       ->type_name("NAME");
-  verb.add_option("--dle", dle, "of pc500-loader: a byte 10 in what the PLC sends")
-      ->check(CLI::IsMember(std::vector<std::string>(kDleWords.begin(), kDleWords.end())))
-      ->capture_default_str()
-      ->type_name("FORM");
-  verb.add_option("--data-check", data_check, "of pc1000-lan and westnet: what the check of a block of data is")
-      ->check(CLI::IsMember(std::vector<std::string>(kDataCheckWords.begin(), kDataCheckWords.end())))
-      ->capture_default_str()
-      ->type_name("FORM");
+  add_reader_options(verb, chosen);
   add_line_options(verb, line, "as the protocol has it");
   for_files_.push_back(verb.add_option("--stamps", stamps, "which instant of a frame its time is, in a recording")
                            ->check(CLI::IsMember({"begin", "end"}))
@@ -86,17 +104,10 @@ bool RecordingOptions::was_cut_short() const { return duration != kNever && inte
 
 RecordedProtocol RecordingOptions::spoken() const {
   RecordedProtocol spoken = *find_recorded_protocol(protocol);
-  if (dle != kDleWords[0]) {
-    if (!spoken.plain_dle_reader)
-      throw std::invalid_argument(fmt::format("--dle plain: {} never doubles a byte 10; pc500-loader does", protocol));
-    spoken.reader = spoken.plain_dle_reader;
-  }
-  if (data_check != kDataCheckWords[0]) {
-    if (!spoken.xor_check_reader)
+  for (const auto& [option, word] : chosen)
+    if (!spoken.choose(option, word))
       throw std::invalid_argument(
-          fmt::format("--data-check xor: {} has no blocks of data; pc1000-lan and westnet have", protocol));
-    spoken.reader = spoken.xor_check_reader;
-  }
+          fmt::format("{} {}: {} has no such option; it is for {}", option, word, protocol, protocols_with(option)));
   return spoken;
 }
 
@@ -105,7 +116,10 @@ Stamps RecordingOptions::complete(Stamps known) const {
   return known;
 }
 
-SerialFormat RecordingOptions::format() const { return line.over(find_protocol(protocol)->format); }
+SerialFormat RecordingOptions::format() const {
+  const Protocol* const master = find_protocol(protocol);
+  return line.over(master != nullptr ? master->format : SerialFormat{});
+}
 
 std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const SlaveTarget& line) {
   catch_interruption();

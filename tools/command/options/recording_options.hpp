@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,8 +10,6 @@
 
 #include "interpreter/base/serial_format.hpp"
 #include "serial_sim/line/line_settings.hpp"
-#include "serial_sim/westinghouse/block_message.hpp"
-#include "serial_sim/westinghouse/loader_session.hpp"
 #include "tools/command/line_listener.hpp"
 #include "tools/recordings/conversation.hpp"
 #include "tools/slave/slave_target.hpp"
@@ -27,8 +26,7 @@ struct RecordingOptions {
   std::string protocol = "modbus";
   ReadingChoices reading{};
   serial::LineSettings line{};
-  std::string dle{westinghouse::kDleWords[0]};
-  std::string data_check{westinghouse::kDataCheckWords[0]};
+  std::map<std::string, std::string> chosen{};  ///< words of options that only some protocols have, by their names
   std::string stamps = "begin";
   Time timeout = kMasterTimeout;  ///< of the master
   Time duration = kNever;         ///< of what is heard live

@@ -1,8 +1,10 @@
 """pytest plug-in: PLCs on ptys, simulated by s7200, for tests of what talks to them."""
+import contextlib
 import pathlib
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 
 import pytest
@@ -16,7 +18,8 @@ class Plc:
     def __init__(self, command, port):
         self.port = str(port)
         self._printed = None
-        self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self._output = tempfile.TemporaryFile("w+", encoding="utf-8")  # a pipe that nobody reads would stall the PLC when it is full
+        self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=self._output, stderr=subprocess.STDOUT)
         end = time.monotonic() + PATIENCE
         while not port.is_symlink():
             if self._process.poll() is not None or time.monotonic() > end:
@@ -28,10 +31,13 @@ class Plc:
         if self._printed is None:
             self._process.send_signal(signal.SIGINT)
             try:
-                self._printed = self._process.communicate(timeout=PATIENCE)[0]
+                self._process.wait(timeout=PATIENCE)
             finally:
                 self._process.kill()
                 self._process.wait()
+            with self._output as output:
+                output.seek(0)
+                self._printed = output.read()
         return self._printed
 
 
@@ -43,14 +49,15 @@ def s7200_plc(tmp_path):
     if shutil.which("s7200") is None:
         pytest.fail("s7200 is not on PATH", pytrace=False)
     plcs = []
+    ends = contextlib.ExitStack()  # of all of them, even if one cannot be stopped
 
     def make(program, *options, speed=20, ready=1.0):
         port = pathlib.Path(tmp_path) / f"plc{len(plcs)}"
         words = ["s7200", "run", program, *options, "--speed", speed, "--pty", port]
         plcs.append(Plc([str(word) for word in words], port))
+        ends.callback(plcs[-1].stop)
         time.sleep(0.1 + ready / speed)
         return plcs[-1]
 
-    yield make
-    for plc in plcs:
-        plc.stop()
+    with ends:
+        yield make

@@ -1,0 +1,34 @@
+// Words for the values of an enumeration, as settings and options take them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace s7200::westinghouse {
+
+template <class Value>
+struct Named {
+  Value value;
+  std::string_view word;
+};
+
+/// In the order of the enumeration.
+template <std::size_t N>
+struct Words : std::array<std::string_view, N> {
+  operator std::vector<std::string_view>() const { return {this->begin(), this->end()}; }
+};
+
+/// The words alone. A value that does not stand at its own place does not compile.
+template <class Value, std::size_t N>
+consteval Words<N> words_of(const Named<Value> (&rows)[N]) {
+  Words<N> words;
+  for (std::size_t place = 0; place < N; ++place) {
+    if (static_cast<std::size_t>(rows[place].value) != place) throw "a value stands at another's place";
+    words[place] = rows[place].word;
+  }
+  return words;
+}
+
+}  // namespace s7200::westinghouse
