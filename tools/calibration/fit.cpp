@@ -104,7 +104,7 @@ void read_off(const Equation& equation, const std::vector<LoopTime>& times, Fit&
   }
   if (left != 1) return;
   const auto form = static_cast<std::size_t>(std::ranges::find_if(equation.counts, is_there) - equation.counts.begin());
-  fit.forms[form] = {fit.forms[form].form, true, time.ns, time.within};
+  fit.forms[form] = {.form = fit.forms[form].form, .found = true, .ns = time.ns, .within = time.within};
   for (Equation& loop : loops)
     if (loop.counts[form] != 0) subtract(loop, equation, loop.counts[form]);
 }
@@ -157,7 +157,7 @@ void add_sums(const std::vector<Equation>& loops, const std::vector<LoopTime>& t
 /// What each form can be: what is known of it, as far as the sums leave it that. Where they cannot be what is known, all
 /// between nothing and the whole sum.
 std::vector<TimeRange> ranges_of_parts(const Fit& fit) {
-  const double ratio = ratio_to_known(fit);
+  const double ratio = ratio_to_known(fit).value_or(1);
   std::vector<TimeRange> ranges;
   for (const Fitted& each : fit.forms) ranges.push_back(known_range(range_of_base(*each.form.row), ratio));
   const auto narrow = [&](const Sum& sum) {
@@ -206,6 +206,15 @@ void divide_sums(Fit& fit) {
   }
 }
 
+bool is_in_a_loop_from(const Loops& loops, std::size_t first, std::size_t form) {
+  for (std::size_t loop = first; loop < loops.loops.size(); ++loop) {
+    const auto interrupts = loops.interrupts.find(loop);
+    if (is_there(loops.loops[loop][form]) || (interrupts != loops.interrupts.end() && is_there(interrupts->second[form])))
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Fit fit(const Loops& loops, const std::vector<LoopTime>& measured) {
@@ -215,7 +224,8 @@ Fit fit(const Loops& loops, const std::vector<LoopTime>& measured) {
   std::vector<Equation> equations = loop_equations;
   eliminate(equations, loops.forms.size(), times);
   Fit result;
-  for (const Form& form : loops.forms) result.forms.push_back({form});
+  for (std::size_t i = 0; i < loops.forms.size(); ++i)
+    result.forms.push_back({.form = loops.forms[i], .pending = is_in_a_loop_from(loops, times.size(), i)});
   for (const Equation& equation : equations) read_off(equation, times, result, loop_equations);
   add_sums(loop_equations, times, result);
   divide_sums(result);
@@ -270,37 +280,41 @@ std::vector<TimeRow> measured_rows(const Fit& fit, const std::string& source) {
 }
 
 /// By what the figures that were not measured are multiplied. The EEPROM is a part of its own.
-void estimate(TimeRow& row, double ratio) {
-  if (row.mnemonics.front() == name_of(SystemTime::EepromSave)) {
+void estimate(TimeRow& row, std::optional<double> ratio) {
+  if (!ratio || row.mnemonics.front() == name_of(SystemTime::EepromSave)) {
     row.source = "not measured; " + row.source;
     return;
   }
   const auto scale = [&](Time& figure, Time& within, const TimeRange& range) {
-    state(figure, within, static_cast<double>(figure) * ratio, known_range(range, ratio), figure > 0 ? kShortest : 0);
+    state(figure, within, static_cast<double>(figure) * *ratio, known_range(range, *ratio), figure > 0 ? kShortest : 0);
   };
   const TimeRange base = range_of_base(row), unit = range_of_unit(row);
   row.uncertainty = 0;
   scale(row.base, row.base_within, base);
   scale(row.per_unit, row.per_unit_within, unit);
-  row.source = fmt::format("not measured: {:.2f} × {}, {}", ratio, row.marker, row.source);
+  row.source = fmt::format("not measured: {:.2f} × {}, {}", *ratio, row.marker, row.source);
   row.marker = "calibrated";
 }
 
 }  // namespace
 
-double ratio_to_known(const Fit& fit) {
+std::optional<double> ratio_to_known(const Fit& fit) {
+  constexpr double kEnough = 0.5;
   std::vector<double> ratios;
-  for (const Fitted& each : fit.forms)
-    if (each.found && !each.form.per_unit && each.ns >= 0.5 && each.form.row->base > 0)
-      ratios.push_back(each.ns / static_cast<double>(each.form.row->base));
-  if (ratios.empty()) return 1;
+  double all = 0;
+  for (const Fitted& each : fit.forms) {
+    if (each.form.per_unit || each.form.row->base == 0) continue;
+    ++all;
+    if (each.found && each.ns >= 0.5) ratios.push_back(each.ns / static_cast<double>(each.form.row->base));
+  }
+  if (ratios.empty() || static_cast<double>(ratios.size()) < kEnough * all) return {};
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::ranges::nth_element(ratios, middle);
   return *middle;
 }
 
 TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& own, const std::string& source) {
-  const double ratio = ratio_to_known(fit);
+  const auto ratio = ratio_to_known(fit);
   const auto is_known = [&](const TimeRow& row) {
     return row.mnemonics.front() != name_of(SystemTime::OperandArea) ||
            own.find(row.mnemonics.front(), area_named(row.form));
@@ -335,17 +349,23 @@ struct Unfit {
 constexpr std::array<Unfit, 6> kUnfit{{
     {"XMT RCV NETR NETW", "it uses the line"},
     {"HDEF HSC PLS", "it sets up hardware that may be wired"},
-    {"TODW TODWX", "it sets the clock"},
+    {"TODW", "it sets the clock"},
     {"STOP", "it ends the measurement"},
     {"END", "it takes the place of MEND, and what else a scan takes is a thousand times as long"},
     {"SBR INT", "it is never without CALL, or without an interrupt"},
 }};
 
-std::string_view reason_for(const Instruction& instruction) {
+/// Why `name` has no figure though it is in loops.
+std::string_view reason_in_loops(const Fit& fit, std::string_view name) {
+  const auto is_pending = [&](const Fitted& each) { return each.pending && each.form.mnemonic == name; };
+  return std::ranges::any_of(fit.forms, is_pending) ? "interrupted before its loop ran" : "the loops do not tell it apart";
+}
+
+std::string_view reason_for(const Fit& fit, const Instruction& instruction) {
   for (const Unfit& unfit : kUnfit)
     for (const std::string& mnemonic : stl::split_words(unfit.mnemonics))
       if (mnemonic == instruction.mnemonic) return unfit.why;
-  return instruction.cpus & kCpu214 ? "the loops do not tell it apart"
+  return instruction.cpus & kCpu214 ? reason_in_loops(fit, instruction.mnemonic)
                                     : "the program runs on a CPU 214, which does not have it";
 }
 
@@ -361,14 +381,14 @@ bool has_figure(const Fit& fit, std::string_view mnemonic) {
 std::vector<NotMeasured> not_measured(const Fit& fit, const CpuModel& model) {
   std::vector<NotMeasured> missing;
   for (const SystemTime what : {SystemTime::InterruptEntry, SystemTime::ScanOverhead})
-    if (!has_figure(fit, name_of(what))) missing.push_back({std::string(name_of(what)), "the loops do not tell it apart"});
+    if (!has_figure(fit, name_of(what))) missing.push_back({std::string(name_of(what)), reason_in_loops(fit, name_of(what))});
   missing.push_back({std::string(name_of(SystemTime::EepromSave)), "it wears the EEPROM"});
   for (const Area area : {Area::AI, Area::AQ})
     if (model.size_of(area) > 0 && !is_measured(fit, area))
       missing.push_back({fmt::format("({} operands)", info(area).name), "it needs a module"});
   for (const Instruction& instruction : all_instructions())
     if (instruction.modelled() && (instruction.cpus & model.self) && !has_figure(fit, instruction.mnemonic))
-      missing.push_back({std::string(instruction.mnemonic), reason_for(instruction)});
+      missing.push_back({std::string(instruction.mnemonic), reason_for(fit, instruction)});
   return missing;
 }
 

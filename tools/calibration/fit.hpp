@@ -18,6 +18,7 @@ struct Fitted {
   bool found = false;
   double ns = 0, within = 0;
   std::optional<std::size_t> sum = {};  ///< it is not found, but a part of this one
+  bool pending = false;                 ///< a loop that has it did not run
 };
 
 /// Forms that no loop has one without the other.
@@ -41,10 +42,11 @@ struct Fit {
 Fit fit(const Loops& loops, const std::vector<LoopTime>& times);
 
 /// How much slower the CPU is than the table that is corrected says: the middle one of all figures that were measured.
-double ratio_to_known(const Fit& fit);
+/// Nothing if they are fewer than half of those that the loops have: the first loops alone do not tell.
+std::optional<double> ratio_to_known(const Fit& fit);
 
 /// The table of the CPU: what was found, where and when as `source` says, and for all else the figures of `known` times that
-/// ratio, within bounds that hold what the CPU's tables say, with that ratio and without. `known` is told_apart(), `own`
+/// ratio if there is one, within bounds that hold what the CPU's tables say, with that ratio and without. `known` is told_apart(), `own`
 /// what the CPU runs with.
 TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& own, const std::string& source);
 
