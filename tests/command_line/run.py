@@ -1281,6 +1281,30 @@ class Json(Case):
         for wrong in ("missing.json", self.program("[1]", "list.json"), self.program("{", "half.json")):
             self.assertIn("cannot read", self.ends(UNUSABLE, "bench", "--each", "1ms", "--against", wrong).stderr)
 
+    def test_bench_that_is_interrupted_prints_the_figures_measured_until_then(self):
+        names = [figure["name"] for figure in self.json(FINE, "bench", "--each", "1ms", "--json")["figures"]]
+        for by in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            process = subprocess.Popen([S7200, "bench", "--each", "1s", "--json"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE, text=True)
+            self.addCleanup(process.kill)
+            time.sleep(3)
+            process.send_signal(by)
+            out, error = process.communicate(timeout=120)
+            self.assertEqual((process.returncode, error), (FAILED, "s7200: note: interrupted\n"))
+            measured = [figure["name"] for figure in json.loads(out)["figures"]]
+            self.assertLess(len(measured), len(names))
+            self.assertEqual(measured, names[:len(measured)])
+
+    def test_a_signal_before_a_verb_has_begun_what_it_completes_ends_it_with_exit_code_1(self):
+        for by in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            for verb in ("check", "import", "run", "calibrate"):
+                process = subprocess.Popen([S7200, verb, "/dev/stdin"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                self.addCleanup(process.kill)
+                process.stdin.write(b"// more than a pipe holds, so it reads\n" * 10_000)
+                process.stdin.flush()
+                process.send_signal(by)
+                self.assertEqual((process.communicate(timeout=120)[1], process.returncode), (b"s7200: note: interrupted\n", FAILED), (verb, by))
+
     def test_bench_runs_every_scan_of_all_its_programs_if_asked(self):
         fast, slow = (self.json(FINE, "bench", "--each", "20ms", "--json", *more)["figures"] for more in ([], ["--no-skip"]))
         rates = lambda figures: {figure["name"]: figure["per_second"] for figure in figures}
@@ -2875,7 +2899,7 @@ class Times(Case):
         self.assertIn("not checked  the first scan takes about 690 ms", done.stdout)
         fitted = lambda *of: [each["fitted"] for each in self.json(FINE, "times", "--check", *of, "--json")["statements"]]
         for table in ("cpu214", "cpu214_from_22x"):
-            self.assertEqual(fitted(table), [True, True, False, False, False], table)
+            self.assertEqual(fitted(table), [True, True, False, False, True], table)
         self.assertRegex(done.stdout, r"the first scan takes .*\(Application Tip 41, SBR 62 and text; the table was fitted to it\)")
         self.assertEqual(fitted("cpu22x_release1", "--cpu", "224r1"), [True] * 4, "its figures are the page's")
         wrong = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\n(EEPROM save),,9000,,,measured\n", "mine.csv")
@@ -2886,12 +2910,18 @@ class Times(Case):
             self.assertIn(line, copy)
             return fitted(self.program(copy.replace(line, other), "mine.csv"), "--cpu", cpu)
 
-        self.assertEqual(changed("214", "\nNEXT,", "\nNEXT,"), [True, True, False, False, False], "a copy is as good as the table")
-        self.assertEqual(changed("214", "\nNEXT,each repetition,150,", "\nNEXT,each repetition,149,"), [False] * 5)
+        self.assertEqual(changed("214", "\nNEXT,", "\nNEXT,"), [True, True, False, False, True], "a copy is as good as the table")
+        self.assertEqual(changed("214", "\nNEXT,each repetition,150,", "\nNEXT,each repetition,149,"), [False] * 4 + [True])
         self.assertEqual(changed("224r1", "\nRCV,,80,,,manual,", "\nRCV,,80,,,measured,"), [False, True, True, True])
         self.assertIn("is not Application Tip 41", self.ends(UNUSABLE, "times", "--check", "cpu214", "--tip41", SLAVE).stderr)
         for cpu in ("224", "224r1"):
             self.assertIn(" 0 fail", self.ends(FINE, "times", "--cpu", cpu, "--check", {"224": "cpu22x", "224r1": "cpu22x_release1"}[cpu]).stdout)
+
+    def test_the_slave_and_the_page_about_it_say_the_same_of_38400_baud(self):
+        said = [re.search(r"(\d+) of (?:the )?202 tables", line) for page in (pathlib.Path(SLAVE), pathlib.Path(SLAVE).parent / "README.md")
+                for line in page.read_text(encoding="utf-8").splitlines() if re.search("38400|lose characters", line)]
+        self.assertEqual(len({match.group(1) for match in said if match}), 1)
+        self.assertEqual(sum(match is not None for match in said), 2)
 
     def test_a_random_table_says_that_it_is_one(self):
         said = "random table 12 of seed 1 around cpu214_from_22x: each figure drawn; form, marker and source are those of cpu214_from_22x"

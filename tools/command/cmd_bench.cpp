@@ -14,6 +14,7 @@
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/saved_programs.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/measuring/measure.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -46,6 +47,29 @@ std::optional<SourceText> read_bench_program(const std::string& path) {
   return path.empty() ? read_source(kModbusSlave, "modbus_slave.stl", why) : read_program_text(path);
 }
 
+void print_figures(const BenchOptions& options, const nlohmann::ordered_json& how, const std::vector<Figure>& figures,
+                   const EarlierBench& before) {
+  if (options.json) {
+    auto results = results_of("bench");
+    results.update(how);
+    results["figures"] = nlohmann::ordered_json::array();
+    for (const Figure& f : figures) {
+      const auto ratio = ratio_of(f, before);
+      results["figures"].push_back({{"name", f.name},
+                                    {"unit", f.unit},
+                                    {"per_second", if_any(f.per_second)},
+                                    {"takes", if_any(f.takes)},
+                                    {"ratio", ratio ? nlohmann::ordered_json(*ratio) : nullptr}});
+    }
+    fmt::print("{}", lines_of(results));
+    return;
+  }
+  const std::string build = how["build"];
+  fmt::print("{}: best of {} rounds on one core{}\n", stl::printable(how["program"].get<std::string>()), kRounds,
+             build == "Release" ? "" : fmt::format(" ({} build, not Release)", build));
+  for (const Figure& f : figures) print_line(f, before);
+}
+
 int run_bench(const BenchOptions& options) {
   if (!options.save.empty()) return save_programs(options.save);
   int exit_code = kUnusable;
@@ -56,33 +80,19 @@ int run_bench(const BenchOptions& options) {
   if (!before) return kUnusable;
   const auto how = measured_with(options.program, *program, options.each);
   if (!options.against.empty()) warn_of_differences(how, *before, options.against);
-  std::vector<Figure> figures = measure(program, options.each);
+  catch_interruption();
+  const Effort effort{options.each, interruption()};
+  std::vector<Figure> figures = measure(program, effort);
   const auto add = [&](const std::vector<Figure>& others) { std::ranges::copy(others, std::back_inserter(figures)); };
   if (options.program.path.empty()) {
-    add(measure_tip_like(options.each, options.program.every_scan));
-    add(measure_mixed(options.each));
-    add(measure_files(options.each));
+    add(measure_tip_like(effort, options.program.every_scan));
+    add(measure_mixed(effort));
+    add(measure_files(effort));
   }
-  add(measure_start("/proc/self/exe", options.each));
-  if (options.json) {
-    auto results = results_of("bench");
-    results.update(how);
-    for (const Figure& f : figures) {
-      const auto ratio = ratio_of(f, *before);
-      results["figures"].push_back({{"name", f.name},
-                                    {"unit", f.unit},
-                                    {"per_second", if_any(f.per_second)},
-                                    {"takes", if_any(f.takes)},
-                                    {"ratio", ratio ? nlohmann::ordered_json(*ratio) : nullptr}});
-    }
-    fmt::print("{}", lines_of(results));
-    return kFine;
-  }
-  const std::string build = how["build"];
-  fmt::print("{}: best of {} rounds on one core{}\n", stl::printable(program->source.name), kRounds,
-             build == "Release" ? "" : fmt::format(" ({} build, not Release)", build));
-  for (const Figure& f : figures) print_line(f, *before);
-  return kFine;
+  add(measure_start("/proc/self/exe", effort));
+  print_figures(options, how, figures, *before);
+  print_interruption();
+  return interrupted() ? kCheckFailed : kFine;
 }
 
 }  // namespace
@@ -105,7 +115,8 @@ void add_bench(CLI::App& app, int& exit_code) {
   verb->footer(
       "'idle scans', 'instruction trace' and the mixed programs always run every scan. 'tip-like' is a slave that makes a "
       "table in its\nfirst scan and receives each character in an interrupt, as that of Application Tip 41 does.\n"
-      "Example: s7200 bench");
+      "Example: s7200 bench\n"
+      "Exit code 1 if it was interrupted, with the figures measured until then.");
   verb->callback([options, &exit_code] { exit_code = run_bench(*options); });
 }
 

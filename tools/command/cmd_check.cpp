@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -57,6 +58,7 @@ int run_check(const CheckOptions& options) {
       print_note_if_any(left_out_note(text));
       print_note_if_any(dropped_networks_note(result, others));
       fmt::print("{}", check_summary(text, result, *model, others));
+      std::fflush(stdout);  // it stays, if the next file is interrupted
     }
   }
   if (options.json) {

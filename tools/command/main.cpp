@@ -1,5 +1,6 @@
 // s7200: one binary, a verb for each thing it does.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "tools/command/standard_streams.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/usage.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -48,6 +50,13 @@ void add_verbs(CLI::App& app, std::string_view asked, int& exit_code) {
   const bool clear = asked == "-V" || asked == "--version" || std::ranges::find(kVerbs, asked, &Verb::name) != kVerbs.end();
   for (const Verb& verb : kVerbs)
     if (!clear || verb.name == asked) verb.add(app, exit_code);
+}
+
+/// A signal before the verb has begun what is to be completed.
+[[noreturn]] void end_interrupted(int) {
+  constexpr std::string_view kNote = "s7200: note: interrupted\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kNote.data(), kNote.size());
+  _exit(kCheckFailed);
 }
 
 int run_command(int argc, char** argv) {
@@ -92,5 +101,6 @@ int run_command(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace s7200::tools;
   open_standard_streams();
+  end_at_interruption(end_interrupted);
   return close_standard_streams(run_command(argc, argv));
 }

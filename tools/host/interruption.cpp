@@ -44,6 +44,11 @@ void remind(int) {
 
 }  // namespace
 
+void end_at_interruption(void (*end)(int number)) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (!is_ignored(number)) handle(number, end);
+}
+
 void catch_interruption() {
   handle(SIGALRM, remind);
   handle(SIGINT, note);

@@ -3,7 +3,7 @@
 // SIGINT, SIGTERM and SIGHUP are only noted, and every wait looks at the note: the simulation after each 100 ms of simulated
 // time, waits for the host when their system call ends with EINTR. A signal that comes just before such a call would be
 // missed; so SIGALRM follows it every second, and no call waits on. A second Ctrl-C kills at once. A SIGHUP that is ignored
-// stays ignored, as nohup wants it. Until catch_interruption() the three end the process at once: nothing has been begun
+// stays ignored, as nohup wants it. Until catch_interruption() the three end the command at once: nothing has been begun
 // then.
 #pragma once
 
@@ -11,6 +11,10 @@
 #include <string_view>
 
 namespace s7200::tools {
+
+/// From now on the signals call `end`, which may do what a signal handler may and does not return, until
+/// catch_interruption(). Those that are ignored stay ignored.
+void end_at_interruption(void (*end)(int number));
 
 /// From now on the signals are noted.
 void catch_interruption();

@@ -55,11 +55,12 @@ Lap timed(Work work) {
 
 /// Of the best round: what the machine can do, not what else it was doing.
 template <class Round>
-double best_rate(Time each, Round round) {
+double best_rate(const Effort& effort, Round round) {
+  const std::chrono::nanoseconds each(effort.each / kRounds);
   double best = 0;
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < kRounds && !effort.stop; ++i) {
     Lap sum;
-    for (const auto begin = HostClock::now(); HostClock::now() - begin < std::chrono::nanoseconds(each / kRounds);) {
+    for (const auto begin = HostClock::now(); HostClock::now() - begin < each && !effort.stop;) {
       const Lap lap = round();
       sum.work += lap.work;
       sum.time += lap.time;
@@ -67,6 +68,11 @@ double best_rate(Time each, Round round) {
     best = std::max(best, sum.work / std::chrono::duration<double>(sum.time).count());
   }
   return best;
+}
+
+/// Without one that was stopped, which is not of all rounds.
+void add(std::vector<Figure>& figures, Figure figure, const Effort& effort) {
+  if (!effort.stop) figures.push_back(std::move(figure));
 }
 
 const serial::Frame& ten_registers() {
@@ -227,12 +233,12 @@ double polled_minute(serial::Simulation& simulation) {
 
 /// While a trace of it is written and thrown away.
 template <class Work>
-double traced(serial::Simulation& simulation, const std::shared_ptr<const Program>& program, TraceDetail detail, Time each,
-              Work work) {
+double traced(serial::Simulation& simulation, const std::shared_ptr<const Program>& program, TraceDetail detail,
+              const Effort& effort, Work work) {
   std::ofstream out("/dev/null");
   TextTrace trace(out, program, detail);
   simulation.cpu().set_sink(&trace);
-  const double rate = best_rate(each, [&] { return timed([&] { return work(simulation); }); });
+  const double rate = best_rate(effort, [&] { return timed([&] { return work(simulation); }); });
   simulation.cpu().set_sink(nullptr);
   return rate;
 }
@@ -250,11 +256,11 @@ double mixed_scans(serial::Simulation& simulation) {
 
 }  // namespace
 
-std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time each) {
+std::vector<Figure> measure(const std::shared_ptr<const Program>& program, const Effort& effort) {
   serial::Simulation simulation(program);
   const serial::Simulation::Snapshot fresh = simulation.snapshot();
   std::vector<Figure> figures;
-  figures.push_back({"first scan", "instructions", best_rate(each, [&] { return first_scans(simulation, fresh); })});
+  add(figures, {"first scan", "instructions", best_rate(effort, [&] { return first_scans(simulation, fresh); })}, effort);
 
   simulation.restore(fresh);
   simulation.power_up();
@@ -263,43 +269,50 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time 
   simulation.configure_master(simulation.freeport().format);
   exchange(simulation);  // which a program that is no such slave does not get past
   simulation.cpu().use_steady_scans(SteadyScansUse::Off);
-  figures.push_back(
-      {"idle scans", "instructions", best_rate(each, [&] { return timed([&] { return idle_scans(simulation); }); })});
+  add(figures,
+      {"idle scans", "instructions", best_rate(effort, [&] { return timed([&] { return idle_scans(simulation); }); })},
+      effort);
   simulation.cpu().use_steady_scans(kUsualUse);
-  figures.push_back(
-      {"nobody talking", "seconds", best_rate(each, [&] { return timed([&] { return idle_minutes(simulation); }); })});
+  add(figures,
+      {"nobody talking", "seconds", best_rate(effort, [&] { return timed([&] { return idle_minutes(simulation); }); })},
+      effort);
 
   Serving serving(program);
-  figures.push_back({"serving requests", "instructions", best_rate(each, [&] { return timed([&] { return serving(); }); })});
+  add(figures, {"serving requests", "instructions", best_rate(effort, [&] { return timed([&] { return serving(); }); })},
+      effort);
 
   const auto one_exchange = [](serial::Simulation& asked) { return exchange(asked), 1.0; };
-  const double exchanges = best_rate(each, [&] { return timed([&] { return one_exchange(simulation); }); });
-  figures.push_back({"10 registers, whole line", "exchanges", exchanges});
-  const double with_events = traced(simulation, program, TraceDetail::Events, each, one_exchange);
-  figures.push_back({"the same, events traced", "times as long", 0, exchanges / with_events});
+  const double exchanges = best_rate(effort, [&] { return timed([&] { return one_exchange(simulation); }); });
+  add(figures, {"10 registers, whole line", "exchanges", exchanges}, effort);
+  const double with_events = traced(simulation, program, TraceDetail::Events, effort, one_exchange);
+  add(figures, {"the same, events traced", "times as long", 0, exchanges / with_events}, effort);
   constexpr double kDay = 86'400;
-  figures.push_back({"a day, polled every second", "s", 0,
-                     kDay / best_rate(each, [&] { return timed([&] { return polled_minute(simulation); }); })});
+  add(figures,
+      {"a day, polled every second", "s", 0,
+       kDay / best_rate(effort, [&] { return timed([&] { return polled_minute(simulation); }); })},
+      effort);
   simulation.cpu().use_steady_scans(SteadyScansUse::Off);
-  figures.push_back(
-      {"instruction trace", "lines", traced(simulation, program, TraceDetail::Instructions, each, idle_scans)});
+  add(figures, {"instruction trace", "lines", traced(simulation, program, TraceDetail::Instructions, effort, idle_scans)},
+      effort);
   return figures;
 }
 
-std::vector<Figure> measure_mixed(Time each) {
+std::vector<Figure> measure_mixed(const Effort& effort) {
   const CpuModel& model = cpu226xm();
   std::vector<Figure> figures;
   for (const std::uint32_t instructions : kMixedLengths) {
     serial::Simulation simulation(check_text(mixed_program(instructions), "mixed.stl", model, default_times(model)).program);
     simulation.cpu().use_steady_scans(SteadyScansUse::Off);
     simulation.power_up();
-    figures.push_back({fmt::format("{} instructions, mixed", instructions), "instructions",
-                       best_rate(each, [&] { return timed([&] { return mixed_scans(simulation); }); })});
+    add(figures,
+        {fmt::format("{} instructions, mixed", instructions), "instructions",
+         best_rate(effort, [&] { return timed([&] { return mixed_scans(simulation); }); })},
+        effort);
   }
   return figures;
 }
 
-std::vector<Figure> measure_tip_like(Time each, bool every_scan) {
+std::vector<Figure> measure_tip_like(const Effort& effort, bool every_scan) {
   constexpr std::string_view kText = R"(
 LD SM0.1
 CALL 50
@@ -346,11 +359,15 @@ RETI
   simulation.power_up();
   simulation.run_until(10 * kSecond);
   assert(simulation.cpu().state().mode == Mode::Run);  // one in STOP costs nothing
-  return {{"nobody talking, tip-like", "seconds",
-           best_rate(each, [&] { return timed([&] { return idle_minutes(simulation); }); })}};
+  std::vector<Figure> figures;
+  add(figures,
+      {"nobody talking, tip-like", "seconds",
+       best_rate(effort, [&] { return timed([&] { return idle_minutes(simulation); }); })},
+      effort);
+  return figures;
 }
 
-std::vector<Figure> measure_files(Time each) {
+std::vector<Figure> measure_files(const Effort& effort) {
   constexpr std::uint32_t kLines = 100'000;
   const std::string listing = long_listing(kLines);
   const CpuModel& model = cpu226xm();
@@ -361,7 +378,9 @@ std::vector<Figure> measure_files(Time each) {
     const CheckResult result = check(text->parsed, model, times);
     return static_cast<double>(kLines * (fine_for(*text, result, model).empty() ? 1 : 0));
   };
-  return {{"check, 100000 lines", "lines", best_rate(each, [&] { return timed(check_listing); })}};
+  std::vector<Figure> figures;
+  add(figures, {"check, 100000 lines", "lines", best_rate(effort, [&] { return timed(check_listing); })}, effort);
+  return figures;
 }
 
 namespace {
@@ -394,9 +413,12 @@ class Started {
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
   }
 
-  void wait_for_output() const {
+  /// False if it ends without any.
+  bool wait_for_output() const {
     char first = 0;
-    while (read(out_, &first, 1) < 0 && errno == EINTR) continue;
+    ssize_t count = 0;
+    while ((count = read(out_, &first, 1)) < 0 && errno == EINTR) continue;
+    return count > 0;
   }
 
  private:
@@ -406,18 +428,20 @@ class Started {
 
 }  // namespace
 
-std::vector<Figure> measure_start(const std::string& command, Time each) {
+std::vector<Figure> measure_start(const std::string& command, const Effort& effort) {
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::duration<double, std::milli>;
   Milliseconds best = Milliseconds::max();
-  const auto end = Clock::now() + std::chrono::nanoseconds(each);
+  const auto end = Clock::now() + std::chrono::nanoseconds(effort.each);
   do {
     const auto begin = Clock::now();
     const Started started(command);
-    started.wait_for_output();
+    if (!started.wait_for_output() && !effort.stop) throw std::runtime_error(command + " was started and printed nothing");
     best = std::min<Milliseconds>(best, Clock::now() - begin);
-  } while (Clock::now() < end);
-  return {{"start to first output", "ms", 0, best.count()}};
+  } while (Clock::now() < end && !effort.stop);
+  std::vector<Figure> figures;
+  add(figures, {"start to first output", "ms", 0, best.count()}, effort);
+  return figures;
 }
 
 }  // namespace s7200::tools

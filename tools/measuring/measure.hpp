@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -25,22 +26,29 @@ struct Figure {
 /// How many rounds share the time of a figure; the best one counts.
 inline constexpr int kRounds = 5;
 
-/// The best round on one core, each figure for `each` of the host's time. The program is a Modbus slave at address
-/// 1; throws std::runtime_error if it does not answer.
-std::vector<Figure> measure(const std::shared_ptr<const Program>& program, Time each);
+/// For so long of the host's time each figure is measured. Once `stop` is set, no more are: all functions return those that
+/// were complete before.
+struct Effort {
+  Time each;
+  const std::atomic<bool>& stop;
+};
+
+/// The best round on one core. The program is a Modbus slave at address 1; throws std::runtime_error if it does not answer.
+std::vector<Figure> measure(const std::shared_ptr<const Program>& program, const Effort& effort);
 
 /// The same of mixed programs of three lengths (mixed_program.hpp), every scan run.
-std::vector<Figure> measure_mixed(Time each);
+std::vector<Figure> measure_mixed(const Effort& effort);
 inline constexpr std::array<std::uint32_t, 3> kMixedLengths{340, 1900, 4000};
 
 /// Of a slave whose first scan makes a table in loops, and that receives each character in an interrupt, as that of
 /// Application Tip 41 does. `every_scan`: none is passed over.
-std::vector<Figure> measure_tip_like(Time each, bool every_scan);
+std::vector<Figure> measure_tip_like(const Effort& effort, bool every_scan);
 
 /// How fast files are checked, as `s7200 check` does it: lines of a listing of 100,000 (long_listing.hpp).
-std::vector<Figure> measure_files(Time each);
+std::vector<Figure> measure_files(const Effort& effort);
 
-/// From the start of the process `command instructions LD` to its first output, by the clock.
-std::vector<Figure> measure_start(const std::string& command, Time each);
+/// From the start of the process `command instructions LD` to its first output, by the clock; the shortest of all. Throws
+/// std::runtime_error if it prints nothing.
+std::vector<Figure> measure_start(const std::string& command, const Effort& effort);
 
 }  // namespace s7200::tools
