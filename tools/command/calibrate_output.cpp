@@ -69,7 +69,8 @@ nlohmann::ordered_json to_json(const CpuModel& model, const Measurement& measure
                                   {"per_unit", each.form.per_unit},
                                   {"us", each.ns / 1000},
                                   {"within_us", each.within / 1000}});
-  results["ratio"] = ratio_to_known(fit);
+  const auto ratio = ratio_to_known(fit);
+  results["ratio"] = ratio ? nlohmann::ordered_json(*ratio) : nullptr;
   results["sums"] = nlohmann::ordered_json::array();
   for (std::size_t sum = 0; sum < fit.sums.size(); ++sum) results["sums"].push_back(sum_to_json(fit, sum));
   results["not_measured"] = nlohmann::ordered_json::array();
@@ -87,8 +88,10 @@ std::string source_of(const CpuModel& model, const Measurement& measurement, con
 std::string not_measured_text(const Fit& fit, const CpuModel& model) {
   std::string text;
   for (std::size_t sum = 0; sum < fit.sums.size(); ++sum) text += sum_text(fit, sum);
-  text += fmt::format("not measured separately; estimated as {:.2f} × the CPU's own table (EEPROM save unchanged):",
-                      ratio_to_known(fit));
+  const auto ratio = ratio_to_known(fit);
+  text += "not measured separately; ";
+  text += ratio ? fmt::format("estimated as {:.2f} × the CPU's own table (EEPROM save unchanged):", *ratio)
+                : "the figures of the CPU's own table are kept, as fewer than half of all were measured:";
   std::vector<NotMeasured> missing = not_measured(fit, model);
   while (!missing.empty()) {
     const std::string_view why = missing.front().why;

@@ -399,10 +399,7 @@ void Debugger::print_instruction(std::size_t station, const InstructionRecord& r
   Station& of = stations_[station];
   of.last_op = record.op;
   if (looked_at && live_status_) note_live_status(record);
-  if (!tracing_)
-    of.trace_lines.note(record);
-  else if (const auto line = of.trace_lines.of(record))
-    print_trace_lines(station, {*line});
+  if (const auto line = tracing_ ? of.trace_lines.of(record) : std::nullopt) print_trace_lines(station, {*line});
   if (!looked_at || show_ == Show::None || (show_ == Show::Started && !started_at)) return;
   hide_progress();
   const Cpu& cpu = of.simulation->cpu();

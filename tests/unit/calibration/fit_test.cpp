@@ -92,7 +92,7 @@ TEST(Calibrated, WhatWasNotMeasuredIsAsMuchSlowerAsTheMiddleOfWhatWas) {
   const TimeTable own = default_times(cpu214());
   const Loops loops{{form("NEXT"), form("MOVB"), form("MOVW")}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const Fit found = fit(loops, {{225'000, 10}, {36'000, 10}, {22'000, 10}});  // 1.5, 1.2 and 0.5 times the estimates
-  EXPECT_DOUBLE_EQ(ratio_to_known(found), 1.2);
+  EXPECT_DOUBLE_EQ(ratio_to_known(found).value_or(0), 1.2);
   const TimeTable table = calibrated(found, own, own, "a CPU");
   const TimeRow& call = *table.find("CALL", {});
   EXPECT_EQ(call.base, 27'600);

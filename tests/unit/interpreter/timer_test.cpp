@@ -1,4 +1,6 @@
 // Timers of 1, 10 and 100 ms and counters over scans of any length. Times: plc.hpp.
+#include <cstdlib>
+
 #include "interpreter/cpu/scan.hpp"
 #include "tests/support/plc.hpp"
 
@@ -237,10 +239,10 @@ TEST(Timer, AfterAStopTimersGoOnFromTheirValue) {
   plc.run_until(12 * kSecond);
   scan::change_mode(plc.cpu.core(), Mode::Run);
   plc.run_until(13 * kSecond);
-  EXPECT_NEAR(plc.value("T32"), 3000, 3);
-  EXPECT_NEAR(plc.value("T33"), 300, 2);
-  EXPECT_NEAR(plc.value("T37"), 30, 1);
-  EXPECT_NEAR(plc.value("T5"), 30, 1);
+  EXPECT_LE(std::abs(plc.value("T32") - 3000), 3);
+  EXPECT_LE(std::abs(plc.value("T33") - 300), 2);
+  EXPECT_LE(std::abs(plc.value("T37") - 30), 1);
+  EXPECT_LE(std::abs(plc.value("T5") - 30), 1);
 }
 
 TEST(Timer, OneMillisecondTimersCountAgainAfterAStop) {
