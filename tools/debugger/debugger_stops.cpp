@@ -47,6 +47,10 @@ Words take_text(Words& words) {
   return taken;
 }
 
+bool is_unclosed(const std::string& text) {
+  return !text.empty() && (text.front() == '\'' || text.front() == '"') && (text.size() == 1 || text.back() != text.front());
+}
+
 std::string without_quotes(std::string text) {
   const bool quoted = text.size() >= 2 && text.front() == text.back() && (text.front() == '\'' || text.front() == '"');
   return quoted ? text.substr(1, text.size() - 2) : text;
@@ -77,6 +81,7 @@ bool read_options(Words words, const Program& program, StopPoint& stop, std::str
       if (!hits || *hits == 0) return why = expects(option, "a number above 0, for example: hits 4"), false;
       stop.from_hit = *hits;
     } else if (option == "log") {
+      if (is_unclosed(joined(given))) return why = fmt::format("the closing {} is missing", given.front().front()), false;
       stop.log = without_quotes(joined(given));
       if (stop.log.empty()) return why = expects(option, "a text, for example: log '{VW100} at {time}'"), false;
       if (!check_message(stop.log, program, why)) return false;
@@ -141,8 +146,11 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   auto stop = stop_of(place, why);
   if (!stop || !read_options(words, simulation().cpu().program(), *stop, why)) return why;
   const std::vector<SetStop>& all = stepper_.stops();
-  const auto same = std::ranges::find_if(
-      all, [&](const StopPoint& s) { return s.on == On::Place && s.op == stop->op && s.station == focus(); });
+  const auto is_the_same = [&](const StopPoint& s) {
+    return s.on == On::Place && s.op == stop->op && s.station == focus() && option_words(s).empty() &&
+           s.needs_power == stop->needs_power;
+  };
+  const auto same = std::ranges::find_if(all, is_the_same);
   if (stop->on == On::Place && same != all.end() && words.empty()) {
     out_ << fmt::format("breakpoint {} is already in {}\n", same->number, op_text(stop->op));
     return {};

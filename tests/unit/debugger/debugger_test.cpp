@@ -260,6 +260,20 @@ TEST(Debugger, BreakListsHitsAndKnowsWhatIsAlreadySet) {
   EXPECT_TRUE(has(session("break"), "no breakpoints"));
 }
 
+TEST(Debugger, ABreakpointThatNeedNotStopDoesNotReplaceOneThatDoes) {
+  Session session(kNested);
+  session("break 4 if VW30 > 100; break 4");
+  EXPECT_TRUE(has(session.out.str(), "breakpoint 2 in main line 4"));
+  session("continue");
+  EXPECT_EQ(session.line(), 4U);
+}
+
+TEST(Debugger, ALogTextWhoseQuotationMarkIsOpenIsRefused) {
+  Session session(kNested);
+  EXPECT_TRUE(has(session("break INT 0 log 'x; continue 1ms"), "the closing ' is missing"));
+  EXPECT_TRUE(has(session("break"), "no breakpoints"));
+}
+
 TEST(Debugger, WatchTellsOldValueNewValueAndTheInstructionInARoutineToo) {
   Session session(kNested);
   const std::string text = session("watch VW30; continue");
