@@ -254,7 +254,8 @@ class Verbs(Case):
         self.assertEqual(self.json(FINE, "decode", loader, *lan, "--json")["summary"]["wrong"], 0)
         by_sum = self.json(FINE, "decode", loader, *lan[:2], "--json")
         self.assertEqual(by_sum["summary"]["wrong"], 2)
-        self.assertIn("wrong data check: it is the XOR of the data, not the sum", [frame["text"] for frame in by_sum["frames"]])
+        self.assertIn("write 2 bytes from word 16#4000 on: 34 12; wrong data check: it is the XOR of the data, not the sum",
+                      [frame["text"] for frame in by_sum["frames"]])
         self.assertIn("--data-check xor: modbus has no such option; it is for pc1000-lan, westnet", self.ends(UNUSABLE, "decode", loader, "--data-check", "xor").stderr)
         self.assertIn("neither in .vcd", self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--capture", "x.txt").stderr)
         loud = self.folder / "LINE.PCAP"

@@ -70,4 +70,14 @@ std::optional<double> ratio_of(const Figure& figure, const EarlierBench& before)
   return found == before.speeds.end() ? std::nullopt : std::optional(figure.speed() / found->second);
 }
 
+nlohmann::ordered_json json_of(const Figure& figure, const EarlierBench& before) {
+  const auto if_any = [](double value) { return value > 0 ? nlohmann::ordered_json(value) : nullptr; };
+  const auto ratio = ratio_of(figure, before);
+  return {{"name", figure.name},
+          {"unit", figure.unit},
+          {"per_second", if_any(figure.per_second)},
+          {"takes", if_any(figure.takes)},
+          {"ratio", ratio ? nlohmann::ordered_json(*ratio) : nullptr}};
+}
+
 }  // namespace s7200::tools

@@ -28,4 +28,7 @@ void warn_of_differences(const nlohmann::ordered_json& now, const EarlierBench& 
 /// How many times as fast it is now; nothing if there was no such figure.
 std::optional<double> ratio_of(const Figure& figure, const EarlierBench& before);
 
+/// What `bench --json` prints of a figure.
+nlohmann::ordered_json json_of(const Figure& figure, const EarlierBench& before);
+
 }  // namespace s7200::tools

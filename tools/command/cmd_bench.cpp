@@ -39,9 +39,6 @@ void print_line(const Figure& figure, const EarlierBench& before) {
   fmt::print("  {:<26} {}{}\n", figure.name, what, ratio ? fmt::format("  {:.2f} times", *ratio) : "");
 }
 
-/// `null` of what a figure has not.
-nlohmann::ordered_json if_any(double figure) { return figure > 0 ? nlohmann::ordered_json(figure) : nullptr; }
-
 std::optional<SourceText> read_bench_program(const std::string& path) {
   std::string why;
   return path.empty() ? read_source(kModbusSlave, "modbus_slave.stl", why) : read_program_text(path);
@@ -53,14 +50,7 @@ void print_figures(const BenchOptions& options, const nlohmann::ordered_json& ho
     auto results = results_of("bench");
     results.update(how);
     results["figures"] = nlohmann::ordered_json::array();
-    for (const Figure& f : figures) {
-      const auto ratio = ratio_of(f, before);
-      results["figures"].push_back({{"name", f.name},
-                                    {"unit", f.unit},
-                                    {"per_second", if_any(f.per_second)},
-                                    {"takes", if_any(f.takes)},
-                                    {"ratio", ratio ? nlohmann::ordered_json(*ratio) : nullptr}});
-    }
+    for (const Figure& f : figures) results["figures"].push_back(json_of(f, before));
     fmt::print("{}", lines_of(results));
     return;
   }
