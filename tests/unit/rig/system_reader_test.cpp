@@ -414,7 +414,8 @@ std::string with_nonsense_at(const SystemKey& key) {
 TEST(SystemKeys, EachRowHasAReader) {
   for (const SystemKey& key : system_keys()) {
     const std::string text = with_nonsense_at(key);
-    const auto line = static_cast<std::uint32_t>(std::ranges::count(text.substr(0, text.find("[[nonsense]]")), '\n') + 1);
+    const auto line =
+        static_cast<std::uint32_t>(std::count(text.begin(), text.begin() + text.find("[[nonsense]]"), '\n') + 1);
     const SystemFile file = read_system(text, test::source_path("stl_programs/systems/test.yaml"));
     EXPECT_TRUE(std::ranges::any_of(file.file.diagnostics,
                                     [&](const stl::Diagnostic& d) {

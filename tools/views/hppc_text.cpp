@@ -1,4 +1,4 @@
-#include "serial_sim/westinghouse/hppc_text.hpp"
+#include "tools/views/hppc_text.hpp"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,14 @@
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/westinghouse/hppc_message.hpp"
 
-namespace s7200::westinghouse {
+namespace s7200::tools {
 
 std::string hppc_parameters_text(std::span<const std::uint8_t> operands) {
   constexpr std::size_t kAddress = 3;
   const auto table = operands.subspan(kAddress);
-  std::string text = fmt::format("parameter table at 16#{:05X}", hppc_address(operands));
-  if (const auto found = holding_registers(table)) text += fmt::format(", holding register 1 at 16#{:05X}", found->base);
+  std::string text = fmt::format("parameter table at 16#{:05X}", westinghouse::hppc_address(operands));
+  if (const auto found = westinghouse::holding_registers(table))
+    text += fmt::format(", holding register 1 at 16#{:05X}", found->base);
   return table.empty() ? text : fmt::format("{}: {}", text, serial::to_hex(table));
 }
 
@@ -31,4 +32,4 @@ std::string hppc_status_text(std::uint8_t status) {
   return text;
 }
 
-}  // namespace s7200::westinghouse
+}  // namespace s7200::tools

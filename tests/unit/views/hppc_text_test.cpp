@@ -1,10 +1,10 @@
-#include "serial_sim/westinghouse/hppc_text.hpp"
+#include "tools/views/hppc_text.hpp"
 
 #include <gtest/gtest.h>
 
 #include "interpreter/base/bytes.hpp"
 
-namespace s7200::westinghouse {
+namespace s7200::tools {
 namespace {
 
 TEST(HppcText, EachBitOfAStatusHasItsWords) {
@@ -25,4 +25,4 @@ TEST(HppcText, AParameterTableIsSaidWithItsPlaceAndWhatIsKnownOfIt) {
 }
 
 }  // namespace
-}  // namespace s7200::westinghouse
+}  // namespace s7200::tools
