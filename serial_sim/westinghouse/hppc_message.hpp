@@ -91,6 +91,13 @@ struct HoldingRegisters {
 /// table is as the document's example [H10]. Nothing if neither is an address of a register.
 std::optional<HoldingRegisters> holding_registers(std::span<const std::uint8_t> table);
 
+/// Of the operands of an answer to 0D, an address of three bytes at least, and what stands there:
+/// `parameter table at 16#80000, holding register 1 at 16#ABFFE: 8a 00`
+std::string hppc_parameters_text(std::span<const std::uint8_t> operands);
+
+/// The first byte of an answer to a monitor: `status 16#10: processor not running`
+std::string hppc_status_text(std::uint8_t status);
+
 /// `illegal opcode`
 std::string_view hppc_error_name(std::uint16_t code);
 

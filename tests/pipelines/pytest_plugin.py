@@ -42,7 +42,7 @@ class Plugin(Case):
     def test_a_plc_that_prints_much_runs_on(self):
         self.pytest(FINE, "import time\n"
                           "def test_it(s7200_plc):\n"
-                          "    plc = s7200_plc(SLAVE, '--trace', '-')\n"
+                          "    plc = s7200_plc(SLAVE, '--trace', '-', '--trace-instructions')\n"
                           "    time.sleep(1)\n"
                           "    assert len(plc.stop()) > 4 * 65536\n")
 

@@ -3,7 +3,6 @@
 
 #include "serial_sim/westinghouse/hppc_message.hpp"
 #include "tools/master/words.hpp"
-#include "tools/views/hppc_text.hpp"
 #include "tools/views/register_text.hpp"
 
 namespace s7200::tools {
@@ -198,7 +197,7 @@ std::string HppcRequest::take(serial::Answer& answer) const {
 
 std::string HppcRequest::in_short(const serial::Answer& answer, Data, Data) const {
   if (!raw_.empty()) return answer.bytes.empty() ? "done" : serial::to_hex(answer.bytes);
-  if (about_.opcode == HppcOpcode::Parameters && !about_.registers) return hppc_parameters_text(answer.bytes);
+  if (about_.opcode == HppcOpcode::Parameters && !about_.registers) return westinghouse::hppc_parameters_text(answer.bytes);
   if (about_.opcode == HppcOpcode::Monitor) return fmt::format("{}", fmt::join(monitored_lines(answer), " "));
   std::string text;
   for (const std::uint16_t value : answer.values)
@@ -219,7 +218,7 @@ std::vector<std::string> HppcRequest::in_lines(const serial::Answer& answer, Dat
 }
 
 std::vector<std::string> HppcRequest::monitored_lines(const serial::Answer& answer) const {
-  std::vector<std::string> lines{"  " + hppc_status_text(answer.bytes[0])};
+  std::vector<std::string> lines{"  " + westinghouse::hppc_status_text(answer.bytes[0])};
   const auto& [single, words, doubles] = about_.monitored;
   std::array<std::size_t, 3> place{1, 1 + single.size(), 1 + single.size() + 2 * words.size()}, next{};
   for (const std::size_t size : about_.asked) {

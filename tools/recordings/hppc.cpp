@@ -10,7 +10,6 @@
 #include "serial_sim/westinghouse/hppc_message.hpp"
 #include "tools/recordings/readers.hpp"
 #include "tools/recordings/westinghouse.hpp"
-#include "tools/views/hppc_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -119,7 +118,8 @@ class HppcReader final : public FrameReader {
     if (answer.verdict != Verdict::Right) return answer.fault;
     const Data operands(answer.bytes);
     const auto opcode = static_cast<westinghouse::HppcOpcode>(request[kOpcode]);
-    if (opcode == westinghouse::HppcOpcode::Parameters && operands.size() >= kAddress) return hppc_parameters_text(operands);
+    if (opcode == westinghouse::HppcOpcode::Parameters && operands.size() >= kAddress)
+      return westinghouse::hppc_parameters_text(operands);
     if (opcode == westinghouse::HppcOpcode::Read && !operands.empty() && operands.size() == 1U + operands[0])
       return fmt::format("{}{}{}", plural(operands[0], "byte"), operands[0] == 0 ? "" : ": ", to_hex(operands.subspan(1)));
     if (const auto monitored = monitored_by(operands_of(request)); monitored && opcode == westinghouse::HppcOpcode::Monitor)
@@ -152,7 +152,7 @@ class HppcReader final : public FrameReader {
   /// Empty if there are more or fewer bytes than were asked for.
   static std::string monitored_text(const std::vector<Monitored>& monitored, Data operands) {
     if (operands.empty()) return "";
-    std::string text = hppc_status_text(operands[0]);
+    std::string text = westinghouse::hppc_status_text(operands[0]);
     std::size_t place = 1;
     for (const Monitored& each : monitored) {
       if (place + each.bytes > operands.size()) return "";

@@ -26,7 +26,8 @@ class BlockReader final : public FrameReader {
     ReadFrame read;
     if (open != nullptr && frame.direction != Direction::Request) {
       const serial::Answer answer = westinghouse::check_block_answer(open->bytes, bytes, by_);
-      if (fits(answer) || frame.direction == Direction::Answer) {
+      const bool by_other_rule = fits(westinghouse::check_block_answer(open->bytes, bytes, other_rule()));
+      if (fits(answer) || by_other_rule || frame.direction == Direction::Answer) {
         read.direction = Direction::Answer;
         read.right = fits(answer);
         read.text = answer_text(open->bytes, answer);
@@ -66,6 +67,12 @@ class BlockReader final : public FrameReader {
     if (bytes.size() < kMessageLength || !westinghouse::Pc1000::check_right(bytes)) return 0;
     const std::size_t length = westinghouse::Pc1000::length(bytes);
     return length <= bytes.size() ? length : 0;
+  }
+
+  /// By which the check of a block may be, and is not.
+  westinghouse::DataCheck other_rule() const {
+    using enum westinghouse::DataCheck;
+    return by_ == Sum ? Xor : Sum;
   }
 
   /// Of a whole message; those without data have none.

@@ -109,7 +109,7 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
       {slave + "peers: {m: {westinghouse: pc1000-lan, sync: b.Q0.0}}\n", 2, 45, "'b.Q0.0' is not an output of a PLC"},
       {slave + "peers: {m: {westinghouse: pc1000-lan, sync: Q0}}\n", 2, 45, "'Q0' is not an output of a PLC"},
       {slave + "peers: {m: {westinghouse: hppc, sync: a.Q0.0}}\n", 2, 39, "this PLC has no sync signal, or ignores it"},
-      {"plcs: {a: {program: ../edge_counter.stl, cpu: 212, clock: 2026-11-21 10:00:00}}\n", 1, 60,
+      {"plcs: {a: {program: ../character_echo.stl, cpu: 212, clock: 2026-11-21 10:00:00}}\n", 1, 61,
        "CPU 212 has no time-of-day clock"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 38400}}\n", 1, 52, "'38400' is not a rate of PPI"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 187500}}\n", 1, 52, "PPI at 187500 baud needs CPU 22x"},
@@ -261,7 +261,8 @@ TEST(SystemFile, PowerThatStaysAsItIsIsNamed) {
 }
 
 TEST(SystemFile, ALineThatStaysAsItIsIsNamed) {
-  const std::string system = "plcs: {a: {program: ../modbus_slave.stl, copies: 3}}\nlines: {l: {stations: [a]}}\nevents:\n";
+  const std::string system =
+      "plcs: {a: {program: ../modbus_slave.stl, copies: 3, station: 1}}\nlines: {l: {stations: [a]}}\nevents:\n";
   using Warnings = std::vector<std::string>;
   const std::string cut = "  - {at: 1s, cut: l, after: a1}\n", mend = "  - {at: 3s, mend: l}\n";
   EXPECT_EQ(warnings_of(system + cut + "  - {at: 2s, cut: l, after: a2}\n" + mend), Warnings{});
@@ -396,7 +397,8 @@ std::string with_nonsense_at(const SystemKey& key) {
   if (in(Where::Event, {"after"})) event.emplace_back("cut", "bus");
   if (in(Where::Event, {"plc"})) event.emplace_back("set", "{VW0: 1}");
   if (in(Where::Event, {"line", "station"})) event.emplace_back("fault", "parity:character=each");
-  if (in(Where::Event, {"station"})) event.emplace_back("line", "bus");
+  if (in(Where::Event, {"fault", "station"})) event.emplace_back("line", "bus");
+  if (in(Where::Event, {"set"})) event.emplace_back("plc", "a");
   if (key.where != Where::Event) event.emplace_back("power_off", "a");
   if (key.where != Where::Bridge) bridge.emplace_back("pty", "link");
   const std::string fault = map(Where::Fault, {{"fault", "parity:character=each"}, {"station", "a"}});
@@ -414,8 +416,7 @@ std::string with_nonsense_at(const SystemKey& key) {
 TEST(SystemKeys, EachRowHasAReader) {
   for (const SystemKey& key : system_keys()) {
     const std::string text = with_nonsense_at(key);
-    const auto line =
-        static_cast<std::uint32_t>(std::count(text.begin(), text.begin() + text.find("[[nonsense]]"), '\n') + 1);
+    const auto line = static_cast<std::uint32_t>(std::ranges::count(text.substr(0, text.find("[[nonsense]]")), '\n') + 1);
     const SystemFile file = read_system(text, test::source_path("stl_programs/systems/test.yaml"));
     EXPECT_TRUE(std::ranges::any_of(file.file.diagnostics,
                                     [&](const stl::Diagnostic& d) {

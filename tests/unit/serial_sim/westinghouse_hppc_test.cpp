@@ -167,7 +167,7 @@ TEST(Hppc, H8WhatIsNotForItOrNoMessageIsNotAnswered) {
 TEST(Hppc, ItAnswersWhoeverAsked) {
   Bench bench("hppc");
   const Bytes message = hppc_message(kIop, 0x77, HppcOpcode::Read, hppc_read(0, 0), FcsTable::Document);
-  EXPECT_EQ(bench.ask(serial::to_hex(message)).substr(6, 5), "77 20");
+  EXPECT_EQ(bench.ask(serial::to_hex(message)).substr(6, 2), "77");
 }
 
 TEST(Hppc, AnAnswerBeginsOneCharacterAfterTheRequest) {
@@ -254,6 +254,23 @@ TEST(Hppc, ASnapshotGoesOnAsItWouldHave) {
   EXPECT_EQ(system.finish_exchange(bench.master()).response_bytes(), answer);
   EXPECT_EQ(system.snapshot(), end);
   EXPECT_EQ(answer.size(), 0x3FU);
+}
+
+TEST(HppcMessage, EachBitOfAStatusHasItsWords) {
+  EXPECT_EQ(hppc_status_text(0), "status 16#00");
+  EXPECT_EQ(hppc_status_text(0x12), "status 16#12: network not found, processor not running");
+  EXPECT_EQ(hppc_status_text(0x1F),
+            "status 16#1F: special function data valid, network not found, controlled by an MCR, controlled by a skip, "
+            "processor not running");
+}
+
+TEST(HppcMessage, AParameterTableIsSaidWithItsPlaceAndWhatIsKnownOfIt) {
+  EXPECT_EQ(hppc_parameters_text(Bytes{0, 0, 8}), "parameter table at 16#80000");
+  EXPECT_EQ(hppc_parameters_text(Bytes{0, 0, 8, 0x8A, 0}), "parameter table at 16#80000: 8a 00");
+  Bytes whole{0, 0, 8};
+  whole.resize(3 + 0x34);
+  whole[3 + 0x2E] = 0xFE, whole[3 + 0x2F] = 0xBF, whole[3 + 0x30] = 0x0A;
+  EXPECT_TRUE(hppc_parameters_text(whole).starts_with("parameter table at 16#80000, holding register 1 at 16#ABFFE: 00"));
 }
 
 TEST(HppcMessage, AnAnswerIsJudgedByLengthCheckAddressAndOpcode) {

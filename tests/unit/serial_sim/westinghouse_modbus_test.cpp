@@ -277,7 +277,7 @@ int rows_with_their_marks(std::initializer_list<const char*> headers) {
 }
 
 TEST(WestinghouseSetting, AFieldHasTheMarkOfItsRow) {
-  EXPECT_EQ(rows_with_their_marks<ModbusPlc>({"modbus_plc.hpp"}), 28);
+  EXPECT_EQ(rows_with_their_marks<ModbusPlc>({"modbus_plc.hpp"}), 31);
   EXPECT_EQ(rows_with_their_marks<LanPlc>({"lan_plc.hpp", "pc1000.hpp"}), 16);
   EXPECT_EQ(rows_with_their_marks<WestnetPlc>({"westnet_plc.hpp", "pc1000.hpp"}), 25);
   EXPECT_EQ(rows_with_their_marks<LoaderPlc>({"loader_plc.hpp"}), 8);
