@@ -304,7 +304,7 @@ std::optional<double> ratio_to_known(const Fit& fit) {
   double all = 0;
   for (const Fitted& each : fit.forms) {
     if (each.form.per_unit || each.form.row->base == 0) continue;
-    ++all;
+    if (each.found || each.pending) ++all;
     if (each.found && each.ns >= 0.5) ratios.push_back(each.ns / static_cast<double>(each.form.row->base));
   }
   if (ratios.empty() || static_cast<double>(ratios.size()) < kEnough * all) return {};

@@ -42,7 +42,7 @@ struct Fit {
 Fit fit(const Loops& loops, const std::vector<LoopTime>& times);
 
 /// How much slower the CPU is than the table that is corrected says: the middle one of all figures that were measured.
-/// Nothing if they are fewer than half of those that the loops have: the first loops alone do not tell.
+/// Nothing if loops that did not run have more forms than were measured: the first loops alone do not tell.
 std::optional<double> ratio_to_known(const Fit& fit);
 
 /// The table of the CPU: what was found, where and when as `source` says, and for all else the figures of `known` times that

@@ -270,7 +270,7 @@ TEST(Debugger, ABreakpointThatNeedNotStopDoesNotReplaceOneThatDoes) {
 
 TEST(Debugger, ALogTextWhoseQuotationMarkIsOpenIsRefused) {
   Session session(kNested);
-  EXPECT_TRUE(has(session("break INT 0 log 'x; continue 1ms"), "the closing ' is missing"));
+  EXPECT_EQ(session.error_of("break INT 0 log 'x; continue 1ms"), "the closing ' is missing");
   EXPECT_TRUE(has(session("break"), "no breakpoints"));
 }
 
