@@ -20,10 +20,10 @@ int run_master(const CLI::App& verb, MasterOptions& options) {
   const bool over_tcp = target.kind == SlaveTarget::Kind::ModbusTcp;
   const std::vector<MasterAction> actions = options.actions(over_tcp);
   print_note_if_any(options.doubt(actions, over_tcp));
-  catch_interruption();
   const bool is_program = target.kind == SlaveTarget::Kind::Program;
   if (is_program && options.band.wanted()) return run_on_program_band(options, actions);
   if (is_program || target.kind == SlaveTarget::Kind::System) return run_on_program(verb, options, actions);
+  catch_interruption();  // a simulation does so when its files are read
   if (target.kind == SlaveTarget::Kind::Peer) return run_on_peer(options, target.path, actions);
   std::unique_ptr<Slave> slave;
   const auto format = [&](const serial::MasterSettings& master) { return master.over(options.protocol->format); };
