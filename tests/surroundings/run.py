@@ -375,7 +375,7 @@ class Signals(Case):
         for number in SIGNALS:
             with self.subTest(number=number):
                 process = self.start("run", self.idle, "--tcp", "0")
-                self.assertIn(b"serving", process.stderr.readline())
+                self.assertIn(b"listening", process.stderr.readline())
                 self.assertEqual(self.ended(process, number), FINE, process.error)
 
     def test_a_server_for_editors_completes_the_files_of_its_plc(self):
