@@ -387,6 +387,7 @@ class Signals(Case):
         for listening, said in ((False, b""), (False, running), (True, b"")):
             for number in SIGNALS:
                 with self.subTest(listening=listening, said=said, number=number):
+                    trace.unlink(missing_ok=True)
                     process = self.start("dap", *(["--listen", "0"] if listening else []), self.blinking, "--trace", trace,
                                          stdin=subprocess.PIPE)
                     if listening:
@@ -396,6 +397,7 @@ class Signals(Case):
                     heard = b""
                     while said and b'"process"' not in heard:
                         heard += process.stdout.read1()
+                    self.eventually(trace.exists, "the program is not loaded")
                     self.assertEqual(self.noted(process, number), FINE if listening else FAILED, process.error)
                     self.assertTrue(trace.read_bytes().endswith(b"\n"))
 
@@ -482,7 +484,7 @@ class Signals(Case):
     def test_neither_sigterm_nor_sighup_kill_when_they_come_twice(self):
         memory = self.folder / "memory.json"
         process = self.start("run", self.idle, "--for", "9999h", "--memory", memory)
-        self.eventually(lambda: catches(process, signal.SIGTERM), "the signal is not caught")
+        self.eventually(lambda: catches(process, signal.SIGALRM), "signals do not wait for what is to be completed")
         with contextlib.suppress(ProcessLookupError):
             for number in (signal.SIGTERM, signal.SIGHUP) * 5:
                 process.send_signal(number)
