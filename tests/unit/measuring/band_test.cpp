@@ -49,6 +49,33 @@ TEST(TimesBand, ACpuIsFasterOrSlowerAsAWholeByAsMuchAsTheTipsFirstScanLeavesOpen
   EXPECT_LT(most, 1.10);
 }
 
+TEST(TimesBand, PartsOfASumMoveByTheSameShareOfTheirWay) {
+  const auto settled = [](double sum) {
+    std::vector<PartOfSum> parts{{30, {20, 36}}, {10, {8, 14}}};
+    settle(parts, sum);
+    return std::pair(parts[0].figure, parts[1].figure);
+  };
+  EXPECT_EQ(settled(45), std::pair(33.0, 12.0));
+  EXPECT_EQ(settled(34), std::pair(25.0, 9.0)) << "downwards, half of 10 and of 2";
+  EXPECT_EQ(settled(40), std::pair(30.0, 10.0));
+  EXPECT_EQ(settled(60), std::pair(36.0, 14.0)) << "as far as their ranges allow";
+}
+
+TEST(TimesBand, WhatAnEarlierSumHasSettledStaysInALaterOne) {
+  TimeTable times;
+  ASSERT_EQ(times.add("mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent,base_within_us\n"
+                      "(sum),CALL + RET,45,,,measured,,,0.001\n(sum),CALL + (interrupt entry),60,,,measured,,,0.001\n"
+                      "CALL,,30,,,measured,,,10\nRET,,10,,,measured,,,10\n(interrupt entry),,50,,,measured,,,40\n",
+                      "sums.csv"),
+            std::vector<std::string>{});
+  for (std::uint32_t number = 0; number < 50; ++number) {
+    const TimeTable drawn = random_times(times, 1, number);
+    const Time call = drawn.find("CALL", {})->base;
+    EXPECT_NEAR(static_cast<double>(call + drawn.find("RET", {})->base), 45'000, 2) << number;
+    EXPECT_NEAR(static_cast<double>(call + drawn.find("(interrupt entry)", {})->base), 60'000, 2) << number;
+  }
+}
+
 TEST(TimesBand, NoFigureIsDrawnBeyondTheLongestThatATableMayHave) {
   const std::string header = "mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent\n";
   TimeTable table = default_times(cpu214());
