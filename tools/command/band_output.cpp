@@ -116,7 +116,8 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
   if (!tip41 && !band.tip41().empty()) return kUnusable;
   if (!rig_options.assemble(programs->program(0), json)) return rig_options.exit_code_without_rig();
   const auto with_table = [&](std::size_t table) {
-    const auto of_table = programs->program(table);
+    const auto checked = programs->program(table);
+    const auto of_table = program.every_scan ? with_every_scan(*checked) : checked;
     std::vector<std::string> problems;
     const auto rig = rig_options.assemble_another(of_table, problems);
     if (!rig) throw std::runtime_error(problems.empty() ? "interrupted" : problems.front());

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/model/named_times.hpp"
 #include "tools/command/measuring_target.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -89,9 +90,10 @@ std::string not_measured_text(const Fit& fit, const CpuModel& model) {
   std::string text;
   for (std::size_t sum = 0; sum < fit.sums.size(); ++sum) text += sum_text(fit, sum);
   const auto ratio = ratio_to_known(fit);
+  const std::string_view own = times_of(model).front()->name;
   text += "not measured separately; ";
-  text += ratio ? fmt::format("estimated as {:.2f} × the CPU's own table (EEPROM save unchanged):", *ratio)
-                : "the figures of the CPU's own table are kept, as fewer than half of all were measured:";
+  text += ratio ? fmt::format("estimated as {:.2f} × the figure of {} (EEPROM save unchanged):", *ratio, own)
+                : fmt::format("the figures of {} are kept, as fewer than half of all were measured:", own);
   std::vector<NotMeasured> missing = not_measured(fit, model);
   while (!missing.empty()) {
     const std::string_view why = missing.front().why;

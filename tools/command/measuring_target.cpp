@@ -38,10 +38,10 @@ class LoopProgress {
 
   void operator()(std::size_t done) {
     if (can_redraw(stderr)) {
-      fmt::print(stderr, "\r{} of {} loops{}", done, all_, done == all_ ? "\r\x1b[K" : "");
+      fmt::print(stderr, "\r\x1b[K{}", done == all_ ? "" : text(done));
       std::fflush(stderr);
     } else if (host_time() >= next_) {
-      print_note(fmt::format("{} of {} loops", done, all_));
+      print_note(text(done));
       next_ += kOnceInAWhile;
     }
   }
@@ -49,8 +49,19 @@ class LoopProgress {
  private:
   static constexpr Time kOnceInAWhile = 30 * kSecond;
 
+  /// `30 of 240 loops, about 4 min left`
+  std::string text(std::size_t done) const {
+    const std::string so_far = fmt::format("{} of {} loops", done, all_);
+    if (done == 0) return so_far;
+    const double left =
+        static_cast<double>(host_time() - from_) / kSecond / static_cast<double>(done) * static_cast<double>(all_ - done);
+    return left < 100 ? fmt::format("{}, about {:.0f} s left", so_far, left)
+                      : fmt::format("{}, about {:.0f} min left", so_far, left / 60);
+  }
+
   std::size_t all_;
-  Time next_ = host_time() + kOnceInAWhile;
+  Time from_ = host_time();
+  Time next_ = from_ + kOnceInAWhile;
 };
 
 }  // namespace
