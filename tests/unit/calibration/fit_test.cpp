@@ -102,6 +102,25 @@ TEST(Calibrated, WhatWasNotMeasuredIsAsMuchSlowerAsTheMiddleOfWhatWas) {
   EXPECT_EQ(table[SystemTime::EepromSave], own[SystemTime::EepromSave]) << "a part of its own";
 }
 
+TEST(Calibrated, AfterAnInterruptionWithFewerThanHalfMeasuredTheOtherFiguresAreTheCpusOwn) {
+  const TimeTable own = default_times(cpu214());
+  const Loops loops{{form("NEXT"), form("MOVB"), form("MOVW")}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const Fit found = fit(loops, {{225'000, 10}});
+  EXPECT_FALSE(ratio_to_known(found)) << "one of three";
+  const TimeTable table = calibrated(found, own, own, "a CPU");
+  EXPECT_EQ(table.find("NEXT", {})->base, 225'000);
+  EXPECT_EQ(table.find("MOVB", {})->base, own.find("MOVB", {})->base);
+  EXPECT_TRUE(ratio_to_known(fit(loops, {{225'000, 10}, {36'000, 10}}))) << "two of three";
+  const auto why = [&](std::string_view name) {
+    const auto missing = not_measured(found, cpu214());
+    const auto it = std::ranges::find(missing, name, &NotMeasured::name);
+    return it == missing.end() ? "measured" : std::string(it->why);
+  };
+  EXPECT_EQ(why("NEXT"), "measured");
+  EXPECT_EQ(why("MOVB"), "interrupted before its loop ran");
+  EXPECT_EQ(why("CALL"), "the loops do not tell it apart") << "it is in none of these";
+}
+
 TEST(ToldApart, FirstOperandsThatAnyTableOfTheCpuKnowsToDifferHaveLinesOfTheirOwn) {
   const TimeTable times = told_apart(cpu214());
   const auto same = [&](const char* mnemonic, Area one, Area other) {
