@@ -110,6 +110,7 @@ std::vector<std::string> slips_in(const TimesFile& file, const std::string& name
     if (!slip.empty()) slips.push_back(fmt::format("{}:{}: {}", name, line, slip));
   };
   if (!file.cpu.empty()) add(file.cpu_line, other_cpu(file.cpu, model));
+  if (!slips.empty()) return slips;  // what else does not fit follows from that
   for (const TimesFile::Line& line : file.lines)
     for (const std::string& mnemonic : line.row.mnemonics) add(line.number, slip_in(line.row, mnemonic, model));
   return slips;

@@ -3066,7 +3066,7 @@ class Times(Case):
         self.assertIn("# without its 'robust: 10%': the times below are those of one table\n", (self.folder / "t.yaml").read_text(encoding="utf-8"))
         self.ends(FINE, "test", self.folder / "t.yaml")
         for share in ("0%", "101%", "95"):
-            self.assertIn(f"'{share}' is not a share of the tables of execution times above 0%", self.ends(UNUSABLE, "test", self.program(text.replace("100%", share), "x.yaml")).stderr)
+            self.assertIn(f"'{share}' is not a share of the tables of execution times, above 0% and up to 100%", self.ends(UNUSABLE, "test", self.program(text.replace("100%", share), "x.yaml")).stderr)
         empty = self.ends(UNUSABLE, "test", self.program(text.replace(" 100%", ""), "x.yaml")).stderr
         self.assertIn("x.yaml:2:1: error: ", empty, "what is not written stands where its key does")
         self.assertNotEqual(*(self.json(FINE, "test", scenario, "--band-seed", seed, "--json")["scenarios"][0]["band"] for seed in "12"))

@@ -110,7 +110,8 @@ void add_send(CLI::App& app, int& exit_code) {
       "Exit code 1 if a frame was not answered or the answer was damaged: parity or framing errors, or a wrong CRC\n"
       "in answer to a right one. What an answer says is not judged here but by 's7200 master'. With --times-band it is\n"
       "0 only if all were answered with every table.\n"
-      "A system file (.yaml) instead of a PROGRAM: the frames go onto one of its lines, beside everybody who is there.\n"
+      "A system file (.yaml) instead of a PROGRAM: the frames go onto one of its lines, beside everybody who is there;\n"
+      "--times-band is for one PROGRAM.\n"
       "Example: s7200 send stl_programs/systems/faults.yaml --crc 0103000a0001\n"
       "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, verb, &exit_code] { exit_code = run_send(*verb, *options); });

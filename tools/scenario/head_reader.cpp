@@ -80,7 +80,8 @@ class HeadReader {
     if (const auto timeout = values_.time(map.find("timeout"))) scenario.line.timeout = *timeout;
     if (const YamlNode* robust = map.find("robust")) {
       scenario.robust_at = robust->position;
-      scenario.robust = values_.value(robust, "a share of the tables of execution times above 0%", "95%", parse_share);
+      scenario.robust =
+          values_.value(robust, "a share of the tables of execution times, above 0% and up to 100%", "95%", parse_share);
     }
     if (const auto tolerance = values_.time(map.find("tolerance"))) scenario.tolerance = *tolerance;
     return true;

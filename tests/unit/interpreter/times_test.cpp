@@ -272,6 +272,7 @@ TEST(LoadTimes, AFileWithTheTimesOfAnotherCpuIsRefused) {
   EXPECT_EQ(slips_in(line, cpu214(), "# CPU 224\n"),
             Errors{":1: these are times of CPU 224, not of CPU 214; give --cpu 224, or delete this line and mend what does "
                    "not fit"});
+  EXPECT_EQ(slips_in("BITIM,,60,,,manual\n", cpu214(), "# CPU 224\n").size(), 1) << "what else does not fit follows from it";
   EXPECT_EQ(slips_in(line, cpu214(), "# CPU 300\n"), Errors{":1: there is no CPU '300'"});
   EXPECT_EQ(slips_in(line, cpu214(), "# CPU 214\n"), Errors{});
   EXPECT_EQ(slips_in(line, cpu214(), "# CPU 212\n"), Errors{}) << "the same table";

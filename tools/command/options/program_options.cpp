@@ -72,7 +72,9 @@ void CpuOptions::add_cpu_and_times_to(CLI::App& app, const std::string& meaning)
   std::vector<std::string> tables;
   for (const NamedTimes& times : named_times()) tables.emplace_back(times.name);
   offer_beside_files(
-      app.add_option("--times", times_table, "table of execution times: a name that `s7200 times` lists, or a CSV file"),
+      app.add_option(
+          "--times", times_table,
+          "table of execution times: a name that `s7200 times` lists, or a CSV file; what it leaves out is as usual"),
       tables)
       ->type_name("TABLE");
 }
