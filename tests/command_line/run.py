@@ -2574,6 +2574,9 @@ class Files(Case):
                       f"set VW20=16#4321; {power}; set VW20=5; continue 100ms; send 01 03 00 0a 00 01 crc; continue; display MB14 VW20; "
                       f"record {recorded}")
             text = recorded.read_text()
+            again = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"record {recorded}")
+            self.assertIn(f"{recorded} exists; 'record {recorded} !' replaces it", again.stderr)
+            self.assertEqual(recorded.read_text(), text, "somebody may have added to it")
             self.assertEqual(text.count("power_cycle: memory " + ("kept" if kept else "lost")), 2, text)
             self.assertIn(f"MB14: 16#{kept:02X}", text)
             self.ends(FINE, "test", recorded)
@@ -2639,6 +2642,12 @@ class Files(Case):
         self.assertEqual(text.count("expect: silence"), 1, text)
         self.assertIn("- set_mode: stop\n        on: slave1", text)
         self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
+    def test_a_part_of_an_accumulator_on_display_is_recorded_as_the_whole(self):
+        program = self.program("LD SM0.1\nMOVD 16#12345678 AC1\nMEND\n", "part.stl")
+        self.ends(FINE, "debug", program, "-x", f"continue 10ms; display AC1:byte; record {self.folder}/part.yaml")
+        self.assertIn("memory: {AC1: 16#12345678}", (self.folder / "part.yaml").read_text(encoding="utf-8"))
+        self.ends(FINE, "test", self.folder / "part.yaml")
 
     def test_what_cannot_be_recorded_is_left_out_and_says_what_to_do(self):
         ask, record = "send 01 03 00 0a 00 01 crc; ", f"record {self.folder / 'late.yaml'} !"

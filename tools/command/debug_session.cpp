@@ -244,8 +244,7 @@ DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, Deb
             auto steps = steps_of(record, options.rig.named_stations(options.master), why);
             if (!steps || !write_session_scenario(options, options.rig.program(), *steps, to, why)) return {};
             return steps->left_out;
-          },
-          .scenario_beginning = session_scenario_beginning()};
+          }};
 }
 
 }  // namespace s7200::tools

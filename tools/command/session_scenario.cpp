@@ -255,6 +255,4 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
   return why.empty() && write_result(to, text, why);
 }
 
-std::string_view session_scenario_beginning() { return kTranscriptBeginning; }
-
 }  // namespace s7200::tools

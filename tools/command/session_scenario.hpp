@@ -59,7 +59,4 @@ struct SessionSteps {
 bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
                             SessionSteps& session, const Destination& to, std::string& why);
 
-/// How such a file begins.
-std::string_view session_scenario_beginning();
-
 }  // namespace s7200::tools

@@ -8,10 +8,14 @@
 namespace s7200::tools {
 
 int write_stl(const std::string& output, const std::vector<std::string>& inputs, bool force, const std::string& text) {
-  WrittenFiles files;
-  for (const std::string& input : inputs) files.reads(input);
-  std::string why;
-  const auto destination = files.claim("-o", output, {"STL"}, force ? Replace::Judged : Replace::Never, why);
+  const auto claim = [&](Replace replace, std::string& why) {
+    WrittenFiles files;
+    for (const std::string& input : inputs) files.reads(input);
+    return files.claim("-o", output, {"STL"}, replace, why);
+  };
+  std::string why, why_not;
+  const auto destination = claim(force ? Replace::Judged : Replace::Never, why);
+  if (!destination && claim(Replace::Judged, why_not)) why += "; --force overwrites it";
   if (!destination) return print_error(why), kUnusable;
   catch_interruption();  // the file is written to its end
   if (write_result(*destination, text, why)) return kFine;

@@ -62,7 +62,6 @@ struct DebuggerOptions {
   std::function<std::optional<std::vector<std::string>>(const SessionRecord& record, const Destination& to,
                                                         std::string& why)>
       write_scenario{};
-  std::string_view scenario_beginning{};  ///< of such files
 };
 
 struct ScriptError {
@@ -365,7 +364,7 @@ class Debugger {
   Error switch_power(bool on);
   std::vector<SessionOption> session_conditions() const;
   std::optional<Destination> destination(const Arguments& arguments, std::string_view command, FileKind kind,
-                                         std::string& why) const;
+                                         Replace unasked, std::string& why) const;
   SessionFile session_file() const;
   bool has_come_to(const SessionFile& file) const;
   std::optional<serial::Exchange> last_exchange() const;

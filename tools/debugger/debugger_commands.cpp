@@ -192,7 +192,7 @@ they were set at. What stops at another station goes over to it.)",
 and power cycles, each at its time, and the answers that came. Displayed memory is expected to have its values at the end.
 What no scenario can do is left out, and said: something set or sent while a frame or its answer was under way, a request
 given up within its answer, 'goto' and the logic stack of an editor. 'power all' of a system, and a session with --memory,
-cannot be recorded.)",
+cannot be recorded. A file that exists is replaced if ! follows its name.)",
        &Debugger::record, Takes::Files},
       {"stack", "sta", "stack", "the nine levels of the logic stack", "", &Debugger::stack},
       {"print", "p", kPrintSyntax,

@@ -27,13 +27,17 @@ std::string without_quotes(const std::string& text) {
   return length > 1 && length == text.size() ? text.substr(1, length - 2) : text;
 }
 
-/// Object `i` of a range, with its value.
+/// Object `i` of a range, with its value; a whole accumulator, which has no parts in a scenario.
 Assignment object_of(const State& state, const MemoryRange& range, std::uint32_t i) {
   MemoryRange place = range;
   place.count = 1;
   const bool element = info(range.area).element != 0;
   place.number = range.number + i * (element ? 1 : s7200::bytes_of(range.width));
   place.at = range.at + i * (element ? info(range.area).element : s7200::bytes_of(range.width));
+  if (range.area == Area::AC) {
+    place.at -= 4 - s7200::bytes_of(range.width);
+    place.width = Width::Double;
+  }
   std::uint32_t value = 0;
   for (const std::uint8_t byte : place.bytes_in(state.image)) value = value << 8 | byte;
   return {place, value};
@@ -43,7 +47,7 @@ Assignment object_of(const State& state, const MemoryRange& range, std::uint32_t
 
 /// `FILE [!]`: where a file goes that does not replace another one, unless `!` says so.
 std::optional<Destination> Debugger::destination(const Arguments& arguments, std::string_view command, FileKind kind,
-                                                 std::string& why) const {
+                                                 Replace unasked, std::string& why) const {
   const bool replaces = arguments.size() == 2 && arguments[1] == "!";
   if (arguments.empty() || arguments.size() > (replaces ? 2 : 1)) {
     why = expects(command, fmt::format("a file, and ! if it may replace one that exists, for example: {} a.txt", command));
@@ -54,7 +58,7 @@ std::optional<Destination> Debugger::destination(const Arguments& arguments, std
     WrittenFiles files = options_.written;
     return files.claim(command, path, kind, replace, why_not);
   };
-  auto to = claim(replaces ? Replace::Judged : Replace::Own, why);
+  auto to = claim(replaces ? Replace::Judged : unasked, why);
   if (to && to->stream) {
     why = fmt::format("{} is not a file", path);
     return {};
@@ -93,7 +97,7 @@ bool Debugger::has_come_to(const SessionFile& file) const {
 
 Debugger::Error Debugger::save(const Arguments& arguments) {
   std::string why;
-  const auto to = destination(arguments, "save", {"a saved session", session_beginning()}, why);
+  const auto to = destination(arguments, "save", {"a saved session", session_beginning()}, Replace::Own, why);
   if (!to) return why;
   const SessionFile file = session_file();
   if (!file.recording.complete) return "cannot save: " + oldest_text(history_);
@@ -172,7 +176,7 @@ Debugger::Error Debugger::record(const Arguments& arguments) {
   std::string why;
   if (!arguments.empty() && stl::lower_case(without_quotes(arguments[0])).ends_with(".json"))
     return "record writes a scenario in YAML: name it .yaml; 'save' writes a session in JSON, which 'load' returns to";
-  const auto to = destination(arguments, "record", {"a transcript", std::string(options_.scenario_beginning)}, why);
+  const auto to = destination(arguments, "record", {"a transcript"}, Replace::Never, why);  // people add to what it wrote
   if (!to) return why;
   if (const std::string requests = requests_under_way(); !requests.empty())
     return fmt::format(

@@ -236,9 +236,11 @@ std::string Debugger::mark_of(std::uint32_t op) const {
 
 namespace {
 
-/// `VW100:4`, `VD20:real`: as parse_range() reads it.
+/// `VW100:4`, `VD20:real`, `AC1:byte`: as parse_place() reads it.
 std::string address_of(const MemoryRange& range) {
-  return range.name_of(0) + (range.count > 1 ? fmt::format(":{}", range.count) : "") + (range.real ? ":real" : "");
+  const bool part = range.area == Area::AC && range.width != Width::Double;
+  const std::string_view type = range.real ? ":real" : !part ? "" : range.width == Width::Byte ? ":byte" : ":word";
+  return range.name_of(0) + (range.count > 1 ? fmt::format(":{}", range.count) : "") + std::string(type);
 }
 
 SessionFile::SavedStop saved(const StopPoint& stop) {
@@ -268,10 +270,10 @@ std::optional<StopPoint> Debugger::stop_of(const SessionFile::SavedStop& saved, 
   std::optional<StopPoint> stop;
   if (saved.access.empty()) {
     stop = find_stop(stl::split_words(saved.on), program, of.listing, why, note);
-  } else if (const auto range = parse_range(saved.on, program, why)) {
+  } else if (const auto place = parse_place(saved.on, program, why); place && !place->pointer) {
     const auto access = std::ranges::find(kAccesses, saved.access, &AccessWord::word);
     if (access == std::end(kAccesses)) return {};
-    stop = StopPoint{.on = access->on, .range = range, .name = name_of(*range, saved.on, program)};
+    stop = StopPoint{.on = access->on, .range = place->range, .name = name_of(place->range, saved.on, program)};
     if (stop->on != On::Change) stop->name += fmt::format(" {}", access->word);
   }
   if (stop && !saved.condition.empty()) stop->condition = Expression::parse(saved.condition, program, why);

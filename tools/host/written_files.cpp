@@ -138,7 +138,7 @@ std::optional<Destination> WrittenFiles::claim(std::string_view option, const st
   const bool holds_something = found && found->st_size != 0;
   if (holds_something && replace == Replace::Own && !begins_with(path, destination.kind.beginning))
     return refuse(fmt::format("{} exists and is not {}; it is left alone", path, destination.kind.name));
-  if (holds_something && replace == Replace::Never) return refuse(fmt::format("{} exists; --force overwrites it", path));
+  if (holds_something && replace == Replace::Never) return refuse(fmt::format("{} exists", path));
   if (found && is_being_written(path))
     return refuse(fmt::format("{} {}: another command is still writing it; name another", option, path));
   if (access(folder_of(path).c_str(), W_OK | X_OK) != 0)

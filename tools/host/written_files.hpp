@@ -36,7 +36,7 @@ struct FileKind {
 /// Which of the files that exist may be replaced.
 enum class Replace : std::uint8_t {
   Own,     ///< what the option wrote
-  Never,   ///< none; --force would
+  Never,   ///< none
   Judged,  ///< any: --force, or the caller has read the file
 };
 

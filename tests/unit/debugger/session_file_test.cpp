@@ -79,6 +79,15 @@ TEST_F(SavedSession, HasItsBreakpointsAndWatches) {
   EXPECT_TRUE(has(third.out.str(), "2   break    0 hits  INT 0")) << "that of another one is not taken";
 }
 
+TEST_F(SavedSession, KeepsTheTypeOfAWatchOnAPartOfAnAccumulator) {
+  Session session(kNested), other(kNested);
+  session("set AC1=16#12345678; watch AC1:byte AC1:word AC0; save " + file("parts.json"));
+  const std::string there = session("break");
+  other("load " + file("parts.json"));
+  EXPECT_EQ(other("break"), there);
+  EXPECT_TRUE(has(there, "AC1:BYTE"));
+}
+
 TEST_F(SavedSession, KeepsAPowerCycleThatItBeganWith) {
   Session session(kNested);
   session("scan 5; set MB14=9; power 1s; scan 2; save " + file("a.json"));
