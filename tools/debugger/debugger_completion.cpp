@@ -94,8 +94,22 @@ Words moments_of(const History& history) {
   return words;
 }
 
-/// Whether the next word belongs to a condition.
-bool is_in_condition(const std::string& before) { return before == "IF" || before == "AND" || before == "OR"; }
+constexpr std::string_view kOperators = "(<>=+-*/";
+
+/// Whether a value of a condition may be next: after `if`, and after what connects values there.
+bool wants_value(const Words& given) {
+  if (std::ranges::none_of(given, [](const std::string& word) { return stl::upper_case(word) == "IF"; })) return false;
+  const std::string before = stl::upper_case(given.back());
+  return before == "IF" || before == "AND" || before == "OR" || before == "NOT" ||
+         kOperators.find(before.back()) != std::string_view::npos;
+}
+
+/// The addresses behind what `last` has up to its last operator: `(VW2+M` may become `(VW2+MB0`.
+Words values_in(std::string_view last, Words addresses) {
+  const std::string written(last.substr(0, last.find_last_of(kOperators) + 1));
+  for (std::string& address : addresses) address.insert(0, written);
+  return addresses;
+}
 
 }  // namespace
 
@@ -164,10 +178,12 @@ Debugger::Arguments Debugger::words_after(const Command& command, const Argument
       for (const Forced& forced : forced_in(simulation().cpu())) all.push_back(forced.place.name_of(0));
       break;
     case Takes::Break:
-      add(is_in_condition(before) ? address_words(program) : words_after_break(given, program));
+      add(wants_value(given) ? values_in(last, address_words(program)) : words_after_break(given, program));
       break;
     case Takes::Watch:
-      add(is_first || is_in_condition(before) ? address_words(program) : words_after_watch(given));
+      add(is_first             ? address_words(program)
+          : wants_value(given) ? values_in(last, address_words(program))
+                               : words_after_watch(given));
       break;
     case Takes::Places:
       if (given.size() < 2) add(is_first ? place_words() : numbers_of(before, program));

@@ -278,6 +278,7 @@ std::vector<std::string> words_after_watch(const std::vector<std::string>& words
   const bool waits_for = has("read") || has("write") || has("change");
   for (const AccessWord& access : kAccesses)
     if (!waits_for && access.word.find(' ') == std::string_view::npos) all.emplace_back(access.word);
+  if (stl::lower_case(words.back()) == "read" && !has("write")) all.emplace_back("write");
   std::ranges::copy(options_after(words, false), std::back_inserter(all));
   return all;
 }

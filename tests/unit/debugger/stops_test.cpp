@@ -160,6 +160,13 @@ TEST(Stops, CompletionOffersWhatMayComeNext) {
   EXPECT_EQ(offered("break una"), Words{"unanswered"});
   EXPECT_EQ(offered("watch VW10 "), (Words{"read", "write", "change", "if", "hits", "log"}));
   EXPECT_EQ(offered("watch VW10 read if VW2"), Words{"VW20"});
+  EXPECT_EQ(offered("watch VW10 read "), (Words{"write", "if", "hits", "log"}));
+  EXPECT_EQ(offered("watch VW10 read write "), (Words{"if", "hits", "log"}));
+  for (const char* const condition : {"not ", "not ( ", "VW20 > ", "VW20 + 1 <= "})
+    EXPECT_EQ(offered(std::string("break 4 if ") + condition + "VW1"), Words{"VW10"}) << condition;
+  EXPECT_EQ(offered("break 4 if not (VW1"), Words{"(VW10"});
+  EXPECT_EQ(offered("break 4 if VW20>VW1"), Words{"VW20>VW10"});
+  EXPECT_EQ(offered("break 4 if VW20 VW1"), Words{}) << "nothing connects them";
   EXPECT_EQ(offered("force S"), Words{}) << "special memory cannot be forced";
   EXPECT_EQ(offered("force VW1"), Words{"VW10"});
   session("force VW10=5");
