@@ -75,14 +75,8 @@ class RigDebuggee final : public dap::Debuggee {
   std::optional<History> history_;  ///< from start() on
 };
 
-/// What a launch says besides: to the session, or to the editor that sends it.
+/// What a launch says besides: which program, and to the editor that sends it.
 constexpr std::string_view kNoOptions[] = {"program",
-                                           "stopOnEntry",
-                                           "noDebug",
-                                           "step",
-                                           "send",
-                                           "sendAfter",
-                                           "station",
                                            "name",
                                            "type",
                                            "request",
@@ -96,7 +90,8 @@ constexpr std::string_view kNoOptions[] = {"program",
                                            "suppressMultipleSessionWarning"};
 
 bool is_option(const std::string& key) {
-  return !key.starts_with("__") && std::ranges::find(kNoOptions, key) == std::end(kNoOptions);
+  return !key.starts_with("__") && !dap::is_session_attribute(key) &&
+         std::ranges::find(kNoOptions, key) == std::end(kNoOptions);
 }
 
 /// `--modbus-tcp` for `modbusTcp`

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
@@ -142,7 +143,9 @@ const std::vector<Session::Request>& Session::requests() {
 // --- messages ---
 
 void Session::handle(const Json& message) {
-  if (text_in(message, "type") != "request") return;  // a response to nothing we have asked
+  const std::string type = text_in(message, "type");
+  if (type == "response" || type == "event") return;  // to nothing we have asked
+  if (type != "request") return complain(fmt::format("'{}' has no type 'request'", stl::shortened(message.dump())));
   const std::string command = text_in(message, "command");
   const auto found = std::ranges::find(requests(), command, &Request::command);
   handling_ = number_in(message, "seq");
@@ -289,6 +292,7 @@ Json Session::launch(const Json& arguments) {
   if (debuggee_) throw Refused("a program is being debugged already");
   read_attributes(arguments, false);
   begin(settings_.launch(arguments));
+  begun_with_ = arguments;
   return {};
 }
 
@@ -300,6 +304,7 @@ Json Session::attach(const Json& arguments) {
         "PROGRAM; launch brings its own");
   read_attributes(arguments, true);
   begin(settings_.attachable);
+  begun_with_ = arguments;
   attached_ = true;
   return {};
 }
@@ -369,13 +374,29 @@ void Session::start() {
   run_to([](const State&, std::uint32_t, const Stepper::Progress&) { return true; }, "entry");
 }
 
+/// Of a launch or an attach that has changed since: what is about the session itself; the program is the one that is loaded.
+void Session::take_changed_arguments(const Json& arguments) {
+  read_attributes(arguments, attached_);
+  std::vector<std::string> changed;
+  for (const auto& [key, value] : arguments.items())
+    if (!key.starts_with("__") && !is_session_attribute(key) && begun_with_.value(key, Json()) != value)
+      changed.push_back(key);
+  for (const auto& [key, value] : begun_with_.items())
+    if (!key.starts_with("__") && !is_session_attribute(key) && !arguments.contains(key)) changed.push_back(key);
+  if (!changed.empty())
+    print(fmt::format(
+              "restart: the program that is loaded powers up again; for another {} end the session and begin a new one",
+              stl::joined(changed, std::identity{})),
+          "important");
+}
+
 Json Session::restart(const Json& arguments) {
-  if (arguments.contains("arguments")) stop_on_entry_ = arguments["arguments"].value("stopOnEntry", stop_on_entry_);
+  if (arguments.contains("arguments")) take_changed_arguments(arguments["arguments"]);
   running_.reset();
   pause_asked_ = false;
   debuggee_->history().restart();
   note_new_branch();
-  frames_sent_ = 0;
+  frames_sent_.clear();
   after_response([this] {
     if (!stop_on_entry_) send_event("continued", {{"threadId", thread()}, {"allThreadsContinued", true}});
     start();

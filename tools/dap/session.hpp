@@ -36,6 +36,12 @@ namespace s7200::tools::dap {
 /// From the numbers of a station's frames to those of the next one; and of what has variables.
 inline constexpr std::int64_t kFramesOfAStation = 1 << 16, kContainersOfAStation = 1 << 23;
 
+/// What a launch or an attach says to the session itself.
+constexpr bool is_session_attribute(std::string_view key) {
+  return key == "stopOnEntry" || key == "noDebug" || key == "step" || key == "send" || key == "sendAfter" ||
+         key == "station";
+}
+
 struct SessionSettings {
   /// Powers up what a launch asks for; throws Refused.
   std::function<std::shared_ptr<Debuggee>(const Json& arguments)> launch;
@@ -90,6 +96,7 @@ class Session {
   Json disconnect(const Json& arguments);
   Json cancel(const Json& arguments);
   void read_attributes(const Json& arguments, bool stops_on_entry);
+  void take_changed_arguments(const Json& arguments);
   void begin(std::shared_ptr<Debuggee> debuggee);
   void read_frames(const Json& arguments);
   serial::Frame parsed_frame(const std::string& text) const;
@@ -293,8 +300,9 @@ class Session {
   std::unique_ptr<Stepper> stepper_;
   bool stop_on_entry_ = false, no_debug_ = false, steps_are_networks_ = false;
   std::vector<serial::Frame> frames_;  ///< to be sent, as the launch asks for
-  std::size_t frames_sent_ = 0;
-  std::uint8_t station_ = 1;  ///< of requests that name none
+  std::vector<Time> frames_sent_;      ///< when, on this branch
+  Json begun_with_;                    ///< the arguments of launch or attach
+  std::uint8_t station_ = 1;           ///< of requests that name none
   Time send_after_ = 0;
   bool captures_end_ = false;  ///< has been said
 

@@ -14,6 +14,7 @@
 #include "tools/dap/session.hpp"
 #include "tools/debugger/stop_words.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/views/text_frame.hpp"
 
 namespace s7200::tools::dap {
 namespace {
@@ -227,7 +228,7 @@ Json Session::breakpoint_locations(const Json& arguments) {
 
 Json Session::data_breakpoint_info(const Json& arguments) {
   const auto name = required(arguments, "name").get<std::string>();
-  std::string text = name.substr(0, name.find(' '));
+  std::string text = name.substr(0, name.find(' ', name.starts_with('"') ? quotation_length(name) : 0));
   if (arguments.value("asAddress", false)) {
     const auto place = find_memory(text, cpu().program());
     if (!place) throw Refused(fmt::format("'{}' is not an address of memory", stl::shortened(text)));
@@ -242,7 +243,7 @@ Json Session::data_breakpoint_info(const Json& arguments) {
     text = fmt::format("{}B{}:{}", info(range->area).name, range->number, bytes);
     range = parse_range(text, cpu().program(), why);
     if (!range) return {{"dataId", nullptr}, {"description", why}};
-  } else if (where->pointer) {
+  } else if (where->pointer || text.starts_with('"')) {
     text = range->count > 1 ? fmt::format("{}:{}", range->name_of(0), range->count) : range->name_of(0);
   }
   const bool every_write = stl::lower_case(name).ends_with(" write");

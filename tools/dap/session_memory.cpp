@@ -177,6 +177,7 @@ void Session::act(Action action) {
 
 /// A record of what went on cannot go back: a capture ends, a trace says so by its times.
 void Session::note_new_branch() {
+  std::erase_if(frames_sent_, [now = debuggee_->history().now().time](Time sent) { return sent > now; });
   for (std::size_t station = 0; station < stations(); ++station) debuggee_->history().station(station).plc().unwatch_lines();
   const std::string files = debuggee_->recorded_files();
   if (files.empty() || std::exchange(captures_end_, true)) return;

@@ -93,11 +93,13 @@ Json Session::pause(const Json&) {
 bool Session::send_what_is_due() {
   const std::size_t first = debuggee_->first_station();
   serial::Simulation& there = debuggee_->history().station(first);
-  if (frames_sent_ == frames_.size() || debuggee_->history().in_the_past() || there.master().busy() ||
+  if (frames_sent_.size() == frames_.size() || debuggee_->history().in_the_past() || there.master().busy() ||
       there.time() < send_after_ || !there.plc().executes())
     return false;
   const serial::MasterSettings& master = debuggee_->master(first);
-  debuggee_->history().act(SendFrame{master.over(there.port_format()), master.request(frames_[frames_sent_++])}, first);
+  const serial::Frame& frame = frames_[frames_sent_.size()];
+  frames_sent_.push_back(there.time());
+  debuggee_->history().act(SendFrame{master.over(there.port_format()), master.request(frame)}, first);
   return true;
 }
 
@@ -111,7 +113,7 @@ void Session::run() {
     if (stands && !waits && !passes_time && !history.in_the_past())
       return report({.reason = StopReason::CpuStopped, .station = looks_at()}, "");
     send_what_is_due();
-    const bool more = frames_sent_ < frames_.size();
+    const bool more = frames_sent_.size() < frames_.size();
     const Time now = simulation().time();
     Time limit = std::min(more && now < send_after_ ? send_after_ : kNever, running_->until);
     if (stands && !waits && !passes_time) limit = history.newest().time;

@@ -697,6 +697,59 @@ TEST(DapSession, ARestartPowersUpAgain) {
   EXPECT_EQ(editor.value("VW10"), "16#0000 (0)");
 }
 
+TEST(DapSession, ARestartWithOtherArgumentsTakesThoseOfTheSessionAndSaysWhichItCannotTake) {
+  Editor editor(kNested);
+  const Json before{{"stopOnEntry", true}, {"program", "a.stl"}, {"cpu", "214"}, {"__sessionId", "1"}};
+  editor.begin(before);
+  editor("restart", {{"arguments", before}});
+  EXPECT_FALSE(has(editor.printed(), "restart:"));
+  EXPECT_EQ(editor.stopped(), "entry");
+  editor("restart",
+         {{"arguments", {{"stopOnEntry", true}, {"step", "network"}, {"program", "b.stl"}, {"__sessionId", "2"}}}});
+  EXPECT_TRUE(has(editor.printed(), "for another program, cpu end the session and begin a new one"));
+}
+
+TEST(DapSession, FramesOfTheLaunchAreSentAgainOnABranchThatBeginsBefore) {
+  Editor editor(kNested);
+  editor.begin({{"stopOnEntry", true}, {"send", "01 02"}, {"sendAfter", "50ms"}});
+  const auto frames = [&] {
+    return std::ranges::count_if(editor.debuggee->history().actions(),
+                                 [](const Action& action) { return std::holds_alternative<SendFrame>(action); });
+  };
+  editor("setFunctionBreakpoints", {{"breakpoints", Json::array({{{"name", "sent"}}, {{"name", "unanswered"}}})}});
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(frames(), 1);
+  editor("goToMoment", {{"threadId", 1}, {"time", "20ms"}});
+  editor("setExpression", {{"expression", "VW100"}, {"value", "7"}});
+  EXPECT_EQ(frames(), 0) << "a new branch";
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(frames(), 1);
+}
+
+TEST(DapSession, WhatIsNeitherRequestNorResponseIsComplainedOf) {
+  Editor editor(kNested);
+  editor.begin();
+  editor.session.handle(Json::object());
+  EXPECT_TRUE(has(editor.printed(), "skipped what is not a message: '{}' has no type 'request'"));
+  editor.session.handle({{"type", "response"}, {"request_seq", 1}});
+  EXPECT_FALSE(has(editor.printed(), "request_seq"));
+}
+
+TEST(DapSession, ADataBreakpointTakesASymbolWithABlank) {
+  std::string why;
+  const auto read = [&why](std::string_view text, const char* name) { return *read_source(std::string(text), name, why); };
+  Editor editor(check(join_files({read("LD SM0.0\nMOVW 5, \"Pump 1\"\nMEND\n", "p.awl"),
+                                  read("Symbol\tAddress\nPump 1\tVW100\n", "t.txt")})
+                          .parsed,
+                      cpu214(), default_times(cpu214()))
+                    .program);
+  editor.begin();
+  const Json info = editor("dataBreakpointInfo", {{"name", "\"Pump 1\" write"}});
+  EXPECT_EQ(info["dataId"], "VW100 write");
+  EXPECT_TRUE(editor("setDataBreakpoints",
+                     {{"breakpoints", Json::array({{{"dataId", info["dataId"]}}})}})["breakpoints"][0]["verified"]);
+}
+
 // --- seeing ---
 
 TEST(DapSession, FramesAreTheRoutinesThatAreOpen) {
