@@ -93,6 +93,14 @@ test("each attribute of a launch is an option of debug, or one of the session", 
   }
 });
 
+test("each option of debug is an attribute of a launch, but for where commands come from", () => {
+  const { properties } = manifest.contributes.debuggers[0].configurationAttributes.launch;
+  for (const [, option] of s7200("debug", "--help").matchAll(/^ +(?:-.,)?--([a-z-]+) /gm)) {
+    if (["help", "commands", "execute", "interactive"].includes(option)) continue;
+    assert.ok(option.replace(/-[a-z]/g, (letter) => letter[1].toUpperCase()) in properties, option);
+  }
+});
+
 test("it has the version and the licence of the command", () => {
   assert.equal(`s7200 ${manifest.version}\n`, s7200("--version"));
   assert.match(fs.readFileSync(path.join(SOURCE, "LICENSE"), "utf8"), new RegExp(manifest.license));
@@ -282,6 +290,14 @@ test("pointing at an operand asks for the value of all of it", () => {
     assert.equal(asked.range, operand);
   }
   assert.equal(operands.provideEvaluatableExpression(document_of("MOVW VW0, 5"), { character: 10 }), undefined);
+});
+
+test("the last instructions are lines with their times", async () => {
+  const registered = stand_in();
+  const { commands, session } = registered;
+  session.customRequest = async (request) => request === "lastInstructions" && { instructions: [{ time: "1.500000", text: "line 2  INCW" }] };
+  await commands["s7200.lastInstructions"]();
+  assert.equal(registered.printed, "       1.500000  line 2  INCW");
 });
 
 test("a refused command is shown once, by VS Code", async () => {

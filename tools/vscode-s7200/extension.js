@@ -117,7 +117,8 @@ async function ask(request, argument, prompt, placeHolder) {
     if (!args[argument]) return undefined;
   }
   const body = await session.customRequest(request, args).catch(() => undefined);  // VS Code itself shows a refusal
-  if (body && body.text) vscode.debug.activeDebugConsole.appendLine(body.text.trimEnd());
+  const text = body?.text ?? body?.instructions?.map((one) => `${one.time.padStart(15)}  ${one.text}`).join("\n");
+  if (text) vscode.debug.activeDebugConsole.appendLine(text.trimEnd());
   return undefined;
 }
 
@@ -136,10 +137,11 @@ const COMMANDS = {
   reverseToLastDecision: [],
   goToMoment: ["time", "A moment since power-up", "15.193ms, -5ms, start, end"],
   sendFrame: ["frame", "A frame in hex, or text in quotation marks", "01 03 00 0a 00 01 crc"],
-  fault: ["fault", "A fault of the line from now on, as of --fault, or none", "flip:character=3,bit=5, or none"],
+  fault: ["fault", "A fault of the line from now on, as --fault takes it; or none", "flip:character=3,bit=5, or none"],
   force: ["values", "What is to hold a value across scans", "I0.3=1 VW10=5"],
   unforce: ["places", "What is to be released", "I0.3, or all"],
   timeline: [],
+  lastInstructions: [],
 };
 
 function activate(context) {
