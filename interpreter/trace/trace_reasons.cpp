@@ -8,6 +8,7 @@
 #include "interpreter/program/networks.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/instruction_lines.hpp"
+#include "interpreter/trace/interrupt_enabling.hpp"
 #include "interpreter/trace/statement_text.hpp"
 
 namespace s7200 {
@@ -295,8 +296,8 @@ std::string TraceReasons::unread_text(const Frame& frame) const {
 }
 
 TraceReasons::Unanswered TraceReasons::unanswered(const Frame& frame, const std::optional<Cause>& cause) const {
-  if (frame.unread < frame.characters) return {frame.characters, frame.since, cause ? cause->text : "", cause};
-  Unanswered unread{frame.characters, frame.since, unread_text(frame)};
+  if (frame.unread < frame.characters) return {frame.characters, frame.since, frame.last, cause ? cause->text : "", cause};
+  Unanswered unread{frame.characters, frame.since, frame.last, unread_text(frame)};
   if (const auto& by = frame.executed) unread.cause = Cause{unread.decided_by, *by, *by, false, true};
   return unread;
 }
@@ -333,9 +334,13 @@ TraceReasons::Cause TraceReasons::received_again(const Reception& reception, con
 
 std::vector<TraceReasons::Unanswered> TraceReasons::unread() const {
   std::vector<Unanswered> all;
-  for (const Reception& reception : reception_)
-    if (const Frame& frame = reception.frame; frame.characters > 0 && frame.unread == frame.characters)
-      all.push_back(unanswered(frame, {}));
+  const auto add = [&](const Frame& frame) {
+    if (frame.characters > 0 && frame.unread == frame.characters) all.push_back(unanswered(frame, {}));
+  };
+  for (const Reception& reception : reception_) {
+    std::ranges::for_each(reception.earlier, add);
+    add(reception.frame);
+  }
   return all;
 }
 
@@ -355,10 +360,9 @@ std::optional<TraceReasons::Unanswered> TraceReasons::taken(const Reception& rec
   all.characters -= all.lost;
   const std::optional<Cause> cause = cause_of(frame);
   const std::string text =
-      fmt::format("{} took {}{}, and nothing was sent since{}", all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV",
-                  all.characters == 1 ? "it" : "them", reception.message_open ? ", its message has not ended" : "",
-                  cause ? ": " + cause->text : " (no XMT was executed)");
-  return Unanswered{all.characters, all.since, text, cause, !frame.attached_anew};
+      fmt::format("{} took {}, and nothing was sent since{}", all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV",
+                  all.characters == 1 ? "it" : "them", cause ? ": " + cause->text : " (no XMT was executed)");
+  return Unanswered{all.characters, all.since, frame.last, text, cause, reception.message_open, !frame.attached_anew};
 }
 
 std::vector<TraceReasons::Unanswered> TraceReasons::taken(Time since) const {
@@ -370,13 +374,14 @@ std::vector<TraceReasons::Unanswered> TraceReasons::taken(Time since) const {
 
 // --- what has come ---
 
-/// A frame begins after a pause of three characters, if the program has attached a routine to its characters since.
+/// A frame begins after a pause of three characters, if the program has attached a routine to its characters since, or if
+/// the routine that got the last one did not read it: nothing is put together there.
 void TraceReasons::note_character(const TraceRecord& record) {
   Reception& reception = reception_[record.port];
   Frame& frame = reception.frame;
   const bool pause = record.since - frame.last > 3 * (record.at - record.since);
-  if (frame.characters == 0 || (frame.attached_anew && pause)) {
-    if (frame.characters > 0 && frame.passed_on) reception.earlier.push_back(std::move(frame));
+  if (frame.characters == 0 || (pause && (frame.attached_anew || !frame.read))) {
+    if (frame.characters > 0 && (frame.passed_on || !frame.read)) reception.earlier.push_back(std::move(frame));
     if (reception.earlier.size() > kEarlier) reception.earlier.erase(reception.earlier.begin());
     frame = {.since = record.since, .attached_by = reception.attached_by};
   }
@@ -396,7 +401,8 @@ void TraceReasons::note_event(const TraceRecord& record) {
     Frame& frame = reception_[port].frame;
     if (frame.characters == 1) frame.routine = record.routine;
     const bool served = record.kind == TraceKind::EventOccurred;
-    if (served && !reads_character_.test(record.routine)) ++frame.unread;
+    frame.read = !served || reads_character_.test(record.routine);
+    if (!frame.read) ++frame.unread;
     frame.kept_by.clear();
     if (frame.parts.empty()) continue;
     Part& part = frame.parts.back();
@@ -568,12 +574,14 @@ void TraceReasons::note(const TraceRecord& record) {
 }
 
 void TraceReasons::note_enable(const TraceRecord& record) {
-  const bool enabled = disabled_ && disabled_->by == Disabled::By::Nothing;
+  const bool by_instruction = disabled_ && disabled_->by != Disabled::By::NoEni;
+  const std::optional<bool> enabled = by_instruction ? std::optional(disabled_->by == Disabled::By::Nothing) : std::nullopt;
+  const bool changes = changes_interrupts(record, enabled);
   if (record.code == 1) {
-    if (!enabled) enabled_ = {record, disabled_};
+    if (changes) enabled_ = {record, disabled_};
     disabled_ = Disabled{};
   } else {
-    if (enabled || !disabled_) disabled_ = {Disabled::By::Disi, record.op};
+    if (changes) disabled_ = {Disabled::By::Disi, record.op};
     enabled_.reset();
   }
 }

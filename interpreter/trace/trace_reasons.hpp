@@ -61,9 +61,11 @@ class TraceReasons {
   struct Unanswered {
     std::size_t characters = 0;
     Time since = 0;          ///< start edge of the first
+    Time until = 0;          ///< end of the last
     std::string decided_by;  ///< `JMP 255 in line 141 (LDW= AC0, 0: AC0=16#7B06; NOT)`, `INT 121 took them without reading
                              ///< SMB2 …`; nothing if it is not known
     std::optional<Cause> cause{};  ///< that; of characters that no routine has read the last ATCH of theirs, if there is one
+    bool message_open = false;     ///< of taken(): RCV took them, and has not found the end of its message
     bool open = false;  ///< of taken(): what comes next goes the same way, nothing has been changed about that since
   };
   /// In the order in which they came.
@@ -150,6 +152,7 @@ class TraceReasons {
     std::uint8_t routine = 0;                     ///< that got its first character
     std::optional<std::uint32_t> attached_by{};   ///< the ATCH of that one
     std::optional<InstructionRecord> executed{};  ///< the last ATCH of a routine that got one of them, of another event
+    bool read = true;                             ///< its last character: the routine that got it looks at it
     bool attached_anew = false;                   ///< another routine, or the same, since its last character
     bool passed_on = false;                       ///< and not by a routine that got one
     std::optional<Decision> cause{};              ///< that one of them was attached

@@ -2464,6 +2464,15 @@ class Files(Case):
         self.assertEqual(mine.read_text(encoding="utf-8"), "mine\n")
         self.assertIn("SMB30 = 16#09", self.ends(FINE, "run", path, "--trace", "-", "--scans", "3").stdout)
 
+    def test_a_trace_ends_with_what_rcv_still_waits_for(self):
+        path = self.program("LD SM0.1\nMOVB 9, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 5, SMW90\nMOVB 10, SMB94\n"
+                            "RCV VB100, 0\nMEND\n")
+        self.assertIn("     60.000000  the run ends, and RCV at port 0 still waits for the start of a message: an idle line of 5 ms\n",
+                      self.ends(FINE, "run", path, "--cpu", "224", "--for", "60ms", "--trace", "-").stdout)
+        self.assertIn("RCV at port 0 still waits for the end of its message: the character 16#0D or 10 characters (2 so far)\n",
+                      self.ends(FAILED, "send", path, "41 42", "--cpu", "224", "--after", "50ms", "--trace", "-").stdout)
+        self.assertNotIn("the run ends", self.ends(FINE, "run", SLAVE, "--for", "60ms", "--trace", "-").stdout)
+
     def test_a_stream_that_is_not_the_protocol_is_said_with_what_is_wrong(self):
         for stream, said in (("hello\r\n", "'hello' is not a line of a header"), ("Content-Length: 99999999\r\n\r\n", "is longer than"),
                              ("Content-Length: 5\r\n\r\n{", "has ended within a message"),

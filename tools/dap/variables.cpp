@@ -185,7 +185,7 @@ std::vector<Variable> waiting_interrupts(const State& state) {
   for (const InterruptQueue& queue : state.queue)
     for (std::size_t i = 0; i < queue.count; ++i)
       waiting.push_back(
-          {.name = "waiting " + event_text(queue.entry[i].event), .value = "since " + moment_text(queue.entry[i].at)});
+          {.name = "waiting " + waiting_text(queue.entry[i]), .value = "since " + moment_text(queue.entry[i].at)});
   return waiting;
 }
 

@@ -75,6 +75,16 @@ Keeper what_kept(Inquiry& inquiry, const TraceRecord& ignored) {
                   : what_left_freeport(inquiry, ignored.port, ignored.at);
 }
 
+/// RCV had not found the start of its message when the character had ended.
+Keeper what_was_searched(Inquiry& inquiry, const TraceRecord& dropped) {
+  if (!inquiry.history().go_to(dropped.at)) return inquiry.answers.interrupted = true, Keeper{};
+  const MessageReceiver& message = inquiry.here().cpu().state().port[dropped.port].message;
+  if (message.phase != MessageReceiver::Phase::Search) return {.text = ignored_because(dropped)};
+  Keeper keeper = inquiry.kept_by_rcv(dropped.port);
+  keeper.text = "RCV waits for " + keeper.text;
+  return keeper;
+}
+
 /// A program that receives with RCV needs no event for it.
 bool receives_messages(const Program& program, std::uint8_t port) {
   return std::ranges::any_of(program.ops,
@@ -95,13 +105,15 @@ void find_characters_untaken(Inquiry& inquiry) {
     if (first.at < inquiry.since()) continue;
     const bool detached = first.kind == TraceKind::CharacterIgnored && Ignored{first.code} == Ignored::NotAttached;
     const bool by_rcv = detached && receives_messages(inquiry.program(), first.port);
-    const Keeper keeper = by_rcv ? Keeper{.text = "no RCV waits for them"} : what_kept(inquiry, first);
-    const std::string because = (by_rcv ? "" : ignored_because(first)) + keeper.text;
+    const bool dropped = first.kind == TraceKind::CharacterDropped;
+    const Keeper keeper = dropped  ? what_was_searched(inquiry, first)
+                          : by_rcv ? Keeper{.text = "no RCV waits for them"}
+                                   : what_kept(inquiry, first);
+    const std::string because = (by_rcv || dropped ? "" : ignored_because(first)) + keeper.text;
     inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = because}),
                 keeper);
   }
-  const bool silent = inquiry.is_by_others() && inquiry.request()->unanswered && inquiry.request()->end != 0;
-  if (!silent || !inquiry.answers.unanswered.empty()) return;
+  if (!inquiry.has_unanswered() || !inquiry.answers.unanswered.empty()) return;
   const serial::Simulation& now = inquiry.here_at_start();
   if (now.plc().powered() && !now.cpu().state().port[inquiry.port()].active) find_port_in_ppi_mode(inquiry);
 }

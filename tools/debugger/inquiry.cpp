@@ -8,6 +8,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/statement_text.hpp"
 #include "tools/debugger/last_stop.hpp"
+#include "tools/debugger/last_turn.hpp"
 #include "tools/debugger/two_masters.hpp"
 #include "tools/views/machine_text.hpp"
 
@@ -89,8 +90,9 @@ void find_what_the_line_lost(Inquiry& inquiry) {
           {exchange.response_end, fmt::format("what {} took for its answer was {}", request->by, stl::trim(text))});
     }
   }
-  if (auto lost = inquiry.request() ? inquiry.witness().line.lost(*inquiry.request()) : std::nullopt)
-    inquiry.add_lost(std::move(*lost));
+  if (!inquiry.request()) return;
+  std::vector<TraceLine> lost = inquiry.witness().line.lost(*inquiry.request());
+  for (auto line = lost.rbegin(); line != lost.rend(); ++line) inquiry.add_lost(std::move(*line));
 }
 
 void Inquiry::add_lost(TraceLine line) {
@@ -100,6 +102,12 @@ void Inquiry::add_lost(TraceLine line) {
 
 void Inquiry::note_left(const TraceReasons::Cause& cause) {
   if (goes_back_to_frames()) answers.left = decision_of(cause);
+}
+
+std::vector<Witness::Left> Inquiry::frames_left() const {
+  std::vector<Witness::Left> all = witness_.left_since(since_, start_.time);
+  if (has_unanswered()) std::erase_if(all, [&](const Witness::Left& one) { return one.frame.until <= request_->start; });
+  return all;
 }
 
 std::string Inquiry::left_text(const TraceReasons::Unanswered& frame) const {
@@ -113,6 +121,20 @@ Keeper Inquiry::kept_by(const Moment& moment, const InstructionRecord& by, std::
   return {.text = fmt::format("; {} at {} by {}", done, moment_text(by.at), decision.text),
           .by = std::move(decision),
           .since = by.at};
+}
+
+Keeper Inquiry::kept_by_rcv(std::uint8_t port) {
+  const MessageReceiver message = here().cpu().state().port[port].message;
+  if (message.phase == MessageReceiver::Phase::Off) return {};
+  const auto is_at_work = [port](const State& state) {
+    return state.port[port].message.phase != MessageReceiver::Phase::Off;
+  };
+  const TurnSearch search = find_last_turn(history_, station_, is_at_work, stop_request_);
+  answers.interrupted |= search.interrupted;
+  const bool is_known = search.turn && search.turn->by;
+  Keeper keeper = is_known ? kept_by(search.turn->moment, *search.turn->by, "executed") : Keeper{};
+  keeper.text = awaited_text(message, program().model->receive) + keeper.text;
+  return keeper;
 }
 
 LastDecision Inquiry::decision_of(const TraceReasons::Cause& cause) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tools/debugger/asked_request.hpp"
 #include "tools/debugger/last_decision.hpp"
@@ -40,6 +41,8 @@ class Inquiry {
   /// The last on a line of the PLC; nothing if there is none in question.
   const std::optional<AskedRequest>& request() const { return request_; }
   bool is_by_others() const { return request_ && request_->plc() != station_; }
+  /// All of a request of others has come, and it has got no answer so far.
+  bool has_unanswered() const { return is_by_others() && request_->unanswered && request_->end != 0; }
   /// The port that it is about.
   std::uint8_t port() const { return request_ ? request_->port : here().port(); }
 
@@ -48,6 +51,8 @@ class Inquiry {
   /// When the CPU went to STOP, if it is there.
   const std::optional<Time>& stopped() const { return stopped_; }
   const Witness& witness() const { return witness_; }
+  /// Frames that the program has left; of a request that got no answer those that ended before it began are none of it.
+  std::vector<Witness::Left> frames_left() const;
 
   // --- the answers ---
 
@@ -64,6 +69,11 @@ class Inquiry {
   std::string left_text(const TraceReasons::Unanswered& frame) const;
   LastDecision decision_of(const TraceReasons::Cause& cause);
   Keeper kept_by(const Moment& moment, const InstructionRecord& by, std::string_view done) const;
+
+  /// What RCV at the port works towards where the simulation stands, and which one it was, to be said after `RCV waits for
+  /// `: `the start of a message: an idle line of 5 ms; executed at 50.104800 ms by RCV VB100, 0 in line 9`. Nothing if it is
+  /// off.
+  Keeper kept_by_rcv(std::uint8_t port);
 
  private:
   Time beginning() const;

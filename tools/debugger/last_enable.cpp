@@ -1,5 +1,6 @@
 #include "tools/debugger/last_enable.hpp"
 
+#include "interpreter/trace/interrupt_enabling.hpp"
 #include "tools/debugger/reader.hpp"
 
 namespace s7200::tools {
@@ -14,8 +15,9 @@ class EnableFinder final : public Reader {
   /// is known if interrupts were enabled in the part, or the CPU went to RUN.
   void begin_part() {
     in_part_.reset();
-    is_disabled_ = false;
+    enabled_.reset();
     is_beginning_ = history_.station(station_).cpu().state().interrupts_enabled;
+    if (is_beginning_) enabled_ = true;
   }
   bool end_part() {
     if (in_part_ && (in_part_->by || !last)) last = in_part_;
@@ -30,14 +32,14 @@ class EnableFinder final : public Reader {
     if (record.kind == TraceKind::Enable) now_ = record;
     if (record.kind != TraceKind::ModeChange) return;
     in_part_ = {.moment = history_.now(), .at = record.at};
-    is_disabled_ = false;
+    enabled_.reset();
     is_beginning_ = true;
   }
   void instruction(const InstructionRecord& record) override {
     if (!now_) return;
     const bool enables = now_->code == 1;
-    if (enables || !is_disabled_) in_part_ = {.moment = in_front_, .at = now_->at, .by = record};
-    is_disabled_ = !enables;
+    if (changes_interrupts(*now_, enabled_)) in_part_ = {.moment = in_front_, .at = now_->at, .by = record};
+    enabled_ = enables;
     is_beginning_ |= enables;
     now_.reset();
   }
@@ -50,7 +52,8 @@ class EnableFinder final : public Reader {
   Moment in_front_;
   std::optional<TraceRecord> now_;  ///< done by the instruction being executed
   std::optional<LastEnable> in_part_;
-  bool is_beginning_ = false, is_disabled_ = false;  // by an instruction of the part
+  std::optional<bool> enabled_;  ///< by an instruction of the part, or at its beginning
+  bool is_beginning_ = false;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What enabled or disabled the interrupts of a station last: of several DISI in a row the first one.
+// What enabled or disabled the interrupts of a station last, as changes_interrupts() counts it.
 #pragma once
 
 #include <atomic>

@@ -9,6 +9,7 @@
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "tools/views/machine_text.hpp"
+#include "tools/views/received_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -20,9 +21,8 @@ std::string span_text(std::size_t characters, Time from, Time to) {
 
 /// `none of them`, `01 83 instead of 01 03`; nothing if what was sent was heard.
 std::string heard_text(const std::vector<ReceivedCharacter>& heard, const Bytes& sent) {
-  const Bytes bytes = serial::bytes_of(heard);
   if (heard.empty()) return sent.size() == 1 ? "nothing of it" : "none of them";
-  if (bytes != sent) return fmt::format("{} instead of {}", serial::to_hex(bytes), serial::to_hex(sent));
+  if (serial::bytes_of(heard) != sent) return fmt::format("{} instead of {}", received_text(heard), serial::to_hex(sent));
   if (std::ranges::any_of(heard, &ReceivedCharacter::parity_error)) return "them with wrong parity";
   return std::ranges::any_of(heard, &ReceivedCharacter::framing_error) ? "them without a stop bit" : "";
 }
@@ -76,17 +76,34 @@ void LineAccount::note_untaken(const TraceRecord& record) {
 
 // --- what has become of a request ---
 
-std::optional<TraceLine> LineAccount::lost(const AskedRequest& request) const {
+std::vector<TraceLine> LineAccount::lost(const AskedRequest& request) const {
+  std::vector<TraceLine> all;
+  const auto add = [&](std::optional<TraceLine> one) {
+    if (one) all.push_back(std::move(*one));
+  };
   const bool by_itself = request.plc() == station_;
-  if (request.under_way || request.end == 0) return {};
-  if (freeport().transmitting && !by_itself) return answer_going_on(request);
-  Heard heard = heard_of_answer(request);
+  if (request.under_way || request.end == 0) return all;
+  if (freeport().transmitting && !by_itself) return add(answer_going_on(request)), all;
+  const Heard heard = heard_of_answer(request);
   const Sent answer = answer_to(request, heard);
-  if (answer.bytes.empty()) {
-    if (auto sent = break_instead(request)) return sent;
-    if (by_itself) return lost_by_itself(request, heard);
-    return heard.empty() ? lost_request(request) : made_by_others(request, heard);
+  if (!answer.bytes.empty()) {
+    if (!by_itself && request.wrong) add(lost_request(request));
+    add(lost_answer(request, heard, answer));
+  } else if (auto sent = break_instead(request)) {
+    add(std::move(sent));
+  } else if (by_itself) {
+    add(lost_by_itself(request, heard));
+  } else {
+    std::optional<TraceLine> made = heard.empty() ? std::nullopt : made_by_others(request, heard);
+    if (heard.empty() || made) add(lost_request(request));
+    add(std::move(made));
   }
+  return all;
+}
+
+/// Damaged, or of no use as it was sent.
+std::optional<TraceLine> LineAccount::lost_answer(const AskedRequest& request, Heard heard, const Sent& answer) const {
+  const bool by_itself = request.plc() == station_;
   if (!request.knows_response()) {
     const auto follows = [&, until = answer.to + request.format.silence()](const ReceivedCharacter& one) mutable {
       const bool is_near = one.start < until;
@@ -144,7 +161,7 @@ std::optional<TraceLine> LineAccount::answer_going_on(const AskedRequest& reques
   answer.to = here().system().now();
   return TraceLine{answer.to, fmt::format("the PLC has been sending since {}, {} so far, and {} heard {}{}",
                                           moment_text(answer.from), characters_text(answer.bytes.size()), request.by,
-                                          serial::to_hex(serial::bytes_of(heard)), reasons(request, answer))};
+                                          received_text(heard), reasons(request, answer))};
 }
 
 /// A break has no characters.
@@ -193,9 +210,9 @@ std::optional<TraceLine> LineAccount::made_by_others(const AskedRequest& request
   std::vector<std::string> causes = faults_in(request, made);
   for (std::string& other : others_in(request, made)) causes.push_back(std::move(other));
   if (causes.empty() || std::ranges::any_of(traffic_.sent(), is_sent)) return {};
-  return TraceLine{
-      made.to, fmt::format("{} heard {} from {} to {}, which no S7-200 has sent: {}", request.by, serial::to_hex(made.bytes),
-                           moment_text(made.from), moment_text(made.to), fmt::join(causes, "; "))};
+  return TraceLine{made.to,
+                   fmt::format("{} heard {} from {} to {}, which no S7-200 has sent: {}", request.by, received_text(heard),
+                               moment_text(made.from), moment_text(made.to), fmt::join(causes, "; "))};
 }
 
 /// `scada has 9600 baud …, the port 19200 baud …`; empty if they are set alike.
@@ -205,11 +222,16 @@ std::string LineAccount::other_format(const AskedRequest& request) const {
   return fmt::format("{} has {}, the port {}", request.by, format_text(request.format), format_text(port));
 }
 
-/// Somebody else sent so soon before or after it that the PLC took both for one frame. It does not hear itself.
+/// Something else was sent so soon before or after it, by whoever has asked too, that the PLC took both for one frame. It
+/// does not hear itself.
 std::optional<TraceLine> LineAccount::without_pause(const AskedRequest& request) const {
   const Time silence = request.format.silence();
   const Sent around{.by = Asker{Asker::Kind::Plc, station_}, .from = request.start - silence, .to = request.end + silence};
-  const std::vector<std::string> others = others_in(request, around);
+  std::vector<std::string> others;
+  for (const Sent& before : traffic_.sent())
+    if (before.by == request.asker && before.from < request.start && !before.goes_on && before.to > around.from)
+      others.push_back(sent_text(before));
+  for (std::string& other : others_in(request, around)) others.push_back(std::move(other));
   if (others.empty()) return {};
   return TraceLine{request.end,
                    fmt::format("{} sent {}, and the PLC heard no pause between that and others: {}", request.by,
@@ -220,12 +242,13 @@ std::optional<TraceLine> LineAccount::without_pause(const AskedRequest& request)
 std::optional<TraceLine> LineAccount::lost_request(const AskedRequest& request) const {
   if (!here().plc().powered() || !freeport().active) return {};
   const Heard heard = traffic_.heard_by({Asker::Kind::Plc, station_}, request.start, request.end);
+  const bool got_none = request.unanswered || request.wrong;
   if (const std::string other = other_format(request); !heard.empty() && !other.empty())
     return request.unanswered ? std::optional(TraceLine{request.end, other}) : std::nullopt;
   std::string text = heard.empty() ? "nothing" : heard_text(heard, request.frame);
   if (text.empty() && faults_.has_pause(request.start, request.end)) text = "them with a pause";
   if (text.empty() && request.unanswered) return without_pause(request);
-  if (text.empty() || (!heard.empty() && (request.meant_damaged || !request.unanswered))) return {};
+  if (text.empty() || (!heard.empty() && (request.meant_damaged || !got_none))) return {};
   return TraceLine{request.end,
                    fmt::format("{} sent {}, and the PLC heard {}{}", request.by,
                                span_text(request.frame.size(), request.start, request.end), text, reasons(request, {}))};
@@ -238,7 +261,7 @@ std::optional<TraceLine> LineAccount::lost_by_itself(const AskedRequest& request
   if (!heard.empty() && because.empty()) return {};
   return TraceLine{request.end, fmt::format("the program sent {}, and has heard {} since{}",
                                             span_text(request.frame.size(), request.start, request.end),
-                                            heard.empty() ? "nothing" : serial::to_hex(serial::bytes_of(heard)), because)};
+                                            heard.empty() ? "nothing" : received_text(heard), because)};
 }
 
 // --- what is known to have disturbed it ---

@@ -44,7 +44,7 @@ class LineAccount final {
 
   /// What has become of a request, and of what was sent for it, if the line is to blame: nothing as long as the request or
   /// an answer is under way.
-  std::optional<TraceLine> lost(const AskedRequest& request) const;
+  std::vector<TraceLine> lost(const AskedRequest& request) const;
 
   /// `the cable between scada and slave2 has been cut since 4000.000000 ms`: between who asked and a PLC of the line, while
   /// the request was sent; empty if it was whole.
@@ -60,6 +60,7 @@ class LineAccount final {
   Sent answer_to(const AskedRequest& request, const Heard& heard) const;
   bool is_request_too(const AskedRequest& request, const Sent& sent) const;
   Heard heard_of_answer(const AskedRequest& request) const;
+  std::optional<TraceLine> lost_answer(const AskedRequest& request, Heard heard, const Sent& answer) const;
   std::optional<TraceLine> answer_going_on(const AskedRequest& request) const;
   std::optional<TraceLine> break_instead(const AskedRequest& request) const;
   std::optional<TraceLine> without_pause(const AskedRequest& request) const;

@@ -82,6 +82,29 @@ void LineTraffic::end() {
   for (Sent& one : sent_)
     if (one.is_of_any_plc() && one.goes_on) one.goes_on = history_.requests().is_sending(line_);
   std::ranges::stable_sort(sent_, {}, &Sent::from);
+  join_frames();
+}
+
+/// A program may send each part of a frame with an XMT of its own, when event 9 tells that the one before it has left.
+bool LineTraffic::goes_on_with(const Sent& sent, const Sent& next) const {
+  if (!sent.is_of_any_plc() || sent.by != next.by || sent.break_by || next.break_by) return false;
+  const std::uint8_t port = history_.requests().port_on(line_, sent.by->number).value();
+  return next.from - sent.to < history_.station(sent.by->number).plc().port_format(port).silence();
+}
+
+void LineTraffic::join_frames() {
+  std::vector<Sent> frames;
+  for (Sent& next : sent_) {
+    if (frames.empty() || !goes_on_with(frames.back(), next)) {
+      frames.push_back(std::move(next));
+      continue;
+    }
+    Sent& frame = frames.back();
+    frame.bytes.insert(frame.bytes.end(), next.bytes.begin(), next.bytes.end());
+    frame.to = next.to;
+    frame.goes_on = next.goes_on;
+  }
+  sent_ = std::move(frames);
 }
 
 std::vector<ReceivedCharacter> LineTraffic::heard_by(const Asker& who, Time from, Time to) const {

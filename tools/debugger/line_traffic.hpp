@@ -13,7 +13,7 @@
 
 namespace s7200::tools {
 
-/// Characters that one on the line has sent at once.
+/// Characters that one on the line has sent without a pause, a PLC with one XMT after another.
 struct Sent {
   std::optional<Asker> by{};  ///< nothing: that is not known
   int driver = 0;             ///< of the line
@@ -53,6 +53,8 @@ class LineTraffic {
   void note_masters();
   void note_plc(std::size_t station, const TraceRecord& record);
   void append_hosts();
+  void join_frames();
+  bool goes_on_with(const Sent& sent, const Sent& next) const;
 
   const History& history_;
   std::size_t line_;

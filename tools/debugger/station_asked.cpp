@@ -32,7 +32,7 @@ std::string own_address(const Inquiry& inquiry, std::uint8_t asked) {
   const History& history = inquiry.history();
   if (const auto known = history.address_of(inquiry.station()))
     return known == asked ? "" : fmt::format("; {} is station {}", history.name_of(inquiry.station()), *known);
-  for (const Witness::Left& one : inquiry.witness().left_since(inquiry.since(), inquiry.start().time)) {
+  for (const Witness::Left& one : inquiry.frames_left()) {
     const auto compared = one.frame.cause ? compared_with(inquiry, one.frame) : std::nullopt;
     if (compared && *compared != asked) return fmt::format("; the program compared its first character with {}", *compared);
   }

@@ -9,6 +9,7 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_trace.hpp"
+#include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
@@ -17,6 +18,17 @@ namespace {
 serial::Verdict verdict_on(const serial::Exchange& exchange) {
   if (!exchange.damage().empty()) return serial::Verdict::Wrong;
   return modbus::check_answer(serial::bytes_of(exchange.request), exchange.response_bytes()).verdict;
+}
+
+/// `the run ends, and RCV at port 0 still waits for the end of its message: …`
+std::vector<std::string> open_messages(const serial::Plc& plc) {
+  std::vector<std::string> texts;
+  if (!plc.powered()) return texts;
+  const CpuModel& model = *plc.cpu().program().model;
+  for (std::size_t port = 0; port < model.ports; ++port)
+    if (const std::string awaited = awaited_text(plc.cpu().state().port[port].message, model.receive); !awaited.empty())
+      texts.push_back(fmt::format("the run ends, and RCV at port {} still waits for {}", port, awaited));
+  return texts;
 }
 
 /// A master that has joined the line raises the sync signal of the PLCs there that no output drives.
@@ -211,6 +223,12 @@ void Rig::flush_records() {
 std::vector<std::string> Rig::finish() {
   std::vector<std::string> problems;
   std::string why;
+  auto traced = plc_rigs_.begin();
+  for (std::size_t number = 0; number < plcs_.size(); ++number, ++traced)
+    for (const std::string& open : open_messages(*plcs_[number])) {
+      traced->note(system_.now(), open);
+      if (trace_) trace_->note(number, system_.now(), open);
+    }
   if (trace_ && !trace_->close(why)) problems.push_back(why);
   for (PlcRig& plc : plc_rigs_) plc.close(problems);
   for (CaptureFiles& captures : captures_) captures.close(problems);

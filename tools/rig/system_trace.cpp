@@ -94,6 +94,8 @@ void SystemTrace::flush() {
 
 TraceSink& SystemTrace::station(std::size_t plc) { return *stations_[plc]; }
 
+void SystemTrace::note(std::size_t plc, Time at, std::string_view what) { stations_[plc]->note(at, what); }
+
 void SystemTrace::tell(const EventPlan& event, Time at, std::string_view what) {
   fmt::memory_buffer line;
   begin_line(line, at);

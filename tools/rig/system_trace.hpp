@@ -36,6 +36,9 @@ class SystemTrace final {
   /// What watches a CPU. The file is open.
   TraceSink& station(std::size_t plc);
 
+  /// What is to be said of a PLC.
+  void note(std::size_t plc, Time at, std::string_view what);
+
   /// What happens to the system at `at`, in words.
   void tell(const EventPlan& event, Time at, std::string_view what);
 

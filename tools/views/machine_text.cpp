@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/special_bits.hpp"
 #include "interpreter/program/operands.hpp"
@@ -82,8 +83,7 @@ std::string queue_text(const State& state, std::size_t queue, const CpuModel& mo
   std::string text = fmt::format("{} {} of {}", kNames[queue], waiting.count, model.queue_depth[queue]);
   for (std::size_t i = 0; i < waiting.count; ++i) {
     const QueuedInterrupt& entry = waiting.entry[i];
-    text += fmt::format("\n           {}{} since {}", event_text(entry.event),
-                        is_receive_event(entry.event) ? fmt::format(" {:02x}", entry.byte) : "", moment_text(entry.at));
+    text += fmt::format("\n           {} since {}", waiting_text(entry), moment_text(entry.at));
   }
   return text;
 }
@@ -204,6 +204,50 @@ std::string moment_text(Time time) {
 }
 
 std::string event_text(std::uint8_t event) { return fmt::format("event {} ({})", event, find_event(event)->cause); }
+
+std::string waiting_text(const QueuedInterrupt& entry) {
+  return event_text(entry.event) + (is_receive_event(entry.event) ? fmt::format(" {:02x}", entry.byte) : "");
+}
+
+namespace {
+
+std::string start_text(const MessageReceiver& message, const ReceiveChoices& choices) {
+  using namespace sm::message;
+  const bool has_character = (message.control & kFromStart) != 0;
+  std::string text;
+  if ((message.control & kFromIdleLine) && message.idle_time > 0)
+    text = "an idle line of " + format_duration(message.idle_time);
+  if (message.control & kFromBreak)
+    text += text.empty() ? "a break" : choices.idle_or_break ? " or a break" : " and a break";
+  if (has_character)
+    text += fmt::format("{}the character 16#{:02X}", text.empty() ? "" : ", then ", message.start_character);
+  return text.empty() ? "any character" : text;
+}
+
+std::string end_text(const MessageReceiver& message) {
+  using namespace sm::message;
+  std::string text;
+  if (message.control & kHasEnd) text = fmt::format("the character 16#{:02X} or ", message.end_character);
+  text += fmt::format("{} ({} so far)", counted(message.most, "character"), message.stored);
+  if (message.control & kTimed)
+    text += fmt::format(" or {} {}", format_duration(message.timeout),
+                        message.control & kWholeMessage ? "since its beginning" : "without a character");
+  return text;
+}
+
+}  // namespace
+
+std::string awaited_text(const MessageReceiver& message, const ReceiveChoices& choices) {
+  switch (message.phase) {
+    case MessageReceiver::Phase::Off:
+      return {};
+    case MessageReceiver::Phase::Search:
+      return "the start of a message: " + start_text(message, choices);
+    case MessageReceiver::Phase::Message:
+      return "the end of its message: " + end_text(message);
+  }
+  return {};
+}
 
 std::string place_text(const Cpu& cpu, const Listing& listing) {
   const State& state = cpu.state();

@@ -17,6 +17,13 @@ std::string moment_text(Time time);
 /// `event 8 (port 0: character received)`
 std::string event_text(std::uint8_t event);
 
+/// Of an interrupt in a queue, with its character if it is for one: `event 8 (port 0: character received) 41`
+std::string waiting_text(const QueuedInterrupt& entry);
+
+/// What the receive message service works towards: `the start of a message: an idle line of 5 ms, then the character
+/// 16#02`, `the end of its message: the character 16#0D or 10 characters (2 so far)`; nothing if it is off.
+std::string awaited_text(const MessageReceiver& message, const ReceiveChoices& choices);
+
 /// `412.345678 ms  scan 7  INT 123  S0=1`, and the line it stands in front of: `>  1242  INCB VB101   // one more`.
 std::string place_text(const Cpu& cpu, const Listing& listing);
 

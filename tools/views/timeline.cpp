@@ -12,6 +12,7 @@
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/trace/text_trace.hpp"
+#include "tools/views/received_text.hpp"
 #include "tools/views/report.hpp"
 
 namespace s7200::tools {
@@ -233,16 +234,11 @@ namespace {
 
 // --- text ---
 
-/// A byte with p after it for wrong parity, f for a stop bit at space level.
-std::string character_text(const ReceivedCharacter& c) {
-  return fmt::format("{:02x}{}{}", c.byte, c.parity_error ? "p" : "", c.framing_error ? "f" : "");
-}
-
 /// As many as fit the column, and how many there are if not all do.
 std::string characters_text(const TimelineRow& row) {
   std::string text;
   for (const ReceivedCharacter& c : row.characters) {
-    const std::string next = character_text(c);
+    const std::string next = received_text(c);
     if (text.size() + next.size() > kCharacters)
       return fmt::format("{}… {}", text, row.characters.size() + row.more_characters);
     text += next + ' ';
@@ -321,10 +317,10 @@ std::string summary(const TimelineReport& report) {
   bool marked = false;
   for (const TimelineRow& row : report.rows)
     for (const ReceivedCharacter& c : row.characters) marked |= c.parity_error || c.framing_error;
-  std::string text = fmt::format("{} interrupts served in {}, longest wait {}", report.served,
+  std::string text = fmt::format("{} served in {}, longest wait {}", counted(report.served, "interrupt"),
                                  format_duration(report.in_all), format_duration(report.longest_wait));
   if (report.scans)
-    text += fmt::format("; {} scans of {} to {}", report.scans, format_duration(report.shortest_scan),
+    text += fmt::format("; {} of {} to {}", counted(report.scans, "scan"), format_duration(report.shortest_scan),
                         format_duration(report.longest_scan));
   if (marked) text += "; p wrong parity, f framing error";
   return text;

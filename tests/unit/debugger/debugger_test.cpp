@@ -618,7 +618,7 @@ TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
       "FILL 0, VW100, 200\nFILL 0, VW100, 200\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW0\nRETI\n");
   session("continue 50ms; send 01 02 03; break event 8 served; continue; scan");
   const Time waited = session.simulation.time();
-  EXPECT_TRUE(has(session("timeline 2ms"), "interrupts served")) << waited;
+  EXPECT_TRUE(has(session("timeline 2ms"), " 1 interrupt served")) << waited;
   EXPECT_FALSE(has(session.out.str(), "0 interrupts served"));
 }
 

@@ -280,7 +280,7 @@ TEST(SystemDebugger, WhyKnowsWhatBecameOfARequestOfAMasterOnABridge) {
   EXPECT_TRUE(has(cut.out.str(), ", and the PLC heard nothing: fault cut:from=900ms: 1×, since 900.000000 ms\n"));
   BridgedSystem damaged({{kSecond, 1}});
   damaged("break sent; fault flip:of=answer,character=2; continue; continue 20ms");
-  EXPECT_TRUE(has(damaged("why"), ", and the bridge heard 01 02 02 "));
+  EXPECT_TRUE(has(damaged("why"), ", and the bridge heard 01 02p 02 "));
   EXPECT_TRUE(has(damaged.out.str(), ": fault flip:character=2,of=answer: 1×, in character 2\n"));
   BridgedSystem answered({{kSecond, 1}});
   EXPECT_FALSE(has(answered("continue 1030ms; why"), "the bridge"));

@@ -113,7 +113,7 @@ TEST(Why, AnAnswerThatTheLineLostIsNamedWithItsTimesAndTheFault) {
 TEST(Why, AnAnswerThatTheLineChangedIsNamedWithWhatWasSentAndHeard) {
   const std::string text = why_with("flip:of=answer,character=2");
   EXPECT_TRUE(has(text, "the PLC sent 7 characters from 20"));
-  EXPECT_TRUE(has(text, "and the master heard 01 02 02 00 00 b8 44 instead of 01 03 02 00 00 b8 44: fault flip:"));
+  EXPECT_TRUE(has(text, "and the master heard 01 02p 02 00 00 b8 44 instead of 01 03 02 00 00 b8 44: fault flip:"));
   EXPECT_TRUE(has(text, ": 1×"));
   EXPECT_TRUE(
       has(why_with("collision:of=answer,character=3,bytes=00"), " instead of 01 03 02 00 00 b8 44: fault collision:"));
@@ -149,7 +149,7 @@ TEST(Why, AllFaultsThatStruckARequestAreNamedWithTheirCharacters) {
   const std::string text = why_after(
       "fault flip:character=3,bit=2; fault flip:character=6,bit=0; fault flip:of=answer,character=1" + std::string(kAsk));
   EXPECT_TRUE(has(text, "the master sent 8 characters from 20"));
-  EXPECT_TRUE(has(text, ", and the PLC heard 01 03 04 "));
+  EXPECT_TRUE(has(text, ", and the PLC heard 01 03 04p "));
   EXPECT_TRUE(has(text,
                   " instead of 01 03 00 0a 00 01 a4 08: fault flip:character=3,bit=2: 1×, in character 3; fault "
                   "flip:character=6: 1×, in character 6\n"));
@@ -229,7 +229,7 @@ TEST(Why, AnAnswerThatTheProgramSentWithoutARightCrcIsNotTheFaultOfTheLine) {
 
 TEST(Why, NoiseThatTheMasterTookForTheAnswerIsNamed) {
   const std::string text = why_after("fault noise:ber=5%" + std::string(kAsk));
-  EXPECT_TRUE(has(text, "the master heard ff fd ff fb ef fe from 2010."));
+  EXPECT_TRUE(has(text, "the master heard ff fd ffp fb ef fe from 2010."));
   EXPECT_TRUE(has(text, ", which no S7-200 has sent: fault noise:ber=0.05: "));
 }
 
@@ -320,6 +320,103 @@ TEST(Why, AMessageThatRCVTookLeadsToTheXmtWithoutPowerFlow) {
                   "line 11, without power flow (LD M0.0: M0.0=0)\n"));
   session("rwhy");
   EXPECT_EQ(session.line(), 11u);
+}
+
+/// RCV takes what comes after a pause, to a CR or 10 characters.
+constexpr std::string_view kMessages =
+    "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 5, SMW90\nMOVB 10, SMB94\n"
+    "ATCH 0, 23\nENI\nRCV VB100, 0 // a line\nLD M0.0\nJMP 1\nLBL 1\nMEND\n"  // 7
+    "INT 0\nLD SM0.0\nRCV VB100, 0\nRETI\n";                                  // 14
+
+Session session_of_cpu_224(const std::string& text) {
+  return Session(check_text(text, "test.stl", cpu224(), default_times(cpu224())).program);
+}
+
+TEST(Why, AMessageThatHasNotEndedLeadsToItsRCVWhichSaysWhatItWaitsFor) {
+  for (const std::string_view pause : {"", "; step", "; step 2"}) {
+    Session session = session_of_cpu_224(std::string(kMessages));
+    session("continue 50ms; break unanswered; send 41 42; continue" + std::string(pause));
+    EXPECT_TRUE(has(session("why"),
+                    ": RCV took them and waits for the end of its message: the character 16#0D or 10 characters (2 so far); "
+                    "executed at "));
+    EXPECT_TRUE(has(session.out.str(), " by RCV VB100, 0 in line 9  // a line\n"));
+    session("rwhy");
+    EXPECT_EQ(session.line(), 9U) << pause;
+    EXPECT_EQ(session.state().scans, 0U);
+  }
+}
+
+TEST(Why, CharactersBeforeTheStartOfAMessageLeadToTheRCVThatWaitsForIt) {
+  const std::string from_stx =
+      test::changed(std::string(kMessages), "MOVB 16#B0, SMB87\n", "MOVB 16#F0, SMB87\nMOVB 2, SMB88\n");
+  Session session = session_of_cpu_224(from_stx);
+  session("continue 50ms; break unanswered; send 41 42; continue");
+  EXPECT_TRUE(has(session("why"),
+                  ": RCV waits for the start of a message: an idle line of 5 ms, then the character 16#02; executed at "));
+  session("rwhy");
+  EXPECT_EQ(session.line(), 10U);
+}
+
+/// Answers a request of 8 characters with three XMT, two characters each.
+constexpr std::string_view kInParts =
+    "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\nMEND\n"
+    "INT 0\nLD SM0.0\nMOVB SMB2, VB100\nINCW VW90\nLDW>= VW90, 8\nMOVW 0, VW90\nMOVD 16#02010302, VD0\nATCH 1, 9\n"
+    "XMT VB0, 0\nRETI\n"
+    "INT 1\nLD SM0.0\nMOVD 16#02020000, VD0\nATCH 2, 9\nXMT VB0, 0\nRETI\n"
+    "INT 2\nLD SM0.0\nMOVB 2, VB0\nMOVW 16#B844, VW1\nDTCH 9\nXMT VB0, 0\nRETI\n";
+
+TEST(Why, AnAnswerOfSeveralXmtIsOneFrame) {
+  Session session(kInParts);
+  session("continue 50ms; send 01 03 00 0a 00 01 crc; continue 50ms");
+  EXPECT_TRUE(has(session("why"), "the PLC sent 6 characters from "));
+  EXPECT_TRUE(has(session.out.str(), "heard them as they were sent; they are not a Modbus RTU frame with a right CRC\n"));
+  session("continue 100ms; send 41 42 43 44 45 46 47 48; continue 50ms");
+  EXPECT_FALSE(has(session("why"), "sent")) << "to a text it is an answer";
+}
+
+TEST(Why, NoiseThatDamagedTheRequestIsNamedBesideTheNoiseThatWasTakenForItsAnswer) {
+  const std::string text = why_after("fault noise:ber=0.02,seed=3" + std::string(kAsk));
+  const std::size_t request = text.find("the master sent 8 characters from 20"),
+                    answer = text.find("which no S7-200 has sent");
+  EXPECT_TRUE(has(text, " instead of 01 03 00 0a 00 01 a4 08: fault noise:ber=0.02,seed=3: "));
+  EXPECT_TRUE(has(text, "the master heard ffp from 20"));
+  EXPECT_LT(request, answer) << text;
+}
+
+TEST(Why, TwoFramesThatASlaveTookWhileItWaitedForSilenceAreTold) {
+  static const auto program = test::compile(test::slave_text());
+  Session session(program);
+  session(
+      "continue 2s; break unanswered; send 02 03 00 0a 00 01 crc; continue 13300us; send cancel; "
+      "send 01 03 00 0a 00 01 crc; continue");
+  const std::string text = session("why");
+  EXPECT_TRUE(has(text, "no answer to 8 characters since 201")) << "the second alone";
+  EXPECT_TRUE(has(text, " took them without reading SMB2"));
+  EXPECT_FALSE(has(text, "16 characters"));
+  EXPECT_FALSE(has(text, "since 2000."));
+}
+
+TEST(Why, OfAFrameThatAPauseBrokeUpTheFirstPartIsWhereToGoBackTo) {
+  static const auto program = test::compile(test::slave_text());
+  Session session(program);
+  session("continue 2s; break unanswered; fault gap:character=4,length=10ms; send 01 03 00 0a 00 01 crc; continue");
+  const std::string text = session("why");
+  const std::size_t first = text.find("no answer to 3 characters");
+  ASSERT_NE(first, std::string::npos);
+  const std::size_t second = text.find("no answer to 5 characters", first);
+  ASSERT_NE(second, std::string::npos) << text;
+  session("rwhy");
+  EXPECT_LT(session.simulation.time(), 2013 * kMillisecond) << "before the second part";
+}
+
+TEST(Why, AFrameTooSoonAfterOneOfTheSameMasterIsSaidToBeSo) {
+  static const auto program = test::compile(test::slave_text());
+  Session session(program);
+  session(
+      "continue 2s; break unanswered; send 02 03 00 0a 00 01 crc; continue 10200us; send cancel; "
+      "send 01 03 00 0a 00 01 crc; continue");
+  EXPECT_TRUE(
+      has(session("why"), "and the PLC heard no pause between that and others: the master sent 8 characters from 20"));
 }
 
 TEST(Why, TheAnswerComesBeforeWhatLedToWhereItStands) {

@@ -57,6 +57,11 @@ TEST(TraceReasons, AnInterruptBeforeTheFirstEniSaysSo) {
   EXPECT_TRUE(has(traced(program, {2 * ms}), ": no ENI until ENI in line 4\n"));
 }
 
+TEST(TraceReasons, ADisiBeforeTheFirstEniIsNamedAndASecondOneIsNot) {
+  const std::string program = "LD SM0.1\nATCH 0, 0\nDISI\nDISI\nSQRT VD8, VD12\nENI\nMEND\n" + std::string(kRoutine);
+  EXPECT_TRUE(has(traced(program, {2 * ms}), ": DISI in line 3 until ENI in line 6\n"));
+}
+
 TEST(TraceReasons, AnInterruptBehindAnotherNamesItsRoutine) {
   const std::string program =
       "LD SM0.1\nATCH 0, 0\nATCH 1, 2\nENI\nMEND\nINT 0\nLD SM0.0\nSQRT VD8, VD12\nRETI\nINT 1\nLD SM0.0\nRETI\n";
@@ -127,6 +132,28 @@ TEST(TraceReasons, AFrameThatNoRoutineReadIsLeftWhenAnotherOneIsAttached) {
   std::string reads(kWait);
   reads.replace(reads.find("INCW VW0"), 8, "BMB SMB0, VB0, 4");
   EXPECT_FALSE(has(trace_of_frame(reads, {0x40, 0x42}), "no answer")) << "the program has them, and may answer";
+}
+
+TEST(TraceReasons, AFrameThatWasHandedToARoutineThatReadsNothingEndsAtThePauseBehindIt) {
+  constexpr std::string_view kNotOurs =
+      "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nATCH 2, 0\nENI\nMEND\n"               // 1
+      "INT 0\nLDB= SMB2, 16#41\nCRETI\nLD SM0.0\nATCH 1, 8 // not ours\nRETI\n"  // 7
+      "INT 1\nLD SM0.0\nINCW VW0\nRETI\n"                                        // 13
+      "INT 2\nLD SM0.0\nATCH 0, 8\nRETI\n";                                      // 17
+  Plc plc(kNotOurs);
+  std::ostringstream out;
+  TextTrace trace(out, program_of(kNotOurs), TraceDetail::Way);
+  trace.record({.kind = TraceKind::ModeChange, .code = 1});
+  plc.cpu.set_sink(&trace);
+  for (const Time end : {2, 3, 8, 9, 10}) plc.received_at({.byte = 0x42, .start = (end - 1) * ms, .end = end * ms});
+  plc.input_at(12 * ms, "I0.0", true);
+  plc.run_until(20 * ms);
+  EXPECT_TRUE(
+      has(out.str(),
+          "no answer to 2 characters since 1.000000 ms: CRETI in line 9, not taken (LDB= SMB2, 16#41: SMB2=16#42)\n"));
+  EXPECT_TRUE(
+      has(out.str(),
+          "no answer to 3 characters since 7.000000 ms: INT 1 (attached in line 11) took them without reading SMB2\n"));
 }
 
 TEST(TraceReasons, AMessageAfterWhichRCVIsExecutedAgainNamesTheTransmissionThatWasNotExecuted) {
