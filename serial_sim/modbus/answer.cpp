@@ -269,12 +269,19 @@ std::string right_text(const FunctionRow& row, Data asked, const Answer& answer,
 
 }  // namespace
 
+bool is_read_request(std::span<const std::uint8_t> frame) {
+  constexpr std::size_t kRequest = kAroundData + 4, kAroundValues = kAroundData + 1;
+  if (frame.size() != kRequest || frame[2] + kAroundValues == kRequest || !crc_ok(frame)) return false;
+  const FunctionRow* const row = find_function(frame[1]);
+  return row != nullptr && (row->shape == Shape::ReadBits || row->shape == Shape::ReadRegisters);
+}
+
 Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) {
   Answer answer;
   if (response.empty()) return answer;
   answer.verdict = Verdict::Wrong;
   const auto wrong = [&](std::string fault) {
-    answer.fault = std::move(fault);
+    answer.fault = std::move(fault) + (is_read_request(response) ? ": a request, so somebody else is a master, too" : "");
     return answer;
   };
   if (response.size() < kAroundData) return wrong("too short for an answer: " + to_hex(response));

@@ -2049,6 +2049,15 @@ lines:
         self.assertIn("the request of another master, and no answer",
                       self.ends(FAILED, "master", system, "--station", "9", "--after", "1s", "write", "40001=5").stdout)
 
+    def test_what_a_program_asks_that_is_a_master_itself_is_no_answer(self):
+        system = self.program(f"plcs: {{m: {{program: {SOURCE}/stl_programs/modbus_master.stl, cpu: 224, set: {{I0.1: 1}}}}}}\n"
+                              "lines: {l: {stations: [m]}}\n", "asks.yaml")
+        sent = self.ends(FAILED, "send", system, "--after", "1999ms", "--crc", "02030000000a")
+        self.assertIn("         the request of another master, and no answer\n", sent.stdout)
+        self.assertIn("1 of 1 frames had no answer: another master's request came first", sent.stderr)
+        asked = self.ends(FAILED, "master", system, "--after", "1999ms", "--station", "2", "read", "40001").stdout
+        self.assertIn("answer of station 1, not 2: a request, so somebody else is a master, too", asked)
+
     def test_plcs_of_another_make_alone_are_asked_by_send_and_master(self):
         others = SOURCE / "tests/programs/systems/other_plcs.yaml"
         asked = self.ends(FINE, "master", others, "--at", "yard", "--station", "5", "read", "40001", "write", "40001=7", "read", "40001")

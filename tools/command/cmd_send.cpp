@@ -46,7 +46,8 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     const serial::Faults::State faults_before = rig->faults(line).state();
     if (options.timeline) timelines.begin();
     const Bytes unasked = serial::bytes_of(master.heard());
-    const serial::Exchange exchange = slave->exchange(options.master.request(frame));
+    serial::Exchange exchange = slave->exchange(options.master.request(frame));
+    mark_request_of_another(exchange);
     if (options.timeline) timelines.end();
     if (master.busy()) break;  // Ctrl-C came before the answer
     foreign += exchange.of_another_master;
@@ -64,11 +65,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     slave->wait(options.pause == kNever ? slave->pause() : options.pause);
   }
   const bool all_written = finish(*rig);
-  if (options.json) {
-    fmt::print("{}", results.end(rig_json(*rig)));
-  } else {
-    fmt::print("{}", dump_text(*rig));
-  }
+  fmt::print("{}", options.json ? results.end(rig_json(*rig)) : dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
   print_notes(line_notes(*rig));
   if (damaged > 0) print_note(fmt::format("{} of {} answers damaged", damaged, answered));
@@ -109,9 +106,8 @@ void add_send(CLI::App& app, int& exit_code) {
       fault_help() +
       "Exit code 1 if a frame was not answered or the answer was damaged: parity or framing errors, or a wrong CRC\n"
       "in answer to a right one. What an answer says is not judged here but by 's7200 master'. With --times-band it is\n"
-      "0 only if all were answered with every table.\n"
-      "A system file (.yaml) instead of a PROGRAM: the frames go onto one of its lines, beside everybody who is there;\n"
-      "--times-band is for one PROGRAM.\n"
+      "0 only if all were answered with every table; it is for one PROGRAM.\n"
+      "A system file (.yaml) instead of a PROGRAM: the frames go onto one of its lines, beside everybody who is there.\n"
       "Example: s7200 send stl_programs/systems/faults.yaml --crc 0103000a0001\n"
       "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, verb, &exit_code] { exit_code = run_send(*verb, *options); });

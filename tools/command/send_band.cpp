@@ -21,7 +21,8 @@ std::vector<BandOutcome> outcomes(const SendOptions& options, serial::Simulation
   for (const serial::Frame& frame : frames) {
     if (!going) break;
     lost.take();
-    const serial::Exchange exchange = slave.exchange(options.master.request(frame));
+    serial::Exchange exchange = slave.exchange(options.master.request(frame));
+    mark_request_of_another(exchange);
     going = !simulation.master().busy();
     if (going) slave.wait(options.pause == kNever ? slave.pause() : options.pause);
     const bool in_vain = exchange.timed_out || exchange.of_another_master;

@@ -6,6 +6,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/views/broadcast.hpp"
 #include "tools/views/text_frame.hpp"
@@ -112,6 +113,11 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
   if (exchange.timed_out) return fmt::format("{}answer   none within {}\n{}", request, format_duration(timeout), early);
   return fmt::format("{}answer   {}   after {}\n{}{}", request, serial::to_hex(exchange.response_bytes()),
                      format_duration(*exchange.latency()), below(remarks_on(exchange)), early);
+}
+
+void mark_request_of_another(serial::Exchange& exchange) {
+  if (modbus::crc_ok(serial::bytes_of(exchange.request)) && modbus::is_read_request(exchange.response_bytes()))
+    exchange.of_another_master = true;
 }
 
 bool is_damaged(const serial::Exchange& exchange) {

@@ -26,6 +26,9 @@ std::string torn_frame_note(const std::vector<std::string>& frames);
 /// Request, answer with its latency, and what the answer says.
 std::string exchange_text(const serial::Exchange& exchange, Time timeout);
 
+/// Marks an answer that is a Modbus request: a program that is a master itself has sent it.
+void mark_request_of_another(serial::Exchange& exchange);
+
 /// Whether an answer cannot be relied on: characters of it were damaged, it was cut off, or its CRC is wrong although that
 /// of the request was right. A program that knows no CRC is not expected to send one.
 bool is_damaged(const serial::Exchange& exchange);

@@ -110,6 +110,16 @@ TEST(ModbusAnswer, WhatIsWrongWithIt) {
   EXPECT_EQ(said("01 06 00 03 12 34", "01 06 00 03 12 35"), "does not repeat the request: 00 03 12 35");
 }
 
+TEST(ModbusAnswer, ARequestToReadIsCalledOne) {
+  constexpr const char* kAsks = ": a request, so somebody else is a master, too";
+  EXPECT_EQ(said("01 03 00 0a 00 02", "01 03 00 00 00 0a"), std::string("wrong length: 4 data bytes, expected 5") + kAsks);
+  EXPECT_EQ(said("01 03 00 0a 00 02", "02 04 00 00 00 0a"), std::string("answer of station 2, not 1") + kAsks);
+  EXPECT_EQ(said("02 03 00 0a 00 02", "01 06 00 00 00 0a"), "answer of station 1, not 2") << "its answer repeats it";
+  EXPECT_FALSE(is_read_request(with_crc("01 03 03 12 34 56"))) << "three bytes of data";
+  EXPECT_FALSE(is_read_request(hex("01 03 00 00 00 0a 00 00"))) << "the CRC";
+  EXPECT_FALSE(is_read_request({}));
+}
+
 TEST(ModbusAnswer, NoRequestOrAnswerOfAnyLengthIsReadBeyondItsEnd) {
   const Bytes answer = with_crc("01 0f 00 00 00 08");
   for (unsigned function = 0; function < 256; ++function) {
