@@ -48,13 +48,22 @@ std::optional<PrintedValue> value_in(std::string_view line) {
   return PrintedValue{*reference, static_cast<std::uint16_t>(*value)};
 }
 
+constexpr std::string_view kStart = "start reference = ";
+
+/// What references count from: 1; with its option -0, which mbpoll does not show, 0. Then one of them may be 0.
+std::uint16_t base_in(std::span<const std::string> lines) {
+  const auto is_zero = [](const std::string& line) { return number_after(line, kStart) == 0; };
+  return std::ranges::any_of(lines, is_zero) ? 0 : 1;
+}
+
 class MbpollReader {
  public:
-  explicit MbpollReader(LineRecording& recording) : recording_(recording) {}
+  /// `base`: what references count from.
+  MbpollReader(LineRecording& recording, std::uint16_t base) : recording_(recording), base_(base) {}
 
   void take(std::string_view line, std::size_t number) {
     if (line.starts_with("Data type")) return take_type(line);
-    if (const auto first = number_after(line, "start reference = ")) {
+    if (const auto first = number_after(line, kStart)) {
       first_ = *first;
       count_ = number_after(line, "count = ").value_or(1);
     } else if (const auto station = number_after(line, "-- Polling slave ")) {
@@ -76,14 +85,13 @@ class MbpollReader {
     function_ = type == kDataTypes.end() ? std::nullopt : std::optional(type->function);
   }
 
-  /// References count from 1; with its option -0, from 0, which it does not say.
   void ask(std::uint8_t station, std::size_t number) {
-    asked_ = function_ && first_ > 0 && count_ > 0 && count_ <= kMostValues;
+    asked_ = function_ && first_ >= base_ && count_ > 0 && count_ <= kMostValues;
     if (!asked_) return;
     station_ = station;
     place_ = fmt::format("line {}", number);
     values_.clear();
-    const std::uint16_t first = static_cast<std::uint16_t>(first_ - 1);
+    const std::uint16_t first = static_cast<std::uint16_t>(first_ - base_);
     Bytes pdu{static_cast<std::uint8_t>(*function_)};
     for (const std::uint16_t word : {first, count_}) {
       pdu.push_back(static_cast<std::uint8_t>(word >> 8));
@@ -121,6 +129,7 @@ class MbpollReader {
   }
 
   LineRecording& recording_;
+  std::uint16_t base_;
   std::optional<Function> function_;
   std::uint16_t first_ = 0, count_ = 1;
   std::uint8_t station_ = 1;
@@ -132,14 +141,20 @@ class MbpollReader {
 }  // namespace
 
 void read_values_of_mbpoll(std::span<const std::string> lines, LineRecording& recording) {
-  MbpollReader reader(recording);
+  const std::uint16_t base = base_in(lines);
+  MbpollReader reader(recording, base);
   std::size_t number = 0;
   for (const std::string& line : lines) reader.take(line, ++number);
   recording.notes.emplace_back(
       recording.frames.empty()
           ? "mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it prints "
             "without"
-          : "mbpoll printed values and no frames: these are the frames that reads of them have, if references count from 1");
+      : base == 0
+          ? "mbpoll printed values and no frames: these are the frames that reads of them have; references count from 0, as "
+            "one "
+            "of them is 0"
+          : "mbpoll printed values and no frames: these are the frames that reads of them have, if references count from 1; "
+            "with its option -0 they count from 0: record with -v, too");
 }
 
 }  // namespace s7200::tools

@@ -523,6 +523,16 @@ TEST(Recordings, WhatMbpollReadIsMadeOfTheValuesThatItPrints) {
                   .starts_with("no frame in it"));
 }
 
+TEST(Recordings, ReferencesOfMbpollCountFromZeroIfOneOfThemIsZero) {
+  std::string printed = printed_by_mbpoll("16-bit register, output (holding) register table", "[0]: \t4660\n");
+  printed.replace(printed.find("reference = 1"), 13, "reference = 0");
+  const LineRecording read = recording_of(printed);
+  ASSERT_EQ(read.frames.size(), 2U);
+  EXPECT_EQ(read.frames[0].bytes, kRequest) << "the first register";
+  EXPECT_EQ(read.frames[1].bytes, kAnswer);
+  EXPECT_NE(read.notes.at(0).find("references count from 0"), std::string::npos);
+}
+
 std::vector<std::optional<Time>> times_of(const LineRecording& recording) {
   std::vector<std::optional<Time>> times;
   for (const RecordedFrame& frame : recording.frames) times.push_back(frame.at);
