@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/debugger/session.hpp"
+#include "tools/debugger/stop_words.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -173,6 +174,14 @@ TEST(Stops, CompletionOffersWhatMayComeNext) {
   EXPECT_EQ(offered("unforce "), (Words{"all", "VW10"}));
   EXPECT_EQ(offered("fault fli"), Words{"flip:"});
   EXPECT_EQ(offered("mode "), (Words{"run", "stop"}));
+}
+
+TEST(Stops, HelpNamesAllThatHappensAndEachOption) {
+  Session session(kNested);
+  const std::string help = session("help break"), of_watch = session("help watch");
+  for (const std::string_view word : happening_words()) EXPECT_TRUE(has(help, word));
+  for (const StopOption& option : kStopOptions) EXPECT_TRUE(has(help, option.word));
+  for (const AccessWord& access : kAccesses) EXPECT_TRUE(has(of_watch, access.word));
 }
 
 TEST(Stops, OptionsComeInAnyOrderAfterATextInQuotesTooAndOnce) {
