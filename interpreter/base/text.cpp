@@ -77,15 +77,17 @@ bool is_valid_utf8(std::string_view text) {
   return true;
 }
 
+std::string_view take_line(std::string_view& text) {
+  const auto found = std::find_if(text.begin(), text.end(), [](char c) { return c == '\r' || c == '\n'; });
+  const std::string_view line = text.substr(0, static_cast<std::size_t>(found - text.begin()));
+  text.remove_prefix(line.size());
+  text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(text.size(), 1));
+  return line;
+}
+
 std::vector<std::string> split_lines(std::string_view text) {
   std::vector<std::string> lines;
-  while (!text.empty()) {
-    const auto found = std::find_if(text.begin(), text.end(), [](char c) { return c == '\r' || c == '\n'; });
-    const auto end = static_cast<std::size_t>(found - text.begin());
-    lines.emplace_back(text.substr(0, end));
-    if (end == text.size()) break;
-    text.remove_prefix(end + (text.substr(end, 2) == "\r\n" ? 2 : 1));
-  }
+  while (!text.empty()) lines.emplace_back(take_line(text));
   return lines;
 }
 

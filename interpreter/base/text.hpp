@@ -56,7 +56,10 @@ std::string characters_at(std::string_view text, std::size_t first, std::size_t 
 
 bool is_valid_utf8(std::string_view text);
 
-/// The lines of a text without their ends: CR LF, LF or CR.
+/// Takes the first line off a text, and returns it without its end: CR LF, LF or CR.
+std::string_view take_line(std::string_view& text);
+
+/// All of them.
 std::vector<std::string> split_lines(std::string_view text);
 
 /// Without the mark by which some editors say that a text is UTF-8.

@@ -601,11 +601,8 @@ class BlockReader {
 }  // namespace
 
 bool is_block_export(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    if (opens_block(keyword_of(code_of(text.substr(0, end))))) return true;
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  while (!text.empty())
+    if (opens_block(keyword_of(code_of(take_line(text))))) return true;
   return false;
 }
 
@@ -615,7 +612,8 @@ ParseResult read_blocks(std::string_view text, std::string name, const IsInstruc
 
 bool has_routine_headings(std::string_view text) {
   bool after_main = false;
-  for (const std::string& line : split_lines(text)) {
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
     const auto heading = heading_of(line);
     if (after_main && !trim(line).empty() && keyword_of(code_of(line)) == "NETWORK") return true;
     if (heading || !trim(line).empty()) after_main = heading && heading->kind == Block::Kind::Main;

@@ -99,8 +99,8 @@ std::optional<DataLine::Value> value_of(std::string_view word, const Position& a
 
 bool is_data_block(std::string_view text, const std::function<bool(std::string_view word)>& is_mnemonic) {
   std::size_t addresses = 0, values = 0, other = 0;
-  for (const std::string& line : split_lines(text)) {
-    Words words(line);
+  while (!text.empty()) {
+    Words words(take_line(text));
     const std::string_view word = words.next(), next = words.next();
     if (word.empty()) continue;
     const bool address = begins_with_v_address(word);

@@ -81,10 +81,8 @@ std::vector<std::string_view> first_rows(std::string_view text) {
   constexpr std::size_t kRows = 100, kLongestRow = 1000;
   std::vector<std::string_view> rows;
   while (!text.empty() && rows.size() < kRows) {
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view line = text.substr(0, end);
+    const std::string_view line = take_line(text);
     if (!is_comment_or_blank(line) && line.size() <= kLongestRow) rows.push_back(line);
-    text.remove_prefix(std::min(end + 1, text.size()));
   }
   return rows;
 }

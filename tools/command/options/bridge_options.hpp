@@ -28,7 +28,8 @@ inline constexpr Time kBridgeTimeout = 400 * kMillisecond;
 
 /// What is said when a program that can be stopped is joined to masters outside.
 inline constexpr const char* kMastersWait =
-    "while the program stands still, masters outside get no answers: their time-outs are their own affair";
+    "while the program stands still, masters outside get no answers: their time-outs are their own affair; bytes "
+    "that come in then reach the line without pauses when it goes on";
 
 class BridgeOptions {
  public:
