@@ -273,7 +273,9 @@ bool is_read_request(std::span<const std::uint8_t> frame) {
   constexpr std::size_t kRequest = kAroundData + 4, kAroundValues = kAroundData + 1;
   if (frame.size() != kRequest || frame[2] + kAroundValues == kRequest || !crc_ok(frame)) return false;
   const FunctionRow* const row = find_function(frame[1]);
-  return row != nullptr && (row->shape == Shape::ReadBits || row->shape == Shape::ReadRegisters);
+  const std::uint16_t count = load16(&frame[4]);
+  return row != nullptr && (row->shape == Shape::ReadBits || row->shape == Shape::ReadRegisters) && count > 0 &&
+         count <= row->most;
 }
 
 Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) {

@@ -20,8 +20,8 @@ using serial::Answer;
 /// Both are RTU frames. An answer of more than 4 characters is never taken for right if its CRC is not.
 Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
 
-/// Whether a frame asks for bits or registers, and cannot be an answer: its CRC is right, and its third character counts
-/// other data than it has.
+/// Whether a frame asks for as many bits or registers as may be, and cannot be an answer: its CRC is right, and its third
+/// character counts other data than it has.
 bool is_read_request(std::span<const std::uint8_t> frame);
 
 /// How data are named: `register 1` or `register 40002`.

@@ -117,6 +117,7 @@ TEST(ModbusAnswer, ARequestToReadIsCalledOne) {
   EXPECT_EQ(said("02 03 00 0a 00 02", "01 06 00 00 00 0a"), "answer of station 1, not 2") << "its answer repeats it";
   EXPECT_FALSE(is_read_request(with_crc("01 03 03 12 34 56"))) << "three bytes of data";
   EXPECT_FALSE(is_read_request(hex("01 03 00 00 00 0a 00 00"))) << "the CRC";
+  EXPECT_FALSE(is_read_request(with_crc("01 03 02 12 34 56"))) << "more registers than may be asked for: a longer answer";
   EXPECT_FALSE(is_read_request({}));
 }
 
