@@ -269,13 +269,25 @@ std::string right_text(const FunctionRow& row, Data asked, const Answer& answer,
 
 }  // namespace
 
-bool is_read_request(std::span<const std::uint8_t> frame) {
-  constexpr std::size_t kRequest = kAroundData + 4, kAroundValues = kAroundData + 1;
-  if (frame.size() != kRequest || frame[2] + kAroundValues == kRequest || !crc_ok(frame)) return false;
-  const FunctionRow* const row = find_function(frame[1]);
-  const std::uint16_t count = load16(&frame[4]);
-  return row != nullptr && (row->shape == Shape::ReadBits || row->shape == Shape::ReadRegisters) && count > 0 &&
-         count <= row->most;
+bool is_request(std::span<const std::uint8_t> frame) {
+  constexpr std::size_t kRead = kAroundData + 4;           // address, count
+  constexpr std::size_t kAroundWritten = kAroundData + 5;  // and a byte count
+  const FunctionRow* const row = frame.size() >= kRead && crc_ok(frame) ? find_function(frame[1]) : nullptr;
+  if (row == nullptr) return false;
+  const std::size_t count = load16(&frame[4]);
+  if (count == 0 || count > row->most) return false;
+  switch (row->shape) {
+    case Shape::ReadBits:
+      return frame.size() == kRead && frame[2] != 3;  // else an answer with three bytes of bits
+    case Shape::ReadRegisters:
+      return frame.size() == kRead;
+    case Shape::WriteBits:
+      return frame.size() == kAroundWritten + (count + 7) / 8 && frame[6] == (count + 7) / 8;
+    case Shape::WriteRegisters:
+      return frame.size() == kAroundWritten + 2 * count && frame[6] == 2 * count;
+    default:
+      return false;
+  }
 }
 
 Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) {
@@ -283,7 +295,7 @@ Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::
   if (response.empty()) return answer;
   answer.verdict = Verdict::Wrong;
   const auto wrong = [&](std::string fault) {
-    answer.fault = std::move(fault) + (is_read_request(response) ? ": a request, so somebody else is a master, too" : "");
+    answer.fault = std::move(fault) + (is_request(response) ? ": a request, so somebody else is a master, too" : "");
     return answer;
   };
   if (response.size() < kAroundData) return wrong("too short for an answer: " + to_hex(response));

@@ -20,9 +20,9 @@ using serial::Answer;
 /// Both are RTU frames. An answer of more than 4 characters is never taken for right if its CRC is not.
 Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
 
-/// Whether a frame asks for as many bits or registers as may be, and cannot be an answer: its CRC is right, and its third
-/// character counts other data than it has.
-bool is_read_request(std::span<const std::uint8_t> frame);
+/// Whether a frame reads bits or registers, or writes several, and cannot be an answer: its CRC is right, its count may be,
+/// and an answer has other lengths. A write of one has the same form as its answer, and does not count.
+bool is_request(std::span<const std::uint8_t> frame);
 
 /// How data are named: `register 1` or `register 40002`.
 enum class Numbering : std::uint8_t { OnTheWire, Notation };

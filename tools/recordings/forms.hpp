@@ -21,7 +21,7 @@ bool looks_like_libmodbus(std::string_view bytes);
 std::optional<LineRecording> read_libmodbus(const std::string& bytes, const ReadingChoices& choices, std::string& why);
 
 /// The frames of the reads whose values mbpoll printed.
-void read_values_of_mbpoll(std::span<const std::string> lines, LineRecording& recording);
+void read_values_of_mbpoll(std::span<const std::string> lines, const ReadingChoices& choices, LineRecording& recording);
 
 /// By a line of its own about bytes that are on their way; those with bytes once more are none of the line.
 bool looks_like_pymodbus(std::string_view bytes);

@@ -35,7 +35,7 @@ bool looks_like_libmodbus(std::string_view bytes) {
                              [](std::string_view line) { return is_of_mbpoll(line) || frame_in(line).has_value(); });
 }
 
-std::optional<LineRecording> read_libmodbus(const std::string& bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_libmodbus(const std::string& bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
   std::size_t number = 0;
   const std::vector<std::string> lines = stl::split_lines(bytes);
@@ -46,7 +46,7 @@ std::optional<LineRecording> read_libmodbus(const std::string& bytes, const Read
     frame->place = fmt::format("line {}", number);
     recording.frames.push_back(std::move(*frame));
   }
-  if (recording.frames.empty()) read_values_of_mbpoll(lines, recording);
+  if (recording.frames.empty()) read_values_of_mbpoll(lines, choices, recording);
   return recording;
 }
 

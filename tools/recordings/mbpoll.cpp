@@ -50,21 +50,18 @@ std::optional<PrintedValue> value_in(std::string_view line) {
 
 constexpr std::string_view kStart = "start reference = ";
 
-/// What references count from: 1; with its option -0, which mbpoll does not show, 0. Then one of them may be 0.
-std::uint16_t base_in(std::span<const std::string> lines) {
-  const auto is_zero = [](const std::string& line) { return number_after(line, kStart) == 0; };
-  return std::ranges::any_of(lines, is_zero) ? 0 : 1;
-}
-
 class MbpollReader {
  public:
-  /// `base`: what references count from.
-  MbpollReader(LineRecording& recording, std::uint16_t base) : recording_(recording), base_(base) {}
+  MbpollReader(LineRecording& recording, bool from_zero) : recording_(recording), from_zero_(from_zero) {}
+
+  /// Whether the references of a run counted from `base`.
+  bool took(std::uint16_t base) const { return taken_[base]; }
 
   void take(std::string_view line, std::size_t number) {
     if (line.starts_with("Data type")) return take_type(line);
     if (const auto first = number_after(line, kStart)) {
       first_ = *first;
+      base_ = from_zero_ || first_ == 0 ? 0 : 1;
       count_ = number_after(line, "count = ").value_or(1);
     } else if (const auto station = number_after(line, "-- Polling slave ")) {
       ask(static_cast<std::uint8_t>(*station), number);
@@ -88,6 +85,7 @@ class MbpollReader {
   void ask(std::uint8_t station, std::size_t number) {
     asked_ = function_ && first_ >= base_ && count_ > 0 && count_ <= kMostValues;
     if (!asked_) return;
+    taken_[base_] = true;
     station_ = station;
     place_ = fmt::format("line {}", number);
     values_.clear();
@@ -129,7 +127,9 @@ class MbpollReader {
   }
 
   LineRecording& recording_;
-  std::uint16_t base_;
+  bool from_zero_;
+  std::uint16_t base_ = 1;  ///< of the run: what its references count from
+  std::array<bool, 2> taken_{};
   std::optional<Function> function_;
   std::uint16_t first_ = 0, count_ = 1;
   std::uint8_t station_ = 1;
@@ -140,21 +140,22 @@ class MbpollReader {
 
 }  // namespace
 
-void read_values_of_mbpoll(std::span<const std::string> lines, LineRecording& recording) {
-  const std::uint16_t base = base_in(lines);
-  MbpollReader reader(recording, base);
+void read_values_of_mbpoll(std::span<const std::string> lines, const ReadingChoices& choices, LineRecording& recording) {
+  MbpollReader reader(recording, choices.mbpoll_from_zero);
   std::size_t number = 0;
   for (const std::string& line : lines) reader.take(line, ++number);
-  recording.notes.emplace_back(
-      recording.frames.empty()
-          ? "mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it prints "
-            "without"
-      : base == 0
-          ? "mbpoll printed values and no frames: these are the frames that reads of them have; references count from 0, as "
-            "one "
-            "of them is 0"
-          : "mbpoll printed values and no frames: these are the frames that reads of them have, if references count from 1; "
-            "with its option -0 they count from 0: record with -v, too");
+  if (recording.frames.empty()) {
+    recording.notes.emplace_back(
+        "mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it prints "
+        "without");
+    return;
+  }
+  std::string note = "mbpoll printed values and no frames: these are the frames that reads of them have";
+  if (reader.took(0) && !choices.mbpoll_from_zero) note += "; references of a run that starts at 0 count from 0";
+  if (reader.took(1))
+    note += fmt::format("; {}references count from 1: if they count from 0, as with mbpoll's option -0, say --mbpoll-0",
+                        reader.took(0) ? "other " : "");
+  recording.notes.push_back(std::move(note));
 }
 
 }  // namespace s7200::tools

@@ -116,7 +116,7 @@ std::string exchange_text(const serial::Exchange& exchange, Time timeout) {
 }
 
 void mark_request_of_another(serial::Exchange& exchange) {
-  if (modbus::crc_ok(serial::bytes_of(exchange.request)) && modbus::is_read_request(exchange.response_bytes()))
+  if (modbus::crc_ok(serial::bytes_of(exchange.request)) && modbus::is_request(exchange.response_bytes()))
     exchange.of_another_master = true;
 }
 

@@ -523,14 +523,37 @@ TEST(Recordings, WhatMbpollReadIsMadeOfTheValuesThatItPrints) {
                   .starts_with("no frame in it"));
 }
 
-TEST(Recordings, ReferencesOfMbpollCountFromZeroIfOneOfThemIsZero) {
-  std::string printed = printed_by_mbpoll("16-bit register, output (holding) register table", "[0]: \t4660\n");
-  printed.replace(printed.find("reference = 1"), 13, "reference = 0");
-  const LineRecording read = recording_of(printed);
+std::string printed_by_mbpoll_of(int reference) {
+  std::string printed =
+      printed_by_mbpoll("16-bit register, output (holding) register table", fmt::format("[{}]: \t4660\n", reference));
+  return printed.replace(printed.find("reference = 1") + 12, 1, std::to_string(reference));
+}
+
+TEST(Recordings, ReferencesOfARunOfMbpollThatStartsAtZeroCountFromZero) {
+  const LineRecording read = recording_of(printed_by_mbpoll_of(0));
   ASSERT_EQ(read.frames.size(), 2U);
   EXPECT_EQ(read.frames[0].bytes, kRequest) << "the first register";
   EXPECT_EQ(read.frames[1].bytes, kAnswer);
-  EXPECT_NE(read.notes.at(0).find("references count from 0"), std::string::npos);
+  EXPECT_TRUE(read.notes.at(0).ends_with("; references of a run that starts at 0 count from 0"));
+}
+
+TEST(Recordings, EachRunOfMbpollInALogCountsItsReferencesByItself) {
+  const LineRecording read = recording_of(printed_by_mbpoll_of(0) + printed_by_mbpoll_of(1) + printed_by_mbpoll_of(3));
+  ASSERT_EQ(read.frames.size(), 6U);
+  EXPECT_EQ(read.frames[0].bytes, kRequest);
+  EXPECT_EQ(read.frames[2].bytes, kRequest) << "1 is the first register, too";
+  EXPECT_EQ(read.frames[4].bytes, modbus::rtu_frame(1, Bytes{3, 0, 2, 0, 1}));
+  EXPECT_TRUE(
+      read.notes.at(0).ends_with("; other references count from 1: if they count from 0, as with mbpoll's option -0, "
+                                 "say --mbpoll-0"));
+}
+
+TEST(Recordings, ReferencesOfMbpollCountFromZeroIfItIsToldSo) {
+  std::string why;
+  const auto read = read_recording(printed_by_mbpoll_of(3), {.mbpoll_from_zero = true}, why);
+  ASSERT_TRUE(read.has_value()) << why;
+  EXPECT_EQ(read->frames.at(0).bytes, modbus::rtu_frame(1, Bytes{3, 0, 3, 0, 1}));
+  EXPECT_EQ(read->notes.at(0), "mbpoll printed values and no frames: these are the frames that reads of them have");
 }
 
 std::vector<std::optional<Time>> times_of(const LineRecording& recording) {

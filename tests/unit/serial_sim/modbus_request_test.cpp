@@ -110,15 +110,26 @@ TEST(ModbusAnswer, WhatIsWrongWithIt) {
   EXPECT_EQ(said("01 06 00 03 12 34", "01 06 00 03 12 35"), "does not repeat the request: 00 03 12 35");
 }
 
-TEST(ModbusAnswer, ARequestToReadIsCalledOne) {
+TEST(ModbusAnswer, ARequestIsCalledOne) {
   constexpr const char* kAsks = ": a request, so somebody else is a master, too";
   EXPECT_EQ(said("01 03 00 0a 00 02", "01 03 00 00 00 0a"), std::string("wrong length: 4 data bytes, expected 5") + kAsks);
   EXPECT_EQ(said("01 03 00 0a 00 02", "02 04 00 00 00 0a"), std::string("answer of station 2, not 1") + kAsks);
+  EXPECT_EQ(said("01 03 00 0a 00 02", "01 10 00 00 00 01 02 12 34"), std::string("answer to function 16, not 3") + kAsks);
   EXPECT_EQ(said("02 03 00 0a 00 02", "01 06 00 00 00 0a"), "answer of station 1, not 2") << "its answer repeats it";
-  EXPECT_FALSE(is_read_request(with_crc("01 03 03 12 34 56"))) << "three bytes of data";
-  EXPECT_FALSE(is_read_request(hex("01 03 00 00 00 0a 00 00"))) << "the CRC";
-  EXPECT_FALSE(is_read_request(with_crc("01 03 02 12 34 56"))) << "more registers than may be asked for: a longer answer";
-  EXPECT_FALSE(is_read_request({}));
+  EXPECT_EQ(said("02 03 00 0a 00 02", "01 10 00 00 00 01"), "answer of station 1, not 2") << "the answer to a write";
+}
+
+TEST(ModbusAnswer, ARequestIsWhatNoAnswerLooksLike) {
+  for (const char* const request : {"01 01 00 00 00 08", "01 03 03 00 00 02", "01 04 03 ff 00 7d",
+                                    "01 0f 00 00 00 09 02 ff 01", "01 10 00 00 00 02 04 12 34 56 78"})
+    EXPECT_TRUE(is_request(with_crc(request))) << request;
+  EXPECT_FALSE(is_request(with_crc("01 01 03 12 00 56"))) << "three bytes of coils";
+  EXPECT_FALSE(is_request(hex("01 03 00 00 00 0a 00 00"))) << "the CRC";
+  EXPECT_FALSE(is_request(with_crc("01 03 02 12 34 56"))) << "more registers than may be asked for: a longer answer";
+  EXPECT_FALSE(is_request(with_crc("01 03 04 00 00 00 01"))) << "two registers";
+  EXPECT_FALSE(is_request(with_crc("01 10 00 00 00 02 04 12 34 56"))) << "it ends too early";
+  EXPECT_FALSE(is_request(with_crc("01 10 00 00 00 02 03 12 34 56 78"))) << "its count is another one";
+  EXPECT_FALSE(is_request({}));
 }
 
 TEST(ModbusAnswer, NoRequestOrAnswerOfAnyLengthIsReadBeyondItsEnd) {

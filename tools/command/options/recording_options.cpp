@@ -72,6 +72,8 @@ void RecordingOptions::add_to(CLI::App& verb) {
                            format_duration(kMasterTimeout)));
   add_whole_number(verb, "--tcp-port", reading.tcp_port, {1, 65'535}, "of the Modbus TCP server, in a recording", "502");
   for_files_.push_back(verb.get_option("--tcp-port"));
+  for_files_.push_back(verb.add_flag("--mbpoll-0", reading.mbpoll_from_zero,
+                                     "mbpoll had its option -0: the references that it printed count from 0"));
   for_lines_.push_back(add_duration(verb, "--for", duration, "how long to listen to a line [until Ctrl-C]"));
 }
 
