@@ -541,6 +541,23 @@ TEST(DapSession, AFrameThatNobodyWantedLeadsToWhatDetachedItsEvent) {
   EXPECT_EQ(editor.line(), 7);
 }
 
+TEST(DapSession, AMessageThatHasNotEndedLeadsToItsRCV) {
+  Editor editor(check_text("LD SM0.1\nMOVB 9, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 5, SMW90\nMOVB 10, SMB94\n"
+                           "RCV VB100, 0\nMEND\n",
+                           "test.stl", cpu224(), default_times(cpu224()))
+                    .program);
+  editor.begin();
+  editor("stepScan", {{"threadId", 1}, {"count", 100}});
+  editor("setExceptionBreakpoints", {{"filters", {"unanswered"}}});
+  editor("sendFrame", {{"frame", "41 42"}});
+  editor("continue", {{"threadId", 1}});
+  const Json decision = editor("lastDecision");
+  EXPECT_TRUE(has(decision["text"], "RCV took them and waits for the end of its message: the character 16#0D or 10 "));
+  EXPECT_EQ(decision["line"], 7);
+  editor("reverseToLastDecision", {{"threadId", 1}});
+  EXPECT_EQ(editor.line(), 7);
+}
+
 TEST(DapSession, ARequestUnderWayIsGivenUp) {
   Editor editor("LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
   editor.begin();
