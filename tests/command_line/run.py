@@ -1268,6 +1268,7 @@ class Json(Case):
         for figure, name in zip(self.json(FINE, "bench", "--each", "1ms", "--json", "--against", file)["figures"], range(20)):
             self.assertEqual(figure["ratio"] is None, name == 1, "it has no figure to compare with")
         compared = self.ends(FINE, "bench", "--each", "1ms", "--against", file).stdout
+        self.assertIn(f'"2.00 times" is twice as fast as in {file}\n', compared.splitlines(True)[0])
         self.assertRegex(compared, r"first scan .* \d+\.\d\d times\n")
         self.assertRegex(compared, r"start to first output +\d+\.\d\d ms  \d+\.\d\d times\n")
         slower = self.program(json.dumps(before | {"figures": [{"name": "start to first output", "takes": 1e6}]}), "slower.json")

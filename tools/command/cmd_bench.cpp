@@ -55,8 +55,11 @@ void print_figures(const BenchOptions& options, const nlohmann::ordered_json& ho
     return;
   }
   const std::string build = how["build"];
-  fmt::print("{}: best of {} rounds on one core{}\n", stl::printable(how["program"].get<std::string>()), kRounds,
-             build == "Release" ? "" : fmt::format(" ({} build, not Release)", build));
+  fmt::print("{}: best of {} rounds on one core{}{}\n", stl::printable(how["program"].get<std::string>()), kRounds,
+             build == "Release" ? "" : fmt::format(" ({} build, not Release)", build),
+             options.against.empty()
+                 ? ""
+                 : fmt::format("; \"2.00 times\" is twice as fast as in {}", stl::printable(options.against)));
   for (const Figure& f : figures) print_line(f, before);
 }
 
@@ -104,7 +107,9 @@ void add_bench(CLI::App& app, int& exit_code) {
   for (const char* const of_measuring : {"PROGRAM", "--against", "--json"}) save->excludes(verb->get_option(of_measuring));
   verb->footer(
       "'idle scans', 'instruction trace' and the mixed programs always run every scan. 'tip-like' is a slave that makes a "
-      "table in its\nfirst scan and receives each character in an interrupt, as that of Application Tip 41 does.\n"
+      "table in its\nfirst scan and receives each character in an interrupt, as that of Application Tip 41 does. The start "
+      "is the shortest of all that\n"
+      "the time has room for, by the clock.\n"
       "Example: s7200 bench\n"
       "Exit code 1 if it was interrupted, with the figures measured until then.");
   verb->callback([options, &exit_code] { exit_code = run_bench(*options); });

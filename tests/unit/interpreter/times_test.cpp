@@ -187,16 +187,33 @@ TEST(NamedTimes, SAndROfOneBitTakeTheFiguresForAnyNumber) {
   EXPECT_EQ(of_one("S M0.0, 1"), 27'000);
 }
 
+/// The areas that a line of a times file is for; one without area if it is for any operand.
+std::vector<std::optional<Area>> operands_of(const TimeRow& row) {
+  std::vector<std::optional<Area>> operands;
+  for (std::size_t area = 0; area < kAreas; ++area)
+    if (contains(row.areas, static_cast<Area>(area))) operands.emplace_back(static_cast<Area>(area));
+  if (operands.empty()) operands.emplace_back();
+  return operands;
+}
+
+/// `what` is known to within `range`, or nothing is known of it.
+void expect_within(Time what, const TimeRange& range, const std::string& name) {
+  if (range.most == 0) return;
+  EXPECT_GE(static_cast<double>(what), range.least * 0.999) << name;
+  EXPECT_LE(static_cast<double>(what), range.most * 1.001) << name;
+}
+
 TEST(NamedTimes, EachFigureOfTheCpu214IsAsUnsureAsTheRememberedOneIsFarFromIt) {
   const TimeTable &own = find_times("cpu214")->table(), &other = find_times("cpu214_from_22x")->table();
   for (const TimeRow& row : own.rows())
-    for (const std::string& mnemonic : row.mnemonics) {
-      const TimeRow* remembered = other.find(mnemonic, {});
-      if (!remembered || row.base == 0 || mnemonic == "SCRE") continue;  // SCRE has a line with LSCR, which is dear
-      const double factor = 1 + row.uncertainty / 100, base = static_cast<double>(row.base);
-      EXPECT_GE(static_cast<double>(remembered->base), base / factor * 0.999) << mnemonic;
-      EXPECT_LE(static_cast<double>(remembered->base), base * factor * 1.001) << mnemonic;
-    }
+    for (const std::string& mnemonic : row.mnemonics)
+      for (const std::optional<Area> operand : operands_of(row)) {
+        const TimeRow* remembered = other.find(mnemonic, operand);
+        if (!remembered || mnemonic == "SCRE") continue;  // SCRE has a line with LSCR, which is dear
+        expect_within(remembered->base, range_of_base(row), mnemonic + " " + names_of(row.areas));
+        if (remembered->unit == row.unit)
+          expect_within(remembered->per_unit, range_of_unit(row), mnemonic + " for each " + row.unit);
+      }
 }
 
 TEST(NamedTimes, ATableIsForItsOwnCpus) {
