@@ -132,7 +132,9 @@ class Core {
   /// How far the crystal is off, in millionths; positive: it is too fast. Of this piece of hardware, so it is no state.
   void set_clock_error(std::int32_t millionths) { clock_error_ = millionths; }
   /// How long that takes by the CPU's clock which takes `nominal` by an exact one.
-  Time by_own_clock(Time nominal) const { return nominal - nominal * clock_error_ / 1'000'000; }
+  Time by_own_clock(Time nominal) const {
+    return clock_error_ == 0 ? nominal : nominal - nominal * clock_error_ / 1'000'000;
+  }
 
   // --- the outside ---
 

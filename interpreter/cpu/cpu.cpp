@@ -27,7 +27,7 @@ void Cpu::run(Time limit, Time work) {
   const State& s = core_.s;
   core_.loop.paused = false;
   const Mode mode = s.mode;
-  Time end = work < kNever - s.time ? std::min(limit, s.time + work) : limit;
+  Time end = s.time + std::min(work, limit - s.time);
   while (s.time < end && !core_.loop.paused && s.mode == mode) {
     const Time event = core_.next_event();
     if (event <= s.time) return;

@@ -199,13 +199,10 @@ void character_sent(Core& core, std::uint8_t number, Time at) {
   core.port(number).enable_receiver(true, at);
 }
 
-/// A port that the CPU does not have never has a job.
-void communicate(Core& core) {
-  for (std::uint8_t number = 0; number < kPorts.size(); ++number) {
-    const PpiPort& port = core.s.ppi[number];
-    if (port.wanted_mode && answer_has_left(port)) change_mode(core, number);
-    if (port.job == Job::Waiting) carry_out(core, number);
-  }
+void communicate(Core& core, std::uint8_t number) {
+  const PpiPort& port = core.s.ppi[number];
+  if (port.wanted_mode && answer_has_left(port)) change_mode(core, number);
+  if (port.job == Job::Waiting) carry_out(core, number);
 }
 
 }  // namespace s7200::ppi

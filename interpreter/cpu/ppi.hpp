@@ -64,7 +64,9 @@ void send(Core& core, std::uint8_t port, std::span<const std::uint8_t> frame, Ti
 void character_received(Core& core, std::uint8_t port, const ReceivedCharacter& character);
 void character_sent(Core& core, std::uint8_t port, Time at);
 
-/// The communication part of the scan. The CPU may change to RUN or STOP.
-void communicate(Core& core);
+/// The communication part of the scan, for a port that waits for it. The CPU may change to RUN or STOP. A port that the CPU
+/// does not have never waits.
+inline bool waits(const PpiPort& port) { return port.job == PpiPort::Job::Waiting || port.wanted_mode.has_value(); }
+void communicate(Core& core, std::uint8_t port);
 
 }  // namespace s7200::ppi

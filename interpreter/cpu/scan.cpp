@@ -92,7 +92,8 @@ void begin_communication(Core& core) { begin_phase(core, Phase::Communication, P
 void communicate(Core& core) {
   const Mode before = core.s.mode;
   network::communicate(core);
-  ppi::communicate(core);
+  for (std::uint8_t port = 0; port < core.s.ppi.size(); ++port)
+    if (ppi::waits(core.s.ppi[port])) ppi::communicate(core, port);
   if (core.s.mode != before) return;
   forcing::apply(core);
   begin_phase(core, Phase::SelfTest, Program::kSelfTest);

@@ -14,7 +14,8 @@ constexpr Time kLookEvery = 100 * kMillisecond;
 /// The same while scans are passed over, which takes a moment however many they are.
 constexpr Time kFurthestAtOnce = 3600 * kSecond;
 
-Time after(Time now, Time time) { return now < kNever - time ? now + time : kNever; }
+/// `end`, or `most` from now on if that is earlier.
+Time at_most(Time now, Time most, Time end) { return now + std::min(most, end - now); }
 
 template <class Part, class... Arguments>
 Part& add(std::vector<std::unique_ptr<Part>>& to, Arguments&&... arguments) {
@@ -111,25 +112,30 @@ Time System::horizon() const {
 }
 
 Halt System::step(Time end) {
+  Time next = events_.next();
+  return step(end, next);
+}
+
+Halt System::step(Time end, Time& next_event) {
   if (stop_requested()) return Halt::Request;
   const Time until = std::min(end, next_scheduled_);
   const bool alone = plcs_.size() == 1 && plcs_.front()->powered();
-  const Cpu* const stopped = alone ? run_one(until) : run_cpus(until);
-  handle_due_events(alone ? plcs_.front()->cpu().time() : time());
+  const Cpu* const stopped = alone ? run_one(std::min(until, next_event)) : run_cpus(until);
+  next_event = handle_due_events(alone ? plcs_.front()->cpu().time() : time());
   return stopped && stopped->paused() ? Halt::Paused : Halt::Time;
 }
 
 /// Back with the one that may have been paused, or null.
 const Cpu* System::run_cpus(Time end) {
   if (any_powered()) return in_step_ ? run_next(end) : run_each(end);
-  clock_ = std::min({end, std::max(clock_, events_.next()), after(clock_, kLookEvery)});
+  clock_ = at_most(clock_, kLookEvery, std::min(end, std::max(clock_, events_.next())));
   return nullptr;
 }
 
-/// From event to event.
+/// To the next event at most, which is not before `end`.
 const Cpu* System::run_one(Time end) {
   Cpu& cpu = plcs_.front()->cpu();
-  const Time until = std::min({end, events_.next(), after(cpu.time(), kFurthestAtOnce)});
+  const Time until = at_most(cpu.time(), kFurthestAtOnce, end);
   if (cpu.time() >= until) return nullptr;
   cpu.run(until, kLookEvery);
   return &cpu;
@@ -139,7 +145,7 @@ const Cpu* System::run_each(Time end) {
   const Time horizon = this->horizon();
   for (const auto& plc : plcs_) {
     Cpu& cpu = plc->cpu();
-    const Time until = std::min({end, plc->may_run_until(horizon), after(cpu.time(), kFurthestAtOnce)});
+    const Time until = at_most(cpu.time(), kFurthestAtOnce, std::min(end, plc->may_run_until(horizon)));
     if (!plc->powered() || cpu.time() >= until) continue;
     cpu.run(until, kLookEvery);
     if (cpu.paused()) return &cpu;
@@ -154,7 +160,7 @@ const Cpu* System::run_next(Time end) {
   for (const auto& plc : plcs_)
     if (plc->powered() && (!first || plc->cpu().next_action() < first->cpu().next_action())) first = plc.get();
   Cpu& cpu = first->cpu();
-  const Time most = std::min({end, events_.next(), after(time(), kFurthestAtOnce)});
+  const Time most = at_most(time(), kFurthestAtOnce, std::min(end, events_.next()));
   const Time acts = std::min(most, cpu.next_action());
   if (time() < acts) return come_to(acts);
   if (cpu.time() >= most) return nullptr;
@@ -185,7 +191,8 @@ Time System::next_action_besides(const Plc& plc) const {
 
 Halt System::run_until(Time end) {
   Halt halt = Halt::Time;
-  while (halt == Halt::Time && time() < end) halt = step(end);
+  Time next_event = events_.next();
+  while (halt == Halt::Time && time() < end) halt = step(end, next_event);
   return halt;
 }
 
@@ -193,26 +200,38 @@ Halt System::run_until(Time end) {
 const Exchange& System::finish_exchange(const RequesterStation& station) {
   const Requester& requester = station.requester();
   Halt halt = paused() ? Halt::Paused : Halt::Time;
-  while (requester.busy() && halt == Halt::Time) halt = step(plcs_.size() == 1 ? kNever : events_.next());
+  Time next_event = events_.next();
+  while (requester.busy() && halt == Halt::Time) halt = step(plcs_.size() == 1 ? kNever : next_event, next_event);
   return requester.exchange();
 }
 
-/// And does what is scheduled, in one order of time: after the events of its instant.
-void System::handle_due_events(Time now) {
-  for (Dispatcher::Due next = events_.due(); std::min(next.at, next_scheduled_) <= now; next = events_.due()) {
-    settle(std::min(next.at, next_scheduled_));  // whatever is sent from now on begins no earlier
+/// And does what is scheduled, in one order of time: after the events of its instant. Back with when the next events are.
+Time System::handle_due_events(Time now) {
+  bool watched = this->watched();
+  Dispatcher::Due next = events_.due();
+  for (; std::min(next.at, next_scheduled_) <= now; next = events_.due()) {
+    if (watched) settle(std::min(next.at, next_scheduled_));  // whatever is sent from now on begins no earlier
     if (next.at <= next_scheduled_) {
       events_.handle(next);
     } else {
       do_scheduled();
       now = time();
+      watched = this->watched();
     }
   }
+  if (!watched) return next.at;
   settle(now);
+  return events_.next();
+}
+
+/// Whether somebody waits for settled levels.
+bool System::watched() const {
+  for (const auto& line : lines_)
+    if (line->line().watched()) return true;
+  return false;
 }
 
 void System::settle(Time until) {
-  if (std::ranges::none_of(lines_, [](const auto& line) { return line->line().watched(); })) return;
   for (const auto& plc : plcs_) plc->settle(until);
   for (const auto& responder : responders_) responder->settle(until);
 }

@@ -139,6 +139,8 @@ class System {
   template <class Part>
   using Parts = std::vector<std::unique_ptr<Part>>;
 
+  /// With when the next events are, before the step and after it.
+  Halt step(Time end, Time& next_event);
   Time horizon() const;
   bool any_powered() const;
   const Cpu* run_cpus(Time end);
@@ -149,7 +151,8 @@ class System {
   Time next_action_besides(const Plc& plc) const;
   void do_scheduled();
   void look_at_next_scheduled() { next_scheduled_ = done_ < schedule_.size() ? schedule_[done_].at : kNever; }
-  void handle_due_events(Time now);
+  Time handle_due_events(Time now);
+  bool watched() const;
   void settle(Time until);
   bool stop_requested() const { return stop_request_ && *stop_request_; }
 

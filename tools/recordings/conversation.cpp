@@ -87,6 +87,11 @@ std::size_t fitting(const LineRecording& recording, const RecordedProtocol& prot
       frames, [](const ReadFrame& each) { return each.right && each.direction != Direction::Unknown; }));
 }
 
+std::size_t percent_right(std::span<const ReadFrame> frames) {
+  const auto right = static_cast<std::size_t>(std::ranges::count_if(frames, &ReadFrame::right));
+  return frames.empty() ? 0 : 100 * right / frames.size();
+}
+
 Direction other_way_round(Direction direction) {
   if (direction == Direction::Unknown) return direction;
   return direction == Direction::Request ? Direction::Answer : Direction::Request;
@@ -249,17 +254,12 @@ void settle_directions(LineRecording& recording, const RecordedProtocol& protoco
 }
 
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
-                                          const Stamps& stamps) {
-  const auto percent_right = [&](const RecordedProtocol& protocol) {
-    const auto frames = conversation(recording, protocol, stamps);
-    const auto right = static_cast<std::size_t>(std::ranges::count_if(frames, &ReadFrame::right));
-    return frames.empty() ? 0 : 100 * right / frames.size();
-  };
+                                          std::span<const ReadFrame> in_chosen, const Stamps& stamps) {
   constexpr std::size_t kHardlyAny = 10, kHalf = 50;
-  if (percent_right(chosen) > kHardlyAny) return nullptr;
+  if (percent_right(in_chosen) > kHardlyAny) return nullptr;
   const RecordedProtocol& best = *std::ranges::max_element(
       kProtocols, {}, [&](const RecordedProtocol& each) { return fitting(recording, each, stamps); });
-  return best.name != chosen.name && percent_right(best) >= kHalf ? &best : nullptr;
+  return best.name != chosen.name && percent_right(conversation(recording, best, stamps)) >= kHalf ? &best : nullptr;
 }
 
 }  // namespace s7200::tools

@@ -116,10 +116,10 @@ class Conversation {
   std::size_t count_ = 0;
 };
 
-/// The protocol that most of a recording can be read in, and half of it at least, if hardly anything can be in `chosen`;
-/// null if there is none.
+/// The protocol that most of a recording can be read in, and half of it at least, if hardly anything can be in `chosen`, as
+/// `in_chosen` was read; null if there is none.
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
-                                          const Stamps& stamps);
+                                          std::span<const ReadFrame> in_chosen, const Stamps& stamps);
 
 /// A whole recording, each request with its answer.
 std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol,

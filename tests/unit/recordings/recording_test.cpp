@@ -1306,7 +1306,8 @@ TEST(Conversation, ARecordingThatLooksLikeAnotherProtocolIsSeen) {
   const LineRecording ppi = recording_of("10 02 00 49 4B 16\n10 00 02 00 02 16\n10 02 00 5C 5E 16\nE5\n");
   const LineRecording modbus = recording_of("TX 01 03 00 00 00 01 84 0A\nRX 01 03 02 12 34 B5 33\n");
   const auto likelier = [](const LineRecording& recording, std::string_view chosen) {
-    const RecordedProtocol* other = likelier_protocol(recording, *find_recorded_protocol(chosen), {});
+    const RecordedProtocol& protocol = *find_recorded_protocol(chosen);
+    const RecordedProtocol* other = likelier_protocol(recording, protocol, conversation(recording, protocol), {});
     return other == nullptr ? "" : std::string(other->name);
   };
   EXPECT_EQ(likelier(ppi, "modbus"), "ppi");

@@ -178,7 +178,7 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
                     "--baud, or silences are wrong",
                     options.format().baud));
   read.frames = conversation(read.recording, options.spoken(), read.stamps);
-  if (const RecordedProtocol* other = likelier_protocol(read.recording, options.spoken(), read.stamps))
+  if (const RecordedProtocol* other = likelier_protocol(read.recording, options.spoken(), read.frames, read.stamps))
     print_note(fmt::format("hardly a frame is right; it looks like {0}: --protocol {0}", other->name));
   return read;
 }
