@@ -25,9 +25,10 @@ void reply(Core& core, std::uint8_t number, std::uint8_t to, Reply function, std
 
 void accept(Core& core, std::uint8_t number, Time reply_at) { send(core, number, std::array{kAccepted}, reply_at); }
 
-/// A request or a poll: the port works for one master at a time.
-bool works_for_another(const PpiPort& port, const Body& body) {
-  return (port.job == Job::Waiting || port.job == Job::Ready) && port.master != body.source;
+/// A request or a poll that came at `at`: the port works for one master at a time.
+bool works_for_another(const PpiPort& port, const Body& body, Time at) {
+  const bool works = port.job == Job::Waiting || port.job == Job::Ready;
+  return works && port.master != body.source && at - port.asked < kPatienceOfMasters;
 }
 
 void take_request(Core& core, std::uint8_t number, const Body& body, Time reply_at) {
@@ -97,7 +98,9 @@ void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> f
       return reply(core, number, body->source, kSlave, {}, reply_at);
     case kAnswerLow:
     case kAnswerHigh:
-      if (works_for_another(core.s.ppi[number], *body)) return reply(core, number, body->source, kNoResource, {}, reply_at);
+      if (works_for_another(core.s.ppi[number], *body, at))
+        return reply(core, number, body->source, kNoResource, {}, reply_at);
+      if (!body->data.empty() || body->source == core.s.ppi[number].master) core.s.ppi[number].asked = at;
       return body->data.empty() ? take_poll(core, number, *body, reply_at) : take_request(core, number, *body, reply_at);
     default:
       return reply(core, number, body->source, kNoService, {}, reply_at);
@@ -132,6 +135,8 @@ void carry_out(Core& core, std::uint8_t number) {
   const Bytes request(port.message.begin(), port.message.begin() + port.length);
   const Bytes answer = s7_services::carry_out(core, number, port.master, request);
   port.job = answer.empty() ? Job::None : Job::Ready;
+  if (answer.empty())
+    trace_unmodelled(core, number, PpiUnmodelled::NoRequest, port.master, core.s.station[number], core.s.time);
   assert(answer.size() <= port.message.size());
   port.length = static_cast<std::uint8_t>(answer.size());
   std::copy(answer.begin(), answer.end(), port.message.begin());

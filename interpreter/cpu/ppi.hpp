@@ -19,10 +19,14 @@
 // - A port works at one request at a time: until its answer has been fetched, other masters that ask or poll are told that
 //   there is no resource (SD1, function 02). A poll by a master that has asked nothing is accepted with E5
 //   otherwise. [Ppi.AnotherMasterIsToldThatThereIsNoResource]
+// - A master that has neither asked nor polled for 450 ms, three tries of 150 ms (facts 10.9), has given up: another one is
+//   served, and its answer is dropped. [Ppi.AMasterThatHasGivenUpIsNoLongerWaitedFor]
 // - A poll that repeats the frame count bit of the one before gets the same answer again.
 // [Ppi.ARepeatedPollGetsTheAnswerAgain]
 // - The status of the station (function 49) is asked and answered with SD1, function 00, by a port in master mode too: it
 //   waits for no token. [Ppi.TheStatusIsThatOfASlave, Network.TheMasterAnswersOtherMastersAsASlave]
+// - What a request carries that is none of the S7 services gets no answer: polls are accepted with E5, and the trace says
+//   so. [Ppi.WhatIsNoS7RequestGetsNoAnswerAndIsNamedInTheTrace]
 // - A token, a broadcast and a frame with a longer address are ignored, and the trace says so.
 //   [Ppi.WhatIsNotModelledIsIgnoredAndNamedInTheTrace]
 // - RUN and STOP take effect when their answer has left, in the next communication part of the scan, so a master gets it
@@ -40,6 +44,9 @@
 #include "interpreter/cpu/core.hpp"
 
 namespace s7200::ppi {
+
+/// After so long without a word a master has given up.
+inline constexpr Time kPatienceOfMasters = 450 * kMillisecond;
 
 /// How a port is set while it speaks PPI, at the usual rate.
 inline constexpr SerialFormat kFormat{

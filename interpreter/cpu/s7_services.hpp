@@ -7,8 +7,9 @@
 //
 // Not documented, modelled so:
 // - SMB0 to SMB29, analog inputs and high-speed counters cannot be written. [S7Services.WhatIsReadOnlyIsNotWritten]
-// - An answer that would be longer than 240 bytes is refused as a whole, with error 85 00.
-//   [S7Services.AnAnswerThatIsTooLongIsRefused]
+// - An answer that would be longer than 240 bytes is refused as a whole, with error 85 00. So it is whatever shorter length
+//   the setup of the communication has agreed on: PPI has no connection that it could belong to.
+//   [S7Services.AnAnswerThatIsTooLongIsRefused, S7Services.TheLengthThatWasAgreedOnIsNotKept]
 // - RUN and STOP are allowed in any position of the mode switch, and leave SM0.7 alone. [S7Services.StopAndRunChangeTheMode]
 // - The clock is read and set with the services that other S7 CPUs have for it. A time that does not exist is refused like
 //   one that is not BCD, with error 87 04. [S7Services.TheClockIsReadAndSet, S7Services.ATimeThatDoesNotExistIsRefused]

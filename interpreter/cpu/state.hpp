@@ -149,6 +149,7 @@ struct PpiPort {
   Time heard = 0;                                        ///< end of the last character
   Job job = Job::None;
   std::uint8_t master = 0;   ///< whose job it is
+  Time asked = 0;            ///< when that one last asked or polled
   bool frame_count = false;  ///< of the poll that fetched the answer
   std::array<std::uint8_t, ppi::kLongestData> message{};
   std::uint8_t length = 0;            ///< of the message: the request, then its answer

@@ -76,6 +76,8 @@ std::string unmodelled_ppi_text(const TraceRecord& r) {
     case PpiUnmodelled::ExtendedAddress:
       return fmt::format("PPI frame from 16#{:02X} to 16#{:02X} ignored: addresses above 127 are not modelled", r.event,
                          r.byte);
+    case PpiUnmodelled::NoRequest:
+      return fmt::format("PPI station {} asks, but with no S7 request in it: it gets no answer", r.event);
   }
   return {};
 }
@@ -122,7 +124,8 @@ std::string network_text(const TraceRecord& r) {
   const std::string job =
       fmt::format("{} with table {}, station {}", r.routine != 0 ? "NETW" : "NETR", byte_text(r.op), r.event);
   if (r.byte & kJobActive)
-    return fmt::format("{}: {} bytes are to be {}", job, r.count, r.routine != 0 ? "written" : "read");
+    return fmt::format("{}: {} {} to be {}", job, counted(r.count, "byte"), r.count == 1 ? "is" : "are",
+                       r.routine != 0 ? "written" : "read");
   const NetworkError error{static_cast<std::uint8_t>(r.byte & kJobErrorCode)};
   if (error == NetworkError::None) return job + ": done";
   return fmt::format("{}: error {}, {}", job, r.byte & kJobErrorCode, meaning_of(error));

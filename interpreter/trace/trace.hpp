@@ -51,12 +51,13 @@ enum class Ignored : std::uint16_t {
   NoPower,       ///< at the PLC
 };
 
-/// What is not documented of several masters on a line, and of longer addresses.
+/// What is not documented: of several masters on a line, of longer addresses, and of what is asked with nonsense.
 enum class PpiUnmodelled : std::uint8_t {
   Token,            ///< for this station: it takes no part in passing it on
   AnotherMaster,    ///< that asks another station, while this port is a master too: nothing says whose turn it is
   Broadcast,        ///< to station 127
   ExtendedAddress,  ///< station numbers above 127
+  NoRequest,        ///< for this station, but what it carries is no request of the S7 services
 };
 
 struct TraceRecord {

@@ -54,8 +54,10 @@ auto members(const Freeport& part) {
 }
 
 auto members(const PpiPort& part) {
-  const auto& [frame, received, sending, sent, lost, heard, job, master, frame_count, message, length, wanted_mode] = part;
-  return std::tie(frame, received, sending, sent, lost, heard, job, master, frame_count, message, length, wanted_mode);
+  const auto& [frame, received, sending, sent, lost, heard, job, master, asked, frame_count, message, length, wanted_mode] =
+      part;
+  return std::tie(frame, received, sending, sent, lost, heard, job, master, asked, frame_count, message, length,
+                  wanted_mode);
 }
 
 auto members(const NetworkPort::Job& part) {

@@ -1,4 +1,6 @@
 // PPI on a port that is not in Freeport mode (facts 10.9). The master is that of tests/support/ppi_master.hpp.
+#include "interpreter/cpu/ppi.hpp"
+
 #include <random>
 
 #include "interpreter/model/s7_pdu.hpp"
@@ -101,12 +103,25 @@ TEST(Ppi, ARepeatedPollGetsTheAnswerAgain) {
 TEST(Ppi, AnotherMasterIsToldThatThereIsNoResource) {
   Plc plc(kQuiet);
   Master first(plc, 0), second(plc, 1);
-  EXPECT_EQ(first.say(sd2(2, 0, 0x6C, kReadVb100)), Bytes{0xE5});
+  EXPECT_EQ(first.say(sd2(2, 0, 0x6C, kReadVb100), 20 * ms), Bytes{0xE5});
+  EXPECT_EQ(second.say(sd2(2, 1, 0x6C, kReadVb100), 20 * ms), sd1(1, 2, 0x02));
+  EXPECT_EQ(second.say(sd1(2, 1, 0x5C), 20 * ms), sd1(1, 2, 0x02)) << "a poll is told the same";
+  EXPECT_GT(first.say(sd1(2, 0, 0x5C), 60 * ms).size(), 9U);
+  EXPECT_EQ(second.say(sd1(2, 1, 0x5C), 20 * ms), Bytes{0xE5}) << "it has asked nothing";
+  EXPECT_EQ(second.say(sd2(2, 1, 0x6C, kReadVb100), 20 * ms), Bytes{0xE5});
+}
+
+TEST(Ppi, AMasterThatHasGivenUpIsNoLongerWaitedFor) {
+  Plc plc(kQuiet);
+  Master first(plc, 0), second(plc, 1);
+  first.say(sd2(2, 0, 0x6C, kReadVb100));
+  const Time asked = plc.cpu.state().ppi[0].asked;
+  plc.run_until(asked + s7200::ppi::kPatienceOfMasters - 50 * ms);
   EXPECT_EQ(second.say(sd2(2, 1, 0x6C, kReadVb100)), sd1(1, 2, 0x02));
-  EXPECT_EQ(second.say(sd1(2, 1, 0x5C)), sd1(1, 2, 0x02)) << "a poll is told the same";
-  EXPECT_GT(first.say(sd1(2, 0, 0x5C)).size(), 9U);
-  EXPECT_EQ(second.say(sd1(2, 1, 0x5C)), Bytes{0xE5}) << "it has asked nothing";
+  plc.run_until(asked + s7200::ppi::kPatienceOfMasters);
   EXPECT_EQ(second.say(sd2(2, 1, 0x6C, kReadVb100)), Bytes{0xE5});
+  EXPECT_GT(second.say(sd1(2, 1, 0x5C)).size(), 9U);
+  EXPECT_EQ(first.say(sd1(2, 0, 0x5C)), Bytes{0xE5}) << "its answer is gone";
 }
 
 TEST(Ppi, WhatIsNoFrameOrForAnotherStationIsIgnored) {
@@ -240,6 +255,22 @@ TEST(Ppi, WhatIsNotModelledIsIgnoredAndNamedInTheTrace) {
             "PPI frame from 16#81 to 16#02 ignored: addresses above 127 are not modelled");
   EXPECT_EQ(named(sd2(0x83, 1, 0x6C, kReadVb100)), "0 records") << "for another station";
   EXPECT_EQ(named(sd2(3, 1, 0x6C, kReadVb100)), "0 records") << "a slave hears a master and another slave";
+}
+
+TEST(Ppi, WhatIsNoS7RequestGetsNoAnswerAndIsNamedInTheTrace) {
+  Plc plc(kQuiet);
+  Master master(plc, 1);
+  const Bytes not_its_length{0x32, 1, 0, 0, 0, 0, 0, 9, 0, 0, 0x04}, of_another_kind{0x32, 3, 0, 0, 0, 0, 0, 0, 0, 0},
+      of_another_protocol{0x72, 1, 0, 0, 0, 0, 0, 0, 0, 0};
+  for (const Bytes& nonsense : {not_its_length, of_another_kind, of_another_protocol}) {
+    plc.records.all.clear();
+    EXPECT_EQ(master.say(sd2(2, 1, 0x6C, nonsense), 20 * ms), Bytes{0xE5});
+    const auto records = plc.records.of(TraceKind::PpiNotModelled);
+    ASSERT_EQ(records.size(), 1U);
+    EXPECT_EQ(describe(records[0], plc.cpu.program()),
+              "PPI station 1 asks, but with no S7 request in it: it gets no answer");
+    EXPECT_EQ(master.say(sd1(2, 1, 0x5C), 20 * ms), Bytes{0xE5});
+  }
 }
 
 TEST(Ppi, WhatIsIgnoredIsInTheTraceWhenItsLastCharacterHasCome) {
@@ -596,6 +627,13 @@ TEST(S7Services, AnAnswerThatIsTooLongIsRefused) {
   EXPECT_EQ(value_of(master.ask(reading({variable(2, 222, kV, 0, 1)}))).size(), 222U) << "18 bytes and 222 are 240";
   EXPECT_EQ(error_of(master.ask(reading({variable(2, 223, kV, 0, 1)}))), 0x8500);
   EXPECT_EQ(error_of(master.ask(reading({variable(2, 60'000, kV, 0, 1)}))), 0) << "beyond V memory: its return code says so";
+}
+
+TEST(S7Services, TheLengthThatWasAgreedOnIsNotKept) {
+  Plc plc(kQuiet);
+  Master master(plc);
+  EXPECT_EQ(master.ask(request({0xF0, 0, 0, 1, 0, 1, 0, 0x40})).back(), 0x40);
+  EXPECT_EQ(value_of(master.ask(reading({variable(2, 222, kV, 0, 1)}))).size(), 222U);
 }
 
 TEST(S7Services, TheCommunicationIsSetUpFor240Bytes) {
