@@ -67,7 +67,7 @@ LoaderOperation loader_write(std::uint16_t first, std::span<const std::uint8_t> 
 
 LoaderOperation loader_pointers() {
   constexpr std::size_t kPointers = 8;
-  return {LoaderOpcode::Pointers, {}, kReadHead + 2 * kPointers};
+  return {LoaderOpcode::Pointers, {}, kReadHead + 2 * kPointers, true};
 }
 
 LoaderOperation loader_block(std::uint8_t number) {
@@ -121,11 +121,15 @@ std::optional<Bytes> LoaderSteps::next(Data response) {
   return request;
 }
 
+bool LoaderSteps::has_all(std::size_t bytes) const {
+  return bytes == operation_.data || (operation_.more_may_follow && bytes > operation_.data);
+}
+
 std::optional<std::size_t> LoaderSteps::take_data(Data response, Bytes& data) const {
   std::size_t place = 0;
   while (place < response.size()) {
     const Data rest = response.subspan(place);
-    const bool whole = dle_ == Dle::Doubled || data.size() == operation_.data;
+    const bool whole = dle_ == Dle::Doubled || has_all(data.size());
     if (whole && begins_with(rest, kEndOfData)) return place + kEndOfData.size();
     const bool doubled = dle_ == Dle::Doubled && rest[0] == kDle;
     if (doubled && (rest.size() < 2 || rest[1] != kDle)) return {};
@@ -165,7 +169,7 @@ serial::Answer LoaderSteps::judge(Data response) const {
     rest = rest.subspan(*length);
     asked = after(step);
   }
-  if (answer.bytes.size() != operation_.data) {
+  if (!has_all(answer.bytes.size())) {
     answer.fault = fmt::format("{} bytes of data, expected {}", answer.bytes.size(), operation_.data);
     answer.bytes.clear();
   } else if (!rest.empty()) {

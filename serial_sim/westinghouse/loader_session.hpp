@@ -66,7 +66,8 @@ Bytes fixed(LoaderStep step);
 struct LoaderOperation {
   LoaderOpcode opcode = LoaderOpcode::Read;
   Bytes arguments{};
-  std::size_t data = 0;  ///< bytes that come back; 0 for a write
+  std::size_t data = 0;          ///< bytes that come back; 0 for a write
+  bool more_may_follow = false;  ///< behind them, of which nothing is documented
 };
 
 bool has_data(LoaderOpcode opcode);
@@ -108,6 +109,7 @@ class LoaderSteps {
  private:
   /// How much of `response` is this step of the PLC; nothing if it does not fit. Data goes to `data`.
   std::optional<std::size_t> length_of(LoaderStep step, std::span<const std::uint8_t> response, Bytes& data) const;
+  bool has_all(std::size_t bytes) const;
   std::optional<std::size_t> take_data(std::span<const std::uint8_t> response, Bytes& data) const;
   LoaderStep after(LoaderStep step) const { return westinghouse::after(step, has_data(operation_.opcode)); }
   int answers() const { return has_data(operation_.opcode) ? 7 : 5; }

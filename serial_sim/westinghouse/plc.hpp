@@ -20,6 +20,9 @@ class Plc : public serial::Automaton {
   /// A setting, or cells of memory: `key=modify`, `HR1=1234,0001`. Returns false and sets `why` for anything else.
   virtual bool set(std::string_view text, std::string& why) = 0;
 
+  /// Whether such a text is about cells. They are to be set last: where some of them are hangs on settings.
+  virtual bool names_cells(std::string_view text) const = 0;
+
   /// Whether a master reaches the cells that such a text sets, as the PLC is set by now. Sets `why` if it does not. Those of
   /// a setting are none.
   virtual bool still_reaches(std::string_view text, std::string& why) const = 0;
@@ -81,6 +84,11 @@ class PlcOf : public Plc {
     const auto value = parse(text, setting, why);
     if (value) setting->set(self(), *value);
     return value.has_value();
+  }
+
+  bool names_cells(std::string_view text) const final {
+    const auto cells = parse_cells(text);
+    return cells && find(*cells).row != nullptr;
   }
 
   bool still_reaches(std::string_view text, std::string& why) const final {

@@ -118,6 +118,8 @@ std::vector<std::string> LoaderRequest::texts(const serial::Answer& answer) cons
     case LoaderOpcode::Pointers:
       for (std::size_t i = 0; i < kPointers.size(); ++i)
         texts.push_back(fmt::format("{:<12} 16#{:04X}", kPointers[i], load16(&bytes[westinghouse::kReadHead + 2 * i])));
+      if (const Data more = bytes.subspan(westinghouse::kReadHead + 2 * kPointers.size()); !more.empty())
+        texts.push_back(fmt::format("{:<12} {}", "more", serial::to_hex(more)));
       return texts;
     case LoaderOpcode::Block:
       return {fmt::format("DB{:03} at 16#{:04X}, {} data words", bytes[kBlockNumber], load16(&bytes[1]),

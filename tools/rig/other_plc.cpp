@@ -9,8 +9,9 @@ std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& ro
   std::string why;
   std::unique_ptr<westinghouse::Plc> plc = westinghouse::make_plc(row, model, why);
   if (!plc) throw std::invalid_argument(why);
-  for (const std::string& setting : settings)
-    if (!plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
+  for (const bool cells : {false, true})
+    for (const std::string& setting : settings)
+      if (plc->names_cells(setting) == cells && !plc->set(setting, why)) throw std::invalid_argument("--plc: " + why);
   for (const std::string& setting : settings)
     if (!plc->still_reaches(setting, why)) throw std::invalid_argument("--plc: " + why);
   return plc;

@@ -161,10 +161,12 @@ class PeerReader {
     std::shared_ptr<westinghouse::Plc> plc = westinghouse::make_plc(*row, model, why);
     if (!plc) values_.wrong(*map.find("model"), why);
     const auto settings = items_of(map, "settings", "unit=05", values_);
-    for (const YamlNode* setting : settings) {
-      const auto text = values_.text(*setting);
-      if (plc && text && !plc->set(*text, why)) values_.wrong(*setting, why);
-    }
+    for (const bool cells : {false, true})
+      for (const YamlNode* setting : settings) {
+        if ((plc && plc->names_cells(setting->text)) != cells) continue;
+        const auto text = values_.text(*setting);
+        if (plc && text && !plc->set(*text, why)) values_.wrong(*setting, why);
+      }
     for (const YamlNode* setting : settings)
       if (plc && values_.complaints.count() == before && !plc->still_reaches(setting->text, why))
         values_.wrong(*setting, why);
