@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -136,7 +137,8 @@ class Menu {
   void draw();
   void look_again();
   std::optional<std::string> read();
-  std::string ask(const Question& question, Words& answers, bool last);
+  std::string take_answer(const Question& question, Words& answers, bool last);
+  std::string ask(const Question& question, Words& answers, bool last, const std::function<void(const std::string&)>& check);
   void execute(Words words);
   bool execute_key(const std::string& key, Words& answers);
   Words words_for(const Function& function, const Answers& given) const;
@@ -236,7 +238,7 @@ void Menu::show(const MasterResult& result) const {
 // --- what is typed ---
 
 /// The rest of the answers is the last one.
-std::string Menu::ask(const Question& question, Words& answers, bool last) {
+std::string Menu::take_answer(const Question& question, Words& answers, bool last) {
   if (answers.empty()) {
     const std::string usual = question.usual.empty() ? "" : fmt::format(" [{}]", question.usual);
     const auto typed = editor_.ask(fmt::format("{}{}: ", question.text, usual));
@@ -251,6 +253,23 @@ std::string Menu::ask(const Question& question, Words& answers, bool last) {
   return answer;
 }
 
+/// What `check` refuses is asked for again, unless it was given with the key.
+std::string Menu::ask(const Question& question, Words& answers, bool last,
+                      const std::function<void(const std::string&)>& check) {
+  while (true) {
+    const bool given = !answers.empty();
+    std::string answer = take_answer(question, answers, last);
+    try {
+      check(answer);
+      return answer;
+    } catch (const Wrong& wrong) {
+      if (given) throw;
+      fmt::print("{}\n", stl::printable(wrong.what()));
+      answers.clear();
+    }
+  }
+}
+
 Words Menu::words_for(const Function& function, const Answers& given) const {
   Words words = stl::split_words(fmt::format(fmt::runtime(function.action), given[0], given[1], given[2]));
   if (words.size() == 3 && names_its_area(given[0], words[1])) words.erase(words.begin() + 1);
@@ -263,11 +282,13 @@ void Menu::do_function(const Function& function, Words& answers) {
   const std::size_t count = questions_of(function);
   for (std::size_t i = 0; i < count; ++i) given[i] = function.questions[i].example;
   for (std::size_t i = 0; i < count; ++i) {
-    given[i] = ask(function.questions[i], answers, i + 1 == count);
-    if (const std::size_t more = given[i].find_first_of(":="); more != std::string::npos)
-      throw Wrong(fmt::format("'{}': write {} alone; what follows '{}' is asked for by itself", stl::shortened(given[i]),
-                              given[i].substr(0, more), given[i][more]));
-    actions_of({words_for(function, given), function.option});
+    ask(function.questions[i], answers, i + 1 == count, [&](const std::string& answer) {
+      if (const std::size_t more = answer.find_first_of(":="); more != std::string::npos)
+        throw Wrong(fmt::format("'{}': write {} alone; what follows '{}' is asked for by itself", stl::shortened(answer),
+                                answer.substr(0, more), answer[more]));
+      given[i] = answer;
+      actions_of({words_for(function, given), function.option});
+    });
   }
   Words words = words_for(function, given);
   if (!answers.empty() && !function.takes_more) throw Wrong(fmt::format("{} asks for nothing", function.name));
@@ -332,15 +353,16 @@ void Menu::perform(const std::vector<MasterAction>& actions, std::uint64_t round
 void Menu::open() { slave_ = target_.open(session_.master); }
 
 void Menu::change_slave(Words& answers) {
-  const std::string is = std::to_string(use_.station), text = ask({"slave", is}, answers, true);
-  const auto station = parse_decimal<std::uint8_t>(text);
-  if (!station) throw Wrong(fmt::format("'{}' is not a slave from 0 to 255", stl::shortened(text)));
   ProtocolUse use = use_;
-  use.station = *station;
-  options_.protocol->actions({"loopback", "0"}, {.station = *station == 0 ? std::uint8_t{1} : *station,
-                                                 .over_modbus_tcp = use_.over_modbus_tcp,
-                                                 .given = use_.given,
-                                                 .options_are_open = false});  // which says what is wrong with it
+  ask({"slave", std::to_string(use_.station)}, answers, true, [&](const std::string& text) {
+    const auto station = parse_decimal<std::uint8_t>(text);
+    if (!station) throw Wrong(fmt::format("'{}' is not a slave from 0 to 255", stl::shortened(text)));
+    use.station = *station;
+    options_.protocol->actions({"loopback", "0"}, {.station = *station == 0 ? std::uint8_t{1} : *station,
+                                                   .over_modbus_tcp = use_.over_modbus_tcp,
+                                                   .given = use_.given,
+                                                   .options_are_open = false});  // which says what is wrong with it
+  });
   use_ = std::move(use);
 }
 
@@ -348,20 +370,23 @@ void Menu::configure_port(Words& answers) {
   const auto now = target_.format(session_.master);
   if (!now) throw Wrong("the port belongs to the other end of the connection");
   const auto number = [&](std::string_view what, std::uint32_t usual, std::uint32_t least, std::uint32_t most) {
-    const std::string is = std::to_string(usual);
-    const std::string text = ask({what, is}, answers, false);
-    const auto value = parse_decimal<std::uint32_t>(text);
-    if (!value || *value < least || *value > most)
-      throw Wrong(fmt::format("{}: '{}' is not from {} to {}", what, stl::shortened(text), least, most));
-    return *value;
+    std::uint32_t chosen = usual;
+    ask({what, std::to_string(usual)}, answers, false, [&](const std::string& text) {
+      const auto value = parse_decimal<std::uint32_t>(text);
+      if (!value || *value < least || *value > most)
+        throw Wrong(fmt::format("{}: '{}' is not from {} to {}", what, stl::shortened(text), least, most));
+      chosen = *value;
+    });
+    return chosen;
   };
   serial::MasterSettings master = session_.master;
   master.baud = number("baud", now->baud, 50, 1'000'000);
   master.data_bits = static_cast<std::uint8_t>(number("data bits", now->data_bits, 7, 8));
-  const std::string parity = ask({"parity: none, even, odd", word_of(now->parity)}, answers, false);
-  const auto known = std::ranges::find(kParityWords, parity);
-  if (known == kParityWords.end()) throw Wrong(fmt::format("'{}' is not none, even or odd", stl::shortened(parity)));
-  master.parity = static_cast<Parity>(known - kParityWords.begin());
+  ask({"parity: none, even, odd", word_of(now->parity)}, answers, false, [&](const std::string& parity) {
+    const auto known = std::ranges::find(kParityWords, parity);
+    if (known == kParityWords.end()) throw Wrong(fmt::format("'{}' is not none, even or odd", stl::shortened(parity)));
+    master.parity = static_cast<Parity>(known - kParityWords.begin());
+  });
   master.stop_bits = static_cast<std::uint8_t>(number("stop bits", now->stop_bits, 1, 2));
   slave_.reset();  // a device is open once only
   session_.master = master;
