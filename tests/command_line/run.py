@@ -211,6 +211,8 @@ class Verbs(Case):
                              ("CR1025=1", "CR1025 is not there: coils=1024"), ("IR257=1", "input_registers=256"), ("IN1025=1", "inputs=1024")):
             self.assertIn(why, self.ends(UNUSABLE, "master", "westinghouse:pc1200", "slave-id", "--plc", setting).stderr)
         self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "HR2047=1,2", "read", "holding", "2046:2")
+        cells_first = ["--plc", "HR1=1234", "--plc", "holding_word=0010"]  # which moves HR1
+        self.assertIn("16#1234", self.ends(FINE, "master", "westinghouse:pc1200", *cells_first, "read", "holding", "0").stdout)
         self.ends(FINE, "master", "westinghouse:pc1200", "--plc", "holding_registers=9999", "--plc", "HR9999=1", "read", "holding", 9998)
 
     def test_the_line_of_a_simulated_plc_is_captured_and_decoded_in_its_protocol(self):
@@ -691,6 +693,9 @@ class Verbs(Case):
                      "  16#EF82  16#03      3", "  DB001 at 16#8024, 2 data words", "  DB001 at 16#8024", "  PIQ          16#EF80",
                      "  program end  16#CFFF"):
             self.assertIn(line + "\n", out)
+        for dle in ([], ["--plc", "dle=plain", "--dle", "plain"]):
+            longer = self.ends(FINE, *loader, *dle, "--plc", "tail_bytes=3", "parameters").stdout
+            self.assertIn("  program end  16#CFFF\n  more         00 00 00\n", longer, "what it means is not documented")
         plain = self.json(FINE, *loader, "--plc", "dle=plain", "--dle", "plain", "--plc", "M[9000]=10,03", "--json", "read", "16#9000:2")
         self.assertEqual(plain["exchanges"][0]["values"], [0x10, 3])
         refused = self.json(FAILED, *loader, "--json", "block", "2")["exchanges"][0]

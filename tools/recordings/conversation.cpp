@@ -67,10 +67,12 @@ RecordedFrame part_of(const RecordedFrame& frame, std::size_t begin, std::size_t
   return part;
 }
 
-/// So that a log may have divided a frame there: programs are told late of what has come, and in pieces.
+/// So that a log may have divided a frame there: programs are told late of what has come, and in pieces. In a capture no
+/// frame ends with less than a character of silence.
 bool follows_closely(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps) {
   const auto between = silence(before, after, stamps);
-  return before.direction == after.direction && before.stream == after.stream && between && *between <= kCharacterGap;
+  return before.direction == after.direction && before.stream == after.stream && between &&
+         (stamps.exact ? *between < stamps.character && !overlap(before, after, stamps) : *between <= kCharacterGap);
 }
 
 void append(RecordedFrame& frame, const RecordedFrame& row) {
@@ -207,8 +209,7 @@ RecordedFrame Conversation::take_frame(std::span<const RecordedFrame>& rows) {
   RecordedFrame first = rows.front();
   rows = rows.subspan(1);
   Stream& stream = stream_of(first);
-  const bool may_be_divided = !stamps_.exact && !stream.reader->messages_share_frames();
-  if (!may_be_divided || rows.empty() || !follows_closely(first, rows.front(), stamps_)) return first;
+  if (stream.reader->messages_share_frames() || rows.empty() || !follows_closely(first, rows.front(), stamps_)) return first;
   const OpenRequest* const open = stream.request_of(first);
   const auto is_right = [&](const RecordedFrame& frame) {
     return stream.reader->read(frame, open != nullptr ? &open->frame : nullptr).right;

@@ -22,6 +22,7 @@ struct ReadFrame {
   std::string text{};                     ///< what it says, or what is wrong with it
   std::optional<std::uint8_t> station{};  ///< of a request: who is asked
   bool needs_no_answer = false;           ///< of a request: to all stations, a token, or the last word of a session
+  bool puts_off = false;                  ///< of an answer: there is none yet, and the master is to ask again
   std::optional<std::size_t> other{};     ///< of an answer its request, of a request its answer: number in the conversation
   std::optional<std::size_t> repeats{};   ///< number of the request that this one repeats, or is the late echo of
   std::optional<Time> silence{};          ///< before it, as known_silence() has it

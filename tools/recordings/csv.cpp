@@ -40,6 +40,7 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
 struct Columns {
   char separator = 0;
   std::optional<std::size_t> time{}, direction{}, data{};
+  std::optional<std::size_t> sent{}, received{};  ///< instead of direction and data
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
   std::string unknown_unit{};  ///< the name of the times' column, if what it has in brackets is no unit
@@ -81,6 +82,21 @@ bool is_unit(std::string_view name) {
   return std::ranges::find(kUnits, word, &Unit::word) != kUnits.end();
 }
 
+/// `Time,TX,RX`: a column with the bytes of each direction. A row with digits has bytes already, and names nothing.
+void find_one_for_each_direction(const std::vector<std::string>& names, Columns& columns) {
+  const auto has_digit = [](const std::string& name) { return std::ranges::any_of(name, stl::is_digit); };
+  if (std::ranges::any_of(names, has_digit)) return;
+  const auto found = [&](Direction direction) -> std::optional<std::size_t> {
+    const auto name = std::ranges::find(names, direction, [](const std::string& each) { return direction_of(each); });
+    return name == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(name - names.begin()));
+  };
+  const auto sent = found(Direction::Request), received = found(Direction::Answer);
+  if (!sent || !received || sent == received) return;
+  columns.sent = sent;
+  columns.received = received;
+  columns.data = columns.direction = std::nullopt;
+}
+
 Columns columns_of(std::string_view line) {
   Columns columns{.separator = separator_of(line)};
   if (columns.separator == 0) return columns;
@@ -100,6 +116,7 @@ Columns columns_of(std::string_view line) {
       columns.data = i;
     }
   }
+  if (!columns.data || !columns.direction) find_one_for_each_direction(names, columns);
   return columns;
 }
 
@@ -142,7 +159,7 @@ std::optional<Bytes> byte_in_decimal(std::string_view field) {
 /// Logic analysers write a character as a number from 0 to 255 if they are told so: then some have one digit, or three.
 bool is_in_decimal(const std::vector<std::string>& lines, const Columns& columns) {
   bool any = false;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
+  for (std::size_t i = 1; i < lines.size() && columns.data; ++i) {
     const auto fields = fields_of(lines[i], columns.separator);
     const std::string_view field = *columns.data < fields.size() ? stl::trim(fields[*columns.data]) : "";
     if (field.empty()) continue;
@@ -157,6 +174,7 @@ bool is_in_decimal(const std::vector<std::string>& lines, const Columns& columns
 bool looks_like_csv(std::string_view bytes) {
   if (!is_text(bytes)) return false;
   const Columns columns = columns_of(first_line(bytes));
+  if (columns.sent) return true;
   if (!columns.data || columns.time) return columns.data.has_value();
   return columns.direction && has_bytes_below(bytes, columns);
 }
@@ -175,19 +193,27 @@ std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingCho
       return column && *column < fields.size() ? fields[*column] : "";
     };
     const auto time = columns.time ? time_of(field(columns.time), columns) : std::nullopt;
-    auto data = decimal ? byte_in_decimal(field(columns.data)) : bytes_of_text(field(columns.data));
+    const bool is_received = columns.sent && stl::trim(field(columns.sent)).empty();
+    const auto data_column = !columns.sent ? columns.data : is_received ? columns.received : columns.sent;
+    auto data = decimal ? byte_in_decimal(field(data_column)) : bytes_of_text(field(data_column));
+    if (columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
+      why = fmt::format("line {}: bytes in both directions; write them in two lines", i + 1);
+      return {};
+    }
     if (time && !time->of_day && !columns.unknown_unit.empty()) {
       why = fmt::format("line 1: '{}' names no unit; write [s], [ms], [us] or [ns]", stl::shortened(columns.unknown_unit));
       return {};
     }
     const bool no_time = columns.time && !time;
     if (no_time || !data) {
-      why = fmt::format("line {}: '{}' is not {}", i + 1, stl::shortened(field(no_time ? columns.time : columns.data)),
+      why = fmt::format("line {}: '{}' is not {}", i + 1, stl::shortened(field(no_time ? columns.time : data_column)),
                         no_time ? "a time" : "bytes in hex");
       return {};
     }
     RecordedFrame frame{.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
-                        .direction = direction_of(field(columns.direction)),
+                        .direction = !columns.sent ? direction_of(field(columns.direction))
+                                     : is_received ? Direction::Answer
+                                                   : Direction::Request,
                         .bytes = std::move(*data),
                         .place = fmt::format("line {}", i + 1)};
     if (std::ranges::any_of(columns.errors, [&](std::size_t column) { return says_error(field(column)); }))

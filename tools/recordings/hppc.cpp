@@ -43,6 +43,7 @@ class HppcReader final : public FrameReader {
       read.needs_no_answer = bytes[kDestination] == westinghouse::kAll;
       read.text = table ? request_text(bytes) : "wrong frame check";
     }
+    if (table == westinghouse::FcsTable::Polynomial) read.text += "; its frame check is right by the polynomial only";
     return read;
   }
 

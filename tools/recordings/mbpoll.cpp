@@ -23,6 +23,23 @@ constexpr std::array kDataTypes{
     DataType{"discrete output", Function::ReadCoils}, DataType{"discrete input", Function::ReadInputs},
     DataType{"input register", Function::ReadInputRegisters}, DataType{"output (holding)", Function::ReadHoldingRegisters}};
 
+/// As libmodbus words them, in `Read coils failed: Illegal data address`.
+struct Refusal {
+  std::string_view words;
+  std::uint8_t code;
+};
+constexpr std::array kRefusals{Refusal{"Illegal function", 1},
+                               Refusal{"Illegal data address", 2},
+                               Refusal{"Illegal data value", 3},
+                               Refusal{"Slave device or server failure", 4},
+                               Refusal{"Acknowledge", 5},
+                               Refusal{"Slave device or server is busy", 6},
+                               Refusal{"Negative acknowledge", 7},
+                               Refusal{"Memory parity error", 8},
+                               Refusal{"Gateway path unavailable", 10},
+                               Refusal{"Target device failed to respond", 11}};
+constexpr std::string_view kFailed = " failed: ", kTimedOut = "Connection timed out";
+
 constexpr std::uint16_t kMostValues = 125;  // that mbpoll reads at once
 
 /// The number after `name` in a line.
@@ -67,10 +84,8 @@ class MbpollReader {
       ask(static_cast<std::uint8_t>(*station), number);
     } else if (const auto value = value_in(line)) {
       take_value(*value);
-    } else if (asked_ && line.find(" failed: ") != std::string_view::npos &&
-               line.find("timed out") == std::string_view::npos) {
-      asked_ = false;  // a refusal or a wrong answer: what it was is not said
-      recording_.frames.pop_back();
+    } else if (const std::size_t failed = line.find(kFailed); asked_ && failed != std::string_view::npos) {
+      take_failure(stl::trim(line.substr(failed + kFailed.size())));
     }
   }
 
@@ -96,6 +111,16 @@ class MbpollReader {
       pdu.push_back(static_cast<std::uint8_t>(word & 0xFF));
     }
     add(Direction::Request, pdu);
+  }
+
+  void take_failure(std::string_view words) {
+    asked_ = false;
+    const auto refusal = std::ranges::find(kRefusals, words, &Refusal::words);
+    if (refusal != kRefusals.end())
+      add(Direction::Answer,
+          {static_cast<std::uint8_t>(static_cast<int>(*function_) | modbus::kExceptionFlag), refusal->code});
+    else if (words != kTimedOut)
+      recording_.frames.pop_back();  // what came was wrong, and is not said
   }
 
   void take_value(const PrintedValue& printed) {

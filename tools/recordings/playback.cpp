@@ -122,6 +122,7 @@ class Steps {
     const bool with_others = waits_with_others(frames_, number, answered_);
     answered_ = std::max(answered_, frame.other.value_or(0));
     if (choices_.station && frame.station != choices_.station) return;
+    if (is_asked_again(number)) return leave_out_poll(frame);
     if (const std::string why = omissions_.why(frame, named_); !why.empty()) return leave_out(frame, why);
     ask(number, with_others);
   }
@@ -130,6 +131,10 @@ class Steps {
     if (!strays_.empty())
       note("{}: left out{}: {}", strays_.front()->frame.place,
            strays_.size() == 1 ? "" : fmt::format(", and {} more", strays_.size() - 1), strays_.front()->text);
+    if (polls_ > 0)
+      note(
+          "{}: left out{}: a poll to which there was no answer yet; when there is one hangs on the scan of whoever is asked",
+          first_poll_->frame.place, polls_ == 1 ? "" : fmt::format(", and {} more", polls_ - 1));
     if (!untimed_.empty())
       note(
           "{}{}: begins before the frame above it can be over, as logs note what they were told late: no pause, latency or "
@@ -164,6 +169,20 @@ class Steps {
   void leave_out_stray(const ReadFrame& frame) {
     strays_.push_back(&frame);
     steps_ += fmt::format("      # {}: left out: {}\n", frame.frame.place, frame.text);
+  }
+
+  /// It was put off, and the same station is asked once more.
+  bool is_asked_again(std::size_t number) const {
+    const ReadFrame& request = frames_[number];
+    if (!request.other || !frames_[*request.other].puts_off) return false;
+    return std::any_of(
+        frames_.begin() + static_cast<std::ptrdiff_t>(*request.other), frames_.end(),
+        [&](const ReadFrame& each) { return each.direction == Direction::Request && each.station == request.station; });
+  }
+
+  void leave_out_poll(const ReadFrame& poll) {
+    if (polls_++ == 0) first_poll_ = &poll;
+    steps_ += fmt::format("      # {}: left out: there was no answer yet\n", poll.frame.place);
   }
 
   void leave_out(const ReadFrame& request, const std::string& why) {
@@ -244,6 +263,8 @@ class Steps {
   Time waited_ = 0;                  // ... and how long the scenario waits after it
   std::size_t answered_ = 0;         // the last answer to any request so far
   std::size_t together_ = 0;
+  std::size_t polls_ = 0;  // that were put off
+  const ReadFrame* first_poll_ = nullptr;
   std::vector<const ReadFrame*> strays_;
   std::vector<const ReadFrame*> untimed_;  // begin before the frame before can be over
   Omissions::Named named_;                 // in a note already

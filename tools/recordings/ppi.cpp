@@ -260,7 +260,8 @@ class PpiReader final : public FrameReader {
     if (bytes.size() == 1 && bytes[0] == ppi::kAccepted) {
       read.direction = open != nullptr ? Direction::Answer : Direction::Unknown;
       read.right = true;
-      read.text = open != nullptr && polls(open->bytes) ? "no answer yet" : "accepted";
+      read.puts_off = open != nullptr && polls(open->bytes);
+      read.text = read.puts_off ? "no answer yet" : "accepted";
       return read;
     }
     if (const auto token = ppi::token_of(bytes)) {

@@ -21,10 +21,15 @@ class BlockReader final : public FrameReader {
  public:
   explicit BlockReader(westinghouse::DataCheck by) : by_(by) {}
 
+  /// Its answer says where the key of the unit is, so one bit of it is always set: it never repeats the message.
+  static constexpr auto kSetUnit = static_cast<std::uint8_t>(westinghouse::Opcode::SetUnitAddress);
+
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
     const Data bytes(frame.bytes);
     ReadFrame read;
-    if (open != nullptr && frame.direction != Direction::Request) {
+    const bool asks_again =
+        open != nullptr && frame.direction == Direction::Unknown && bytes[0] == kSetUnit && frame.bytes == open->bytes;
+    if (open != nullptr && frame.direction != Direction::Request && !asks_again) {
       const serial::Answer answer = westinghouse::check_block_answer(open->bytes, bytes, by_);
       const bool by_other_rule = fits(westinghouse::check_block_answer(open->bytes, bytes, other_rule()));
       if (fits(answer) || by_other_rule || frame.direction == Direction::Answer) {
@@ -40,7 +45,7 @@ class BlockReader final : public FrameReader {
                                                        : "not a message: its opcode, length or check is wrong";
       return read;
     }
-    if (bytes[0] == static_cast<std::uint8_t>(westinghouse::Opcode::SetUnitAddress)) unit_ = bytes[1];
+    if (bytes[0] == kSetUnit) unit_ = bytes[1];
     read.direction = Direction::Request;
     read.right = data_check_right(bytes);
     read.station = unit_;
@@ -49,7 +54,7 @@ class BlockReader final : public FrameReader {
   }
 
   bool may_be_echoed(const RecordedFrame& frame) const override {
-    return fits(westinghouse::check_block_answer(frame.bytes, frame.bytes, by_));
+    return frame.bytes[0] != kSetUnit && fits(westinghouse::check_block_answer(frame.bytes, frame.bytes, by_));
   }
 
   std::size_t first_message(Data bytes, const RecordedFrame* open) const override {

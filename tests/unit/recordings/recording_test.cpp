@@ -491,6 +491,22 @@ TEST(Recordings, APcapngMayHaveInterfacesOfSeveralLinkTypes) {
   EXPECT_TRUE(refusal_of(head + usb + packet(0, 0, kRequest)).starts_with("link type 220 is not one of"));
 }
 
+TEST(Recordings, ACsvMayHaveAColumnForEachDirection) {
+  for (const char* const names : {"Time (ms),Tx,Rx", "time [ms],Request data,Response data"}) {
+    const LineRecording read =
+        recording_of(fmt::format("{}\n0,01 03 00 00 00 01 84 0A,\n25,,01 03 02 12 34 B5 33\n", names));
+    EXPECT_EQ(read.form, "CSV");
+    ASSERT_EQ(read.frames.size(), 2U) << names;
+    EXPECT_EQ(read.frames[0].bytes, kRequest);
+    EXPECT_EQ(read.frames[0].direction, Direction::Request);
+    EXPECT_EQ(read.frames[1].bytes, kAnswer);
+    EXPECT_EQ(read.frames[1].direction, Direction::Answer);
+    EXPECT_EQ(read.frames[1].at, 25 * ms);
+  }
+  EXPECT_EQ(refusal_of("Time,Tx,Rx\n0,01 03,01 83\n"), "line 2: bytes in both directions; write them in two lines");
+  EXPECT_EQ(refusal_of("Time,Tx,Rx\n0,frob,\n"), "line 2: 'frob' is not bytes in hex");
+}
+
 std::string printed_by_mbpoll(const std::string& type, const std::string& values) {
   return "mbpoll 1.0-0 - FieldTalk(tm) Modbus(R) Master Simulator\n"
          "Protocol configuration: Modbus RTU\n"
@@ -516,9 +532,13 @@ TEST(Recordings, WhatMbpollReadIsMadeOfTheValuesThatItPrints) {
             modbus::rtu_frame(1, Bytes{3, 2, 0xFF, 0xFF}));
   const std::string silent = "Read output (holding) register failed: Connection timed out\n";
   EXPECT_EQ(recording_of(printed_by_mbpoll(holding, silent)).frames.size(), 1U) << "a request without an answer";
-  EXPECT_TRUE(refusal_of(printed_by_mbpoll(holding, "Read output (holding) register failed: Illegal data address\n"))
+  EXPECT_EQ(recording_of(printed_by_mbpoll(holding, "Read output (holding) register failed: Illegal data address\n"))
+                .frames.at(1)
+                .bytes,
+            modbus::rtu_frame(1, Bytes{0x83, 2}));
+  EXPECT_TRUE(refusal_of(printed_by_mbpoll(holding, "Read output (holding) register failed: Invalid CRC\n"))
                   .starts_with("no frame in it"))
-      << "which exception it was is not said";
+      << "what came instead is not said";
   EXPECT_TRUE(refusal_of(printed_by_mbpoll("32-bit float, output (holding) register table", "[1]: \t1.5\n"))
                   .starts_with("no frame in it"));
 }
@@ -979,7 +999,7 @@ TEST(Conversation, TheSameFrameAfterTheMastersTimeoutIsTheRequestRepeated) {
 TEST(Conversation, AnAnswerAfterARepeatedRequestIsTheAnswerToThat) {
   for (const auto& [protocol, request, answer] : {std::tuple{"modbus", "01 06 00 00 00 01 48 0A", "01 06 00 00 00 01 48 0A"},
                                                   std::tuple{"modbus", "01 08 00 00 12 34 ED 7C", "01 08 00 00 12 34 ED 7C"},
-                                                  std::tuple{"pc1000-lan", "0A 05 00 00 00 0F", "0A 05 01 00 00 10"}}) {
+                                                  std::tuple{"pc1000-lan", "03 00 01 1F 00 23", "03 00 01 1F 00 23"}}) {
     const auto frames = read(
         recording_of(fmt::format("0.000 {0}\n0.250 {0}\n0.260 {1}\n0.300 {0}\n0.310 {1}\n", request, answer)), protocol);
     ASSERT_EQ(frames.size(), 5U);
@@ -1181,6 +1201,50 @@ TEST(Conversation, OfFramesThatALogHasInsideOthersNoTimesAreWritten) {
   const Playback silent = played("0.000 TX 01 03 00 00 00 01 84 0A\n0.003 TX 02 03 00 00 00 01 84 39\n");
   EXPECT_EQ(silent.scenario.find("timeout"), std::string::npos) << silent.scenario;
   EXPECT_EQ(silent.scenario.find("silence"), std::string::npos) << silent.scenario;
+}
+
+TEST(Conversation, AUnitOfTheLanNeverRepeatsTheMessageThatAddressesIt) {
+  const auto frames =
+      read(recording_of("0.000 0A 06 00 00 00 10\n0.500 0A 06 00 00 00 10\n0.510 0A 06 02 00 00 12\n"), "pc1000-lan");
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[1].direction, Direction::Request);
+  EXPECT_EQ(frames[1].repeats, std::nullopt) << "the key is somewhere, so it is no echo";
+  EXPECT_EQ(frames[2].other, 1U);
+}
+
+TEST(Playback, APollWithoutAnAnswerYetIsNotAskedAgain) {
+  const auto frames =
+      read(recording_of("0.040 TX 68 1b 1b 68 02 00 6c 32 01 00 00 00 01 00 0e 00 00 04 01 12 0a 10 02 00 01 00 "
+                        "01 84 00 1f 40 c8 16\n0.080 RX e5\n0.100 TX 10 02 00 5c 5e 16\n0.112 RX e5\n"
+                        "0.140 TX 10 02 00 7c 7e 16\n0.160 RX 68 16 16 68 00 02 08 32 03 00 00 00 01 00 02 00 "
+                        "05 00 00 04 01 ff 04 00 08 ca 21 16\n"),
+           "ppi");
+  const Playback played = playback(frames, {}, {});
+  EXPECT_EQ(played.scenario.find("10 02 00 5c"), std::string::npos) << played.scenario;
+  EXPECT_NE(played.scenario.find("- send: 10 02 00 7c"), std::string::npos) << played.scenario;
+  EXPECT_EQ(played.notes,
+            std::vector<std::string>{"line 3: left out: a poll to which there was no answer yet; when there is one "
+                                     "hangs on the scan of whoever is asked"});
+  const auto cut_off = read(recording_of("0.100 TX 10 02 00 5c 5e 16\n0.112 RX e5\n"), "ppi");
+  EXPECT_NE(playback(cut_off, {}, {}).scenario.find("expect: e5"), std::string::npos) << "nobody has asked again";
+}
+
+TEST(Conversation, AFrameCheckByThePolynomialAloneIsSaidToBeSo) {
+  const auto frames =
+      read(recording_of("TX 0c 00 20 40 00 0c 02 00 08 02 6f 6b\nTX 0c 00 20 40 00 0c 02 00 08 02 6f 2f\n"), "hppc");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_TRUE(frames[0].text.ends_with("; its frame check is right by the polynomial only")) << frames[0].text;
+  EXPECT_FALSE(frames[1].text.ends_with("only")) << frames[1].text;
+}
+
+TEST(Conversation, AFrameOfACaptureGoesOnAfterLessThanACharacterOfSilence) {
+  const auto divided = [](const char* second, const Stamps& stamps) {
+    return read(recording_of(fmt::format("0.000 01 03 00 00\n{} 00 01 84 0A\n", second)), "modbus", stamps);
+  };
+  const Stamps capture{.character = ms, .exact = true};
+  EXPECT_EQ(divided("0.0045", capture).size(), 1U);
+  EXPECT_EQ(divided("0.005", capture).size(), 2U) << "a character of silence";
+  EXPECT_EQ(divided("0.002", capture).size(), 2U) << "a second station";
 }
 
 TEST(Conversation, AReaderReadsEachFrameOnce) {
@@ -1589,7 +1653,9 @@ TEST(Conversation, HppcIsReadWithEitherFrameCheck) {
            "hppc");
   EXPECT_EQ(texts(frames), (std::vector<std::string>{"> read 2 bytes from 16#90001 on", "< 2 bytes: 22 33",
                                                      "> read 2 bytes from 16#80002 on", "< error 16#11: invalid operand",
-                                                     "> read 2 bytes from 16#80002 on", "> wrong frame check"}));
+                                                     "> read 2 bytes from 16#80002 on; its frame check is right by the "
+                                                     "polynomial only",
+                                                     "> wrong frame check"}));
   EXPECT_TRUE(frames[4].right) << "the polynomial's";
   EXPECT_FALSE(frames[5].right);
 }

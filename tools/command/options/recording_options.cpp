@@ -172,6 +172,10 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   read.stamps.exact = !read.recording.is_log && !over_tcp && !faster;
   settle_directions(read.recording, options.spoken(), read.stamps);
   print_notes(read.recording.notes);
+  const bool has_times = std::ranges::any_of(read.recording.frames, [](const auto& frame) { return frame.at.has_value(); });
+  if (!faster && !over_tcp && has_times && options.line == serial::LineSettings{})
+    print_note(fmt::format("silences are those of a line with {}; --baud and --parity say otherwise",
+                           format_text(options.format())));
   if (faster)
     print_note(
         fmt::format("most frames begin before the one before can be over at {} baud: name the rate of the line with "

@@ -76,7 +76,7 @@ void RigOptions::add_to(CLI::App& app) {
           ->needs(trace);
   app.add_flag_callback(
          "--trace-events", [this] { settings_.trace_detail = TraceDetail::Events; },
-         "leave out the way of the main program and why a frame got no answer: faster")
+         "leave out the way of the main program, why a frame got no answer and how long an instruction took: faster")
       ->needs(trace)
       ->excludes(all);
   app.add_option("--capture", settings_.captures,
