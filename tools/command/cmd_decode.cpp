@@ -21,11 +21,13 @@ struct DecodeOptions {
   bool json = false;
 };
 
-nlohmann::ordered_json head_of(const DecodeOptions& options, const std::string& form) {
+nlohmann::ordered_json head_of(const DecodeOptions& options, const std::string& form,
+                               const std::optional<SerialFormat>& line) {
   auto results = results_of("decode");
   results["file"] = options.recording.file;
   results["form"] = form;
   results["protocol"] = options.recording.protocol;
+  results["line"] = line ? nlohmann::ordered_json(format_text(*line)) : nullptr;
   return results;
 }
 
@@ -33,7 +35,7 @@ nlohmann::ordered_json head_of(const DecodeOptions& options, const std::string& 
 int run_live(const DecodeOptions& options, const SlaveTarget& target) {
   const auto line = open_line(options.recording, target);
   if (!line) return kUnusable;
-  StreamedResults results(head_of(options, "live"), "frames");
+  StreamedResults results(head_of(options, "live", options.recording.format()), "frames");
   DecodedSummary summary;
   const bool colour = colour_wanted(stdout);
   if (!options.json) fmt::print("{}", decoded_heading(colour));
@@ -55,11 +57,12 @@ int run_decode(const DecodeOptions& options) {
   const auto read = read_conversation(options.recording);
   if (!read) return kUnusable;
   if (options.json) {
-    auto results = head_of(options, read->recording.form);
+    auto results = head_of(options, read->recording.form, read->line);
     add_decoded(results, read->frames);
     fmt::print("{}", lines_of(results));
   } else {
     fmt::print("{}", decoded_text(read->frames, colour_wanted(stdout)));
+    if (read->line) fmt::print("{}; --baud and --parity say otherwise\n", read->silences_text());
   }
   return kFine;
 }

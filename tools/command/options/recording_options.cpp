@@ -123,6 +123,10 @@ SerialFormat RecordingOptions::format() const {
   return line.over(master != nullptr ? master->format : SerialFormat{});
 }
 
+std::string ReadRecording::silences_text() const {
+  return line ? fmt::format("silences are those of a line with {}", format_text(*line)) : "";
+}
+
 std::unique_ptr<LineListener> open_line(const RecordingOptions& options, const SlaveTarget& line) {
   catch_interruption();
   try {
@@ -173,9 +177,7 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   settle_directions(read.recording, options.spoken(), read.stamps);
   print_notes(read.recording.notes);
   const bool has_times = std::ranges::any_of(read.recording.frames, [](const auto& frame) { return frame.at.has_value(); });
-  if (!faster && !over_tcp && has_times && options.line == serial::LineSettings{})
-    print_note(fmt::format("silences are those of a line with {}; --baud and --parity say otherwise",
-                           format_text(options.format())));
+  if (!over_tcp && has_times) read.line = options.format();
   if (faster)
     print_note(
         fmt::format("most frames begin before the one before can be over at {} baud: name the rate of the line with "

@@ -58,7 +58,11 @@ struct ReadRecording {
   LineRecording recording;
   std::vector<ReadFrame> frames;  ///< of the recording, or heard live
   Stamps stamps;
-  std::string name;  ///< what messages call the file
+  std::string name;                    ///< what messages call the file
+  std::optional<SerialFormat> line{};  ///< that the silences of a file are those of, if they are those of a serial line
+
+  /// `silences are those of a line with 9600 baud, 8 data bits, even parity, 1 stop bit`; empty if there is none.
+  std::string silences_text() const;
 };
 
 /// Says on standard error that it listens. Null after another message. Interruptions are noted from here on.
