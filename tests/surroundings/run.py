@@ -576,10 +576,12 @@ class Signals(Case):
             heard += os.read(process.stdout.fileno(), 1000)
         self.assertEqual(self.ended(process, signal.SIGTERM), FAILED)
 
-    def test_what_has_nothing_to_complete_ends_by_the_signal(self):
-        for number in SIGNALS:
-            process = self.start("bench", "--each", "1h")
-            self.assertEqual(self.ended(process, number), -number)
+    def test_what_measures_and_what_waits_for_a_program(self):
+        for arguments, number in itertools.product((["bench", "--each", "1h"], ["check", "-"]), SIGNALS):
+            with self.subTest(arguments=arguments, number=number):
+                process = self.start(*arguments, stdin=subprocess.PIPE)
+                self.assertEqual(self.noted(process, number), FAILED)
+                self.assertIn(b"interrupted", process.error)
 
 
 # --- files ---
