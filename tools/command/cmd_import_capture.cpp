@@ -27,7 +27,6 @@ struct ImportCaptureOptions {
   PlaybackChoices choices{.tolerance = 5 * kMillisecond};
   std::string program, output, cpu = Scenario{}.cpu;
   bool force = false, json = false;
-
   bool to_file() const { return !output.empty() && output != "-"; }
 };
 
@@ -63,9 +62,9 @@ int run_import_capture(const ImportCaptureOptions& options) {
   print_notes(notes);
   if (scenario.empty())
     return print_error(fmt::format("{}: {}", read->name, why_nothing_is_asked(read->frames, choices))), kUnusable;
-  const std::string line = read->line ? fmt::format("# Its {}.\n", read->silences_text()) : "";
-  const std::string text = fmt::format("{} {} by s7200 import-capture. {}\n{}{}", kImportBeginning,
-                                       stl::printable(read->name), how_to_run(protocol, choices), line, scenario);
+  const std::string text =
+      fmt::format("{} {} by s7200 import-capture. {}\n{}{}", kImportBeginning, stl::printable(read->name),
+                  how_to_run(protocol, choices), read->silences_comment(), scenario);
   const int exit_code =
       options.to_file() ? write_stl(options.output, {options.recording.file, options.program}, options.force, text) : kFine;
   if (exit_code == kFine && options.json) {

@@ -63,6 +63,8 @@ struct ReadRecording {
 
   /// `silences are those of a line with 9600 baud, 8 data bits, even parity, 1 stop bit`; empty if there is none.
   std::string silences_text() const;
+  /// The same as a line of a scenario.
+  std::string silences_comment() const { return line ? "# Its " + silences_text() + ".\n" : ""; }
 };
 
 /// Says on standard error that it listens. Null after another message. Interruptions are noted from here on.
