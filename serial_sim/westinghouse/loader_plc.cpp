@@ -151,7 +151,7 @@ bool LoaderPlc::run() {
       return describe_block();
     case LoaderOpcode::Directory:
       data_ = {0};
-      add_memory(kDirectory + (settings_.directory == LoaderSettings::Directory::Db0 ? 0 : 2), kMostLoaderBytes);
+      add_memory(kDirectory + (settings_.directory == FirstBlock::Db0 ? 0 : 2), kMostLoaderBytes);
       return arguments_.size() == 1 && arguments_[0] == kDataBlocks;
   }
   return false;
@@ -203,9 +203,7 @@ const std::vector<Setting<LoaderPlc>>& LoaderPlc::settings() {
     add_line_settings(
         rows, "", [](auto& plc) -> auto& { return plc.settings_.line; });
     add({"latency_us", "", "microseconds from a request to its answer", Decimal, {}, 0, 10'000}, &S::latency_us);
-    add({"directory", "S1", "block whose address is the first of the directory", Word,
-         words_of<S::Directory>({{S::Directory::Db0, "db0"}, {S::Directory::Db1, "db1"}})},
-        &S::directory);
+    add({"directory", "S1", "block whose address is the first of the directory", Word, kFirstBlockWords}, &S::directory);
     add({"head_bytes", "S2", "bytes 00 before the pointers of the system parameters", Decimal, {}, 0, 16}, &S::head_bytes);
     add({"tail_bytes", "S2", "bytes 00 after the pointers of the system parameters", Decimal, {}, 0, 64}, &S::tail_bytes);
     add({"dle", "S3", "how the PLC sends a byte 10 in data", Word, kDleWords}, &S::dle);

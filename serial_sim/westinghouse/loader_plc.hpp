@@ -14,20 +14,19 @@
 namespace s7200::westinghouse {
 
 struct LoaderSettings {
-  enum class Directory : std::uint8_t { Db0, Db1 };
   enum class Nak : std::uint8_t { Sent, Silent };
   enum class Writable : std::uint8_t { All, Areas };
 
   SerialFormat line{};             ///< 8E1, as the document says
   std::uint16_t latency_us = 400;  ///< of an answer; below 500 in the document
 
-  Directory directory = Directory::Db0;  ///< [S1] whose address is first in the block directory
-  std::uint8_t head_bytes = 5;           ///< [S2] 00, before the pointers of opcode 18
-  std::uint8_t tail_bytes = 0;           ///< [S2] 00, after them
-  Dle dle = Dle::Doubled;                ///< [S3]
-  std::uint16_t timeout_ms = 500;        ///< [S4] for each byte within a session
-  Nak nak = Nak::Sent;                   ///< [S4] to what does not fit
-  Writable writable = Writable::All;     ///< [S5]
+  FirstBlock directory = FirstBlock::Db0;  ///< [S1]
+  std::uint8_t head_bytes = 5;             ///< [S2] 00, before the pointers of opcode 18
+  std::uint8_t tail_bytes = 0;             ///< [S2] 00, after them
+  Dle dle = Dle::Doubled;                  ///< [S3]
+  std::uint16_t timeout_ms = 500;          ///< [S4] for each byte within a session
+  Nak nak = Nak::Sent;                     ///< [S4] to what does not fit
+  Writable writable = Writable::All;       ///< [S5]
 
   bool operator==(const LoaderSettings&) const = default;
 };

@@ -26,6 +26,10 @@ enum class LoaderOpcode : std::uint8_t { Write = 0x03, Read = 0x04, Pointers = 0
 enum class Dle : std::uint8_t { Doubled, Plain };
 inline constexpr auto kDleWords = words_of<Dle>({{Dle::Doubled, "doubled"}, {Dle::Plain, "plain"}});
 
+/// Whose address is the first of the block directory [S1].
+enum class FirstBlock : std::uint8_t { Db0, Db1 };
+inline constexpr auto kFirstBlockWords = words_of<FirstBlock>({{FirstBlock::Db0, "db0"}, {FirstBlock::Db1, "db1"}});
+
 inline constexpr std::uint8_t kStx = 0x02, kEtx = 0x03, kEot = 0x04, kAck = 0x06, kDle = 0x10, kNak = 0x15;
 inline constexpr std::uint8_t kHeader = 0x16, kEnd = 0x12;
 inline constexpr std::uint8_t kDataBlocks = 0x01;  ///< type of block

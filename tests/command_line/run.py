@@ -693,6 +693,7 @@ class Verbs(Case):
                      "  16#EF82  16#03      3", "  DB001 at 16#8024, 2 data words", "  DB001 at 16#8024", "  PIQ          16#EF80",
                      "  program end  16#CFFF"):
             self.assertIn(line + "\n", out)
+        self.assertIn("  DB001 at 16#8024\n", self.ends(FINE, *loader, "--plc", "directory=db1", "--directory", "db1", "blocks").stdout)
         for dle in ([], ["--plc", "dle=plain", "--dle", "plain"]):
             longer = self.ends(FINE, *loader, *dle, "--plc", "tail_bytes=3", "parameters").stdout
             self.assertIn("  program end  16#CFFF\n  more         00 00 00\n", longer, "what it means is not documented")

@@ -11,11 +11,12 @@ namespace {
 
 using westinghouse::Dle;
 using westinghouse::kDleWords;
+using westinghouse::kFirstBlockWords;
 using westinghouse::LoaderOpcode;
 using westinghouse::LoaderOperation;
 using Data = std::span<const std::uint8_t>;
 
-constexpr std::string_view kDle = "--dle";
+constexpr std::string_view kDle = "--dle", kDirectory = "--directory";
 
 /// Bytes that have names beside their addresses.
 struct Area {
@@ -36,6 +37,7 @@ class LoaderRequest final : public ProtocolRequest {
     std::string subject{};
     std::uint16_t first = 0;  ///< address of bytes that are read or written
     std::size_t count = 0;
+    std::size_t first_block = 0;  ///< of a directory: the number of its first block
   };
 
   LoaderRequest(LoaderOperation operation, Dle dle, About about)
@@ -127,7 +129,7 @@ std::vector<std::string> LoaderRequest::texts(const serial::Answer& answer) cons
     case LoaderOpcode::Directory:
       for (std::size_t block = 0; 2 * block + 2 < bytes.size(); ++block)
         if (const std::uint16_t address = load16(&bytes[1 + 2 * block]); address != 0)
-          texts.push_back(fmt::format("DB{:03} at 16#{:04X}", block, address));
+          texts.push_back(fmt::format("DB{:03} at 16#{:04X}", about_.first_block + block, address));
       if (texts.empty()) texts.emplace_back("no data blocks");
       return texts;
   }
@@ -172,7 +174,8 @@ std::uint16_t address_of(const std::string& text) {
 
 class Parser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX), dle_(dle_of(use)) {}
+  explicit Parser(const ProtocolUse& use)
+      : WordParser(use.station, UINT8_MAX), dle_(dle_of(use)), first_block_(use.chosen(kDirectory, kFirstBlockWords)) {}
 
   std::vector<MasterAction> parse(const Words& words);
 
@@ -180,7 +183,7 @@ class Parser final : public WordParser {
   void write(const Words& operands);
   void pointers(const Words&) { add(westinghouse::loader_pointers(), {}); }
   void block(const Words& operands);
-  void directory(const Words&) { add(westinghouse::loader_directory(), {}); }
+  void directory(const Words&) { add(westinghouse::loader_directory(), {.first_block = first_block_}); }
   void raw(const Words& operands);
 
  private:
@@ -190,6 +193,7 @@ class Parser final : public WordParser {
   LoaderRequest::About about(std::uint16_t first, std::size_t count) const;
 
   Dle dle_;
+  std::size_t first_block_;
 };
 
 using LoaderVerb = Verb<Parser>;
@@ -264,7 +268,11 @@ const Protocol& pc500_loader_protocol() {
       .format = {},
       .over_modbus_tcp = false,
       .options = {word_option(kDle, "FORM", fmt::format("a byte 10 in what the PLC sends: {}", fmt::join(kDleWords, ", ")),
-                              "a way to send a byte 10", kDleWords)},
+                              "a way to send a byte 10", kDleWords),
+                  word_option(kDirectory, "BLOCK",
+                              fmt::format("block whose address is the first of its directory: {}",
+                                          fmt::join(kFirstBlockWords, ", ")),
+                              "a block that the directory may begin with", kFirstBlockWords)},
       .actions_help = "Actions of --protocol pc500-loader; in brackets its operations:\n" +
                       verbs_help(std::span<const LoaderVerb>(kVerbs)),
       .action_words = verb_words(std::span<const LoaderVerb>(kVerbs)),
@@ -274,7 +282,7 @@ const Protocol& pc500_loader_protocol() {
                    .retries = 2,
                    .pause = 500 * kMillisecond,
                    .repeats = [](std::uint16_t) { return true; }},
-      .choices = "--timeout, --retries, --before-retry [S4]",
+      .choices = "--timeout, --retries, --before-retry [S4], --directory [S1]",
       .plcs = westinghouse::find_plc("pc500-loader")};
   return protocol;
 }
