@@ -240,6 +240,38 @@ TEST(Timer22x, TheExecutionThatStartsATofAddsNoTicks) {
   EXPECT_EQ(plc.value("T37"), 1);
 }
 
+// A scan takes 106 ms.
+TEST(Timer22x, ATofWhoseInputComesBackStandsAtZeroWithItsBitOn) {
+  std::string text = "LD SM0.0\n";
+  for (int i = 0; i < 21; ++i) text += "SQRT VD100, VD104\n";
+  Plc plc(text + "LD I0.0\nTOF T37, 100\nLD T37\n= M0.0\nMEND\n", cpu224());
+  plc.input("I0.0", true);
+  plc.run_scans(3);
+  plc.input("I0.0", false);
+  plc.run_scans(8);
+  EXPECT_GT(plc.value("T37"), 1);
+  plc.input("I0.0", true);
+  plc.run_scans(9);
+  for (std::uint64_t scans = 10; scans < 15; ++scans) {
+    plc.run_scans(scans);
+    EXPECT_EQ(plc.value("T37"), 0) << scans;
+    EXPECT_EQ(plc.value("MB0"), 1) << scans;
+  }
+}
+
+TEST(Timer22x, ATofCountsTheMillisecondsAfterTheExecutionThatStartsIt) {
+  for (Time offset = 0; offset < 2 * ms; offset += 50 * kMicrosecond) {
+    Plc plc("LD I0.0\nTOF T32, 100\nMEND\n", cpu224());
+    plc.input("I0.0", true);
+    plc.run_until(5 * ms);
+    plc.input_at(5 * ms + offset, "I0.0", false);
+    plc.run_until(20 * ms);
+    const Time started = plc.cpu.state().timer[32].since;
+    EXPECT_GT(started, 5 * ms + offset);
+    EXPECT_EQ(plc.value("T32"), plc.cpu.time() / ms - started / ms) << offset;
+  }
+}
+
 // --- PID ---
 
 /// A loop at VB100: PV SP M KC TS TI TD MX PV-1; TS / TI = 1/4.
