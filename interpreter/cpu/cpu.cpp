@@ -17,10 +17,12 @@ namespace s7200 {
 Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports)
     : core_(std::move(program), queue, owner, ports) {}
 
-void Cpu::power_up(bool run, const RetentiveMemory* memory, Time at) {
+Core& Cpu::from_outside() {
   core_.touched = true;
-  power::up(core_, run, memory, at);
+  return core_;
 }
+
+void Cpu::power_up(bool run, const RetentiveMemory* memory, Time at) { power::up(from_outside(), run, memory, at); }
 RetentiveMemory Cpu::retentive_memory() const { return power::retentive_memory(core_); }
 
 void Cpu::run(Time limit, Time work) {
@@ -135,37 +137,23 @@ Time Cpu::next_action() const {
   return std::max(s.time, std::min(s.time + s.phase_left, s.watchdog));
 }
 
-void Cpu::handle(const Event& event) {
-  core_.touched = true;
-  units::handle(core_, event.what, event.at);
-}
+void Cpu::handle(const Event& event) { units::handle(from_outside(), event.what, event.at); }
 
 void Cpu::character_received(const ReceivedCharacter& character, std::uint8_t port) {
-  core_.touched = true;
-  freeport::character_received(core_, port, character);
+  freeport::character_received(from_outside(), port, character);
 }
 void Cpu::character_missed(const ReceivedCharacter& character, std::uint8_t port, bool powered) const {
   freeport::character_missed(core_, port, character, powered);
 }
-void Cpu::character_sent(Time at, std::uint8_t port) {
-  core_.touched = true;
-  freeport::character_sent(core_, port, at);
-}
+void Cpu::character_sent(Time at, std::uint8_t port) { freeport::character_sent(from_outside(), port, at); }
 
-void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) {
-  core_.touched = true;
-  points::set_inputs(core_, byte, value, at);
-}
+void Cpu::set_input(std::uint32_t byte, std::uint8_t value, Time at) { points::set_inputs(from_outside(), byte, value, at); }
 
-void Cpu::set_clock(const ClockTime& to) {
-  core_.touched = true;
-  clock::set(core_, to);
-}
+void Cpu::set_clock(const ClockTime& to) { clock::set(from_outside(), to); }
 ClockTime Cpu::clock() const { return clock::now(core_); }
 
 void Cpu::poke(std::uint32_t at, std::span<const std::uint8_t> bytes) {
-  core_.touched = true;
-  std::copy(bytes.begin(), bytes.end(), core_.s.image.begin() + at);
+  std::copy(bytes.begin(), bytes.end(), from_outside().s.image.begin() + at);
   if (at >= image::kAI && at < image::kAQ)
     std::copy(bytes.begin(), bytes.end(), core_.s.analog_terminals.begin() + (at - image::kAI));
   forcing::apply(core_);
@@ -173,15 +161,13 @@ void Cpu::poke(std::uint32_t at, std::span<const std::uint8_t> bytes) {
 }
 
 bool Cpu::force(const MemoryRange& place, std::uint32_t value) {
-  core_.touched = true;
-  const bool room = forcing::force(core_, place, value);
+  const bool room = forcing::force(from_outside(), place, value);
   if (room && core_.s.mode == Mode::Stop) points::enter_stop(core_);
   return room;
 }
 
 bool Cpu::unforce(const MemoryRange& place) {
-  core_.touched = true;
-  const bool any = forcing::unforce(core_, place);
+  const bool any = forcing::unforce(from_outside(), place);
   if (any && core_.s.mode == Mode::Stop) points::enter_stop(core_);
   return any;
 }

@@ -76,10 +76,7 @@ class Cpu {
   ClockTime clock() const;
 
   const State& state() const { return core_.s; }
-  void restore(const State& state) {
-    core_.touched = true;
-    core_.s = state;
-  }
+  void restore(const State& state) { from_outside().s = state; }
   const Program& program() const { return core_.program(); }
   Time time() const { return core_.s.time; }
 
@@ -114,21 +111,18 @@ class Cpu {
   }
 
   /// Goes on with another instruction, of the same routine. Nothing but a debugger can do that.
-  void go_to(std::uint32_t op) {
-    core_.touched = true;
-    core_.s.pc = op;
-  }
+  void go_to(std::uint32_t op) { from_outside().s.pc = op; }
 
   /// The logic stack, with the power flow, is another one. Nothing but a debugger can do that.
-  void set_stack(LogicStack stack) {
-    core_.touched = true;
-    core_.s.stack = stack;
-  }
+  void set_stack(LogicStack stack) { from_outside().s.stack = stack; }
 
   /// For making one unit act on its own, as tests do.
   Core& core() { return core_; }
 
  private:
+  /// For whatever is done to the CPU: after it, scans need no longer be alike (steady_scans.hpp).
+  Core& from_outside();
+
   void execute_plain();
   void execute_observed(TraceSink& sink);
   template <Watch watch>

@@ -267,7 +267,6 @@ class Request {
                            (place.area == Area::SM && place.at < sm::byte(kReadOnlySpecialMemory));
     if (read_only) return kNotAllowed;
     if (value.size() != (place.in_data != 0 ? place.in_data : place.bytes)) return kWrongType;
-    core_.touched = true;
     if (place.bit) {
       core_.put_bit(place.at, *place.bit, (value[0] & 1) != 0);
       return kDone;
@@ -298,7 +297,6 @@ class Request {
     to[6] = 0;
     to[7] &= 0x0F;
     if (!clock::is_time(to) || !clock::set_bcd(core_, to)) return user_data_reply(refused(Refusal::Malformed));
-    core_.touched = true;
     trace(0);
     return user_data_reply({.data = {kNotStored, 0, 0, 0}});
   }

@@ -211,8 +211,8 @@ void advance(Core& core) {
 }
 
 void pass(const Core& core, State& s, Time by) {
-  s.scan_begin += by;  // and the end of the scan before, when the clock bits were looked at
-  if (s.scan_begin >= s.next_clock) update_clocks(core, s, s.scan_begin);
+  s.scan_begin += by;
+  update_clocks(core, s, s.scan_begin);  // as at the end of the scan before
 }
 
 void end_main_program(Core& core) {

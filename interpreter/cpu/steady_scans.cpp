@@ -91,9 +91,9 @@ Time SteadyScans::go_on(Core& core, Time limit) {
       end_look(core);
       return known_ == Known::Pair ? pass(core, horizon) : 0;
     case Known::Pair:
-      return (core.s.scans - before_->scans) % 2 == 0 ? pass(core, horizon) : 0;
+      break;
   }
-  return 0;
+  return (core.s.scans - before_->scans) % 2 == 0 ? pass(core, horizon) : 0;
 }
 
 void SteadyScans::begin_look(const Core& core, Time horizon) {

@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "interpreter/cpu/units.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -140,6 +141,8 @@ TEST(SteadyScans, EndWithWhateverIsDoneToTheCpu) {
       {"an instruction skipped", [](Cpu& cpu) { cpu.go_to(cpu.state().pc); }},
       {"the logic stack set", [](Cpu& cpu) { cpu.set_stack(cpu.state().stack); }},
       {"a character received", [](Cpu& cpu) { cpu.character_received({}); }},
+      {"a character sent", [](Cpu& cpu) { cpu.character_sent(cpu.time()); }},
+      {"one of its events", [](Cpu& cpu) { cpu.handle({.at = cpu.time(), .owner = kCpu, .what = kTick1ms}); }},
       {"power switched on", [](Cpu& cpu) { cpu.power_up(true, nullptr, cpu.time()); }},
   };
   PlcThat plc(SteadyScansUse::Eager, kContactsOnly);
@@ -319,6 +322,14 @@ TEST(SteadyScans, TheTimeOfDayIsReadSecondBySecond) {
   Both both("LD SM0.0\nTODR VB0\nMEND\n");
   for (int i = 1; i <= 90; ++i) both.run_until(i * 777 * ms);
   EXPECT_GT(both.passed(), 30 * kSecond);
+}
+
+TEST(SteadyScans, SecondsBeginWhenTheClockWasSet) {
+  Both both("LD SM0.0\nTODR VB0\nMEND\n");
+  both.run_until(7'700 * ms);
+  both.each([](Plc& plc) { plc.cpu.set_clock({.year = 26, .month = 1, .day = 1}); });
+  for (int i = 8; i <= 30; ++i) both.run_until(i * kSecond);
+  EXPECT_GT(both.passed(), 20 * kSecond);
 }
 
 TEST(SteadyScans, AProgramThatReadsMillisecondsHasNone) {
