@@ -305,7 +305,7 @@ const std::vector<Setting<ModbusPlc>>& ModbusPlc::settings() {
     add({"version", "", "its version in the answer to function 17"}, &S::version);
     add({"err", "", "error register in the answer to function 17", Hex, {}, 0, UINT16_MAX}, &S::err);
     add({"mode_chg", "", "mode change register in the answer to function 17", Hex, {}, 0, UINT16_MAX}, &S::mode_chg);
-    add({"exception", "M8", "answered to all that could be done: 04, 06; 00 for none"}, &S::exception);
+    add({"exception", "M8", "code that answers all that could be done, as 04 or 06; 00 for none"}, &S::exception);
     add({"function_7", "M1", "section of the document that says which models have it", Word,
          words_of<S::Function7>({{S::Function7::Section422, "section422"}, {S::Function7::Section41, "section41"}})},
         &S::function_7);
