@@ -42,6 +42,8 @@ class Cpu {
   void use_steady_scans(SteadyScansUse use) { steady_scans_.use(use); }
   /// Simulated time in scans that were passed over so far.
   Time passed_over() const { return steady_scans_.passed_over(); }
+  /// How often it was looked whether scans can be; each costs about as much as a thousand instructions.
+  std::uint64_t looks_at_scans() const { return steady_scans_.looks(); }
   /// Until when the CPU does nothing but the same scan again, unless something comes from outside; time() if that is not
   /// known. Until then it sends nothing.
   Time alike_until() const { return steady_scans_.alike_until(core_); }

@@ -70,8 +70,12 @@ Time SteadyScans::go_on(Core& core, Time limit) {
     look_at_ = core.s.instructions + kAskAgain;
     return 0;
   }
-  if (core.touched) known_ = Known::Nothing;
   if (expected_) check(core);
+  if (core.touched && is_looking()) {
+    in_vain(core);  // a program that does something to the outside in each scan will do so again
+    return 0;
+  }
+  if (core.touched) known_ = Known::Nothing;
   const Time change = next_change(core);
   const Time horizon = std::min({limit, core.next_event(), change, core.s.time + kFurthest});
   // The expected change has happened, so the pair no longer describes the scans after it. A timer that is reset in every
@@ -105,6 +109,7 @@ void SteadyScans::begin_look(const Core& core, Time horizon) {
   *before_ = core.s;
   core.touched = false;
   known_ = Known::Before;
+  ++looks_;
 }
 
 void SteadyScans::end_look(const Core& core) {

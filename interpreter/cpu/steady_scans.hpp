@@ -51,6 +51,9 @@ class SteadyScans {
   /// Simulated time that was passed over so far.
   Time passed_over() const { return passed_; }
 
+  /// How often a pair of scans was looked at so far.
+  std::uint64_t looks() const { return looks_; }
+
   /// Until when all scans are alike, unless something comes from outside; the CPU's time as long as that is not known.
   Time alike_until(const Core& core) const {
     return known_ == Known::Pair && !core.touched ? std::min(change_, core.next_event()) : core.s.time;
@@ -59,6 +62,7 @@ class SteadyScans {
  private:
   enum class Known : std::uint8_t { Nothing, Before, Middle, Pair };
 
+  bool is_looking() const { return known_ == Known::Before || known_ == Known::Middle; }
   Time go_on(Core& core, Time limit);
   void begin_look(const Core& core, Time horizon);
   void in_vain(const Core& core);
@@ -78,6 +82,7 @@ class SteadyScans {
   std::uint64_t look_at_ = 0;        // number of instructions executed before the next look
   std::uint64_t stake_ = kFirstStake;
   Time passed_ = 0;
+  std::uint64_t looks_ = 0;
   std::unique_ptr<State> expected_{};  // of Check
 
   static constexpr std::uint64_t kLeastStake = 2'000, kFirstStake = 20'000, kMostStake = 1'000'000;

@@ -101,6 +101,16 @@ TEST(SteadyScans, OfTwoHundredAndFiftyYearsOverflowNothing) {
   EXPECT_GE(plc.cpu.time(), years);
 }
 
+TEST(SteadyScans, AreSeldomLookedForWhereNoneAreFound) {
+  for (const char* text : {"LDN Q0.0\n= Q0.0\nMEND\n", "LD SM0.6\n= Q0.0\nMEND\n", "LD SM0.0\nINCW VW0\nMEND\n"}) {
+    PlcThat plc(SteadyScansUse::On, text);
+    plc.run_until(600 * kSecond);
+    EXPECT_EQ(plc.cpu.passed_over(), 0) << text;
+    EXPECT_GT(plc.cpu.looks_at_scans(), 0u) << text;
+    EXPECT_LT(plc.cpu.looks_at_scans(), 20u) << text;
+  }
+}
+
 TEST(SteadyScans, ACountingProgramHasNone) {
   Both both("LD SM0.0\nINCW VW0\nMEND\n");
   both.run_until(20 * kSecond);
