@@ -320,10 +320,12 @@ TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& ow
            own.find(row.mnemonics.front(), area_named(row.form));
   };
   TimeTable table = known.with([&](TimeRow& row) {
+    const std::string of_others = row.source;
     estimate(row, ratio);
     if (is_known(row)) return;
     // What an area adds and the CPU's own table does not know: as good as nothing, up to what the others say.
     state(row.base, row.base_within, 0, range_of_base(row), kShortest);
+    row.source = "not measured: nothing, as in the CPU's own table, up to what others say; " + of_others;
   });
   table.add(TimeTable(measured_rows(fit, source)));
   return in_use(table);
@@ -381,7 +383,8 @@ bool has_figure(const Fit& fit, std::string_view mnemonic) {
 std::vector<NotMeasured> not_measured(const Fit& fit, const CpuModel& model) {
   std::vector<NotMeasured> missing;
   for (const SystemTime what : {SystemTime::InterruptEntry, SystemTime::ScanOverhead})
-    if (!has_figure(fit, name_of(what))) missing.push_back({std::string(name_of(what)), reason_in_loops(fit, name_of(what))});
+    if (!has_figure(fit, name_of(what)))
+      missing.push_back({std::string(name_of(what)), reason_in_loops(fit, name_of(what))});
   missing.push_back({std::string(name_of(SystemTime::EepromSave)), "it wears the EEPROM"});
   for (const Area area : {Area::AI, Area::AQ})
     if (model.size_of(area) > 0 && !is_measured(fit, area))

@@ -46,8 +46,8 @@ Fit fit(const Loops& loops, const std::vector<LoopTime>& times);
 std::optional<double> ratio_to_known(const Fit& fit);
 
 /// The table of the CPU: what was found, where and when as `source` says, and for all else the figures of `known` times that
-/// ratio if there is one, within bounds that hold what the CPU's tables say, with that ratio and without. `known` is told_apart(), `own`
-/// what the CPU runs with.
+/// ratio if there is one, within bounds that hold what the CPU's tables say, with that ratio and without. `known` is
+/// told_apart(), `own` what the CPU runs with.
 TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& own, const std::string& source);
 
 /// A time that the table has no measured figure for, not even as a part of a sum.

@@ -9,12 +9,13 @@
 namespace s7200::tools::measuring {
 
 /// Of the meaning of commands and answers; the program's answers name it.
-inline constexpr std::uint8_t kVersion = 2;
+inline constexpr std::uint8_t kVersion = 3;
 
 inline constexpr std::uint8_t kCommandMark = 0x6D, kAnswerMark = 0x4D;
 
 /// Places in an answer, behind its mark and what it repeats of the command.
-inline constexpr std::size_t kMilliseconds = 6, kIdentification = 8, kVersionPlace = 9, kLoops = 10, kAnswerLength = 11;
+inline constexpr std::size_t kMilliseconds = 6, kIdentification = 8, kVersionPlace = 9, kLoops = 10, kCheck = 11,
+                             kAnswerLength = 13;
 
 inline constexpr std::uint8_t kNoLoop = 255;
 

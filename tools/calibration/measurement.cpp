@@ -29,33 +29,56 @@ constexpr Patience kForARun{3, 40 * kSecond};
 /// No loop runs, so it answers soon, unless an interrupted calibration has left it a long run.
 constexpr Patience kForTheFirstAnswer{14, 3 * kSecond};
 
+/// The words of `bytes`, exclusive or.
+std::uint16_t check_of(std::span<const std::uint8_t> bytes) {
+  std::uint16_t check = 0;
+  for (std::size_t at = 0; at + 1 < bytes.size(); at += 2) check = static_cast<std::uint16_t>(check ^ load16(&bytes[at]));
+  return check;
+}
+
+/// Of this version. One before had no check, and fewer characters.
+bool is_whole(std::span<const std::uint8_t> answer) {
+  return answer.size() == measuring::kAnswerLength && answer[0] == measuring::kAnswerMark &&
+         check_of(answer.subspan(1)) == 0;
+}
+
+[[noreturn]] void refuse_version(const std::string& found) {
+  throw std::runtime_error(fmt::format(
+      "the CPU runs {} of measure_times.stl, this command knows version {}: download that one", found, measuring::kVersion));
+}
+
 /// Nothing once the command is interrupted. `silent`: after each attempt that got no answer.
 std::optional<Measured> ask(Slave& slave, const Command& command, const Patience& patience = kForARun,
                             const std::function<void()>& silent = {}) {
   const Bytes request = command.bytes();
+  bool shorter = false;
   for (int attempt = 0; attempt < patience.attempts && !interrupted(); ++attempt) {
     if (attempt > 0 && silent) silent();
     const serial::Exchange exchange = slave.exchange({.frame = serial::to_frame(request), .timeout = patience.timeout});
     slave.wait(slave.pause());
     const Bytes answer = exchange.response_bytes();
-    if (answer.size() != measuring::kAnswerLength || !exchange.damage().empty() || answer[0] != measuring::kAnswerMark ||
-        !std::equal(request.begin() + 1, request.end(), answer.begin() + 1))
+    shorter = answer.size() == measuring::kCheck && answer[0] == measuring::kAnswerMark;
+    if (!exchange.damage().empty() || !is_whole(answer) ||
+        !std::equal(request.begin() + 1, request.begin() + measuring::kMilliseconds, answer.begin() + 1))
       continue;
     if (answer[measuring::kVersionPlace] != measuring::kVersion)
-      throw std::runtime_error(
-          fmt::format("the CPU runs version {} of measure_times.stl, this command knows version {}: download that one",
-                      answer[measuring::kVersionPlace], measuring::kVersion));
+      refuse_version(fmt::format("version {}", answer[measuring::kVersionPlace]));
     return Measured{load16(&answer[measuring::kMilliseconds]), answer[measuring::kIdentification],
                     answer[measuring::kLoops]};
   }
   if (interrupted()) return {};
+  if (shorter) refuse_version("an earlier version");
   throw std::runtime_error("no answer from measure_times.stl");
 }
 
 }  // namespace
 
 Bytes Command::bytes() const {
-  return {measuring::kCommandMark, loop, high_byte(outer), low_byte(outer), high_byte(inner), low_byte(inner)};
+  Bytes bytes{measuring::kCommandMark, loop, high_byte(outer), low_byte(outer), high_byte(inner), low_byte(inner)};
+  const std::uint16_t check = check_of(bytes);
+  bytes.push_back(high_byte(check));
+  bytes.push_back(low_byte(check));
+  return bytes;
 }
 
 std::size_t measured_loops(const Program& program) {
@@ -67,6 +90,20 @@ std::size_t measured_loops(const Program& program) {
          }));
 }
 
+namespace {
+
+/// As ask(), and nothing with `why` if the CPU is no longer there.
+std::optional<Measured> ask_on(Slave& slave, const Command& command, std::string& why) {
+  try {
+    return ask(slave, command);
+  } catch (const std::runtime_error& gone) {
+    why = gone.what();
+    return {};
+  }
+}
+
+}  // namespace
+
 Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const MeasurementListener& listener) {
   const auto outer = static_cast<std::uint16_t>(std::max(1.0, static_cast<double>(each) / kInnerNs));
   const auto in_ns = [](const Measured& measured) { return measured.milliseconds * 1e6; };
@@ -76,17 +113,17 @@ Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const Meas
     throw std::runtime_error(
         fmt::format("the CPU's program has {} loops, this command knows {}: download its own", nothing->loops, loops));
   listener.answered(nothing->identification);
-  Measurement measurement{nothing->identification, {}};
+  Measurement measurement{.identification = nothing->identification};
   for (std::size_t i = 0; i < loops; ++i) {
     // A first look with few repetitions says how many fit.
     const auto number = static_cast<std::uint8_t>(i);
     constexpr std::uint16_t kFew = 8;
-    const auto look = ask(slave, {number, outer, kFew});
+    const auto look = ask_on(slave, {number, outer, kFew}, measurement.broken_off);
     if (!look) break;
     const double few = in_ns(*look) - in_ns(*nothing);
     const double once = std::max(few + kWithinNs, kWithinNs) / (outer * kFew);
     const auto inner = static_cast<std::uint16_t>(std::clamp(kInnerNs / once, 1.0, 30'000.0));
-    const auto run = ask(slave, {number, outer, inner});
+    const auto run = ask_on(slave, {number, outer, inner}, measurement.broken_off);
     if (!run) break;
     const double repetitions = static_cast<double>(outer) * inner;
     measurement.loops.push_back(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "interpreter/base/bytes.hpp"
@@ -38,7 +39,8 @@ struct LoopTime {
 
 struct Measurement {
   std::uint8_t identification = 0;
-  std::vector<LoopTime> loops;  ///< by their numbers, as far as it came
+  std::vector<LoopTime> loops{};  ///< by their numbers, as far as it came
+  std::string broken_off{};       ///< why the CPU no longer answered; empty if it did to the end, or until an interruption
 };
 
 /// Who follows it.
@@ -48,8 +50,9 @@ struct MeasurementListener {
   std::function<void(std::size_t loops)> measured;            ///< so many so far
 };
 
-/// Asks for all loops, each for about so long; once the command is interrupted for no more of them. Throws SlaveUnreachable,
-/// and std::runtime_error if what answers is not the program, or another version of it, or does not answer.
+/// Asks for all loops, each for about so long; once the command is interrupted, or the CPU is gone, for no more of them.
+/// Throws SlaveUnreachable, and std::runtime_error if what answers first is not the program, or another version of it, or
+/// nothing does.
 Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const MeasurementListener& listener);
 
 }  // namespace s7200::tools

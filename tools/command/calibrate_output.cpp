@@ -126,8 +126,8 @@ std::string doubt_about_cpu(const CpuModel& model, std::uint8_t identification, 
 
 std::string interruption_note(const Measurement& measurement, std::size_t loops) {
   if (measurement.loops.size() == loops) return {};
-  return fmt::format("interrupted after {} of {} loops: the rest of the table is not measured", measurement.loops.size(),
-                     loops);
+  return fmt::format("{} after {} of {} loops: the rest of the table is not measured",
+                     measurement.broken_off.empty() ? "interrupted" : "broken off", measurement.loops.size(), loops);
 }
 
 std::string contradiction_note(const Fit& fit) {

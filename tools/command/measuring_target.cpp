@@ -114,24 +114,30 @@ std::optional<Measurement> measure(const std::string& target, const ProgramOptio
   const auto say_how = [&](std::string_view why) {
     if (!std::exchange(said_how, true)) print_note(fmt::format("{}{}", why, how_to_measure(" ")));
   };
+  const auto say_why = [&](const std::string& error) {
+    print_error(error);
+    if (const std::string stopped = cpu ? cpu->why_it_stopped() : ""; !stopped.empty())
+      print_note(fmt::format("the CPU is in STOP; {}", stopped));
+    else if (!interrupted())
+      say_how("");
+  };
   try {
     cpu = MeasuringTarget::open(target, program, exit_code);
     if (!cpu) return {};
     Measurement measurement =
         measure_loops(cpu->slave(), loops, each, {[&] { say_how("no answer yet; "); }, answered, LoopProgress(loops)});
-    if (measurement.loops.empty()) throw std::runtime_error("interrupted before anything was measured");
-    if (measurement.loops.size() < loops) exit_code = kCheckFailed;
+    if (measurement.loops.empty())
+      throw std::runtime_error(measurement.broken_off.empty() ? "interrupted before anything was measured"
+                                                              : measurement.broken_off);
+    if (measurement.loops.size() < loops) exit_code = measurement.broken_off.empty() ? kCheckFailed : kUnusable;
+    if (!measurement.broken_off.empty()) say_why(measurement.broken_off);
     return measurement;
   } catch (const WrongCpu& wrong) {
     print_error(wrong.what());
   } catch (const SlaveUnreachable& gone) {
     print_error(gone.what());
   } catch (const std::runtime_error& error) {
-    print_error(error.what());
-    if (const std::string stopped = cpu ? cpu->why_it_stopped() : ""; !stopped.empty())
-      print_note(fmt::format("the CPU is in STOP; {}", stopped));
-    else if (!interrupted())
-      say_how("");
+    say_why(error.what());
   }
   exit_code = interrupted() ? kCheckFailed : kUnusable;
   return {};
