@@ -25,14 +25,14 @@ bool write(const std::optional<Destination>& to, const std::string& text) {
   return false;
 }
 
-/// False after a message.
+/// False after a message, but for an interruption, which is said besides.
 bool write_transcript(const Destination& to, const TestOptions& options, const SuiteResult& result) {
   const Time tolerance = tolerance_for(options.tolerance, result.live);
   const std::string text = transcript_text(result.reports, {options.record, result.tested, tolerance, result.live});
-  const std::string why = why_not_replayed(text.size());
+  const std::string why = why_not_recorded(result.reports, text.size());
   if (why.empty()) return write(to, text);
   print_error(fmt::format("cannot write {}: {}", options.record, why));
-  return false;
+  return interrupted();
 }
 
 int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destinations& to) {
@@ -54,9 +54,7 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
   bool all_written = !to.junit || write(to.junit, to_junit(result->reports));
-  const bool grown = growing && growing->any() && !result->reports.empty() &&
-                     result->reports.front().result.outcome != ScenarioResult::Outcome::Skipped;
-  if (to.record) all_written &= grown ? growing->complete() : write_transcript(*to.record, options, *result);
+  if (to.record) all_written &= growing->any() ? growing->complete() : write_transcript(*to.record, options, *result);
   print_interruption();
   if (!result->unreachable.empty()) print_error(result->unreachable);
   if (!all_written || !result->unreachable.empty() || !result->any_had_a_program()) return kUnusable;

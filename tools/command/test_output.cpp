@@ -63,8 +63,9 @@ void TestOutput::show(const Compared& compared) {
   if (json_) return clear_progress();
   heading(*compared.scenario);
   const bool skipped = !compared.skipped.empty();
-  const std::string remark =
-      skipped ? fmt::format("   ({})", compared.skipped) : fmt::format("   {} exchanges", compared.exchanges);
+  const std::string remark = skipped
+                                 ? fmt::format("   ({})", compared.skipped)
+                                 : fmt::format("   {} exchange{}", compared.exchanges, compared.exchanges == 1 ? "" : "s");
   const char* const word = skipped ? "skip  " : compared.difference.found ? "DIFFER" : "same  ";
   fmt::print("  {}  {}{}\n{}", word, stl::printable(compared.scenario->name), stl::printable(remark),
              compared.difference.text);

@@ -80,6 +80,7 @@ std::string properties_text(const Report& report) {
   property("checks", std::to_string(result.checks));
   property("skipped_steps", std::to_string(result.skipped_steps));
   if (const auto& band = result.band) {
+    property("tables_asked", std::to_string(band->asked));
     property("tables", std::to_string(band->tables));
     property("tables_passed", std::to_string(band->passed));
     property("tables_failed_with", band->failed_with);

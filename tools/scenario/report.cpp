@@ -110,7 +110,9 @@ std::string in_one_line(std::string_view text) {
 }  // namespace
 
 std::string band_text(const BandResult& band) {
-  const std::string share = fmt::format("{} of {} tables", band.passed, band.tables);
+  const std::string share = band.tables == band.asked ? fmt::format("{} of {} tables", band.passed, band.tables)
+                                                      : fmt::format("{} of {} tables, and {} were asked for", band.passed,
+                                                                    band.tables, band.asked);
   return band.latency.any() ? fmt::format("{}, answers after {}", share, to_text(band.latency)) : share;
 }
 

@@ -58,7 +58,8 @@ nlohmann::ordered_json outcome_json(const Report& report) {
   json["checks"] = report.result.checks;
   json["skipped_steps"] = report.result.skipped_steps;
   if (const auto& band = report.result.band)
-    json["band"] = {{"tables", band->tables},
+    json["band"] = {{"asked", band->asked},
+                    {"tables", band->tables},
                     {"passed", band->passed},
                     {"failed_with", band->failed_with},
                     {"latency_us", to_json(band->latency)}};

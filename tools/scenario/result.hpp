@@ -41,9 +41,10 @@ struct Seen {
 
 /// How a scenario went with all tables of a band of execution times.
 struct BandResult {
-  std::size_t tables = 0, passed = 0;
-  std::string failed_with{};  ///< the first of the tables with which it failed; empty: none
-  LatencyRange latency{};     ///< of all its answers
+  std::size_t asked = 0;               ///< tables it has
+  std::size_t tables = 0, passed = 0;  ///< fewer if it was interrupted
+  std::string failed_with{};           ///< the first of the tables with which it failed; empty: none
+  LatencyRange latency{};              ///< of all its answers
 };
 
 struct ScenarioResult {

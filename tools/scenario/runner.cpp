@@ -88,7 +88,9 @@ void Run::do_step(const Step& step) {
     step.action->act(*this);
 }
 
+/// What an interruption cut short has found nothing, and is no exchange as it would have gone.
 void Run::add(Finding finding) {
+  if (interrupted()) return;
   if (!scenario_.steps.empty()) finding.step = std::min(step_, scenario_.steps.size() - 1);
   const bool names_plc = plant_ && finding.what.find(plant_->of_plc("")) != std::string::npos;
   if (step_ < scenario_.steps.size() && !scenario_.steps[step_].on.empty() && !names_plc)
@@ -104,6 +106,7 @@ void Run::add_exchange(Finding finding) {
 }
 
 void Run::keep(const serial::Exchange& exchange) {
+  if (interrupted()) return;
   if (bench_.watch) return bench_.watch({step_, turn_, exchange});
   if (bench_.exchanges_wanted) result_.seen.push_back({step_, turn_, exchange});
 }

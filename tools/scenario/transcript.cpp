@@ -167,4 +167,9 @@ std::string why_not_replayed(std::size_t bytes) {
                      kLongestTranscript);
 }
 
+std::string why_not_recorded(const std::vector<Report>& reports, std::size_t bytes) {
+  if (count(reports, ScenarioResult::Outcome::Skipped) == reports.size()) return "no scenario went to its end";
+  return why_not_replayed(bytes);
+}
+
 }  // namespace s7200::tools

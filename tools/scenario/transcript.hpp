@@ -30,4 +30,7 @@ std::string transcript_heading(const Transcript& transcript);
 /// Why a transcript of so many bytes could not be replayed; empty if it can.
 std::string why_not_replayed(std::size_t bytes);
 
+/// The same of these scenarios: one without any could not be replayed either, and is not written over another.
+std::string why_not_recorded(const std::vector<Report>& reports, std::size_t bytes);
+
 }  // namespace s7200::tools
