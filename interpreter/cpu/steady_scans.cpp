@@ -71,16 +71,16 @@ Time SteadyScans::go_on(Core& core, Time limit) {
     return 0;
   }
   if (expected_) check(core);
-  if (core.touched && is_looking()) {
-    in_vain(core);  // a program that does something to the outside in each scan will do so again
-    return 0;
-  }
-  if (core.touched) known_ = Known::Nothing;
   const Time change = next_change(core);
   const Time horizon = std::min({limit, core.next_event(), change, core.s.time + kFurthest});
   // The expected change has happened, so the pair no longer describes the scans after it. A timer that is reset in every
   // scan shifts the change without ever reaching it.
-  if (known_ != Known::Nothing && change != change_) known_ = Known::Nothing;
+  const bool ended = core.touched || (known_ != Known::Nothing && change != change_);
+  if (ended && is_looking()) {
+    in_vain(core);  // as in a program that switches an output, or has a timer on, in every second scan
+    return 0;
+  }
+  if (ended) known_ = Known::Nothing;
   switch (known_) {
     case Known::Nothing:
       change_ = change;

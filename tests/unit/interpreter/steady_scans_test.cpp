@@ -102,7 +102,8 @@ TEST(SteadyScans, OfTwoHundredAndFiftyYearsOverflowNothing) {
 }
 
 TEST(SteadyScans, AreSeldomLookedForWhereNoneAreFound) {
-  for (const char* text : {"LDN Q0.0\n= Q0.0\nMEND\n", "LD SM0.6\n= Q0.0\nMEND\n", "LD SM0.0\nINCW VW0\nMEND\n"}) {
+  for (const char* text : {"LDN Q0.0\n= Q0.0\nMEND\n", "LD SM0.6\n= Q0.0\nMEND\n", "LD SM0.0\nINCW VW0\nMEND\n",
+                           "LD SM0.6\nTON T37, 100\nMEND\n", "LD SM0.0\nINCW VW0\nTON T37, VW0\nMEND\n"}) {
     PlcThat plc(SteadyScansUse::On, text);
     plc.run_until(600 * kSecond);
     EXPECT_EQ(plc.cpu.passed_over(), 0) << text;
