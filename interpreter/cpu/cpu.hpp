@@ -98,7 +98,7 @@ class Cpu {
   /// What is wired to an input byte, whatever is forced.
   std::uint8_t terminals(std::uint32_t byte) const { return core_.s.terminals[byte]; }
 
-  void set_sink(TraceSink* sink) { core_.set_sink(sink); }
+  void set_sink(TraceSink* sink) { from_outside().set_sink(sink); }
 
   /// Who is wired to the output points; null: nobody. Not owned.
   void set_output_listener(OutputListener* listener) { core_.set_output_listener(listener); }

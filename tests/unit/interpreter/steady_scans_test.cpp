@@ -149,6 +149,7 @@ TEST(SteadyScans, EndWithWhateverIsDoneToTheCpu) {
       {"an input", [](Cpu& cpu) { cpu.set_input(1, 1, cpu.time()); }},
       {"the clock set", [](Cpu& cpu) { cpu.set_clock({}); }},
       {"a state restored", [](Cpu& cpu) { cpu.restore(State(cpu.state())); }},
+      {"someone else to be told", [](Cpu& cpu) { cpu.set_sink(nullptr); }},
       {"an instruction skipped", [](Cpu& cpu) { cpu.go_to(cpu.state().pc); }},
       {"the logic stack set", [](Cpu& cpu) { cpu.set_stack(cpu.state().stack); }},
       {"a character received", [](Cpu& cpu) { cpu.character_received({}); }},
