@@ -71,6 +71,16 @@ std::optional<Measured> ask(Slave& slave, const Command& command, const Patience
   throw std::runtime_error("no answer from measure_times.stl");
 }
 
+/// As ask(), and nothing with `why` if the CPU is no longer there.
+std::optional<Measured> ask_on(Slave& slave, const Command& command, std::string& why) {
+  try {
+    return ask(slave, command);
+  } catch (const std::runtime_error& gone) {
+    why = gone.what();
+    return {};
+  }
+}
+
 }  // namespace
 
 Bytes Command::bytes() const {
@@ -89,20 +99,6 @@ std::size_t measured_loops(const Program& program) {
            return counter != nullptr && counter->number == measuring::kCounterAt;
          }));
 }
-
-namespace {
-
-/// As ask(), and nothing with `why` if the CPU is no longer there.
-std::optional<Measured> ask_on(Slave& slave, const Command& command, std::string& why) {
-  try {
-    return ask(slave, command);
-  } catch (const std::runtime_error& gone) {
-    why = gone.what();
-    return {};
-  }
-}
-
-}  // namespace
 
 Measurement measure_loops(Slave& slave, std::size_t loops, Time each, const MeasurementListener& listener) {
   const auto outer = static_cast<std::uint16_t>(std::max(1.0, static_cast<double>(each) / kInnerNs));

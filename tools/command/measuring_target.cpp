@@ -116,10 +116,9 @@ std::optional<Measurement> measure(const std::string& target, const ProgramOptio
   };
   const auto say_why = [&](const std::string& error) {
     print_error(error);
-    if (const std::string stopped = cpu ? cpu->why_it_stopped() : ""; !stopped.empty())
-      print_note(fmt::format("the CPU is in STOP; {}", stopped));
-    else if (!interrupted())
-      say_how("");
+    const std::string stopped = cpu ? cpu->why_it_stopped() : "";
+    if (!stopped.empty()) print_note(fmt::format("the CPU is in STOP; {}", stopped));
+    return !stopped.empty();
   };
   try {
     cpu = MeasuringTarget::open(target, program, exit_code);
@@ -137,7 +136,7 @@ std::optional<Measurement> measure(const std::string& target, const ProgramOptio
   } catch (const SlaveUnreachable& gone) {
     print_error(gone.what());
   } catch (const std::runtime_error& error) {
-    say_why(error.what());
+    if (!say_why(error.what()) && !interrupted()) say_how("");
   }
   exit_code = interrupted() ? kCheckFailed : kUnusable;
   return {};

@@ -96,14 +96,14 @@ void add_to(BandResult& band, const ScenarioResult& of_table, const std::string&
     if (const auto latency = latency_of(seen.exchange)) band.latency.add(*latency);
 }
 
-/// A scenario that passes with too few tables fails, and so does one that fails with the first. Not all tables are none.
+/// A scenario that passes with too few tables fails, and so does one that fails with the first. An interrupted
+/// band has no share.
 void judge_robustness(const Scenario& scenario, ScenarioResult& result) {
-  if (!scenario.robust) return;
-  if (result.band->tables < result.band->asked && result.outcome == Outcome::Passed) {
-    result.outcome = Outcome::Skipped;
-    result.reason = "interrupted";
+  if (!scenario.robust || result.band->passed == result.band->asked) return;
+  if (result.band->tables < result.band->asked) {
+    if (result.outcome == Outcome::Passed) result.outcome = Outcome::Skipped, result.reason = "interrupted";
+    return;
   }
-  if (result.band->tables < result.band->asked || result.band->passed == result.band->tables) return;
   const double share = 100.0 * static_cast<double>(result.band->passed) / static_cast<double>(result.band->tables);
   const bool with_first = result.outcome == Outcome::Passed;
   if (with_first && share >= *scenario.robust) return;
