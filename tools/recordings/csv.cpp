@@ -10,6 +10,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -157,10 +158,11 @@ std::optional<Bytes> byte_in_decimal(std::string_view field) {
 }
 
 /// Logic analysers write a character as a number from 0 to 255 if they are told so: then some have one digit, or three.
-bool is_in_decimal(const std::vector<std::string>& lines, const Columns& columns) {
+bool is_in_decimal(std::string_view rows, const Columns& columns) {
   bool any = false;
-  for (std::size_t i = 1; i < lines.size() && columns.data; ++i) {
-    const auto fields = fields_of(lines[i], columns.separator);
+  if (!columns.data) return false;
+  for (const std::string_view row : Lines(rows)) {
+    const auto fields = fields_of(row, columns.separator);
     const std::string_view field = *columns.data < fields.size() ? stl::trim(fields[*columns.data]) : "";
     if (field.empty()) continue;
     if (!byte_in_decimal(field)) return false;
@@ -179,16 +181,18 @@ bool looks_like_csv(std::string_view bytes) {
   return columns.direction && has_bytes_below(bytes, columns);
 }
 
-std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
+std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
   LineRecording recording;
-  const std::vector<std::string> lines = stl::split_lines(bytes);
-  const Columns columns = columns_of(lines.front());
-  const bool decimal = is_in_decimal(lines, columns);
+  std::string_view rows = bytes;
+  const Columns columns = columns_of(stl::take_line(rows));
+  const bool decimal = is_in_decimal(rows, columns);
   DayCounter days;
   bool characters = columns.time.has_value();
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    if (lines[i].find_first_not_of(" \t,;") == std::string::npos) continue;
-    const auto fields = fields_of(lines[i], columns.separator);
+  std::size_t number = 1;
+  for (const std::string_view row : Lines(rows)) {
+    ++number;
+    if (row.find_first_not_of(" \t,;") == std::string_view::npos) continue;
+    const auto fields = fields_of(row, columns.separator);
     const auto field = [&](std::optional<std::size_t> column) {
       return column && *column < fields.size() ? fields[*column] : "";
     };
@@ -197,7 +201,7 @@ std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingCho
     const auto data_column = !columns.sent ? columns.data : is_received ? columns.received : columns.sent;
     auto data = decimal ? byte_in_decimal(field(data_column)) : bytes_of_text(field(data_column));
     if (columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
-      why = fmt::format("line {}: bytes in both directions; write them in two lines", i + 1);
+      why = fmt::format("line {}: bytes in both directions; write them in two lines", number);
       return {};
     }
     if (time && !time->of_day && !columns.unknown_unit.empty()) {
@@ -206,7 +210,7 @@ std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingCho
     }
     const bool no_time = columns.time && !time;
     if (no_time || !data) {
-      why = fmt::format("line {}: '{}' is not {}", i + 1, stl::shortened(field(no_time ? columns.time : data_column)),
+      why = fmt::format("line {}: '{}' is not {}", number, stl::shortened(field(no_time ? columns.time : data_column)),
                         no_time ? "a time" : "bytes in hex");
       return {};
     }
@@ -215,7 +219,7 @@ std::optional<LineRecording> read_csv(const std::string& bytes, const ReadingCho
                                      : is_received ? Direction::Answer
                                                    : Direction::Request,
                         .bytes = std::move(*data),
-                        .place = fmt::format("line {}", i + 1)};
+                        .place = fmt::format("line {}", number)};
     if (std::ranges::any_of(columns.errors, [&](std::size_t column) { return says_error(field(column)); }))
       for (std::size_t place = 0; place < frame.bytes.size(); ++place) frame.damaged.push_back(place);
     characters = characters && frame.bytes.size() == 1;

@@ -7,6 +7,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -31,22 +32,21 @@ bool is_of_mbpoll(std::string_view line) { return line.starts_with("mbpoll ") ||
 
 bool looks_like_libmodbus(std::string_view bytes) {
   if (!is_text(bytes)) return false;
-  return std::ranges::any_of(stl::split_lines(bytes),
+  return std::ranges::any_of(Lines(bytes),
                              [](std::string_view line) { return is_of_mbpoll(line) || frame_in(line).has_value(); });
 }
 
-std::optional<LineRecording> read_libmodbus(const std::string& bytes, const ReadingChoices& choices, std::string&) {
+std::optional<LineRecording> read_libmodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
   std::size_t number = 0;
-  const std::vector<std::string> lines = stl::split_lines(bytes);
-  for (const std::string& line : lines) {
+  for (const std::string_view line : Lines(bytes)) {
     ++number;
     auto frame = frame_in(line);
     if (!frame) continue;
     frame->place = fmt::format("line {}", number);
     recording.frames.push_back(std::move(*frame));
   }
-  if (recording.frames.empty()) read_values_of_mbpoll(lines, choices, recording);
+  if (recording.frames.empty()) read_values_of_mbpoll(bytes, choices, recording);
   return recording;
 }
 

@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -165,10 +166,10 @@ class MbpollReader {
 
 }  // namespace
 
-void read_values_of_mbpoll(std::span<const std::string> lines, const ReadingChoices& choices, LineRecording& recording) {
+void read_values_of_mbpoll(std::string_view bytes, const ReadingChoices& choices, LineRecording& recording) {
   MbpollReader reader(recording, choices.mbpoll_from_zero);
   std::size_t number = 0;
-  for (const std::string& line : lines) reader.take(line, ++number);
+  for (const std::string_view line : Lines(bytes)) reader.take(line, ++number);
   if (recording.frames.empty()) {
     recording.notes.emplace_back(
         "mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it prints "

@@ -3,11 +3,11 @@
 #include <pcap/pcap.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <memory>
-#include <tuple>
 #include <utility>
 
 #include "serial_sim/modbus/mbap.hpp"
@@ -191,8 +191,9 @@ class Reader {
 
 /// What libpcap reads at once: it refuses a pcapng whose interfaces have several link types.
 struct CapturePart {
-  std::string bytes;
+  std::string_view bytes;
   std::vector<std::size_t> numbers{};  ///< of its packets in the whole file; empty: all of them, from 1 on
+  std::string own_bytes{};             ///< of a part that is not the whole file
 };
 
 /// Numbers in the order of bytes that a section has.
@@ -215,16 +216,17 @@ class PcapNgNumbers {
 };
 
 /// A pcapng by the link types of its interfaces, with their packets. Any other file, or one that is broken, is one part.
-std::vector<CapturePart> parts_of(const std::string& file) {
+std::vector<CapturePart> parts_of(std::string_view file) {
   constexpr std::uint32_t kSection = 0x0A0D0D0A, kInterface = 1, kSimplePacket = 3, kPacket = 6;
   constexpr std::size_t kHead = 8, kShortest = 16;
   std::map<std::uint32_t, CapturePart> by_link;
   std::map<std::uint32_t, std::uint32_t> interfaces;        // of a link type's part: how many so far
   std::vector<std::pair<std::uint32_t, std::uint32_t>> of;  // interface of the section: link type, number in its part
-  std::string section;
+  std::string_view section;
   std::size_t number = 0;
   PcapNgNumbers numbers(file);
-  const std::vector<CapturePart> whole{{.bytes = file}};
+  std::vector<CapturePart> whole;
+  whole.push_back({.bytes = file});
   for (std::size_t at = 0; at < file.size();) {
     if (at + kShortest > file.size()) return whole;
     const bool begins = numbers.get(at, 4) == kSection;
@@ -232,21 +234,22 @@ std::vector<CapturePart> parts_of(const std::string& file) {
     const std::uint32_t type = numbers.get(at, 4), length = numbers.get(at + 4, 4);
     if ((type == kInterface || type == kPacket) && length < kShortest + 4) return whole;
     if (length < 12 || length > file.size() - at) return whole;
-    std::string block = file.substr(at, length);
+    const std::string_view block = file.substr(at, length);
     if (begins) {
       if (!section.empty()) return whole;  // libpcap reads several, if they are alike
-      section = std::move(block);
+      section = block;
     } else if (type == kInterface) {
       const std::uint32_t link = numbers.get(at + kHead, 2);
       of.emplace_back(link, interfaces[link]++);
-      by_link[link].bytes += block;
+      by_link[link].own_bytes += block;
     } else if (type == kPacket || type == kSimplePacket) {
       ++number;
       const std::uint32_t interface = type == kPacket ? numbers.get(at + kHead, 4) : 0;
       if (interface >= of.size()) return whole;
       const auto& [link, place] = of[interface];
-      if (type == kPacket) numbers.put(block, kHead, place);
-      by_link[link].bytes += block;
+      std::string& bytes = by_link[link].own_bytes;
+      bytes += block;
+      if (type == kPacket) numbers.put(bytes, bytes.size() - block.size() + kHead, place);
       by_link[link].numbers.push_back(number);
     }
     at += length;
@@ -254,67 +257,96 @@ std::vector<CapturePart> parts_of(const std::string& file) {
   if (by_link.size() < 2 || section.empty()) return whole;
   std::vector<CapturePart> parts;
   for (auto& [link, part] : by_link) {
-    part.bytes.insert(0, section);
+    part.own_bytes.insert(0, section);
     if (!part.numbers.empty()) parts.push_back(std::move(part));
   }
   return parts;
 }
-
-struct Packet {
-  std::size_t number = 0;
-  Time at = 0;
-  int link_type = 0;
-  Bytes data{};
-};
-
-struct Packets {
-  std::vector<Packet> list{};
-  std::vector<int> unknown_link_types{};
-  std::string error{};  ///< from where on a file could not be read
-};
 
 bool is_known(int link_type) {
   return link_type == kSerial || link_type == DLT_EN10MB || link_type == DLT_LINUX_SLL || link_type == DLT_LINUX_SLL2 ||
          link_type == DLT_RAW || link_type == DLT_IPV4 || link_type == DLT_IPV6;
 }
 
-/// False, and `why`, for what is no capture.
-bool read_packets(const CapturePart& part, Packets& packets, std::string& why) {
-  std::array<char, PCAP_ERRBUF_SIZE> error{};
-  std::FILE* file = ::fmemopen(const_cast<char*>(part.bytes.data()), part.bytes.size(), "rb");
-  if (file == nullptr) return why = "out of memory", false;
-  const std::unique_ptr<pcap_t, void (*)(pcap_t*)> capture(
-      pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, error.data()), [](pcap_t* p) {
-        if (p != nullptr) pcap_close(p);
-      });
-  if (!capture) {
-    std::fclose(file);
-    why = error.data();
-    return false;
+/// The packets of a part, one after the other.
+class CaptureReader {
+ public:
+  struct Packet {
+    std::size_t number = 0;
+    Time at = 0;
+    Data data{};  ///< until the next one is read
+  };
+
+  /// Null, and `why`, for what is no capture.
+  static std::unique_ptr<CaptureReader> open(CapturePart part, std::string& why) {
+    auto reader = std::unique_ptr<CaptureReader>(new CaptureReader(std::move(part)));
+    return reader->open_file(why) ? std::move(reader) : nullptr;
   }
-  const int link_type = pcap_datalink(capture.get());
-  if (!is_known(link_type)) {
-    packets.unknown_link_types.push_back(link_type);
-    return true;
-  }
-  pcap_pkthdr* head = nullptr;
-  const u_char* data = nullptr;
-  int result = 0;
-  std::size_t number = 0;
-  for (std::size_t read = 0; (result = pcap_next_ex(capture.get(), &head, &data)) == 1; ++read) {
-    number = read < part.numbers.size() ? part.numbers[read] : read + 1;
+
+  int link_type() const { return link_type_; }
+  /// From where on the part could not be read.
+  const std::string& error() const { return error_; }
+  /// Nothing at its end.
+  const std::optional<Packet>& packet() const { return packet_; }
+
+  /// False, and `why`, if the packet has a time that no recording has.
+  bool read_next(std::string& why) {
+    pcap_pkthdr* head = nullptr;
+    const u_char* data = nullptr;
+    const int result = pcap_next_ex(capture_.get(), &head, &data);
+    packet_.reset();
+    if (result == PCAP_ERROR)
+      error_ = fmt::format("after packet {} the file cannot be read: {}", last_, pcap_geterr(capture_.get()));
+    if (result != 1) return true;
+    last_ = read_ < part_.numbers.size() ? part_.numbers[read_] : read_ + 1;
+    ++read_;
     if (std::abs(head->ts.tv_sec) >= kFurthestTime / kSecond) {
-      why = fmt::format("packet {}: {} s since 1970 is not a time of a recording", number, head->ts.tv_sec);
+      why = fmt::format("packet {}: {} s since 1970 is not a time of a recording", last_, head->ts.tv_sec);
       return false;
     }
-    packets.list.push_back({.number = number,
-                            .at = head->ts.tv_sec * kSecond + head->ts.tv_usec,
-                            .link_type = link_type,
-                            .data = Bytes(data, data + head->caplen)});
+    packet_ = {.number = last_, .at = head->ts.tv_sec * kSecond + head->ts.tv_usec, .data = Data(data, head->caplen)};
+    return true;
   }
-  if (result == PCAP_ERROR)
-    packets.error = fmt::format("after packet {} the file cannot be read: {}", number, pcap_geterr(capture.get()));
-  return true;
+
+ private:
+  explicit CaptureReader(CapturePart part) : part_(std::move(part)) {
+    if (!part_.own_bytes.empty()) part_.bytes = part_.own_bytes;
+  }
+
+  bool open_file(std::string& why) {
+    std::array<char, PCAP_ERRBUF_SIZE> error{};
+    std::FILE* file = ::fmemopen(const_cast<char*>(part_.bytes.data()), part_.bytes.size(), "rb");
+    if (file == nullptr) return why = "out of memory", false;
+    capture_.reset(pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, error.data()));
+    if (!capture_) {
+      std::fclose(file);
+      why = error.data();
+      return false;
+    }
+    link_type_ = pcap_datalink(capture_.get());
+    return true;
+  }
+
+  struct Close {
+    void operator()(pcap_t* capture) const { pcap_close(capture); }
+  };
+
+  CapturePart part_;
+  std::unique_ptr<pcap_t, Close> capture_;
+  int link_type_ = 0;
+  std::size_t read_ = 0, last_ = 0;
+  std::optional<Packet> packet_;
+  std::string error_;
+};
+
+using CaptureReaders = std::vector<std::unique_ptr<CaptureReader>>;
+
+/// The part whose packet is the next one of the file; null at its end.
+CaptureReader* next_part(const CaptureReaders& parts) {
+  CaptureReader* next = nullptr;
+  for (const auto& part : parts)
+    if (part->packet() && (next == nullptr || part->packet()->number < next->packet()->number)) next = part.get();
+  return next;
 }
 
 }  // namespace
@@ -327,23 +359,35 @@ bool looks_like_pcap(std::string_view bytes) {
   return false;
 }
 
-std::optional<LineRecording> read_pcap(const std::string& bytes, const ReadingChoices& choices, std::string& why) {
-  Packets packets;
-  for (const CapturePart& part : parts_of(bytes))
-    if (!read_packets(part, packets, why)) return {};
-  if (packets.list.empty() && packets.error.empty() && !packets.unknown_link_types.empty()) {
-    why = fmt::format("link type {} is not one of {} (serial), Ethernet, Linux cooked or raw IP",
-                      packets.unknown_link_types.front(), kSerial);
+std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+  CaptureReaders parts;
+  std::vector<int> unknown_link_types;
+  for (CapturePart& each : parts_of(bytes)) {
+    auto part = CaptureReader::open(std::move(each), why);
+    if (!part) return {};
+    if (!is_known(part->link_type()))
+      unknown_link_types.push_back(part->link_type());
+    else if (part->read_next(why))
+      parts.push_back(std::move(part));
+    else
+      return {};
+  }
+  if (parts.empty() && !unknown_link_types.empty()) {
+    why = fmt::format("link type {} is not one of {} (serial), Ethernet, Linux cooked or raw IP", unknown_link_types.front(),
+                      kSerial);
     return {};
   }
-  std::ranges::stable_sort(packets.list, {}, &Packet::number);
   Reader reader(choices);
-  for (const Packet& packet : packets.list) reader.take(packet.number, packet.at, packet.link_type, packet.data);
-  if (!packets.error.empty()) reader.cut_off();
+  while (CaptureReader* const part = next_part(parts)) {
+    reader.take(part->packet()->number, part->packet()->at, part->link_type(), part->packet()->data);
+    if (!part->read_next(why)) return {};
+  }
+  const auto broken = std::ranges::find_if(parts, [](const auto& part) { return !part->error().empty(); });
+  if (broken != parts.end()) reader.cut_off();
   LineRecording recording = reader.finish();
-  for (const int link_type : packets.unknown_link_types)
+  for (const int link_type : unknown_link_types)
     recording.notes.push_back(fmt::format("what has link type {} was left out", link_type));
-  if (!packets.error.empty()) recording.notes.push_back(packets.error);
+  if (broken != parts.end()) recording.notes.push_back((*broken)->error());
   return recording;
 }
 

@@ -12,6 +12,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -72,17 +73,17 @@ bool goes_on(const LineRecording& recording, const Moved& moved, Direction direc
 }  // namespace
 
 bool looks_like_pymodbus(std::string_view bytes) {
-  return is_text(bytes) && std::ranges::any_of(stl::split_lines(bytes), says_it_again);
+  return is_text(bytes) && std::ranges::any_of(Lines(bytes), says_it_again);
 }
 
 /// A log that begins with what was sent is a client's. One that begins with what has come may be a server's, or begin in the
 /// middle: then the frames have to say it themselves.
-std::optional<LineRecording> read_pymodbus(const std::string& bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices&, std::string&) {
   LineRecording recording;
   DayCounter days;
   std::optional<bool> is_client;
   std::size_t number = 0;
-  for (const std::string& line : stl::split_lines(bytes)) {
+  for (const std::string_view line : Lines(bytes)) {
     ++number;
     auto moved = moved_in(line);
     if (!moved) continue;

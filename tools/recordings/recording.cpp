@@ -39,11 +39,13 @@ void note_times_that_run_backwards(LineRecording& recording) {
 }
 
 /// Logs that Windows programs write as UTF-16, with its mark, as UTF-8; any other file as it is.
-std::string in_utf8(const std::string& file) {
+/// `decoded` keeps what is converted.
+std::string_view in_utf8(std::string_view file, std::string& decoded) {
   const bool marked = file.starts_with("\xFF\xFE") || file.starts_with("\xFE\xFF");
   std::string why;
-  auto decoded = marked ? stl::decode(file, why) : std::nullopt;
-  return decoded ? std::move(decoded->text) : std::string(stl::without_byte_order_mark(file));
+  auto text = marked ? stl::decode(file, why) : std::nullopt;
+  if (!text) return stl::without_byte_order_mark(file);
+  return decoded = std::move(text->text);
 }
 
 /// By the sections of its head.
@@ -57,8 +59,9 @@ std::span<const RecordingForm> recording_forms() { return kForms; }
 
 bool is_text(std::string_view bytes) { return bytes.find('\0') == std::string_view::npos; }
 
-std::optional<LineRecording> read_recording(const std::string& file, const ReadingChoices& choices, std::string& why) {
-  const std::string bytes = in_utf8(file);
+std::optional<LineRecording> read_recording(std::string_view file, const ReadingChoices& choices, std::string& why) {
+  std::string decoded;
+  const std::string_view bytes = in_utf8(file, decoded);
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
     why = fmt::format("it has none of the forms {}", stl::joined(kForms, &RecordingForm::name));

@@ -52,11 +52,11 @@ struct RecordingForm {
   std::string_view meaning;  ///< for the help
   bool is_log;               ///< CSV counts as one: analysers write it, but so do programs
   bool (*looks_like)(std::string_view bytes);
-  std::optional<LineRecording> (*read)(const std::string& bytes, const ReadingChoices& choices, std::string& why);
+  std::optional<LineRecording> (*read)(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 };
 std::span<const RecordingForm> recording_forms();
 
 /// Reads a file of any of the forms. Returns nothing and sets `why` if `bytes` have none of them, or no frame.
-std::optional<LineRecording> read_recording(const std::string& bytes, const ReadingChoices& choices, std::string& why);
+std::optional<LineRecording> read_recording(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
 }  // namespace s7200::tools

@@ -6,6 +6,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -271,9 +272,9 @@ class LogReader {
 
 }  // namespace
 
-std::optional<LineRecording> read_text_log(const std::string& bytes, const ReadingChoices& choices, std::string&) {
+std::optional<LineRecording> read_text_log(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LogReader reader;
-  for (const std::string& line : stl::split_lines(bytes)) reader.take(line);
+  for (const std::string_view line : Lines(bytes)) reader.take(line);
   return reader.finish(choices);
 }
 

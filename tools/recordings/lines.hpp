@@ -1,0 +1,43 @@
+// The lines of a recording, however many: nothing of it is copied.
+#pragma once
+
+#include <iterator>
+#include <string_view>
+
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+
+/// The lines of a text without their ends, CR LF, LF or CR: `for (const std::string_view line : Lines(text))`.
+class Lines {
+ public:
+  class Iterator {
+   public:
+    using value_type = std::string_view;
+    using difference_type = std::ptrdiff_t;
+
+    Iterator() = default;
+    explicit Iterator(std::string_view text) : rest_(text) { ++*this; }
+    std::string_view operator*() const { return line_; }
+    Iterator& operator++() {
+      at_end_ = rest_.empty();
+      line_ = at_end_ ? rest_ : stl::take_line(rest_);
+      return *this;
+    }
+    void operator++(int) { ++*this; }
+    bool operator==(std::default_sentinel_t) const { return at_end_; }
+
+   private:
+    std::string_view rest_{}, line_{};
+    bool at_end_ = true;
+  };
+
+  explicit Lines(std::string_view text) : text_(text) {}
+  Iterator begin() const { return Iterator(text_); }
+  std::default_sentinel_t end() const { return {}; }
+
+ private:
+  std::string_view text_;
+};
+
+}  // namespace s7200::tools
