@@ -10,7 +10,8 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/lines.hpp"
+#include "tools/recordings/notation.hpp"
+#include "tools/recordings/table_rows.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -21,21 +22,6 @@ char separator_of(std::string_view line) {
   for (const char c : {'\t', ';', '|', ','})
     if (line.find(c) != std::string_view::npos) return c;
   return 0;
-}
-
-/// Fields may stand in quotation marks.
-std::vector<std::string> fields_of(std::string_view line, char separator) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == separator && !quoted)
-      fields.emplace_back();
-    else
-      fields.back() += c;
-  }
-  return fields;
 }
 
 struct Columns {
@@ -113,7 +99,7 @@ Columns columns_of(std::string_view line) {
         columns.unknown_unit = names[i];
     } else if (!columns.direction && contains(names[i], {"DIR", "SIDE", "CHANNEL", "PORT", "NAME"})) {
       columns.direction = i;
-    } else if (!columns.data && contains(names[i], {"DATA", "VALUE", "HEX", "BYTES", "FRAME", "PAYLOAD"})) {
+    } else if (!columns.data && contains(names[i], {"DATA", "VALUE", "HEX", "BYTES", "FRAME", "PAYLOAD", "RESULT"})) {
       columns.data = i;
     }
   }
@@ -150,25 +136,23 @@ bool has_bytes_below(std::string_view bytes, const Columns& columns) {
   return *columns.data < fields.size() && bytes_of_text(fields[*columns.data]);
 }
 
-/// `1`, `16`, `132`, without zeros in front.
-std::optional<Bytes> byte_in_decimal(std::string_view field) {
-  const std::string_view figure = stl::trim(field);
-  const auto byte = figure.size() > 1 && figure.front() == '0' ? std::nullopt : parse_decimal<std::uint8_t>(figure);
-  return byte ? std::optional(Bytes{*byte}) : std::nullopt;
+/// What a cell has without blanks around it. A blank or a line end alone is a recorded character, unless the row has a
+/// column for each direction: then it is the empty one.
+std::string content_of(const std::string& field, const Columns& columns) {
+  return field.size() == 1 && !columns.sent ? field : std::string(stl::trim(field));
 }
 
-/// Logic analysers write a character as a number from 0 to 255 if they are told so: then some have one digit, or three.
-bool is_in_decimal(std::string_view rows, const Columns& columns) {
-  bool any = false;
-  if (!columns.data) return false;
-  for (const std::string_view row : Lines(rows)) {
-    const auto fields = fields_of(row, columns.separator);
-    const std::string_view field = *columns.data < fields.size() ? stl::trim(fields[*columns.data]) : "";
-    if (field.empty()) continue;
-    if (!byte_in_decimal(field)) return false;
-    any = any || field.size() != 2;
+/// The notation of the bytes below the names. Null, and `why`, if they have none.
+const Notation* notation_of(TableRows rows, const Columns& columns, std::string& why) {
+  NotationFinder finder;
+  while (const auto row = rows.next()) {
+    const auto fields = fields_of(row->text, columns.separator);
+    for (const auto& column : {columns.data, columns.sent, columns.received})
+      if (column && *column < fields.size() && !fields[*column].empty())
+        if (const std::string cell = content_of(fields[*column], columns); !cell.empty())
+          finder.take(without_error(cell).cell, row->number);
   }
-  return any;
+  return finder.found(why);
 }
 
 }  // namespace
@@ -183,25 +167,26 @@ bool looks_like_csv(std::string_view bytes) {
 
 std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
   LineRecording recording;
-  std::string_view rows = bytes;
-  const Columns columns = columns_of(stl::take_line(rows));
-  const bool decimal = is_in_decimal(rows, columns);
+  TableRows rows(bytes);
+  const Columns columns = columns_of(rows.next()->text);
+  const Notation* const notation = notation_of(rows, columns, why);
+  if (notation == nullptr) return {};
   DayCounter days;
   bool characters = columns.time.has_value();
-  std::size_t number = 1;
-  for (const std::string_view row : Lines(rows)) {
-    ++number;
-    if (row.find_first_not_of(" \t,;") == std::string_view::npos) continue;
-    const auto fields = fields_of(row, columns.separator);
+  while (const auto row = rows.next()) {
+    if (row->text.find_first_not_of(" \t,;") == std::string::npos) continue;
+    const auto fields = fields_of(row->text, columns.separator);
     const auto field = [&](std::optional<std::size_t> column) {
       return column && *column < fields.size() ? fields[*column] : "";
     };
     const auto time = columns.time ? time_of(field(columns.time), columns) : std::nullopt;
     const bool is_received = columns.sent && stl::trim(field(columns.sent)).empty();
     const auto data_column = !columns.sent ? columns.data : is_received ? columns.received : columns.sent;
-    auto data = decimal ? byte_in_decimal(field(data_column)) : bytes_of_text(field(data_column));
+    const std::string cell = content_of(field(data_column), columns);
+    const WrittenCharacter written = without_error(cell);
+    auto data = notation->read(written.cell);
     if (columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
-      why = fmt::format("line {}: bytes in both directions; write them in two lines", number);
+      why = fmt::format("line {}: bytes in both directions; write them in two lines", row->number);
       return {};
     }
     if (time && !time->of_day && !columns.unknown_unit.empty()) {
@@ -210,8 +195,8 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
     }
     const bool no_time = columns.time && !time;
     if (no_time || !data) {
-      why = fmt::format("line {}: '{}' is not {}", number, stl::shortened(field(no_time ? columns.time : data_column)),
-                        no_time ? "a time" : "bytes in hex");
+      why = fmt::format("line {}: '{}' is not {}", row->number, stl::shortened(field(no_time ? columns.time : data_column)),
+                        no_time ? "a time" : fmt::format("bytes in {}", notation->name));
       return {};
     }
     RecordedFrame frame{.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
@@ -219,8 +204,9 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
                                      : is_received ? Direction::Answer
                                                    : Direction::Request,
                         .bytes = std::move(*data),
-                        .place = fmt::format("line {}", number)};
-    if (std::ranges::any_of(columns.errors, [&](std::size_t column) { return says_error(field(column)); }))
+                        .place = fmt::format("line {}", row->number)};
+    if (written.damaged ||
+        std::ranges::any_of(columns.errors, [&](std::size_t column) { return says_error(field(column)); }))
       for (std::size_t place = 0; place < frame.bytes.size(); ++place) frame.damaged.push_back(place);
     characters = characters && frame.bytes.size() == 1;
     recording.frames.push_back(std::move(frame));

@@ -8,6 +8,9 @@ namespace s7200::tools {
 /// Whether there is no byte 00 in it.
 bool is_text(std::string_view bytes);
 
+/// What a text shows its form by.
+inline std::string_view beginning_of(std::string_view bytes) { return bytes.substr(0, std::size_t{1} << 16); }
+
 /// By the first four bytes: pcap in microseconds and nanoseconds, in either order of bytes, and pcapng.
 bool looks_like_pcap(std::string_view bytes);
 std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoices& choices, std::string& why);
@@ -32,5 +35,46 @@ std::optional<LineRecording> read_text_log(std::string_view bytes, const Reading
 /// Frames of a log that are messages of Modbus TCP, with their heads, become frames as on a serial line; then a note says
 /// so, and what is no such message is left out.
 void read_modbus_tcp(LineRecording& recording);
+
+/// By the names of its columns.
+bool looks_like_dsview(std::string_view bytes);
+std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By a line of its decoder `uart`.
+bool looks_like_sigrok_annotations(std::string_view bytes);
+std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, const ReadingChoices& choices,
+                                                     std::string& why);
+
+/// By its tag `uart_debug`.
+bool looks_like_esphome(std::string_view bytes);
+std::optional<LineRecording> read_esphome(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By a line with an address and a length before a dump.
+bool looks_like_emodbus(std::string_view bytes);
+std::optional<LineRecording> read_emodbus(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By SerialSend or SerialReceived with bytes in hex.
+bool looks_like_tasmota(std::string_view bytes);
+std::optional<LineRecording> read_tasmota(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By a call that reads or writes, with its result.
+bool looks_like_strace(std::string_view bytes);
+std::optional<LineRecording> read_strace(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By a line about a packet with a row of its bytes below it.
+bool looks_like_tcpdump(std::string_view bytes);
+std::optional<LineRecording> read_tcpdump(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By an object in a line that has bytes.
+bool looks_like_json_lines(std::string_view bytes);
+std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By a line with several pairs, one of which has bytes.
+bool looks_like_key_values(std::string_view bytes);
+std::optional<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By bytes as Python shows them.
+bool looks_like_python_bytes(std::string_view bytes);
+std::optional<LineRecording> read_python_bytes(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
 }  // namespace s7200::tools

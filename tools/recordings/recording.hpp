@@ -42,6 +42,7 @@ inline constexpr Time kCharacterGap = 5 * kMillisecond;
 struct ReadingChoices {
   Time gap = 0;  ///< between the characters of a frame, at most; 0: kCharacterGap
   std::uint16_t tcp_port = 502;
+  std::uint64_t samplerate = 0;  ///< samples a second of a recording that counts them; 0: as it says itself, or not known
   /// mbpoll had its option -0: references count from 0. They do without this, too, in a run of it that starts at 0.
   bool mbpoll_from_zero = false;
 };

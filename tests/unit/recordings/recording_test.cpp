@@ -10,6 +10,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/model/s7_pdu.hpp"
 #include "serial_sim/modbus/mbap.hpp"
@@ -424,7 +425,7 @@ TEST(Recordings, ACharacterInDecimalIsOneIfAnyHasOneDigitOrThree) {
   ASSERT_EQ(saleae.frames.size(), 1U);
   EXPECT_EQ(saleae.frames[0].bytes, (Bytes{1, 3, 16, 132}));
   EXPECT_EQ(recording_of("Time [s],Value\n0.000,01\n0.001,16\n").frames[0].bytes, (Bytes{0x01, 0x16})) << "pairs are hex";
-  EXPECT_EQ(refusal_of("Time [s],Value\n0.000,1\n0.001,256\n"), "line 2: '1' is not bytes in hex");
+  EXPECT_EQ(refusal_of("Time [s],Value\n0.000,1\n0.001,256\n"), "line 3: '256' is not bytes in decimal");
 }
 
 TEST(Recordings, ALogInUtf16IsReadAsOneInUtf8) {
@@ -790,7 +791,8 @@ TEST(Recordings, AConnectionWithSegmentsMissingIsLeftOutFromThereOn) {
 TEST(Recordings, WhatIsNoRecordingIsRefused) {
   EXPECT_EQ(refusal_of(""), "no frame in it");
   EXPECT_EQ(refusal_of("a letter\n"), "no frame in it; line 1: left out: no bytes in it");
-  EXPECT_EQ(refusal_of(std::string("a\0b", 3)), "it has none of the forms pcap, CSV, mbpoll, pymodbus, text");
+  EXPECT_EQ(refusal_of(std::string("a\0b", 3)),
+            fmt::format("it has none of the forms {}", stl::joined(recording_forms(), &RecordingForm::name)));
   EXPECT_NE(refusal_of("\xD4\xC3\xB2\xA1 cut off"), "");
   std::string other = ethernet_pcap({});
   other[20] = 105;

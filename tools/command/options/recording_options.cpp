@@ -14,6 +14,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/master/protocol.hpp"
+#include "tools/recordings/samplerate.hpp"
 
 namespace s7200::tools {
 
@@ -49,8 +50,7 @@ void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
   verb.add_option("FILE", file,
-                  fmt::format("a recording: {}; - is standard input; or a line: a device, tcp://HOST:PORT",
-                              stl::joined(recording_forms(), &RecordingForm::name)))
+                  "a recording (forms: s7200 decode --help); - is standard input; or a line: a device, tcp://HOST:PORT")
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
@@ -74,6 +74,17 @@ void RecordingOptions::add_to(CLI::App& verb) {
   for_files_.push_back(verb.get_option("--tcp-port"));
   for_files_.push_back(verb.add_flag("--mbpoll-0", reading.mbpoll_from_zero,
                                      "mbpoll had its option -0: the references that it printed count from 0"));
+  for_files_.push_back(verb.add_option_function<std::string>(
+                               "--samplerate",
+                               [this](const std::string& text) {
+                                 const auto rate = samplerate_of(text);
+                                 if (!rate)
+                                   throw CLI::ValidationError(
+                                       "--samplerate", fmt::format("'{}' is not a rate such as 1MHz", stl::shortened(text)));
+                                 reading.samplerate = *rate;
+                               },
+                               "of a recording that counts samples and does not say how many there are in a second")
+                           ->type_name("RATE"));
   for_lines_.push_back(add_duration(verb, "--for", duration, "how long to listen to a line [until Ctrl-C]"));
 }
 

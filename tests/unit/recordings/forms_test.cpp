@@ -1,0 +1,401 @@
+// Recordings in the forms of particular tools: each holds the same conversation, a request and its answer.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tools/recordings/conversation.hpp"
+#include "tools/recordings/notation.hpp"
+#include "tools/recordings/samplerate.hpp"
+#include "tools/recordings/table_rows.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr Time ms = kMillisecond;
+
+const Bytes kRequest{0x01, 0x03, 0x00, 0x0A, 0x00, 0x02, 0xE4, 0x09};
+const Bytes kAnswer{0x01, 0x03, 0x04, 0x12, 0x34, 0x56, 0x78, 0x81, 0x07};
+
+LineRecording recording_of(const std::string& bytes, const ReadingChoices& choices = {}) {
+  std::string why;
+  auto recording = read_recording(bytes, choices, why);
+  EXPECT_TRUE(recording) << why;
+  return recording.value_or(LineRecording{});
+}
+
+std::string refusal_of(const std::string& bytes, const ReadingChoices& choices = {}) {
+  std::string why;
+  EXPECT_FALSE(read_recording(bytes, choices, why)) << bytes;
+  return why;
+}
+
+/// The request and its answer, with `latency` between their begins if the recording has times.
+void expect_the_conversation(const LineRecording& recording, std::string_view form, std::optional<Time> latency) {
+  EXPECT_EQ(recording.form, form);
+  const auto frames = conversation(recording, *find_recorded_protocol("modbus"));
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].frame.bytes, kRequest);
+  EXPECT_EQ(frames[0].direction, Direction::Request);
+  EXPECT_EQ(frames[1].frame.bytes, kAnswer);
+  EXPECT_EQ(frames[1].direction, Direction::Answer);
+  EXPECT_EQ(frames[1].other, 0U);
+  const auto between = frames[1].frame.at ? std::optional(*frames[1].frame.at - *frames[0].frame.at) : std::nullopt;
+  EXPECT_EQ(between, latency);
+}
+
+/// A row for each character, 1.145833 ms after the one before; the answer follows 20 ms after the request.
+std::string rows_of(const std::string& head, const std::function<std::string(Time at, std::uint8_t byte)>& row) {
+  std::string text = head;
+  Time at = ms;
+  for (const Bytes& frame : {kRequest, kAnswer}) {
+    for (const std::uint8_t byte : frame) text += row(at, byte) + '\n', at += 1'145'833;
+    at += 20 * ms;
+  }
+  return text;
+}
+constexpr Time kLatency = 8 * 1'145'833 + 20 * ms;
+
+// --- notations ---
+
+const Notation* notation_of(std::initializer_list<std::string_view> cells, std::string* why = nullptr) {
+  NotationFinder finder;
+  std::size_t line = 1;
+  for (const std::string_view cell : cells) finder.take(cell, ++line);
+  std::string said;
+  const Notation* const found = finder.found(said);
+  if (why != nullptr) *why = said;
+  return found;
+}
+
+TEST(Notations, AColumnIsInTheNotationThatReadsAllOfItsCells) {
+  const auto bytes_in = [](std::initializer_list<std::string_view> cells) {
+    const Notation* const notation = notation_of(cells);
+    Bytes bytes;
+    for (const std::string_view cell : cells) {
+      const Bytes some = notation ? *notation->read(cell) : Bytes{};
+      bytes.insert(bytes.end(), some.begin(), some.end());
+    }
+    return bytes;
+  };
+  EXPECT_EQ(bytes_in({"0x01", "0x10", "0xE4"}), (Bytes{1, 0x10, 0xE4}));
+  EXPECT_EQ(bytes_in({"01", "10", "E4"}), (Bytes{1, 0x10, 0xE4}));
+  EXPECT_EQ(bytes_in({"1", "10", "228"}), (Bytes{1, 10, 228}));
+  EXPECT_EQ(bytes_in({"001", "012", "344"}), (Bytes{1, 10, 228})) << "octal";
+  EXPECT_EQ(bytes_in({"00000001", "00001010", "11100100"}), (Bytes{1, 10, 228})) << "no four bytes in hex";
+  EXPECT_EQ(bytes_in({"0b00000001", "0b00001010"}), (Bytes{1, 10}));
+  EXPECT_EQ(bytes_in({"10 (0x0A)", "18 (0X12)"}), (Bytes{10, 18})) << "each is one byte, not two";
+  EXPECT_EQ(bytes_in({"'1' (0x01)", "4 (0x34)", "\\r (0x0D)", "COMMA (0x2C)"}), (Bytes{1, 0x34, 0x0D, 0x2C}));
+  EXPECT_EQ(bytes_in({"'1'", "4", "\\r", "COMMA", "' '", "'228'"}), (Bytes{1, '4', 0x0D, ',', ' ', 228}));
+  EXPECT_EQ(bytes_in({"[01]", "U", "[", "[FF]"}), (Bytes{1, 'U', '[', 0xFF}));
+}
+
+TEST(Notations, WhatIsNotUnderstoodIsNamedInTheNotationThatReadsMost) {
+  std::string why;
+  EXPECT_EQ(notation_of({"1", "3", "0"}, &why), nullptr);
+  EXPECT_EQ(why, "line 2: '1' may be a number or a character; write the column in hex");
+  EXPECT_EQ(notation_of({"0x01", "0x02", "frob"}, &why), nullptr);
+  EXPECT_EQ(why, "line 4: 'frob' is not bytes in hex");
+  EXPECT_EQ(notation_of({"1", "256"}, &why), nullptr);
+  EXPECT_EQ(why, "line 3: '256' is not bytes in decimal");
+}
+
+TEST(Notations, ALiteralHasTheEscapesOfC) {
+  EXPECT_EQ(bytes_of_literal(R"(\1\3\0\n\0\2\344\t)"), kRequest);
+  EXPECT_EQ(bytes_of_literal(R"(\x01\x03\x04\x124Vx\x81\a)"), kAnswer);
+  EXPECT_EQ(bytes_of_literal(R"(\"\\\r\0061)"), (Bytes{'"', '\\', 0x0D, 0x06, '1'})) << "an octal number has three digits";
+  for (const char* text : {"\\", "\\q", "\\x", "\\777"}) EXPECT_EQ(bytes_of_literal(text), std::nullopt) << text;
+}
+
+TEST(Notations, ALineEndAfterAnOpeningMarkIsARecordedCharacter) {
+  TableRows rows("a,\"\n\"\nb,\",\"\nc,\"\r\n\"\r\nd");
+  EXPECT_EQ(fields_of(rows.next()->text, ','), (std::vector<std::string>{"a", "\n"}));
+  const auto comma = rows.next();
+  EXPECT_EQ(comma->number, 3U);
+  EXPECT_EQ(fields_of(comma->text, ','), (std::vector<std::string>{"b", ","}));
+  EXPECT_EQ(fields_of(rows.next()->text, ','), (std::vector<std::string>{"c", "\r\n"}));
+  EXPECT_EQ(rows.next()->text, "d");
+  EXPECT_EQ(rows.next(), std::nullopt);
+  EXPECT_EQ(fields_of("\"\"\"\";x", ';'), (std::vector<std::string>{"\"", "x"}));
+}
+
+TEST(Notations, ASamplerateHasAUnit) {
+  EXPECT_EQ(samplerate_of("1 MHz"), 1'000'000U);
+  EXPECT_EQ(samplerate_of("500kHz"), 500'000U);
+  EXPECT_EQ(samplerate_of("2.4M"), 2'400'000U);
+  EXPECT_EQ(samplerate_of("1000000"), 1'000'000U);
+  for (const char* text : {"", "0", "MHz", "1 s", "-1", "1e99 Hz", "200 GHz"})
+    EXPECT_EQ(samplerate_of(text), std::nullopt) << text;
+}
+
+// --- logic analysers ---
+
+TEST(Forms, DsviewHasAColumnForEachDecoder) {
+  const auto row = [](const char* cell) {
+    return [cell, id = 0](Time at, std::uint8_t byte) mutable {
+      return fmt::format("{},{}.00000000000000000000,{}", id++, at, fmt::format(fmt::runtime(cell), byte));
+    };
+  };
+  expect_the_conversation(recording_of(rows_of("Id,Time[ns],0:UART: RX/TX\n", row("{:02X}"))), "DSView", kLatency);
+  expect_the_conversation(recording_of(rows_of("Id,Time[ns],0:UART: RX/TX\n", row("[{:02X}]"))), "DSView", kLatency);
+  EXPECT_EQ(refusal_of("Id,Time[ns],0:UART: RX\n0,1000000.0,01\n1,2100000.0,frob\n"), "line 3: 'frob' is not bytes in hex");
+}
+
+TEST(Forms, DsviewNamesTheDirectionInItsColumnAndTheDamageInItsCells) {
+  const LineRecording both = recording_of(
+      "Id,Time[ns],0:UART: RX,0:UART: TX\n0,1000000.0,,01\n1,2145833.0,,Stop bit\n2,30145833.0,02,\n3,31345833.0,Frame "
+      "error,\n");
+  ASSERT_EQ(both.frames.size(), 2U);
+  EXPECT_EQ(both.frames[0].direction, Direction::Request);
+  EXPECT_EQ(both.frames[0].bytes, Bytes{0x01});
+  EXPECT_EQ(both.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(both.frames[1].damaged, std::vector<std::size_t>{0});
+}
+
+TEST(Forms, SaleaeLogic1WritesACharacterInAnyOfItsNotations) {
+  const auto in_ascii = [](std::uint8_t byte) {
+    return byte > 32 && byte < 127 ? std::string(1, static_cast<char>(byte)) : fmt::format("'{}'", byte);
+  };
+  const auto rows = [](auto cell) {
+    return rows_of("Time [s],Value,Parity Error,Framing Error\n", [&](Time at, std::uint8_t byte) {
+      return fmt::format("{:.9f},{},,", static_cast<double>(at) / kSecond, cell(byte));
+    });
+  };
+  expect_the_conversation(recording_of(rows([](std::uint8_t byte) { return fmt::format("0x{:02X}", byte); })), "CSV",
+                          kLatency);
+  expect_the_conversation(recording_of(rows([](std::uint8_t byte) { return fmt::format("{}", byte); })), "CSV", kLatency);
+  expect_the_conversation(recording_of(rows([](std::uint8_t byte) { return fmt::format("0b{:08b}", byte); })), "CSV",
+                          kLatency);
+  expect_the_conversation(recording_of(rows(in_ascii)), "CSV", kLatency);
+  expect_the_conversation(recording_of(rows_of("Time [s],Analyzer Name,Decoded Protocol Result\n",
+                                               [&](Time at, std::uint8_t byte) {
+                                                 return fmt::format("{:.9f},Async Serial,{} (0x{:02X})",
+                                                                    static_cast<double>(at) / kSecond, in_ascii(byte), byte);
+                                               })),
+                          "CSV", kLatency);
+}
+
+TEST(Forms, ADamagedCharacterOfLogicHasItsErrorBesideItOrInAColumn) {
+  const LineRecording one = recording_of(
+      "Time [s],Analyzer Name,Decoded Protocol Result\n0.001,Async Serial,0x01\n0.002,Async Serial,0x03 (framing error)\n");
+  ASSERT_EQ(one.frames.size(), 1U);
+  EXPECT_EQ(one.frames[0].damaged, std::vector<std::size_t>{1});
+  const LineRecording two = recording_of(
+      "name,type,start_time,duration,\"data\",\"error\"\n\"Async Serial\",\"data\",0.001,0.001,0x01,\n"
+      "\"Async Serial\",\"data\",0.0021,0.001,0x03,\"parity\"\n");
+  ASSERT_EQ(two.frames.size(), 1U);
+  EXPECT_EQ(two.frames[0].damaged, std::vector<std::size_t>{1});
+}
+
+TEST(Forms, SaleaeLogic2WritesCharactersAsTheyAre) {
+  const LineRecording text = recording_of(
+      "name,type,start_time,duration,\"data\"\n\"Async Serial\",\"data\",0.001,0.001,\"O\"\n"
+      "\"Async Serial\",\"data\",0.002,0.001,\" \"\n\"Async Serial\",\"data\",0.003,0.001,\",\"\n"
+      "\"Async Serial\",\"data\",0.004,0.001,\"\r\"\n\"Async Serial\",\"data\",0.005,0.001,\"\n\"\n"
+      "\"Async Serial\",\"data\",0.006,0.001,\"\"\"\"\n");
+  ASSERT_EQ(text.frames.size(), 1U);
+  EXPECT_EQ(text.frames[0].bytes, (Bytes{'O', ' ', ',', '\r', '\n', '"'}));
+}
+
+TEST(Forms, AnnotationsOfSigrokAreDividedBySilencesInSamples) {
+  const auto rows = [](const char* cell) {
+    return rows_of("", [cell](Time at, std::uint8_t byte) {
+      const Time begin = at / kMicrosecond;
+      return fmt::format("{}-{} uart-1: {}", begin, begin + 834, fmt::format(fmt::runtime(cell), byte));
+    });
+  };
+  const LineRecording hex = recording_of(rows("{:02X}"));
+  expect_the_conversation(hex, "sigrok", {});
+  EXPECT_EQ(hex.notes, std::vector<std::string>{"it counts samples: --samplerate, as 1MHz, makes times of them"});
+  EXPECT_EQ(hex.frames.size(), 2U);
+  expect_the_conversation(recording_of(rows("{:08b}")), "sigrok", {});
+  expect_the_conversation(recording_of(rows("{:03o}")), "sigrok", {});
+  expect_the_conversation(recording_of(rows("\"{:02X}\"")), "sigrok", {});
+  expect_the_conversation(recording_of(rows("{:02X}"), {.samplerate = 1'000'000}), "sigrok",
+                          kLatency / kMicrosecond * kMicrosecond);
+}
+
+TEST(Forms, AnnotationsWithoutSamplesAreOneRowOfCharacters) {
+  const LineRecording all =
+      recording_of(rows_of("", [](Time, std::uint8_t byte) { return fmt::format("uart-1: {:02X}", byte); }));
+  EXPECT_EQ(all.frames.size(), 1U);
+  expect_the_conversation(all, "sigrok", {});
+}
+
+TEST(Forms, BitsBesideTheAnnotatedCharactersAreNoCharacters) {
+  const LineRecording all = recording_of(rows_of("", [](Time at, std::uint8_t byte) {
+    std::string rows = fmt::format("{}-0 uart-1: Start bit\n", at / kMicrosecond);
+    for (int bit = 0; bit < 8; ++bit) rows += fmt::format("{}-0 uart-1: {}\n", at / kMicrosecond, byte >> bit & 1);
+    rows += fmt::format("{0}-0 uart-1: {1:02X}\n{0}-0 uart-1: {2}\n{0}-0 uart-1: Stop bit", at / kMicrosecond, byte,
+                        byte == 0xE4 ? "Parity error" : "Parity bit");
+    return rows;
+  }));
+  ASSERT_EQ(all.frames.size(), 2U);
+  EXPECT_EQ(all.frames[0].bytes, kRequest);
+  EXPECT_EQ(all.frames[0].damaged, std::vector<std::size_t>{6});
+  EXPECT_EQ(all.frames[1].bytes, kAnswer);
+}
+
+// --- logs of controllers and programs ---
+
+TEST(Forms, EsphomeLogsBytesInAnyOfItsNotations) {
+  const auto log = [](std::string_view request, std::string_view answer) {
+    return fmt::format(
+        "[10:00:00][C][uart.arduino_esp8266:102]: UART Bus:\n"
+        "\x1b[0;36m[10:00:00.000][D][uart_debug:114]: >>> {}\x1b[0m\n"
+        "[10:00:00.025][D][uart_debug:176]: <<< {}\n",
+        request, answer);
+  };
+  for (const std::string& text :
+       {log("01:03:00:0A:00:02:E4:09", "01:03:04:12:34:56:78:81:07"),
+        log("01,03,00,0A,00,02,E4,09", "01 03 04 12 34 56 78 81 07"), log("1,3,0,10,0,2,228,9", "1,3,4,18,52,86,120,129,7"),
+        log(R"("\x01\x03\x00\n\x00\x02\xE4\t")", R"("\x01\x03\x04\x124Vx\x81\a")"),
+        log("0b00000001 (0x01) 0b00000011 (0x03) 0b00000000 (0x00) 0b00001010 (0x0A) 0b00000000 (0x00) 0b00000010 (0x02) "
+            "0b11100100 (0xE4) 0b00001001 (0x09)",
+            "0b00000001 (0x01) 0b00000011 (0x03) 0b00000100 (0x04) 0b00010010 (0x12) 0b00110100 (0x34) 0b01010110 (0x56) "
+            "0b01111000 (0x78) 0b10000001 (0x81) 0b00000111 (0x07)")}) {
+    const LineRecording recording = recording_of(text);
+    expect_the_conversation(recording, "ESPHome", 25 * ms);
+    EXPECT_EQ(recording.notes, std::vector<std::string>{"line 1: left out: no bytes in it"});
+  }
+  EXPECT_EQ(refusal_of("[D][uart_debug:114]: >>> 01:03:zz\n"), "line 1: 'zz' is not bytes in hex");
+}
+
+TEST(Forms, EmodbusLogsALengthAndADump) {
+  const auto log = [](std::string_view answer) {
+    return fmt::format(
+        "[D] 1000| ModbusClientRTU.cpp [ 300] handleConnection: Sent packet: @3FFCED70/8:\n"
+        "  | 0000: 01 03 00 0A 00 02 E4 09                          |........        |\n"
+        "[D] 1025| ModbusClientRTU.cpp [ 320] handleConnection: Data response: @3FFB1234/9:\n{}",
+        answer);
+  };
+  expect_the_conversation(
+      recording_of(log("  | 0000: 01 03 04 12 34 56 78 81  07                      |....4Vx..       |\n")), "eModbus",
+      25 * ms);
+  EXPECT_EQ(recording_of(log("  | 0000: 01 03 04                                         |...             |\n")).notes,
+            std::vector<std::string>{"line 3: left out: it says 9 bytes, and 3 are below it"});
+}
+
+TEST(Forms, TasmotaSendsAndReceivesInHex) {
+  const LineRecording log = recording_of(
+      "10:00:00.000 CMD: SerialSend5 0103000A0002E409\n10:00:00.001 MQT: stat/x/RESULT = {\"SerialSend\":\"Done\"}\n"
+      "10:00:00.025 MQT: tele/x/RESULT = {\"SerialReceived\":\"010304123456788107\"}\n10:00:01 CMD: SerialSend hello\n");
+  expect_the_conversation(log, "Tasmota", 25 * ms);
+  EXPECT_EQ(log.notes, (std::vector<std::string>{"line 4: left out: 'SerialSend hello' is not understood",
+                                                 "line 2: left out: no bytes in it"}));
+}
+
+TEST(Forms, AnObjectOfJsonInEachLineHasItsFieldsByName) {
+  expect_the_conversation(
+      recording_of("{\"time\":\"2026-11-27T10:00:00.000Z\",\"dir\":\"tx\",\"data\":\"01 03 00 0a 00 02 e4 09\"}\n"
+                   "{\"time\":\"2026-11-27T10:00:00.025Z\",\"dir\":\"rx\",\"data\":\"010304123456788107\"}\n"),
+      "JSON", 25 * ms);
+  expect_the_conversation(recording_of("{\"ts\":1700000000000,\"event\":\"sent\",\"payload\":[1,3,0,10,0,2,228,9]}\n"
+                                       "{\"ts\":1700000000025,\"event\":\"received\",\"payload\":{\"type\":\"Buffer\","
+                                       "\"data\":[1,3,4,18,52,86,120,129,7]}}\n"),
+                          "JSON", 25 * ms);
+  const LineRecording both = recording_of(
+      "INFO {\"time\":1700000000.5,\"request\":\"0103000a0002e409\",\"response\":\"010304123456788107\",\"len\":9}\n");
+  EXPECT_EQ(both.frames.at(1).at, std::nullopt) << "the time is that of the first";
+  const LineRecording doubtful = recording_of(
+      "{\"dir\":\"tx\",\"data\":\"0103000a0002e409\"}\n{\"dir\":\"rx\",\"data\":\"AQMCEjQ=\"}\n{\"dir\":\n{\"level\":"
+      "\"info\"}\n");
+  EXPECT_EQ(doubtful.frames.size(), 1U);
+  EXPECT_EQ(doubtful.notes, (std::vector<std::string>{"line 2: left out: 'data: AQMCEjQ=' is not understood",
+                                                      "line 3: left out: '{\"dir\":' is not understood",
+                                                      "line 4: left out: no bytes in it"}));
+}
+
+TEST(Forms, DeepJsonIsNotUnderstood) {
+  std::string deep = "{\"data\":\"0103\"}\n{\"a\":";
+  for (int i = 0; i < 100'000; ++i) deep += "{\"a\":";
+  EXPECT_EQ(recording_of(deep).frames.size(), 1U);
+}
+
+TEST(Forms, PairsOfKeysAndValuesHaveTheirFieldsByName) {
+  expect_the_conversation(
+      recording_of("time=2026-11-27T10:00:00.000Z level=debug msg=\"sent\" len=8 data=0103000a0002e409\n"
+                   "time=2026-11-27T10:00:00.025Z level=debug msg=\"received\" len=9 data=\"01 03 04 12 34 56 78 81 07\"\n"),
+      "key=value", 25 * ms);
+  expect_the_conversation(recording_of("2026-11-27 10:00:00.000 dev=pump tx=01:03:00:0a:00:02:e4:09 n=8\n"
+                                       "2026-11-27 10:00:00.025 dev=pump rx=010304123456788107 n=9\n"),
+                          "key=value", 25 * ms);
+}
+
+TEST(Forms, BytesAsPythonShowsThemAreAFrame) {
+  expect_the_conversation(
+      recording_of(
+          "2026-11-27 10:00:00.000 DEBUG (MainThread) [custom.hub] Sending: b'\\x01\\x03\\x00\\n\\x00\\x02\\xe4\\t'\n"
+          "2026-11-27 10:00:00.025 DEBUG (MainThread) [custom.hub] Received: b\"\\x01\\x03\\x04\\x124Vx\\x81\\x07\"\n"),
+      "Python", 25 * ms);
+  const LineRecording two = recording_of("0.1 TX b'\\x01\\x03'\n0.2 b'a' and b'b'\n0.3 nothing\n");
+  EXPECT_EQ(two.notes, (std::vector<std::string>{"line 2: left out: 'b'a' and b'b'' is not understood",
+                                                 "line 3: left out: no bytes in it"}));
+}
+
+TEST(Forms, StraceShowsWhatAProgramReadsAndWrites) {
+  expect_the_conversation(recording_of("[pid  77] 10:00:00.000000 write(3, \"\\1\\3\\0\\n\\0\\2\\344\\t\", 8) = 8\n"
+                                       "[pid  77] 10:00:00.025000 read(3, \"\\1\\3\\4\\0224Vx\\201\\7\", 260) = 9\n"),
+                          "strace", 25 * ms);
+  expect_the_conversation(
+      recording_of("77 1700000000.000000 write(5</dev/ttyS0>, \"\\x01\\x03\\x00\\x0a\\x00\\x02\\xe4\\x09\", 8) = 8\n"
+                   "77 1700000000.010000 read(5</dev/ttyS0>,  <unfinished ...>\n"
+                   "78 1700000000.011000 write(1</dev/pts/3>, \"hello\", 5) = 5\n"
+                   "77 1700000000.025000 <... read resumed>\"\\x01\\x03\\x04\\x12\\x34\\x56\\x78\\x81\\x07\", 256) = 9\n"),
+      "strace", 25 * ms);
+}
+
+TEST(Forms, OfATraceOnlyTheLineIsRead) {
+  const LineRecording trace = recording_of(
+      "openat(AT_FDCWD, \"/etc/hosts\", O_RDONLY) = 3\nread(3, \"\\177ELF\", 832) = 4\nclose(3) = 0\n"
+      "openat(AT_FDCWD, \"/dev/ttyUSB0\", O_RDWR|O_NOCTTY) = 3\nwrite(3, \"\\1\\3\\0\\n\\0\\2\\344\\t\", 8) = 8\n"
+      "read(3, 0x7ffc0000, 256) = -1 EAGAIN (Resource temporarily unavailable)\n"
+      "read(3, \"\\1\\3\\4\\0224Vx\\201\\7\", 260) = 9\nwrite(1, \"[1]: 4660\\n\", 10) = 10\n");
+  expect_the_conversation(trace, "strace", {});
+  EXPECT_EQ(refusal_of("write(3, \"\\1\", 1) = 1\nread(5, \"\\1\", 1) = 1\n"),
+            "it has calls of the descriptors 3, 5; which of them is the line is not in it: trace with strace -y");
+}
+
+TEST(Forms, WhatStraceCutOffIsNamed) {
+  EXPECT_EQ(
+      recording_of("write(3, \"\\1\\3\", 2) = 2\nread(3, \"\\1\\3\\4\"..., 260) = 9\n").notes,
+      std::vector<std::string>{"line 2: left out: strace printed the beginning of its bytes only; trace with -s 1000"});
+}
+
+TEST(Forms, TimesOfStraceMayBeSinceTheLineBefore) {
+  const LineRecording relative = recording_of(
+      "     0.000000 write(3, \"\\1\\3\\0\\n\\0\\2\\344\\t\", 8) = 8\n     0.020000 ioctl(3, FIONREAD, [9]) = 0\n"
+      "     0.005000 read(3, \"\\1\\3\\4\\0224Vx\\201\\7\", 260) = 9\n");
+  expect_the_conversation(relative, "strace", 25 * ms);
+}
+
+/// A packet of Modbus TCP as tcpdump -X prints it.
+std::string printed_packet(std::string_view time, bool to_server, const Bytes& message) {
+  Bytes packet{0x45, 0, 0, static_cast<std::uint8_t>(40 + message.size()), 0, 1, 0x40, 0, 64, 6, 0, 0, 127, 0, 0, 1, 127,
+               0,    0, 1};
+  const Bytes server{0x01, 0xF6}, client{0x9C, 0x40};
+  for (const Bytes& part : {to_server ? client : server, to_server ? server : client,
+                            Bytes{0, 0, 0, 1, 0, 0, 0, 1, 0x50, 0x18, 2, 0, 0, 0, 0, 0}, message})
+    packet.insert(packet.end(), part.begin(), part.end());
+  std::string text =
+      fmt::format("{} IP 127.0.0.1.40000 > 127.0.0.1.502: Flags [P.], seq 1:13, length {}\n", time, message.size());
+  for (std::size_t i = 0; i < packet.size(); ++i) {
+    if (i % 16 == 0) text += fmt::format("{}\t0x{:04x}:  ", i == 0 ? "" : "  ....\n", i);
+    text += fmt::format("{:02x}{}", packet[i], i % 2 == 1 ? " " : "");
+  }
+  return text + "  ...\n";
+}
+
+TEST(Forms, TcpdumpPrintsPacketsInHex) {
+  const std::string request = printed_packet("17:03:45.000000", true, {0, 70, 0, 0, 0, 6, 1, 3, 0, 10, 0, 2}),
+                    answer = printed_packet("17:03:45.025000", false, {0, 70, 0, 0, 0, 7, 1, 3, 4, 0x12, 0x34, 0x56, 0x78});
+  expect_the_conversation(recording_of(request + answer), "tcpdump", 25 * ms);
+  EXPECT_EQ(refusal_of(request + answer.substr(0, answer.rfind('\t'))),
+            "line 6: 48 bytes of the packet's 53 are below it; record with tcpdump -w FILE.pcap");
+  const std::string first_row = request.substr(0, request.find("\t0x0010"));
+  EXPECT_EQ(refusal_of(first_row + request.substr(request.find("\t0x0020"))),
+            "line 3: rows before it are missing; record with tcpdump -w FILE.pcap");
+}
+
+}  // namespace
+}  // namespace s7200::tools

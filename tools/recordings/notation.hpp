@@ -1,0 +1,57 @@
+// The notations in which tools write characters, one in a cell.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/bytes.hpp"
+
+namespace s7200::tools {
+
+/// A way to write the characters of a column: `0x12`, `18`, `'18' (0x12)`. The same cell may be a character in one and a
+/// number in another, so that the whole column has to say which it is.
+struct Notation {
+  std::string_view name;  ///< `decimal`
+  std::optional<Bytes> (*read)(std::string_view cell);
+};
+
+/// A cell without what a logic analyser adds to a character that was damaged: `0x01 (framing error)`.
+struct WrittenCharacter {
+  std::string_view cell;
+  bool damaged = false;
+};
+WrittenCharacter without_error(std::string_view cell);
+
+/// The bytes of an escaped text, which stands between quotation marks: `\1\3`, `\x01\r`, `abc\"`. Nothing if an escape in it
+/// is unknown.
+std::optional<Bytes> bytes_of_literal(std::string_view text);
+
+/// Finds the notation of a column: the first that reads all of its cells.
+class NotationFinder {
+ public:
+  NotationFinder();
+
+  /// A cell that is not empty. `line`: its number, for the message.
+  void take(std::string_view cell, std::size_t line);
+
+  /// Null after a message in `why`, `line 3: '256' is not bytes in decimal`: none reads all, or it is open which does.
+  const Notation* found(std::string& why) const;
+
+ private:
+  struct Candidate {
+    const Notation* notation;
+    std::size_t read = 0;  ///< cells before the first that it does not read
+    std::string wrong{};   ///< that cell
+    std::size_t line = 0;
+  };
+
+  std::vector<Candidate> candidates_;
+  std::size_t cells_ = 0;
+  std::string first_{};
+  std::size_t first_line_ = 0;
+  bool only_digits_ = true;  ///< each cell so far is a single digit
+};
+
+}  // namespace s7200::tools

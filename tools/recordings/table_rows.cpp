@@ -1,0 +1,56 @@
+#include "tools/recordings/table_rows.hpp"
+
+#include <algorithm>
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kLineEnds = "\r\n", kSeparators = ",;\t|";
+
+bool is_line_end(char c) { return kLineEnds.find(c) != std::string_view::npos; }
+
+/// CR LF is one.
+std::size_t length_of_line_end(std::string_view text) { return text.starts_with("\r\n") ? 2 : 1; }
+
+/// Where a line end stands after `,"`; that the mark opens a field is for the caller to know.
+bool is_after_mark(std::string_view row, std::size_t at) {
+  return at >= 2 && row[at - 1] == '"' && kSeparators.find(row[at - 2]) != std::string_view::npos;
+}
+
+}  // namespace
+
+std::optional<TableRow> TableRows::next() {
+  if (rest_.empty()) return {};
+  std::size_t end = 0, lines = 1;
+  bool quoted = false;
+  for (; end < rest_.size(); ++end) {
+    if (rest_[end] == '"') quoted = !quoted;
+    if (!is_line_end(rest_[end])) continue;
+    if (!quoted || !is_after_mark(rest_, end)) break;
+    ++lines;
+    end += length_of_line_end(rest_.substr(end)) - 1;
+  }
+  const TableRow row{number_, rest_.substr(0, end)};
+  number_ += lines;
+  rest_.remove_prefix(std::min(rest_.size(), end + length_of_line_end(rest_.substr(end))));
+  return row;
+}
+
+std::vector<std::string> fields_of(std::string_view row, char separator) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const char c = row[i];
+    if (c == '"' && quoted && i + 1 < row.size() && row[i + 1] == '"')
+      fields.back() += row[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == separator && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  }
+  return fields;
+}
+
+}  // namespace s7200::tools
