@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 # The faces of the package, and the rooms that s7200::bridge and s7200::scenario stand on.
 set(libraries interpreter serial_sim)
-foreach(room host views measuring yaml rig slave bridge scenario)
+foreach(room host views measuring yaml json rig slave bridge scenario)
   list(APPEND libraries s7200_${room})
   set_target_properties(s7200_${room} PROPERTIES EXPORT_NAME ${room})
   target_include_directories(s7200_${room} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/s7200>)

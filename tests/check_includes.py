@@ -37,15 +37,16 @@ ROOMS = {
     "tools/views": CORE,
     "tools/measuring": CORE + ["tools/views"],
     "tools/yaml": INTERPRETER,
-    "tools/rig": CORE + ["tools/host", "tools/views", "tools/yaml"],
+    "tools/json": ["interpreter/base"],
+    "tools/rig": CORE + ["tools/host", "tools/views", "tools/yaml", "tools/json"],
     "tools/slave": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/bridge": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/measuring", "tools/yaml", "tools/rig", "tools/slave"],
     "tools/recordings": CORE + ["tools/views", "tools/scenario"],
-    "tools/debugger": CORE + ["tools/host", "tools/views", "tools/rig"],
-    "tools/dap": CORE + ["tools/host", "tools/views", "tools/rig", "tools/debugger"],
+    "tools/debugger": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig"],
+    "tools/dap": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig", "tools/debugger"],
 }
 ROOMS["tools/command"] = list(ROOMS)
 ROOMS["tests"] = list(ROOMS)

@@ -10,6 +10,7 @@
 #include "tools/debugger/digest.hpp"
 #include "tools/debugger/history.hpp"
 #include "tools/debugger/session_file.hpp"
+#include "tools/json/json.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace {
@@ -38,7 +39,8 @@ void run(const Recording& recording) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  auto json = nlohmann::ordered_json::parse(data, data + size, nullptr, false);
+  std::string not_json;
+  auto json = parse_json({reinterpret_cast<const char*>(data), size}, not_json).value_or(nlohmann::ordered_json());
   if (!json.is_object()) return 0;
   json.erase("sum");
   json["version"] = version();

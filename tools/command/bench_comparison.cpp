@@ -5,6 +5,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/json/json.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -35,7 +36,8 @@ nlohmann::ordered_json measured_with(const ProgramOptions& options, const Progra
 std::optional<EarlierBench> read_earlier_bench(const std::string& path) {
   std::string why;
   const auto text = read_text(path, why);
-  const auto json = nlohmann::json::parse(text.value_or(""), nullptr, false);
+  std::string not_json;
+  const nlohmann::json json = parse_json(text.value_or(""), not_json).value_or(nlohmann::ordered_json());
   const bool printed =
       json.is_object() && json.contains("figures") && json["figures"].is_array() && !json["figures"].empty();
   if (!text || !printed) {

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/cpu/forcing.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/debugger/digest.hpp"
+#include "tools/json/json.hpp"
 #include "tools/rig/memory_file.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -21,7 +23,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFormat = "s7200 session 5", kAnyFormat = "s7200 session ";
 
-std::string sum_of(const Json& json) { return digest_of(std::string_view(json.dump())); }
+/// Of JSON from outside, which may hold what is not UTF-8.
+std::string sum_of(const Json& json) {
+  return digest_of(std::string_view(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
+constexpr Between<Time> kAnyMoment{0, kNever}, kAnyDuration{0, kLongestDuration};
 
 // --- moments and formats ---
 
@@ -30,11 +37,11 @@ Json json_of(const Moment& moment) {
 }
 
 Moment moment_from(const Json& json) {
-  return {.instructions = json.at(0).get<std::uint64_t>(),
-          .actions = json.at(1).get<std::size_t>(),
-          .settled = json.at(2).get<bool>(),
-          .time = json.at(4).get<Time>(),
-          .stopped = json.at(3).get<bool>()};
+  return {.instructions = number_of<std::uint64_t>(json.at(0)),
+          .actions = number_of<std::size_t>(json.at(1)),
+          .settled = truth_of(json.at(2)),
+          .time = number_of<Time>(json.at(4), kAnyMoment),
+          .stopped = truth_of(json.at(3))};
 }
 
 Json json_of(const SerialFormat& format) {
@@ -42,11 +49,12 @@ Json json_of(const SerialFormat& format) {
 }
 
 SerialFormat format_from(const Json& json) {
-  SerialFormat format{.baud = json.at(0).get<std::uint32_t>(), .data_bits = json.at(1).get<std::uint8_t>()};
-  const auto word = json.at(2).get<std::string>();
+  SerialFormat format{.baud = number_of<std::uint32_t>(json.at(0)),
+                      .data_bits = number_of<std::uint8_t>(json.at(1)),
+                      .stop_bits = number_of<std::uint8_t>(json.at(3))};
+  const std::string word = text_of(json.at(2));
   for (std::size_t parity = 0; parity < kParityWords.size(); ++parity)
     if (kParityWords[parity] == word) format.parity = static_cast<Parity>(parity);
-  format.stop_bits = json.at(3).get<std::uint8_t>();
   if (format.baud == 0 || format.data_bits < 7 || format.data_bits > 8 || format.stop_bits < 1 || format.stop_bits > 2)
     throw std::runtime_error("a format of characters that there is not");
   return format;
@@ -115,48 +123,46 @@ MemoryRange place_from(const std::string& text, const CpuModel& model) {
 
 std::vector<Assignment> assignments_from(const Json& json, const CpuModel& model) {
   std::vector<Assignment> all;
-  for (const Json& assignment : json.get_ref<const Json::array_t&>())
-    all.push_back({place_from(assignment.at(0).get<std::string>(), model), assignment.at(1).get<std::uint32_t>()});
+  for (const Json& assignment : json)
+    all.push_back({place_from(text_of(assignment.at(0)), model), number_of<std::uint32_t>(assignment.at(1))});
   return all;
 }
 
 SendFrame send_from(const Json& json) {
-  const serial::ParsedFrame parsed = serial::parse_hex_frame(json.at("send").get<std::string>());
+  const serial::ParsedFrame parsed = serial::parse_hex_frame(text_at(json, "send"));
   if (!parsed.ok()) throw std::runtime_error(parsed.errors[0].message);
   SendFrame send{.format = format_from(json.at("format")),
                  .request = {.frame = parsed.frame,
-                             .timeout = json.at("timeout").get<Time>(),
-                             .gap = json.at("gap").get<Time>(),
+                             .timeout = number_at<Time>(json, "timeout", kAnyDuration),
+                             .gap = number_at<Time>(json, "gap", kAnyDuration),
                              .silence = {},
-                             .sync = json.at("sync").get<bool>()}};
-  if (json.contains("silence")) send.request.silence = json.at("silence").get<Time>();
+                             .sync = truth_at(json, "sync")}};
+  if (json.contains("silence")) send.request.silence = number_at<Time>(json, "silence", kAnyDuration);
   return send;
 }
 
 serial::HostCall call_from(const Json& json) {
   using Call = serial::HostCall;
   using Fault = serial::HostCharacter::Fault;
-  const int what = json.at("host").get<int>();
-  if (what < 0 || what > static_cast<int>(Call::What::TakeReceived)) throw std::runtime_error("an unknown call of a bridge");
+  const int what = number_at<int>(json, "host", {0, static_cast<int>(Call::What::TakeReceived)});
   Call call{.what = static_cast<Call::What>(what),
             .format = format_from(json.at("format")),
             .characters = {},
-            .sender = json.at("sender").get<std::uint64_t>()};
+            .sender = number_at<std::uint64_t>(json, "sender")};
   for (const Json& c : json.at("characters")) {
-    const int fault = c.at(1).get<int>();
-    if (fault < 0 || fault > static_cast<int>(Fault::NoStopBit)) throw std::runtime_error("an unknown fault of a character");
-    call.characters.push_back(
-        {c.at(0).get<std::uint8_t>(), format_from(c.at(3)), static_cast<Fault>(fault), c.at(2).get<std::uint64_t>()});
+    const int fault = number_of<int>(c.at(1), {0, static_cast<int>(Fault::NoStopBit)});
+    call.characters.push_back({number_of<std::uint8_t>(c.at(0)), format_from(c.at(3)), static_cast<Fault>(fault),
+                               number_of<std::uint64_t>(c.at(2))});
   }
   return call;
 }
 
 InjectFault fault_from(const Json& json) {
-  const auto text = json.at("fault").get<std::string>();
+  const std::string text = text_at(json, "fault");
   if (text == "none") return {};
   const serial::ParsedFault parsed = serial::parse_fault(text);
   if (!parsed.ok()) throw std::runtime_error(parsed.error->message);
-  return {parsed.fault, json.value("of", "")};
+  return {parsed.fault, text_at(json, "of", "")};
 }
 
 SetMode mode_from(const std::string& text) {
@@ -165,10 +171,10 @@ SetMode mode_from(const std::string& text) {
 }
 
 CancelRequest cancel_from(const Json& json) {
-  return {.sent = json.at("sent").get<std::size_t>(),
-          .waited = json.at("waited").get<Time>(),
-          .sent_until = json.at("sent_until").get<Time>(),
-          .answering = json.at("answering").get<bool>()};
+  return {.sent = number_at<std::size_t>(json, "sent"),
+          .waited = number_at<Time>(json, "waited", kAnyMoment),
+          .sent_until = number_at<Time>(json, "sent_until", kAnyMoment),
+          .answering = truth_at(json, "answering")};
 }
 
 SetPower power_from(const std::string& text) {
@@ -180,13 +186,13 @@ Action action_from(const Json& json, const CpuModel& model) {
   if (json.contains("set")) return SetMemory{assignments_from(json.at("set"), model)};
   if (json.contains("send")) return send_from(json);
   if (json.contains("cancel")) return cancel_from(json.at("cancel"));
-  if (json.contains("power")) return power_from(json.at("power").get<std::string>());
+  if (json.contains("power")) return power_from(text_at(json, "power"));
   if (json.contains("host")) return call_from(json);
-  if (json.contains("goto")) return Jump{json.at("goto").get<std::uint32_t>()};
+  if (json.contains("goto")) return Jump{number_at<std::uint32_t>(json, "goto")};
   if (json.contains("fault")) return fault_from(json);
-  if (json.contains("mode")) return mode_from(json.at("mode").get<std::string>());
+  if (json.contains("mode")) return mode_from(text_at(json, "mode"));
   if (json.contains("stack"))
-    return SetStack{LogicStack::from_bits(json.at("stack").get<std::uint64_t>() & LogicStack::kAll)};
+    return SetStack{LogicStack::from_bits(number_at<std::uint64_t>(json, "stack") & LogicStack::kAll)};
   if (json.contains("force")) {
     Force force{assignments_from(json.at("force"), model)};
     for (const Assignment& assignment : force.assignments)
@@ -195,7 +201,7 @@ Action action_from(const Json& json, const CpuModel& model) {
   }
   if (!json.contains("unforce")) throw std::runtime_error("an unknown action");
   Unforce unforce;
-  for (const Json& place : json.at("unforce")) unforce.places.push_back(place_from(place.get<std::string>(), model));
+  for (const Json& place : json.at("unforce")) unforce.places.push_back(place_from(text_of(place), model));
   return unforce;
 }
 
@@ -205,8 +211,8 @@ RetentiveMemory retentive_from(const Json& json, const CpuModel& model) {
   std::string why;
   auto memory = memory_from_json(json.at("memory").dump(), model, why);
   if (!memory) throw std::runtime_error(why);
-  memory->ram_lost = json.at("memory_lost").get<bool>();
-  memory->power_off = json.at("power_off").get<Time>();
+  memory->ram_lost = truth_at(json, "memory_lost");
+  memory->power_off = number_at<Time>(json, "power_off", kAnyDuration);
   return *memory;
 }
 
@@ -225,7 +231,7 @@ Recording recording_from(const Json& json, Models models) {
   if (!recording.memory.empty() && recording.memory.size() != models.size())
     throw std::runtime_error("only some PLCs have a memory");
   for (const Json& action : json.at("actions")) {
-    const auto station = action.value("station", std::size_t{0});
+    const auto station = number_at<std::size_t>(action, "station", kWhole<std::size_t>, 0);
     const bool of_bridge = action.contains("host");  // `station` is its number then
     if (station >= models.size() && !of_bridge) throw std::runtime_error("something was done to a station that it has not");
     recording.moments.push_back(moment_from(action.at("at")));
@@ -250,14 +256,14 @@ Json json_of(const SessionFile::SavedStop& stop) {
 }
 
 SessionFile::SavedStop stop_from(const Json& json, std::size_t stations) {
-  SessionFile::SavedStop stop{.number = json.at("number").get<int>(),
-                              .station = json.at("station").get<std::size_t>(),
-                              .on = json.at(json.contains("watch") ? "watch" : "break").get<std::string>(),
-                              .access = json.contains("watch") ? json.at("access").get<std::string>() : "",
-                              .always = json.value("always", false),
-                              .condition = json.value("if", ""),
-                              .from_hit = json.value("hits", std::uint64_t{1}),
-                              .log = json.value("log", "")};
+  SessionFile::SavedStop stop{.number = number_at<int>(json, "number"),
+                              .station = number_at<std::size_t>(json, "station"),
+                              .on = text_at(json, json.contains("watch") ? "watch" : "break"),
+                              .access = json.contains("watch") ? text_at(json, "access") : "",
+                              .always = truth_at(json, "always", false),
+                              .condition = text_at(json, "if", ""),
+                              .from_hit = number_at<std::uint64_t>(json, "hits", kWhole<std::uint64_t>, 1),
+                              .log = text_at(json, "log", "")};
   if (stop.station >= stations) throw std::runtime_error("a breakpoint of a station that it has not");
   if (stop.number < 1 || stop.number == std::numeric_limits<int>::max())
     throw std::runtime_error("a breakpoint with a number that it cannot have");
@@ -267,18 +273,18 @@ SessionFile::SavedStop stop_from(const Json& json, std::size_t stations) {
 
 std::vector<SessionOption> options_from(const Json& json) {
   std::vector<SessionOption> options;
-  for (const auto& [name, value] : json.items()) options.push_back({name, value.get<std::string>()});
+  for (const auto& [name, value] : json.items()) options.push_back({name, text_of(value)});
   return options;
 }
 
 SessionFile file_from(const Json& json, Models models) {
   SessionFile file{.stations = {}, .options = options_from(json.at("options")), .recording = recording_from(json, models)};
   for_each_station(json, models.size(), [&](std::size_t, const Json& station) {
-    file.stations.push_back({.name = station.value("name", ""),
-                             .cpu = station.at("cpu").get<std::string>(),
-                             .program = station.at("program").get<std::string>(),
-                             .begin = station.at("begin").get<std::string>(),
-                             .state = station.at("state").get<std::string>()});
+    file.stations.push_back({.name = text_at(station, "name", ""),
+                             .cpu = text_at(station, "cpu"),
+                             .program = text_at(station, "program"),
+                             .begin = text_at(station, "begin"),
+                             .state = text_at(station, "state")});
   });
   for (const Json& stop : json.at("stops")) file.stops.push_back(stop_from(stop, models.size()));
   return file;
@@ -305,7 +311,7 @@ std::string why_other_plcs(const Json& json, Models models, std::span<const std:
     return fmt::format("it is of a system of {} PLCs, not of {}", json.at("stations").size(), names.size());
   std::string why;
   for_each_station(json, models.size(), [&](std::size_t number, const Json& station) {
-    const auto cpu = station.at("cpu").get<std::string>(), name = station.value("name", "");
+    const std::string cpu = text_at(station, "cpu"), name = text_at(station, "name", "");
     if (!why.empty()) return;
     if (of_system && name != names[number])
       why = fmt::format("it is of a system with the PLC '{}', not '{}'", stl::shortened(name), names[number]);
@@ -382,25 +388,28 @@ std::string to_text(const SessionFile& file) {
 
 std::optional<SessionFile> session_from_text(std::string_view text, std::span<const CpuModel* const> models,
                                              std::span<const std::string> names, std::string& why) {
-  Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("format") || !json["format"].is_string() ||
-      !json["format"].get_ref<const std::string&>().starts_with(kAnyFormat)) {
-    why = text.starts_with(session_beginning()) ? "it is damaged" : "it is not a saved session";
+  std::string not_json;
+  Json json = parse_json(text, not_json).value_or(Json());
+  const Json* const format = member(json, "format");
+  if (!format || !format->is_string() || !format->get_ref<const std::string&>().starts_with(kAnyFormat)) {
+    why = !text.starts_with(session_beginning()) ? "it is not a saved session"
+          : not_json.empty()                     ? "it is damaged"
+                                                 : "it is damaged: it is " + not_json;
     return {};
   }
-  if (json["format"] != kFormat) {
-    why =
-        fmt::format("it is \"{}\", and this s7200 reads \"{}\"", stl::shortened(json["format"].get<std::string>()), kFormat);
+  if (*format != kFormat) {
+    why = fmt::format("it is \"{}\", and this s7200 reads \"{}\"", stl::shortened(format->get<std::string>()), kFormat);
     return {};
   }
-  const Json sum = json.value("sum", Json());
+  const Json* const written_sum = member(json, "sum");
+  const Json sum = written_sum ? *written_sum : Json();
   json.erase("sum");
   if (sum != sum_of(json)) {
     why = "it is damaged: its check sum is wrong";
     return {};
   }
   try {
-    if (const auto by = json.at("version").get<std::string>(); by != version())
+    if (const std::string by = text_at(json, "version"); by != version())
       why = fmt::format("s7200 {} has written it, and this is s7200 {}: they may run differently", by, version());
     else if (why = why_other_plcs(json, models, names); why.empty())
       return file_from(json, models);

@@ -11,6 +11,7 @@
 #include "interpreter/cpu/forcing.hpp"
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/load.hpp"
+#include "tools/json/json.hpp"
 #include "tools/views/report.hpp"
 
 namespace s7200::tools {
@@ -85,31 +86,26 @@ std::string take_row(const std::string& address, const std::string& hex, const s
 }
 
 std::string take_rows(const Json& rows, const std::vector<Kept>& kept, const CpuModel& model) {
-  for (const auto& [address, hex] : rows.get_ref<const Json::object_t&>())
-    if (std::string why = take_row(address, hex.get_ref<const std::string&>(), kept, model); !why.empty()) return why;
+  for (const auto& [address, hex] : rows.items())
+    if (std::string why = take_row(address, text_of(hex), kept, model); !why.empty()) return why;
   return {};
 }
 
 /// What TODW takes: it does not check dates, and what a program has set comes back.
-std::string take_clock(const Json& json, ClockTime& clock) {
-  for (const auto& [name, field] : kClockFields) {
-    const auto value = json.at(name).get<std::int64_t>();
-    if (value < 0 || value > 99) return fmt::format("the clock's {} is not 0 to 99", name);
-    clock.*field = static_cast<std::uint8_t>(value);
-  }
-  return {};
+void take_clock(const Json& json, ClockTime& clock) {
+  for (const auto& [name, field] : kClockFields) clock.*field = number_at<std::uint8_t>(json, name, {0, 99});
 }
 
 /// `{"I0.0": 1, "VW10": 5}`
 std::string take_forced(const Json& values, const CpuModel& model, Forcing& forcing) {
-  for (const auto& [address, value] : values.get_ref<const Json::object_t&>()) {
+  for (const auto& [address, value] : values.items()) {
     std::string why;
     const auto place = parse_range(address, model, why);
     if (!place) return why;
     if (place->count != 1 || !forcing::possible(*place))
       return fmt::format("'{}' cannot be forced", stl::shortened(address));
-    const auto forced = parse_value(*place, value.dump());
-    if (!forced) return fmt::format("'{}' cannot be forced to {}", stl::shortened(address), stl::shortened(value.dump()));
+    const auto forced = parse_value(*place, shown(value));
+    if (!forced) return fmt::format("'{}' cannot be forced to {}", stl::shortened(address), shown(value));
     if (!forcing::add(forcing, *place, forced->value))
       return fmt::format("'{}' cannot be forced: there is room for {} values of memory", stl::shortened(address),
                          forcing.memory.size());
@@ -119,14 +115,17 @@ std::string take_forced(const Json& values, const CpuModel& model, Forcing& forc
 
 /// What is wrong, or nothing.
 std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memory) {
-  if (json.value("format", "") != kFormat)
+  if (const Json* const format = member(json, "format"); !format || *format != kFormat)
     return fmt::format("it is not the memory of a CPU (no \"format\": \"{}\")", kFormat);
-  if (const auto cpu = json.at("cpu").get<std::string>(); cpu != model.name)
-    return fmt::format("it is the memory of a CPU {}, not of a CPU {}", cpu, model.name);
-  if (std::string why = take_clock(json.at("clock"), memory.clock); !why.empty()) return why;
-  if (std::string why = take_rows(json.at("ram"), kept_in_ram(memory, model), model); !why.empty()) return why;
-  if (std::string why = take_rows(json.at("eeprom"), kept_in_eeprom(memory, model), model); !why.empty()) return why;
-  return json.contains("forced") ? take_forced(json.at("forced"), model, memory.forcing) : "";
+  if (const std::string cpu = text_at(json, "cpu"); cpu != model.name)
+    return fmt::format("it is the memory of a CPU {}, not of a CPU {}", stl::shortened(cpu), model.name);
+  required(json, "clock");
+  required(json, "ram");
+  required(json, "eeprom");
+  taken(map_at(json, "clock"), "clock", [&](const Json& clock) { take_clock(clock, memory.clock); });
+  if (std::string why = take_rows(map_at(json, "ram"), kept_in_ram(memory, model), model); !why.empty()) return why;
+  if (std::string why = take_rows(map_at(json, "eeprom"), kept_in_eeprom(memory, model), model); !why.empty()) return why;
+  return take_forced(map_at(json, "forced"), model, memory.forcing);
 }
 
 }  // namespace
@@ -143,15 +142,15 @@ std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model)
 
 std::optional<RetentiveMemory> memory_from_json(std::string_view text, const CpuModel& model, std::string& why) {
   RetentiveMemory memory;
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) {
-    why = "it is not the memory of a CPU (no JSON object)";
+  const auto json = parse_json(text, why);
+  if (!json || !json->is_object()) {
+    why = fmt::format("it is not the memory of a CPU (no JSON object{})", json ? "" : ": it is " + why);
     return {};
   }
   try {
-    why = take(json, model, memory);
-  } catch (const nlohmann::json::exception& error) {
-    why = fmt::format("it is damaged: {}", error.what());
+    why = take(*json, model, memory);
+  } catch (const WrongValue& wrong) {
+    why = fmt::format("it is damaged: {}", wrong.what());
   }
   if (!why.empty()) return {};
   return memory;

@@ -204,7 +204,13 @@ TEST_F(SavedSession, ThatIsAsNoneIsWrittenIsRefusedThoughItsCheckSumIsRight) {
       {"an unknown action", [](Json& json) { json["actions"][0].erase("send"); }},
       {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][0] = 0; }},
       {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][1] = 77; }},
-      {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][3] = 0; }}};
+      {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][3] = 0; }},
+      {"1e+78 is not a whole number from 0 to 4294967295", [](Json& json) { json["actions"][0]["format"][0] = 1e78; }},
+      {"timeout: -1 is not a whole number from 0 to", [](Json& json) { json["actions"][0]["timeout"] = -1; }},
+      {"timeout: 1e+19 is not", [](Json& json) { json["actions"][0]["timeout"] = 1e19; }},
+      {"number: 0.5 is not a whole number", [](Json& json) { json["stops"][0]["number"] = 0.5; }},
+      {"sync: 1 is not true or false", [](Json& json) { json["actions"][0]["sync"] = 1; }},
+      {"-1 is not a whole number", [](Json& json) { json["end"][0] = -1; }}};
   Session session(kEcho);
   session("break 9; save " + file("a.json"));
   for (const Case& one : cases) {
@@ -215,6 +221,19 @@ TEST_F(SavedSession, ThatIsAsNoneIsWrittenIsRefusedThoughItsCheckSumIsRight) {
     json["sum"] = digest_of(std::string_view(json.dump()));
     write("b.json", json.dump(2) + "\n");
     EXPECT_TRUE(has(session.error_of("load " + file("b.json")), one.why)) << json.dump();
+  }
+}
+
+TEST_F(SavedSession, ThatIsNestedWithoutEndIsRefused) {
+  Session session(kEcho);
+  session("save " + file("a.json"));
+  const std::string whole = read("a.json");
+  for (const std::string open : {"[", "{\"a\":"}) {
+    std::string nested;
+    for (int i = 0; i < 100'000; ++i) nested += open;
+    write("b.json", whole.substr(0, whole.rfind('}')) + ", \"more\": " + nested + '0' +
+                        std::string(100'000, open == "[" ? ']' : '}') + "}\n");
+    EXPECT_TRUE(has(session.error_of("load " + file("b.json")), "JSON of more than 64 maps and lists inside each other"));
   }
 }
 

@@ -1,0 +1,106 @@
+#include "tools/json/json.hpp"
+
+#include <vector>
+
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What has too much of something, or empty. Of a text that is JSON it counts right, and of no other does that matter.
+std::string why_too_much(std::string_view text, const JsonLimits& limits) {
+  if (text.size() > limits.bytes) return fmt::format("longer than {} bytes", limits.bytes);
+  std::vector<std::size_t> members;  // of each map or list that is open
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\')
+      ++i;
+    else if (c == '"')
+      quoted = !quoted;
+    else if (quoted)
+      continue;
+    else if (c == '{' || c == '[')
+      members.push_back(0);
+    else if ((c == '}' || c == ']') && !members.empty())
+      members.pop_back();
+    else if (c == ':' && !members.empty())
+      ++members.back();
+    if (members.size() > limits.depth) return fmt::format("JSON of more than {} maps and lists inside each other", limits.depth);
+    if (!members.empty() && members.back() > limits.members)
+      return fmt::format("JSON with more than {} members in one map", limits.members);
+  }
+  return {};
+}
+
+[[noreturn]] void wrong_kind(const Json& value, std::string_view kind) {
+  throw WrongValue(fmt::format("{} is not {}", shown(value), kind));
+}
+
+const Json& of_kind(const Json& map, const char* key, Json::value_t kind, std::string_view name, const Json& none) {
+  const Json* const value = member(map, key);
+  if (!value) return none;
+  if (value->type() != kind) taken(*value, key, [&](const Json& wrong) { wrong_kind(wrong, name); });
+  return *value;
+}
+
+}  // namespace
+
+std::optional<Json> parse_json(std::string_view text, std::string& why, const JsonLimits& limits) {
+  why = why_too_much(text, limits);
+  if (!why.empty()) return {};
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_discarded()) return json;
+  why = "not JSON";
+  return {};
+}
+
+std::string shown(const Json& value) {
+  return stl::shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::string text_of(const Json& value) {
+  if (!value.is_string()) wrong_kind(value, "a text");
+  auto text = value.get<std::string>();
+  if (text.find('\0') != std::string::npos) wrong_kind(value, "a text without the character NUL");
+  return text;
+}
+
+bool truth_of(const Json& value) {
+  if (!value.is_boolean()) wrong_kind(value, "true or false");
+  return value.get<bool>();
+}
+
+const Json* member(const Json& map, const char* key) {
+  const auto found = map.is_object() ? map.find(key) : map.end();
+  return found == map.end() || found->is_null() ? nullptr : &*found;
+}
+
+const Json& required(const Json& map, const char* key) {
+  if (const Json* const value = member(map, key)) return *value;
+  throw WrongValue(fmt::format("{} is missing", key));
+}
+
+std::string text_at(const Json& map, const char* key) { return taken(required(map, key), key, text_of); }
+
+std::string text_at(const Json& map, const char* key, std::string_view otherwise) {
+  return member(map, key) ? text_at(map, key) : std::string(otherwise);
+}
+
+bool truth_at(const Json& map, const char* key) { return taken(required(map, key), key, truth_of); }
+
+bool truth_at(const Json& map, const char* key, bool otherwise) { return member(map, key) ? truth_at(map, key) : otherwise; }
+
+const Json& list_at(const Json& map, const char* key) {
+  static const Json kNone = Json::array();
+  return of_kind(map, key, Json::value_t::array, "a list", kNone);
+}
+
+const Json& map_at(const Json& map, const char* key) {
+  static const Json kNone = Json::object();
+  return of_kind(map, key, Json::value_t::object, "a map", kNone);
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,115 @@
+// JSON that comes from outside: read within limits, and its values taken by their kind.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "interpreter/base/numbers.hpp"
+
+namespace s7200::tools {
+
+/// How much a JSON text may have.
+struct JsonLimits {
+  std::size_t bytes = 64 << 20;
+  std::size_t depth = 64;         ///< maps and lists inside each other: what handles them calls itself for each
+  std::size_t members = 10'000;  ///< of one map: each is compared with all before it
+};
+
+/// Returns nothing and sets `why` if the text is not JSON, or has more of something than `limits` allow. `why` completes a
+/// sentence that begins with "it is": `not JSON`.
+std::optional<nlohmann::ordered_json> parse_json(std::string_view text, std::string& why, const JsonLimits& limits = {});
+
+/// A value that is not what its place takes: `three: 3.5 is not a whole number from 0 to 255`.
+class WrongValue : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A value for a message, at most 40 characters of it.
+std::string shown(const nlohmann::ordered_json& value);
+
+/// The value as a number that the type can hold; `1.0` and `1e3` are whole. Returns nothing for anything else.
+template <class Number>
+std::optional<Number> number_from(const nlohmann::ordered_json& value) {
+  if (value.is_number_float()) {
+    const auto real = value.get<double>();
+    if constexpr (std::is_floating_point_v<Number>) return static_cast<Number>(real);
+    constexpr double kBeyond = 0x1p63;  // a double has no number between this and the greatest that fits
+    if (std::trunc(real) != real || real < -kBeyond || real >= kBeyond) return {};
+    return number_from<Number>(static_cast<std::int64_t>(real));
+  }
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (value.is_number()) return static_cast<Number>(value.get<double>());
+  } else {
+    if (value.is_number_unsigned() && std::in_range<Number>(value.get<std::uint64_t>()))
+      return static_cast<Number>(value.get<std::uint64_t>());
+    if (value.is_number_integer() && !value.is_number_unsigned() && std::in_range<Number>(value.get<std::int64_t>()))
+      return static_cast<Number>(value.get<std::int64_t>());
+  }
+  return {};
+}
+
+/// All that a type can hold.
+template <class Number>
+inline constexpr Between<Number> kWhole{std::numeric_limits<Number>::lowest(), std::numeric_limits<Number>::max()};
+
+// Values by their kind. Each throws WrongValue for another kind.
+
+template <class Number>
+Number number_of(const nlohmann::ordered_json& value, Between<Number> range = kWhole<Number>) {
+  const auto number = number_from<Number>(value);
+  if (number && range.has(*number)) return *number;
+  throw WrongValue(fmt::format("{} is not a{} number from {} to {}", shown(value),
+                               std::is_floating_point_v<Number> ? "" : " whole", range.least, range.most));
+}
+
+/// A text without NUL, at which names would end for the system that they are handed to.
+std::string text_of(const nlohmann::ordered_json& value);
+bool truth_of(const nlohmann::ordered_json& value);
+
+// Members of a map. One that is null counts as left out. The first forms throw WrongValue without it; all throw it, with
+// the key in front, if it is of another kind.
+
+/// Null if it is left out.
+const nlohmann::ordered_json* member(const nlohmann::ordered_json& map, const char* key);
+const nlohmann::ordered_json& required(const nlohmann::ordered_json& map, const char* key);
+
+/// What `take` makes of a member; it may throw WrongValue.
+template <class Take>
+auto taken(const nlohmann::ordered_json& value, const char* key, Take take) {
+  try {
+    return take(value);
+  } catch (const WrongValue& wrong) {
+    throw WrongValue(fmt::format("{}: {}", key, wrong.what()));
+  }
+}
+
+template <class Number>
+Number number_at(const nlohmann::ordered_json& map, const char* key, Between<Number> range = kWhole<Number>) {
+  return taken(required(map, key), key, [&](const auto& value) { return number_of<Number>(value, range); });
+}
+template <class Number>
+Number number_at(const nlohmann::ordered_json& map, const char* key, Between<Number> range, Number otherwise) {
+  return member(map, key) ? number_at<Number>(map, key, range) : otherwise;
+}
+
+std::string text_at(const nlohmann::ordered_json& map, const char* key);
+std::string text_at(const nlohmann::ordered_json& map, const char* key, std::string_view otherwise);
+bool truth_at(const nlohmann::ordered_json& map, const char* key);
+bool truth_at(const nlohmann::ordered_json& map, const char* key, bool otherwise);
+
+/// An empty list, or map, if it is left out.
+const nlohmann::ordered_json& list_at(const nlohmann::ordered_json& map, const char* key);
+const nlohmann::ordered_json& map_at(const nlohmann::ordered_json& map, const char* key);
+
+}  // namespace s7200::tools
