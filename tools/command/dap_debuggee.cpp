@@ -75,24 +75,7 @@ class RigDebuggee final : public dap::Debuggee {
   std::optional<History> history_;  ///< from start() on
 };
 
-/// What a launch says besides: which program, and to the editor that sends it.
-constexpr std::string_view kNoOptions[] = {"program",
-                                           "name",
-                                           "type",
-                                           "request",
-                                           "debugServer",
-                                           "preLaunchTask",
-                                           "postDebugTask",
-                                           "presentation",
-                                           "serverReadyAction",
-                                           "internalConsoleOptions",
-                                           "debugOptions",
-                                           "suppressMultipleSessionWarning"};
-
-bool is_option(const std::string& key) {
-  return !key.starts_with("__") && !dap::is_session_attribute(key) &&
-         std::ranges::find(kNoOptions, key) == std::end(kNoOptions);
-}
+bool is_option(const std::string& key) { return dap::use_of(key) == dap::AttributeUse::Program && key != "program"; }
 
 /// `--modbus-tcp` for `modbusTcp`
 std::string option_of(const std::string& key) {

@@ -52,17 +52,18 @@ class Reader {
       std::string why;
       const auto content = frames_.next(why);
       if (!content && why.empty()) return;
-      Json message = content ? Json::parse(*content, nullptr, false) : Json();
-      if (content && message.is_discarded()) {
-        why = fmt::format("'{}' is not JSON", stl::shortened(*content));
+      std::string not_json;
+      auto parsed = content ? parse_json(*content, not_json) : std::nullopt;
+      if (content && !parsed) {
+        why = fmt::format("'{}' is {}", stl::shortened(*content), not_json);
         frames_.reject(*content);
-      } else if (content && !message.is_object()) {
+      } else if (content && !parsed->is_object()) {
         why = fmt::format("'{}' is not a JSON object", stl::shortened(*content));
       }
       if (why.empty()) {
         any_message_ = true;
         wrong_so_far_.clear();
-        inbox_.put(std::move(message));
+        inbox_.put(std::move(*parsed));
       } else {
         if (!any_message_ && wrong_so_far_.empty()) wrong_so_far_ = why;
         inbox_.put_unreadable(why);

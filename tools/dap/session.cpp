@@ -153,12 +153,11 @@ void Session::handle(const Json& message) {
   try {
     if (found == requests().end())
       throw Refused(fmt::format("'{}' is not a request that is offered", stl::shortened(command)));
-    respond(message, true, dispatch(*found, object_in(message, "arguments")));
+    respond(message, true, dispatch(*found, map_at(message, "arguments")));
   } catch (const Refused& refused) {
     respond(message, false, {}, refused.what());
-  } catch (const Json::exception&) {
-    respond(message, false, {},
-            fmt::format("the arguments of {} are not as the protocol says: one is of another type", command));
+  } catch (const WrongValue& wrong) {
+    respond(message, false, {}, wrong.what());
   }
   for (const auto& action : std::exchange(later_, {})) action();
 }
@@ -184,19 +183,19 @@ Json Session::dispatch(const Request& request, const Json& arguments) {
 std::optional<std::size_t> Session::take_station(Json& arguments) const {
   std::optional<std::int64_t> station;
   const auto take_number = [&](const char* key, std::int64_t of_a_station, std::string_view what) {
-    if (!arguments.contains(key)) return;
-    const auto number = arguments[key].get<std::int64_t>();
+    if (!member(arguments, key)) return;
+    const auto number = number_at<std::int64_t>(arguments, key);
     station = number / of_a_station;
     if (number < 0 || *station >= static_cast<std::int64_t>(stations()))
       throw Refused(fmt::format("there is no {} {}", what, number));
     arguments[key] = number % of_a_station;
   };
-  if (arguments.contains("threadId")) station = arguments["threadId"].get<std::int64_t>() - 1;
+  if (member(arguments, "threadId")) station = std::int64_t{number_at<std::int32_t>(arguments, "threadId")} - 1;
   take_number("frameId", kFramesOfAStation, "frame");
   take_number("variablesReference", kContainersOfAStation, "variablesReference");
   for (const char* const key : {"memoryReference", "name"}) {
-    if (!arguments.contains(key) || (key == std::string_view("name") && !arguments.value("asAddress", false))) continue;
-    const auto text = arguments[key].get<std::string>();
+    if (!member(arguments, key) || (key == std::string_view("name") && !truth_at(arguments, "asAddress", false))) continue;
+    const std::string text = text_at(arguments, key);
     const auto found = find_station(text, stations());
     if (!found) throw Refused(fmt::format("'{}' is of no station of this system", stl::shortened(text)));
     station = static_cast<std::int64_t>(found->station);
@@ -268,9 +267,14 @@ Json Session::client_place(std::uint32_t op) const {
   return place;
 }
 
+/// The full name of the file that a request is about.
+std::string Session::source_path(const Json& arguments) const {
+  return full_name(text_at(required_map(arguments, "source"), "path", ""), folder_);
+}
+
 /// As the client counts lines.
 std::uint32_t Session::client_line_in(const Json& arguments, const char* key) const {
-  const auto line = required(arguments, key).get<std::int64_t>();
+  const auto line = number_at<std::int64_t>(arguments, key);
   if (line < std::int64_t{line_base_} || line >= std::numeric_limits<std::uint32_t>::max())
     throw Refused(fmt::format("there is no line {}: lines are counted from {}", line, line_base_));
   return static_cast<std::uint32_t>(line);
@@ -279,12 +283,15 @@ std::uint32_t Session::client_line_in(const Json& arguments, const char* key) co
 // --- the life of a session ---
 
 Json Session::initialize(const Json& arguments) {
-  line_base_ = arguments.value("linesStartAt1", true) ? 1 : 0;
-  column_base_ = arguments.value("columnsStartAt1", true) ? 1 : 0;
-  client_shows_progress_ = arguments.value("supportsProgressReporting", false);
-  client_takes_memory_events_ = arguments.value("supportsMemoryEvent", false);
-  client_takes_invalidation_ = arguments.value("supportsInvalidatedEvent", false);
-  if (arguments.value("pathFormat", "path") != "path") throw Refused("only the path format 'path' is offered");
+  line_base_ = truth_at(arguments, "linesStartAt1", true) ? 1 : 0;
+  column_base_ = truth_at(arguments, "columnsStartAt1", true) ? 1 : 0;
+  client_shows_progress_ = truth_at(arguments, "supportsProgressReporting", false);
+  client_takes_memory_events_ = truth_at(arguments, "supportsMemoryEvent", false);
+  client_takes_invalidation_ = truth_at(arguments, "supportsInvalidatedEvent", false);
+  const std::string format = text_at(arguments, "pathFormat", "path");
+  if (format != "path" && format != "uri")
+    throw Refused(fmt::format("pathFormat: '{}' is not path or uri", stl::shortened(format)));
+  client_takes_uris_ = format == "uri";
   return capabilities();
 }
 
@@ -292,6 +299,7 @@ Json Session::launch(const Json& arguments) {
   if (debuggee_) throw Refused("a program is being debugged already");
   read_attributes(arguments, false);
   begin(settings_.launch(arguments));
+  note_without_effect(arguments, {AttributeUse::OfOthers}, "of other debuggers");
   begun_with_ = arguments;
   return {};
 }
@@ -304,6 +312,10 @@ Json Session::attach(const Json& arguments) {
         "PROGRAM; launch brings its own");
   read_attributes(arguments, true);
   begin(settings_.attachable);
+  Json rest = arguments;
+  rest.erase("port");  // where the server is: for the editor
+  note_without_effect(rest, {AttributeUse::OfOthers, AttributeUse::Program},
+                      "the command line of s7200 dap says how this PLC runs");
   begun_with_ = arguments;
   attached_ = true;
   return {};
@@ -311,15 +323,27 @@ Json Session::attach(const Json& arguments) {
 
 /// What a launch or an attach says to the session itself.
 void Session::read_attributes(const Json& arguments, bool stops_on_entry) {
-  stop_on_entry_ = arguments.value("stopOnEntry", stops_on_entry);
-  no_debug_ = arguments.value("noDebug", false);
-  const std::string unit = arguments.value("step", "line");
+  stop_on_entry_ = truth_at(arguments, "stopOnEntry", stops_on_entry);
+  no_debug_ = truth_at(arguments, "noDebug", false);
+  const std::string unit = text_at(arguments, "step", "line");
   if (unit != "line" && unit != "network") throw Refused(fmt::format("step: '{}' is not line or network", unit));
   steps_are_networks_ = unit == "network";
-  const auto station = arguments.value("station", std::int64_t{1});
+  const auto station = number_at<std::int64_t>(arguments, "station", kWhole<std::int64_t>, 1);
   if (station < 0 || station > 255) throw Refused(fmt::format("station: {} is not from 0 to 255", station));
   station_ = static_cast<std::uint8_t>(station);
+  folder_ = text_at(arguments, "cwd", "");
   read_frames(arguments);
+}
+
+/// One line for all of them.
+void Session::note_without_effect(const Json& arguments, std::initializer_list<AttributeUse> uses, const std::string& why) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : arguments.items()) {
+    const bool is_one = std::ranges::find(uses, use_of(key)) != uses.end();
+    if (is_one && !value.is_null()) keys.push_back(key);
+  }
+  if (!keys.empty())
+    print(fmt::format("without effect here ({}): {}", why, stl::joined(keys, std::identity{})), "important");
 }
 
 void Session::begin(std::shared_ptr<Debuggee> debuggee) {
@@ -329,7 +353,8 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
   stepper_ = std::make_unique<Stepper>(debuggee_->history(), settings_.stop_request);
   stepper_->look_at(debuggee_->first_station());
   stations_.clear();
-  for (std::size_t station = 0; station < stations(); ++station) stations_.emplace_back(*debuggee_->program(station));
+  for (std::size_t station = 0; station < stations(); ++station)
+    stations_.emplace_back(*debuggee_->program(station), client_takes_uris_);
   stepper_->set_host_timeout(master().timeout);
   debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
   stepper_->on_message = [this](const StopPoint& stop, const Hit& hit) {
@@ -351,11 +376,9 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
 
 /// The frames that a launch or an attach asks for.
 void Session::read_frames(const Json& arguments) {
-  const Json wanted = arguments.value("send", Json::array());
   frames_.clear();
-  for (const Json& frame : wanted.is_array() ? wanted : Json::array({wanted}))
-    frames_.push_back(parsed_frame(frame.get<std::string>()));
-  const std::string after = arguments.value("sendAfter", "");
+  for (const std::string& frame : texts_at(arguments, "send")) frames_.push_back(parsed_frame(frame));
+  const std::string after = text_at(arguments, "sendAfter", "");
   const auto time = after.empty() ? std::optional(kSendAfter) : parse_duration(after);
   if (!time) throw Refused(fmt::format("sendAfter: '{}' is not a duration; write for example 250ms", stl::shortened(after)));
   send_after_ = *time;
@@ -379,10 +402,9 @@ void Session::take_changed_arguments(const Json& arguments) {
   read_attributes(arguments, attached_);
   std::vector<std::string> changed;
   for (const auto& [key, value] : arguments.items())
-    if (!key.starts_with("__") && !is_session_attribute(key) && begun_with_.value(key, Json()) != value)
-      changed.push_back(key);
+    if (use_of(key) == AttributeUse::Program && begun_with_.value(key, Json()) != value) changed.push_back(key);
   for (const auto& [key, value] : begun_with_.items())
-    if (!key.starts_with("__") && !is_session_attribute(key) && !arguments.contains(key)) changed.push_back(key);
+    if (use_of(key) == AttributeUse::Program && !arguments.contains(key)) changed.push_back(key);
   if (!changed.empty())
     print(fmt::format(
               "restart: the program that is loaded powers up again; for another {} end the session and begin a new one",
@@ -391,7 +413,7 @@ void Session::take_changed_arguments(const Json& arguments) {
 }
 
 Json Session::restart(const Json& arguments) {
-  if (arguments.contains("arguments")) take_changed_arguments(arguments["arguments"]);
+  if (member(arguments, "arguments")) take_changed_arguments(map_at(arguments, "arguments"));
   running_.reset();
   pause_asked_ = false;
   debuggee_->history().restart();

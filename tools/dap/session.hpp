@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "tools/dap/addresses.hpp"
+#include "tools/dap/attributes.hpp"
 #include "tools/dap/debuggee.hpp"
 #include "tools/dap/sources.hpp"
 #include "tools/dap/variables.hpp"
@@ -35,12 +36,6 @@ namespace s7200::tools::dap {
 
 /// From the numbers of a station's frames to those of the next one; and of what has variables.
 inline constexpr std::int64_t kFramesOfAStation = 1 << 16, kContainersOfAStation = 1 << 23;
-
-/// What a launch or an attach says to the session itself.
-constexpr bool is_session_attribute(std::string_view key) {
-  return key == "stopOnEntry" || key == "noDebug" || key == "step" || key == "send" || key == "sendAfter" ||
-         key == "station";
-}
 
 struct SessionSettings {
   /// Powers up what a launch asks for; throws Refused.
@@ -96,6 +91,7 @@ class Session {
   Json disconnect(const Json& arguments);
   Json cancel(const Json& arguments);
   void read_attributes(const Json& arguments, bool stops_on_entry);
+  void note_without_effect(const Json& arguments, std::initializer_list<AttributeUse> uses, const std::string& why);
   void take_changed_arguments(const Json& arguments);
   void begin(std::shared_ptr<Debuggee> debuggee);
   void read_frames(const Json& arguments);
@@ -274,6 +270,7 @@ class Session {
     std::size_t before_;
   };
   std::size_t station_with(const std::string& path) const;
+  std::string source_path(const Json& arguments) const;
   std::uint32_t client_line(std::uint32_t line) const { return line_base_ == 1 ? line : line - 1; }
   std::uint32_t client_line_in(const Json& arguments, const char* key = "line") const;
   std::uint32_t line_of_client(std::uint32_t line) const { return line_base_ == 1 ? line : line + 1; }
@@ -287,18 +284,20 @@ class Session {
   // What the client can do.
   std::uint32_t line_base_ = 1, column_base_ = 1;
   bool client_shows_progress_ = false, client_takes_memory_events_ = false, client_takes_invalidation_ = false;
+  bool client_takes_uris_ = false;
 
   // What is debugged.
   std::shared_ptr<Debuggee> debuggee_;
   bool attached_ = false;
   struct Station {
-    explicit Station(const Program& program) : listing(program), sources(program) {}
+    Station(const Program& program, bool as_uris) : listing(program), sources(program, as_uris) {}
     Listing listing;
     Sources sources;
   };
   std::deque<Station> stations_;
   std::unique_ptr<Stepper> stepper_;
   bool stop_on_entry_ = false, no_debug_ = false, steps_are_networks_ = false;
+  std::string folder_;                 ///< where the client's relative paths begin; empty: at the command's
   std::vector<serial::Frame> frames_;  ///< to be sent, as the launch asks for
   std::vector<Time> frames_sent_;      ///< when, on this branch
   Json begun_with_;                    ///< the arguments of launch or attach

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -43,9 +44,7 @@ bool take_always(std::string& condition) {
   return true;
 }
 
-bool is_wanted(const Json& wanted, const char* key) {
-  return wanted.contains(key) && !wanted[key].get<std::string>().empty();
-}
+bool is_wanted(const Json& wanted, const char* key) { return !text_at(wanted, key, "").empty(); }
 
 }  // namespace
 
@@ -61,7 +60,7 @@ StopPoint Session::with_conditions(StopPoint stop, const Json& wanted) const {
   const Program& program = cpu().program();
   std::string why;
   if (is_wanted(wanted, "condition")) {
-    auto condition = wanted["condition"].get<std::string>();
+    auto condition = text_at(wanted, "condition");
     if (take_always(condition)) {
       if (why = refused_option(kAlways, stop); !why.empty()) throw Refused(why);
       stop.needs_power = false;
@@ -72,9 +71,9 @@ StopPoint Session::with_conditions(StopPoint stop, const Json& wanted) const {
       stop.condition = *expression;
     }
   }
-  if (is_wanted(wanted, "hitCondition")) stop.from_hit = first_hit(wanted["hitCondition"].get<std::string>());
+  if (is_wanted(wanted, "hitCondition")) stop.from_hit = first_hit(text_at(wanted, "hitCondition"));
   if (is_wanted(wanted, "logMessage")) {
-    stop.log = wanted["logMessage"].get<std::string>();
+    stop.log = text_at(wanted, "logMessage");
     if (!check_message(stop.log, program, why)) throw Refused(why);
   }
   return stop;
@@ -111,8 +110,8 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
       }
     } catch (const Refused& refused) {
       refuse(refused.what());
-    } catch (const Json::exception&) {
-      refuse("it is not as the protocol says: something is of another type");
+    } catch (const WrongValue& wrong) {
+      refuse(wrong.what());
     }
     placed_[number] = {kind, group, one, answer};
     answers.push_back(std::move(answer));
@@ -150,7 +149,8 @@ std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& 
   const auto lines = sources().lines_of(path);
   if (!lines) throw Refused(fmt::format("{} is not a file of this program", path));
   if (line_of_client(wanted_line) > *lines)
-    throw Refused(fmt::format("{} has no line {}; its last one is {}", path, wanted_line, client_line(*lines)));
+    throw Refused(fmt::format("{} has no line {}; its last one is {}", std::filesystem::path(path).filename().string(),
+                              wanted_line, client_line(*lines)));
   return at_all_stations(wanted, answer, [&](std::string& why) -> std::optional<StopPoint> {
     const auto line = sources().line_in(path, line_of_client(wanted_line));
     const auto op = line ? listing().op_from_line(*line) : std::nullopt;
@@ -163,14 +163,14 @@ std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& 
 }
 
 Json Session::set_breakpoints(const Json& arguments) {
-  const std::string path = required(arguments, "source").value("path", "");
-  return place(StopKind::Line, path, arguments.value("breakpoints", Json::array()),
+  const std::string path = source_path(arguments);
+  return place(StopKind::Line, path, list_at(arguments, "breakpoints"),
                [&](const Json& wanted, Json& answer) { return line_stops(path, wanted, answer); });
 }
 
 /// `SBR 51`, `INT 123`, `NETWORK 4`, `event 8 occurs`, `received` …, or what causes an event: `port 0: character received`.
 std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer) {
-  const auto name = required(wanted, "name").get<std::string>();
+  const auto name = text_at(wanted, "name");
   std::vector<std::string> words = stl::split_words(name);
   if (words.empty()) throw Refused("the name is empty; write for example SBR 51, INT 123, event 8 or received");
   for (const InterruptEvent& event : all_events())
@@ -187,13 +187,13 @@ std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer)
 }
 
 Json Session::set_function_breakpoints(const Json& arguments) {
-  return place(StopKind::Function, "", required(arguments, "breakpoints"),
+  return place(StopKind::Function, "", required_list(arguments, "breakpoints"),
                [&](const Json& wanted, Json& answer) { return function_stops(wanted, answer); });
 }
 
 Json Session::set_instruction_breakpoints(const Json& arguments) {
-  return place(StopKind::Instruction, "", required(arguments, "breakpoints"), [&](const Json& wanted, Json& answer) {
-    const auto reference = required(wanted, "instructionReference").get<std::string>();
+  return place(StopKind::Instruction, "", required_list(arguments, "breakpoints"), [&](const Json& wanted, Json& answer) {
+    const auto reference = text_at(wanted, "instructionReference");
     const auto of = find_station(reference, stations());
     const LookAt look(*this, of ? of->station : looks_at());
     const auto number = of ? find_instruction_number(of->reference) : std::nullopt;
@@ -210,10 +210,10 @@ Json Session::set_instruction_breakpoints(const Json& arguments) {
 }
 
 Json Session::breakpoint_locations(const Json& arguments) {
-  const std::string path = required(arguments, "source").value("path", "");
+  const std::string path = source_path(arguments);
   const LookAt look(*this, station_with(path));
   const auto first = client_line_in(arguments);
-  const auto last = std::min(arguments.contains("endLine") ? client_line_in(arguments, "endLine") : first,
+  const auto last = std::min(member(arguments, "endLine") ? client_line_in(arguments, "endLine") : first,
                              client_line(listing().last_line()));
   Json locations = Json::array();
   for (std::uint32_t line = first; line <= last; ++line) {
@@ -227,9 +227,9 @@ Json Session::breakpoint_locations(const Json& arguments) {
 // --- data ---
 
 Json Session::data_breakpoint_info(const Json& arguments) {
-  const auto name = required(arguments, "name").get<std::string>();
+  const auto name = text_at(arguments, "name");
   std::string text = name.substr(0, name.find(' ', name.starts_with('"') ? quotation_length(name) : 0));
-  if (arguments.value("asAddress", false)) {
+  if (truth_at(arguments, "asAddress", false)) {
     const auto place = find_memory(text, cpu().program());
     if (!place) throw Refused(fmt::format("'{}' is not an address of memory", stl::shortened(text)));
     for (const AreaInfo& area : all_areas())
@@ -239,7 +239,7 @@ Json Session::data_breakpoint_info(const Json& arguments) {
   const auto where = parse_place(text, cpu().program(), why);
   auto range = where ? range_now(*where, cpu()) : std::nullopt;
   if (!range) return {{"dataId", nullptr}, {"description", where ? text + " points nowhere" : why}};
-  if (const auto bytes = arguments.value("bytes", 0u); bytes > 0) {
+  if (const auto bytes = number_at<std::uint32_t>(arguments, "bytes", kWhole<std::uint32_t>, 0); bytes > 0) {
     text = fmt::format("{}B{}:{}", info(range->area).name, range->number, bytes);
     range = parse_range(text, cpu().program(), why);
     if (!range) return {{"dataId", nullptr}, {"description", why}};
@@ -256,11 +256,11 @@ Json Session::data_breakpoint_info(const Json& arguments) {
 
 /// `write` stops when the value changes, whoever changes it; with `write` in the name at each write of an instruction.
 std::vector<StopPoint> Session::data_stops(const Json& wanted) {
-  const auto id = required(wanted, "dataId").get<std::string>();
+  const auto id = text_at(wanted, "dataId");
   const auto of = find_station(id.substr(0, id.find(' ')), stations());
   if (!of) throw Refused(fmt::format("'{}' is of no station of this system", stl::shortened(id)));
   const LookAt look(*this, of->station);
-  const std::string &name = of->reference, access = wanted.value("accessType", "write");
+  const std::string &name = of->reference, access = text_at(wanted, "accessType", "write");
   std::string why;
   const auto range = parse_range(name, cpu().program(), why);
   if (!range) throw Refused(why);
@@ -272,19 +272,19 @@ std::vector<StopPoint> Session::data_stops(const Json& wanted) {
 }
 
 Json Session::set_data_breakpoints(const Json& arguments) {
-  return place(StopKind::Data, "", required(arguments, "breakpoints"),
+  return place(StopKind::Data, "", required_list(arguments, "breakpoints"),
                [&](const Json& wanted, Json&) { return data_stops(wanted); });
 }
 
 // --- exceptions ---
 
 std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
-  const std::string id = wanted.value("filterId", "");
+  const std::string id = text_at(wanted, "filterId", "");
   const auto filter = std::ranges::find(kExceptionFilters, id, &ExceptionFilter::id);
   if (filter == std::end(kExceptionFilters))
     throw Refused(fmt::format("there is no exception filter '{}'", stl::shortened(id)));
   if (!filter->on) return {};
-  std::string codes = filter->codes.empty() ? "" : wanted.value("condition", "");
+  std::string codes = filter->codes.empty() ? "" : text_at(wanted, "condition", "");
   std::ranges::replace(codes, ',', ' ');
   std::vector<StopPoint> stops;
   for (const std::string& text : stl::split_words(codes)) {
@@ -319,8 +319,8 @@ std::vector<StopPoint> Session::at_each_station(StopPoint stop) const {
 }
 
 Json Session::set_exception_breakpoints(const Json& arguments) {
-  Json wanted = arguments.value("filterOptions", Json::array());
-  for (const Json& filter : arguments.value("filters", Json::array())) wanted.push_back({{"filterId", filter}});
+  Json wanted = list_at(arguments, "filterOptions");
+  for (const Json& filter : list_at(arguments, "filters")) wanted.push_back({{"filterId", filter}});
   return place(StopKind::Exception, "", wanted, [&](const Json& one, Json&) {
     std::vector<StopPoint> stops;
     for (const StopPoint& stop : exception_stops(one)) std::ranges::copy(at_each_station(stop), std::back_inserter(stops));

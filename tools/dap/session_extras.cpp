@@ -29,10 +29,9 @@ namespace {
 
 /// A text with blanks between its words, or a list of them; `VW10 = 5` is one.
 std::vector<std::string> words_in(const Json& arguments, const char* key) {
-  const Json given = arguments.value(key, Json::array());
   std::vector<std::string> words;
-  for (const Json& text : given.is_array() ? given : Json::array({given})) {
-    std::istringstream parts(text.get<std::string>());
+  for (const std::string& text : texts_at(arguments, key)) {
+    std::istringstream parts(text);
     words.insert(words.end(), std::istream_iterator<std::string>(parts), {});
   }
   return assignments_of(words);
@@ -49,14 +48,14 @@ serial::Frame Session::parsed_frame(const std::string& text) const {
 
 Json Session::send_frame(const Json& arguments) {
   std::string why;
-  if (stl::lower_case(required(arguments, "frame").get<std::string>()) == "cancel") {
+  if (stl::lower_case(text_at(arguments, "frame")) == "cancel") {
     const auto cancel = cancel_of(simulation(), why);
     if (!cancel) throw Refused(why);
     print(cancelled_text(*cancel, simulation()));
     act(*cancel);
     return {{"frame", serial::to_hex(simulation().master().exchange().request)}};
   }
-  const serial::Frame frame = parsed_frame(required(arguments, "frame").get<std::string>());
+  const serial::Frame frame = parsed_frame(text_at(arguments, "frame"));
   const auto send = send_of(frame, simulation(), master(), why);
   if (!send) throw Refused(why);
   act(*send);
@@ -66,7 +65,7 @@ Json Session::send_frame(const Json& arguments) {
 
 Json Session::inject_fault(const Json& arguments) {
   std::string why;
-  const auto inject = fault_of(required(arguments, "fault").get<std::string>(), debuggee_->history(), looks_at(), why);
+  const auto inject = fault_of(text_at(arguments, "fault"), debuggee_->history(), looks_at(), why);
   if (!inject) throw Refused(why);
   act(*inject);
   return {{"text", fault_text(*inject)}};
@@ -128,8 +127,8 @@ Json Session::unforce(const Json& arguments) {
 Json Session::timeline(const Json& arguments) {
   const serial::Exchange exchange = simulation().has_master() ? simulation().master().exchange() : serial::Exchange{};
   Time from = exchange.request_start;
-  if (arguments.contains("from")) {
-    const auto time = parse_duration(arguments["from"].get<std::string>());
+  if (member(arguments, "from")) {
+    const auto time = parse_duration(text_at(arguments, "from"));
     if (!time) throw Refused("from must be a time, such as 15.193ms");
     from = *time;
   }
@@ -164,12 +163,10 @@ Json Session::named(const InstructionRecord& record) const {
   return body;
 }
 
-Json Session::last_write(const Json& arguments) {
-  return find_writer(required(arguments, "expression").get<std::string>()).body;
-}
+Json Session::last_write(const Json& arguments) { return find_writer(text_at(arguments, "expression")).body; }
 
 Json Session::reverse_to_last_write(const Json& arguments) {
-  const Found written = find_writer(required(arguments, "expression").get<std::string>());
+  const Found written = find_writer(text_at(arguments, "expression"));
   if (!written.moment) throw Refused(written.body["text"].get<std::string>());
   after_response([this, written] {
     print(written.body["text"].get<std::string>());
@@ -208,7 +205,7 @@ Json Session::reverse_to_last_decision(const Json&) {
 }
 
 Json Session::last_instructions(const Json& arguments) {
-  const auto count = arguments.value("count", std::int64_t{kUsualInstructions});
+  const auto count = number_at<std::int64_t>(arguments, "count", kWhole<std::int64_t>, kUsualInstructions);
   if (count < 1 || count > kMostInstructions)
     throw Refused(fmt::format("count must be a number from 1 to {}", kMostInstructions));
   const auto found =
@@ -227,7 +224,7 @@ Json Session::last_instructions(const Json& arguments) {
 
 /// What each instruction of some lines did when it was last executed.
 Json Session::stl_status(const Json& arguments) {
-  const std::string path = required(arguments, "source").value("path", "");
+  const std::string path = source_path(arguments);
   const LookAt look(*this, station_with(path));
   const auto first_line = sources().line_in(path, line_of_client(client_line_in(arguments)));
   const auto last_line = sources().line_in(path, line_of_client(client_line_in(arguments, "endLine")));

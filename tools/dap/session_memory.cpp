@@ -16,7 +16,7 @@ namespace s7200::tools::dap {
 namespace {
 
 MemoryPlace memory_at(const Json& arguments, const Program& program) {
-  const auto reference = required(arguments, "memoryReference").get<std::string>();
+  const auto reference = text_at(arguments, "memoryReference");
   const auto place = find_memory(reference, program);
   if (!place)
     throw Refused(fmt::format("'{}' is not memory of this CPU; write for example V, VB100, AC0", stl::shortened(reference)));
@@ -56,7 +56,7 @@ Json Session::read_memory(const Json& arguments) {
       std::span(all).subspan(static_cast<std::size_t>(begin - place.begin), static_cast<std::size_t>(end - begin)));
   // to tell when it changes, an area is looked at as a whole
   ReadArea& area = read_.try_emplace({looks_at(), place.begin}, ReadArea{.bytes = all}).first->second;
-  area.references.insert(at_station(arguments["memoryReference"].get<std::string>(), looks_at()));
+  area.references.insert(at_station(text_at(arguments, "memoryReference"), looks_at()));
   return body;
 }
 
@@ -83,14 +83,14 @@ void Session::write_levels(const MemoryPlace& place, std::uint32_t first, const 
 
 Json Session::write_memory(const Json& arguments) {
   const MemoryPlace place = memory_at(arguments, cpu().program());
-  auto bytes = from_base64(required(arguments, "data").get<std::string>());
+  auto bytes = from_base64(text_at(arguments, "data"));
   if (!bytes) throw Refused("data is not base64");
   if (place.owner == Owner::SavedAccumulators)
     throw Refused("the accumulators that an interrupted routine will find again cannot be set");
   const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
   const std::int64_t room = first < place.begin ? 0 : std::max<std::int64_t>(0, place.end - first);
   if (static_cast<std::int64_t>(bytes->size()) > room) {
-    if (!arguments.value("allowPartial", false))
+    if (!truth_at(arguments, "allowPartial", false))
       throw Refused(fmt::format("{} bytes from there run past the end of the area", bytes->size()));
     bytes->resize(static_cast<std::size_t>(room));
   }
@@ -136,18 +136,18 @@ Json Session::set_level(const Variable& level, const std::string& value) {
 }
 
 Json Session::set_variable(const Json& arguments) {
-  const auto name = required(arguments, "name").get<std::string>();
-  const auto container = required(arguments, "variablesReference").get<Container>();
+  const auto name = text_at(arguments, "name");
+  const auto container = number_at<Container>(arguments, "variablesReference");
   for (const Variable& variable : variables_of(simulation(), debuggee_->history(), container))
     if (variable.name == name && variable.settable) {
-      const auto value = required(arguments, "value").get<std::string>();
+      const auto value = text_at(arguments, "value");
       return variable.expression.empty() ? set_level(variable, value) : assign(variable.expression, value);
     }
   throw Refused(fmt::format("'{}' cannot be set", stl::shortened(name)));
 }
 
 Json Session::set_expression(const Json& arguments) {
-  return assign(required(arguments, "expression").get<std::string>(), required(arguments, "value").get<std::string>());
+  return assign(text_at(arguments, "expression"), text_at(arguments, "value"));
 }
 
 std::string Session::without_power() const {

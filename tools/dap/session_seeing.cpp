@@ -36,13 +36,13 @@ Json to_json(const Variable& variable, std::size_t station) {
 /// `16#05`, without what stands behind it.
 std::string hex_of(const std::string& value) { return value.substr(0, value.find(' ')); }
 
-bool wants_hex(const Json& arguments) { return arguments.contains("format") && arguments["format"].value("hex", false); }
+bool wants_hex(const Json& arguments) { return truth_at(map_at(arguments, "format"), "hex", false); }
 
 /// `modbus_slave.stl!INT 123, line 40`, as much of it as is asked for.
 void format_name(Json& frame, const Json& format) {
   auto name = frame["name"].get<std::string>();
-  if (format.value("module", false)) name = frame["source"].value("name", "") + "!" + name;
-  if (format.value("line", false)) name += fmt::format(", line {}", frame["line"].get<int>());
+  if (truth_at(format, "module", false)) name = frame["source"].value("name", "") + "!" + name;
+  if (truth_at(format, "line", false)) name += fmt::format(", line {}", frame["line"].get<int>());
   frame["name"] = name;
 }
 
@@ -107,16 +107,16 @@ Json Session::stack_trace(const Json& arguments) {
   if (frames.empty())
     add(state.fatal_code && state.fatal_op != kNoRoutine ? state.fatal_op : 0, powered ? "STOP" : "without power");
   const auto total = frames.size();
-  const auto start = std::min(arguments.value("startFrame", std::size_t{0}), total);
-  const auto levels = arguments.value("levels", std::size_t{0});
+  const auto start = std::min(amount_from_0(arguments, "startFrame"), total);
+  const auto levels = amount_from_0(arguments, "levels");
   const auto end = levels == 0 ? total : std::min(total, start + levels);
   Json shown = Json::array();
-  for (std::size_t i = start; i < end; ++i) format_name(shown.emplace_back(frames[i]), object_in(arguments, "format"));
+  for (std::size_t i = start; i < end; ++i) format_name(shown.emplace_back(frames[i]), map_at(arguments, "format"));
   return {{"stackFrames", shown}, {"totalFrames", total}};
 }
 
 Json Session::scopes(const Json& arguments) {
-  const auto frame = required(arguments, "frameId").get<std::uint32_t>();
+  const auto frame = number_at<std::uint32_t>(arguments, "frameId");
   if (frame > std::max<std::size_t>(open_routines(cpu().state()).size(), 1))
     throw Refused(fmt::format("there is no frame {}", frame));
   Json scopes = Json::array();
@@ -130,10 +130,10 @@ Json Session::scopes(const Json& arguments) {
 }
 
 Json Session::variables(const Json& arguments) {
-  const auto container = required(arguments, "variablesReference").get<Container>();
+  const auto container = number_at<Container>(arguments, "variablesReference");
   const auto all = variables_of(simulation(), debuggee_->history(), container);
-  const auto start = std::min(arguments.value("start", std::size_t{0}), all.size());
-  const auto count = arguments.value("count", std::size_t{0});
+  const auto start = std::min(amount_from_0(arguments, "start"), all.size());
+  const auto count = amount_from_0(arguments, "count");
   const auto end = count == 0 ? all.size() : std::min(all.size(), start + count);
   Json variables = Json::array();
   for (std::size_t i = start; i < end; ++i) {
@@ -188,8 +188,8 @@ Json Session::evaluated(const std::string& expression, bool hex) {
 }
 
 Json Session::evaluate(const Json& arguments) {
-  const std::string expression(stl::trim(required(arguments, "expression").get<std::string>()));
-  const bool console = arguments.value("context", "") == "repl";
+  const std::string expression(stl::trim(text_at(arguments, "expression")));
+  const bool console = text_at(arguments, "context", "") == "repl";
   const std::string word = expression.substr(0, expression.find(' '));
   if (const ConsoleCommand* const command = console ? console_command(word) : nullptr) {
     const std::string rest(stl::trim(std::string_view(expression).substr(word.size())));
@@ -200,9 +200,9 @@ Json Session::evaluate(const Json& arguments) {
 
 /// What the last word before the cursor may become.
 Json Session::completions(const Json& arguments) {
-  const auto text = required(arguments, "text").get<std::string>();
-  const auto column = required(arguments, "column").get<std::size_t>();
-  const std::string before = first_units(text, column - std::min<std::size_t>(column, column_base_));
+  const auto text = text_at(arguments, "text");
+  const auto column = number_at<std::uint32_t>(arguments, "column");
+  const std::string before = first_units(text, column - std::min(column, column_base_));
   const std::size_t begin = before.find_last_of(" (*=<>+-/") + 1;
   const std::size_t start = units_of(before.substr(0, begin)) + column_base_;
   const std::string word = stl::upper_case(before.substr(begin));
@@ -242,7 +242,7 @@ std::string Session::resolved_text(std::uint32_t number) const {
 }
 
 Json Session::disassemble(const Json& arguments) {
-  const auto reference = required(arguments, "memoryReference").get<std::string>();
+  const auto reference = text_at(arguments, "memoryReference");
   const auto number = find_instruction_number(reference);
   if (!number) throw Refused(fmt::format("'{}' is not an instruction of this program", stl::shortened(reference)));
   const std::int64_t first = *number + amount_in(arguments, "offset", 0) + amount_in(arguments, "instructionOffset", 0);

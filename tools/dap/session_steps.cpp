@@ -25,7 +25,7 @@ namespace {
 constexpr Time kStepWithoutPower = 100 * kMillisecond;
 
 std::uint64_t count_in(const Json& arguments) {
-  const auto count = arguments.value("count", std::int64_t{1});
+  const auto count = number_at<std::int64_t>(arguments, "count", kWhole<std::int64_t>, 1);
   if (count < 1) throw Refused("count must be a number above 0");
   return static_cast<std::uint64_t>(count);
 }
@@ -48,11 +48,11 @@ Json Session::go_on(const Json&) {
 
 /// Without a granularity a step is what the launch says: a line, or a network.
 bool Session::by_networks(const Json& arguments) const {
-  if (!arguments.contains("granularity")) return steps_are_networks_;
-  const Json& wanted = arguments["granularity"];
-  if (wanted != "statement" && wanted != "line" && wanted != "instruction")
-    throw Refused(fmt::format("granularity: {} is not statement, line or instruction", stl::shortened(wanted.dump())));
-  return wanted == "statement";
+  const Json* const wanted = member(arguments, "granularity");
+  if (!wanted) return steps_are_networks_;
+  if (*wanted != "statement" && *wanted != "line" && *wanted != "instruction")
+    throw Refused(fmt::format("granularity: {} is not statement, line or instruction", shown(*wanted)));
+  return *wanted == "statement";
 }
 
 Json Session::next(const Json& arguments) {
@@ -79,7 +79,7 @@ Json Session::step_scan(const Json& arguments) {
 }
 
 Json Session::step_interrupt(const Json& arguments) {
-  run_to(arguments.value("end", false) ? goal::interrupt_ends(cpu().state()) : goal::interrupt_begins(cpu().program()),
+  run_to(truth_at(arguments, "end", false) ? goal::interrupt_ends(cpu().state()) : goal::interrupt_begins(cpu().program()),
          "step");
   return {};
 }
@@ -166,7 +166,7 @@ Json Session::reverse_step_scan(const Json& arguments) {
 
 Json Session::reverse_step_interrupt(const Json& arguments) {
   const Program& program = cpu().program();
-  run_back(arguments.value("end", false) ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1);
+  run_back(truth_at(arguments, "end", false) ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1);
   return {};
 }
 
@@ -204,9 +204,9 @@ Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count) {
 // --- elsewhere ---
 
 Json Session::goto_targets(const Json& arguments) {
-  const LookAt look(*this, station_with(required(arguments, "source").value("path", "")));
-  const auto line =
-      sources().line_in(required(arguments, "source").value("path", ""), line_of_client(client_line_in(arguments)));
+  const std::string path = source_path(arguments);
+  const LookAt look(*this, station_with(path));
+  const auto line = sources().line_in(path, line_of_client(client_line_in(arguments)));
   const auto op = line ? listing().op_from_line(*line) : std::nullopt;
   const auto here = standing_at(cpu().state());
   Json targets = Json::array();
@@ -223,7 +223,7 @@ Json Session::goto_targets(const Json& arguments) {
 }
 
 Json Session::go_to(const Json& arguments) {
-  const auto target = goto_targets_.find(required(arguments, "targetId").get<std::int64_t>());
+  const auto target = goto_targets_.find(number_at<std::int64_t>(arguments, "targetId"));
   const auto here = standing_at(cpu().state());
   if (target == goto_targets_.end() || !here || target->second.first != looks_at() ||
       listing().routine_of(target->second.second) != listing().routine_of(*here))
@@ -235,7 +235,7 @@ Json Session::go_to(const Json& arguments) {
 
 Json Session::go_to_moment(const Json& arguments) {
   std::string why;
-  const auto time = parse_moment(required(arguments, "time").get<std::string>(), debuggee_->history(), why);
+  const auto time = parse_moment(text_at(arguments, "time"), debuggee_->history(), why);
   if (!time) throw Refused(why);
   after_response([this, to = *time] {
     go_to_parsed(debuggee_->history(), to);

@@ -1,7 +1,5 @@
 #include "tools/json/json.hpp"
 
-#include <vector>
-
 #include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
@@ -28,7 +26,8 @@ std::string why_too_much(std::string_view text, const JsonLimits& limits) {
       members.pop_back();
     else if (c == ':' && !members.empty())
       ++members.back();
-    if (members.size() > limits.depth) return fmt::format("JSON of more than {} maps and lists inside each other", limits.depth);
+    if (members.size() > limits.depth)
+      return fmt::format("JSON of more than {} maps and lists inside each other", limits.depth);
     if (!members.empty() && members.back() > limits.members)
       return fmt::format("JSON with more than {} members in one map", limits.members);
   }
@@ -57,9 +56,7 @@ std::optional<Json> parse_json(std::string_view text, std::string& why, const Js
   return {};
 }
 
-std::string shown(const Json& value) {
-  return stl::shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
+std::string shown(const Json& value) { return stl::shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
 std::string text_of(const Json& value) {
   if (!value.is_string()) wrong_kind(value, "a text");
@@ -101,6 +98,23 @@ const Json& list_at(const Json& map, const char* key) {
 const Json& map_at(const Json& map, const char* key) {
   static const Json kNone = Json::object();
   return of_kind(map, key, Json::value_t::object, "a map", kNone);
+}
+
+const Json& required_list(const Json& map, const char* key) { return required(map, key), list_at(map, key); }
+
+const Json& required_map(const Json& map, const char* key) { return required(map, key), map_at(map, key); }
+
+std::vector<std::string> texts_at(const Json& map, const char* key) {
+  const Json* const value = member(map, key);
+  std::vector<std::string> texts;
+  if (value && value->is_string())
+    texts.push_back(text_at(map, key));
+  else if (value)
+    taken(*value, key, [&](const Json& list) {
+      if (!list.is_array()) wrong_kind(list, "a text or a list of texts");
+      for (const Json& one : list) texts.push_back(text_of(one));
+    });
+  return texts;
 }
 
 }  // namespace s7200::tools

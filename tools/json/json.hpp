@@ -13,6 +13,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "interpreter/base/numbers.hpp"
 
@@ -21,7 +22,7 @@ namespace s7200::tools {
 /// How much a JSON text may have.
 struct JsonLimits {
   std::size_t bytes = 64 << 20;
-  std::size_t depth = 64;         ///< maps and lists inside each other: what handles them calls itself for each
+  std::size_t depth = 64;        ///< maps and lists inside each other: what handles them calls itself for each
   std::size_t members = 10'000;  ///< of one map: each is compared with all before it
 };
 
@@ -111,5 +112,10 @@ bool truth_at(const nlohmann::ordered_json& map, const char* key, bool otherwise
 /// An empty list, or map, if it is left out.
 const nlohmann::ordered_json& list_at(const nlohmann::ordered_json& map, const char* key);
 const nlohmann::ordered_json& map_at(const nlohmann::ordered_json& map, const char* key);
+const nlohmann::ordered_json& required_list(const nlohmann::ordered_json& map, const char* key);
+const nlohmann::ordered_json& required_map(const nlohmann::ordered_json& map, const char* key);
+
+/// A text, or a list of them; none if it is left out.
+std::vector<std::string> texts_at(const nlohmann::ordered_json& map, const char* key);
 
 }  // namespace s7200::tools

@@ -119,12 +119,10 @@ std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memor
     return fmt::format("it is not the memory of a CPU (no \"format\": \"{}\")", kFormat);
   if (const std::string cpu = text_at(json, "cpu"); cpu != model.name)
     return fmt::format("it is the memory of a CPU {}, not of a CPU {}", stl::shortened(cpu), model.name);
-  required(json, "clock");
-  required(json, "ram");
-  required(json, "eeprom");
-  taken(map_at(json, "clock"), "clock", [&](const Json& clock) { take_clock(clock, memory.clock); });
-  if (std::string why = take_rows(map_at(json, "ram"), kept_in_ram(memory, model), model); !why.empty()) return why;
-  if (std::string why = take_rows(map_at(json, "eeprom"), kept_in_eeprom(memory, model), model); !why.empty()) return why;
+  taken(required_map(json, "clock"), "clock", [&](const Json& clock) { take_clock(clock, memory.clock); });
+  if (std::string why = take_rows(required_map(json, "ram"), kept_in_ram(memory, model), model); !why.empty()) return why;
+  if (std::string why = take_rows(required_map(json, "eeprom"), kept_in_eeprom(memory, model), model); !why.empty())
+    return why;
   return take_forced(map_at(json, "forced"), model, memory.forcing);
 }
 

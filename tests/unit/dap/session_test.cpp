@@ -67,8 +67,7 @@ TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   Editor editor(kNested);
   editor.begin();
   EXPECT_EQ(editor.error_of("evaluate"), "expression is missing");
-  EXPECT_EQ(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}),
-            "the arguments of readMemory are not as the protocol says: one is of another type");
+  EXPECT_EQ(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}), "memoryReference: 5 is not a text");
   EXPECT_EQ(editor.breakpoint({{"line", -3}})["message"], "there is no line -3: lines are counted from 1");
   EXPECT_TRUE(has(editor.error_of("lastWrite", {{"expression", "event 99"}}),
                   "there is no event 99; expected one address, or event and a number"));
@@ -201,13 +200,34 @@ TEST(DapSession, NothingInAMessageIsBelieved) {
 TEST(DapSession, ALaunchThatWasRefusedCanBeMended) {
   Editor editor(kNested);
   editor("initialize");
-  EXPECT_TRUE(has(editor.error_of("launch", {{"stopOnEntry", "yes"}}), "the arguments of launch"));
+  EXPECT_TRUE(has(editor.error_of("launch", {{"stopOnEntry", "yes"}}), "stopOnEntry: \"yes\" is not true or false"));
   EXPECT_TRUE(has(editor.error_of("launch", {{"step", "mile"}}), "'mile' is not line or network"));
   EXPECT_TRUE(has(editor.error_of("launch", {{"send", "frob"}}), "frob"));
   EXPECT_TRUE(has(editor.error_of("launch", {{"sendAfter", "soon"}}), "'soon' is not a duration"));
   editor("launch", {{"stopOnEntry", true}});
   editor("configurationDone");
   EXPECT_EQ(editor.stopped(), "entry");
+}
+
+TEST(DapSession, AttributesOfOtherDebuggersAreTakenWithOneLine) {
+  Editor editor(kNested);
+  editor.begin({{"stopOnEntry", true},
+                {"type", "s7200"},
+                {"__restart", "x"},
+                {"env", Json::object()},
+                {"args", Json::array({"-x"})},
+                {"console", "integratedTerminal"},
+                {"host", "localhost"},
+                {"restart", true},
+                {"linux", {{"program", "x"}}}});
+  EXPECT_EQ(editor.printed(), "without effect here (of other debuggers): env, args, console, host, restart, linux\n");
+}
+
+TEST(DapSession, AnAttachSaysWhichAttributesOfAProgramHaveNoEffect) {
+  Editor editor(kNested);
+  editor("initialize");
+  editor("attach", {{"port", 4711}, {"trace", "a.trace"}, {"stopOnEntry", true}, {"name", "Attach"}});
+  EXPECT_TRUE(has(editor.printed(), "the command line of s7200 dap says how this PLC runs): trace\n"));
 }
 
 TEST(DapSession, ASessionThatDisconnectsIsCompletedOnce) {
@@ -1266,7 +1286,7 @@ TEST(DapSession, ABreakpointThatIsNotAsTheProtocolSaysIsRefusedAloneAndTheOthers
   ASSERT_EQ(answers.size(), 3U);
   EXPECT_EQ(answers[0]["verified"], true);
   for (const std::size_t wrong : {1U, 2U}) EXPECT_EQ(answers[wrong]["verified"], false);
-  EXPECT_TRUE(has(answers[1]["message"].get<std::string>(), "not as the protocol says"));
+  EXPECT_TRUE(has(answers[1]["message"].get<std::string>(), "name: 5 is not a text"));
   EXPECT_EQ(answers[2]["message"], "name is missing");
 }
 

@@ -54,7 +54,8 @@ TEST(OutsideJson, HasALimitOfSizeAndMembers) {
 }
 
 TEST(OutsideJson, WhatIsNotJsonIsSaidInOurWords) {
-  for (const char* const text : {"", "{", "nul", "[1,]", "1e999", "\"\xff\"", "]]"}) EXPECT_EQ(why_not(text), "not JSON") << text;
+  for (const char* const text : {"", "{", "nul", "[1,]", "1e999", "\"\xff\"", "]]"})
+    EXPECT_EQ(why_not(text), "not JSON") << text;
 }
 
 TEST(OutsideJson, NumbersAreTakenByWhatTheirTypeHolds) {
@@ -63,20 +64,23 @@ TEST(OutsideJson, NumbersAreTakenByWhatTheirTypeHolds) {
   EXPECT_EQ(number_of<std::uint64_t>(Json::parse("18446744073709551615")), UINT64_MAX);
   EXPECT_EQ(number_of<int>(3.0), 3) << "a JSON number has no kind of its own";
   EXPECT_EQ(number_of<double>(7), 7.0);
-  for (const char* const text : {"256", "-1", "1e78", "-1e78", "0.5", "\"1\"", "true", "null", "[1]", "18446744073709551615"})
+  for (const char* const text :
+       {"256", "-1", "1e78", "-1e78", "0.5", "\"1\"", "true", "null", "[1]", "18446744073709551615"})
     EXPECT_FALSE(number_from<std::uint8_t>(Json::parse(text))) << text;
   for (const char* const text : {"9223372036854775808", "9223372036854775808.0", "1e19", "-1e19"})
     EXPECT_FALSE(number_from<std::int64_t>(Json::parse(text))) << text;
 }
 
 TEST(OutsideJson, ANumberThatIsNotInItsRangeIsNamed) {
-  EXPECT_EQ(refusal([] { number_of<std::uint32_t>(Json::parse("1e78")); }), "1e+78 is not a whole number from 0 to 4294967295");
+  EXPECT_EQ(refusal([] { number_of<std::uint32_t>(Json::parse("1e78")); }),
+            "1e+78 is not a whole number from 0 to 4294967295");
   EXPECT_EQ(refusal([] { number_of<int>("seven", {1, 9}); }), "\"seven\" is not a whole number from 1 to 9");
   EXPECT_EQ(refusal([] { number_of<double>(12, {0, 1}); }), "12 is not a number from 0 to 1");
 }
 
 TEST(OutsideJson, AMemberThatIsOfAnotherKindIsNamed) {
-  const Json map{{"name", 5}, {"on", "yes"}, {"count", nullptr}, {"list", "a"}, {"map", Json::array()}, {"nul", std::string(1, '\0')}};
+  const Json map{{"name", 5},   {"on", "yes"},          {"count", nullptr},
+                 {"list", "a"}, {"map", Json::array()}, {"nul", std::string(1, '\0')}};
   EXPECT_EQ(refusal([&] { text_at(map, "name"); }), "name: 5 is not a text");
   EXPECT_EQ(refusal([&] { text_at(map, "nul", ""); }), "nul: \"\\u0000\" is not a text without the character NUL");
   EXPECT_EQ(refusal([&] { truth_at(map, "on", true); }), "on: \"yes\" is not true or false");
