@@ -471,7 +471,7 @@ class Verbs(Case):
 
     def test_the_help_of_decode_names_every_form_of_recording(self):
         said = " ".join(self.ends(FINE, "decode", "--help").stdout.split())
-        for part in ("a recording (forms: s7200 decode --help);", "the decoder list that DSView exports", "pcap of a serial line, as --capture writes it, or of Modbus TCP", "CSV with a frame or a character in each row",
+        for part in ("a recording (forms: s7200 decode --help);", "the decoder list that DSView exports", "pcap of a serial line, as --capture writes it (link types 147 to 162)", "or of Modbus TCP", "CSV with a frame or a character in each row",
                      "text logs with a frame or a character in each line", "5 ms without it"):
             self.assertIn(part, said)
 

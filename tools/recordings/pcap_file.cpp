@@ -12,16 +12,14 @@
 
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
-#include "serial_sim/record/pcap_capture.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/serial_links.hpp"
 
 namespace s7200::tools {
 namespace {
 
 using Data = std::span<const std::uint8_t>;
-
-constexpr int kSerial = serial::PcapWriter::kLinkType;
 
 struct Segment {
   bool whole = true;   ///< otherwise a fragment, or cut off, and the rest does not count
@@ -104,10 +102,7 @@ class Reader {
 
   void take(std::size_t number, Time at, int link_type, Data packet) {
     const std::string place = fmt::format("packet {}", number);
-    if (link_type == kSerial) {
-      if (!packet.empty()) add({.at = at, .bytes = Bytes(packet.begin(), packet.end()), .place = place});
-      return;
-    }
+    if (SerialLinks::carry(link_type)) return serial_.take(place, at, link_type, packet);
     const auto segment = tcp_of(ip_of(packet, link_type));
     if (segment && !segment->whole)
       ++broken_;
@@ -120,9 +115,12 @@ class Reader {
   /// What comes after the last frame of every connection is missing.
   void cut_off() {
     for (const auto& [connection, frame] : last_) recording_.frames[frame].more_was_lost = true;
+    serial_.cut_off();
   }
 
-  LineRecording finish() {
+  /// Nothing, and `why`, if nobody can say which of several devices the line is.
+  std::optional<LineRecording> finish(std::string& why) {
+    if (!serial_.finish(recording_, why)) return {};
     note_left_out(others_, fmt::format("not of TCP port {}", choices_.tcp_port));
     note_left_out(broken_, "of TCP in fragments or cut off");
     count_from_first(recording_);
@@ -183,6 +181,7 @@ class Reader {
 
   const ReadingChoices& choices_;
   LineRecording recording_;
+  SerialLinks serial_;
   std::map<std::pair<Bytes, Bytes>, Stream> streams_;
   std::map<std::uint32_t, std::size_t> last_;  // frame of each connection
   std::uint32_t connections_ = 0;
@@ -264,8 +263,8 @@ std::vector<CapturePart> parts_of(std::string_view file) {
 }
 
 bool is_known(int link_type) {
-  return link_type == kSerial || link_type == DLT_EN10MB || link_type == DLT_LINUX_SLL || link_type == DLT_LINUX_SLL2 ||
-         link_type == DLT_RAW || link_type == DLT_IPV4 || link_type == DLT_IPV6;
+  return SerialLinks::carry(link_type) || link_type == DLT_EN10MB || link_type == DLT_LINUX_SLL ||
+         link_type == DLT_LINUX_SLL2 || link_type == DLT_RAW || link_type == DLT_IPV4 || link_type == DLT_IPV6;
 }
 
 /// The packets of a part, one after the other.
@@ -373,8 +372,10 @@ std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoi
       return {};
   }
   if (parts.empty() && !unknown_link_types.empty()) {
-    why = fmt::format("link type {} is not one of {} (serial), Ethernet, Linux cooked or raw IP", unknown_link_types.front(),
-                      kSerial);
+    why = fmt::format(
+        "link type {} is not one of 147 to 162 (serial), 250 (RTAC serial), 189, 220 and 249 (USB), Ethernet, "
+        "Linux cooked or raw IP",
+        unknown_link_types.front());
     return {};
   }
   Reader reader(choices);
@@ -384,10 +385,11 @@ std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoi
   }
   const auto broken = std::ranges::find_if(parts, [](const auto& part) { return !part->error().empty(); });
   if (broken != parts.end()) reader.cut_off();
-  LineRecording recording = reader.finish();
+  auto recording = reader.finish(why);
+  if (!recording) return {};
   for (const int link_type : unknown_link_types)
-    recording.notes.push_back(fmt::format("what has link type {} was left out", link_type));
-  if (broken != parts.end()) recording.notes.push_back((*broken)->error());
+    recording->notes.push_back(fmt::format("what has link type {} was left out", link_type));
+  if (broken != parts.end()) recording->notes.push_back((*broken)->error());
   return recording;
 }
 

@@ -15,10 +15,11 @@ namespace {
 
 /// The first that a file looks like is the one that it is read as.
 constexpr std::array kForms{
-    RecordingForm{"pcap",
-                  "pcap of a serial line, as --capture writes it, or of Modbus TCP; it does not say which characters had "
-                  "parity errors",
-                  false, looks_like_pcap, read_pcap},
+    RecordingForm{
+        "pcap",
+        "pcap of a serial line, as --capture writes it (link types 147 to 162), of an RTAC (250), of a USB adapter\n"
+        "    (189, 220, 249: FTDI, CP210x, CH340, PL2303, CDC-ACM), or of Modbus TCP",
+        false, looks_like_pcap, read_pcap},
     RecordingForm{"DSView", "the decoder list that DSView exports", true, looks_like_dsview, read_dsview},
     RecordingForm{"sigrok", "what sigrok-cli -A uart prints; with --protocol-decoder-samplenum it says where frames end",
                   true, looks_like_sigrok_annotations, read_sigrok_annotations},
@@ -90,7 +91,7 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   auto recording = form->read(bytes, choices, why);
   if (!recording) return {};
   recording->form = form->name;
-  recording->is_log = form->is_log;
+  recording->is_log |= form->is_log;
   if (form->is_log) read_modbus_tcp(*recording);
   recording->over_tcp = std::ranges::any_of(recording->frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
   note_times_that_run_backwards(*recording);

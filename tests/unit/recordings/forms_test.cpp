@@ -397,5 +397,149 @@ TEST(Forms, TcpdumpPrintsPacketsInHex) {
             "line 3: rows before it are missing; record with tcpdump -w FILE.pcap");
 }
 
+// --- captures that carry a serial line ---
+
+Bytes joined(std::initializer_list<Bytes> parts) {
+  Bytes all;
+  for (const Bytes& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+Bytes little(std::uint64_t value, int bytes) {
+  Bytes all;
+  for (int i = 0; i < bytes; ++i) all.push_back(static_cast<std::uint8_t>(value >> 8 * i));
+  return all;
+}
+
+/// A pcap in microseconds with a packet every 25 ms.
+std::string capture_of(std::uint32_t link_type, std::initializer_list<Bytes> packets) {
+  Bytes file =
+      joined({little(0xA1B2C3D4, 4), little(2, 2), little(4, 2), Bytes(8), little(0xFFFF, 4), little(link_type, 4)});
+  std::uint64_t at = 0;
+  for (const Bytes& packet : packets) {
+    file = joined({file, little(1000, 4), little(at, 4), little(packet.size(), 4), little(packet.size(), 4), packet});
+    at += 25'000;
+  }
+  return {file.begin(), file.end()};
+}
+
+enum class Usb : std::uint8_t { Linux, LinuxMmapped, UsbPcap };
+constexpr std::uint32_t link_type_of(Usb form) { return form == Usb::Linux ? 189 : form == Usb::LinuxMmapped ? 220 : 249; }
+
+/// A packet of a transfer: bulk, or control if there is a setup.
+Bytes usb_packet(Usb form, bool in, bool completed, const Bytes& data, std::uint8_t device = 5, const Bytes& setup = {}) {
+  const auto type = static_cast<std::uint8_t>(setup.empty() ? 3 : 2), endpoint = static_cast<std::uint8_t>(in ? 0x81 : 0x02);
+  if (form == Usb::UsbPcap) {
+    const Bytes stage = setup.empty() ? Bytes{} : Bytes{static_cast<std::uint8_t>(completed ? 1 : 0)};
+    const Bytes whole = completed ? data : joined({setup, data});
+    return joined({little(27 + stage.size(), 2), Bytes(14), Bytes{static_cast<std::uint8_t>(completed)}, little(1, 2),
+                   little(device, 2), Bytes{endpoint, type}, little(whole.size(), 4), stage, whole});
+  }
+  const Bytes head =
+      joined({Bytes(8), Bytes{static_cast<std::uint8_t>(completed ? 'C' : 'S'), type, endpoint, device}, little(1, 2),
+              Bytes{static_cast<std::uint8_t>(setup.empty() || completed ? '-' : 0),
+                    static_cast<std::uint8_t>(data.empty() ? '<' : 0)},
+              Bytes(16), little(data.size(), 4), little(data.size(), 4), setup.empty() ? Bytes(8) : setup});
+  return joined({head, Bytes(form == Usb::LinuxMmapped ? 16 : 0), data});
+}
+
+const Bytes kFtdiStatus{0x01, 0x60};
+
+TEST(SerialLinks, ThePacketsOfTheLinkTypesForUsersAreFrames) {
+  for (const std::uint32_t link_type : {147U, 150U, 162U})
+    expect_the_conversation(recording_of(capture_of(link_type, {kRequest, kAnswer})), "pcap", 25 * ms);
+}
+
+TEST(SerialLinks, AnRtacSaysWhatItSentAndReceived) {
+  const auto packet = [](std::uint8_t event, const Bytes& data) { return joined({Bytes(8), Bytes{event, 0, 0, 0}, data}); };
+  const LineRecording recording =
+      recording_of(capture_of(250, {packet(1, kRequest), packet(2, kAnswer), packet(8, {}), packet(5, {}), packet(0, {})}));
+  expect_the_conversation(recording, "pcap", 25 * ms);
+  EXPECT_EQ(recording.frames[0].direction, Direction::Request);
+  EXPECT_EQ(recording.frames[1].direction, Direction::Answer);
+  EXPECT_TRUE(recording.frames[1].more_was_lost);
+  EXPECT_EQ(recording.notes, (std::vector<std::string>{"packet 3: a parity error; it does not say of which character",
+                                                       "packet 4: characters were lost"}));
+}
+
+TEST(SerialLinks, AnFtdiAdapterIsKnownByItsDescriptorItsDriverOrItsStatus) {
+  const Bytes descriptor{18, 1, 0, 2, 0, 0, 0, 8, 0x03, 0x04, 0x01, 0x60, 0, 6, 1, 2, 3, 1};
+  const Bytes get_descriptor{0x80, 6, 0, 1, 0, 0, 18, 0}, set_rate{0x40, 3, 0x38, 0x41, 0, 0, 0, 0};
+  for (const Usb form : {Usb::Linux, Usb::LinuxMmapped, Usb::UsbPcap}) {
+    const Bytes request = usb_packet(form, false, false, kRequest),
+                answer = usb_packet(form, true, true, joined({kFtdiStatus, kAnswer}));
+    const std::uint32_t link_type = link_type_of(form);
+    const LineRecording by_status = recording_of(capture_of(link_type, {request, answer}));
+    expect_the_conversation(by_status, "pcap", 25 * ms);
+    EXPECT_EQ(by_status.notes,
+              std::vector<std::string>{"USB device 1.5: an FTDI adapter, by the status before all that it sent"});
+    EXPECT_TRUE(by_status.is_log) << "adapters deliver late";
+    for (const Bytes& first :
+         {usb_packet(form, true, true, descriptor, 5, get_descriptor), usb_packet(form, false, false, {}, 5, set_rate)}) {
+      const LineRecording known = recording_of(capture_of(link_type, {first, request, answer}));
+      expect_the_conversation(known, "pcap", 25 * ms);
+      EXPECT_EQ(known.notes, std::vector<std::string>{"USB device 1.5: FTDI"});
+    }
+  }
+}
+
+TEST(SerialLinks, AnFtdiAdapterPutsItsStatusBeforeEachPacketOnTheBus) {
+  Bytes data, plain;
+  for (int packet = 0; packet < 3; ++packet) {
+    data.insert(data.end(), kFtdiStatus.begin(), kFtdiStatus.end());
+    for (std::uint8_t i = 0; i < (packet < 2 ? 62 : 9); ++i) data.push_back(i), plain.push_back(i);
+  }
+  const LineRecording recording = recording_of(
+      capture_of(189, {usb_packet(Usb::Linux, true, true, kFtdiStatus), usb_packet(Usb::Linux, true, true, data)}));
+  ASSERT_EQ(recording.frames.size(), 1U) << "a packet with the status alone has no characters";
+  EXPECT_EQ(recording.frames[0].bytes, plain);
+  Bytes damaged{0x01, 0x64, 0x55};
+  const LineRecording parity = recording_of(capture_of(189, {usb_packet(Usb::Linux, true, true, damaged)}));
+  EXPECT_EQ(parity.frames[0].damaged, std::vector<std::size_t>{0}) << "the line status has the parity error";
+}
+
+TEST(SerialLinks, OtherAdaptersMoveTheirDataAsItIs) {
+  struct Case {
+    const char* kind;
+    Bytes setup;
+  };
+  for (const auto& [kind, setup] :
+       {Case{"CP210x", {0x41, 0x1E, 0, 0, 0, 0, 4, 0}}, Case{"CH340", {0x40, 0x9A, 0x12, 0x13, 0x83, 0xD9, 0, 0}},
+        Case{"CDC-ACM", {0x21, 0x20, 0, 0, 0, 0, 7, 0}}})
+    for (const Usb form : {Usb::LinuxMmapped, Usb::UsbPcap}) {
+      const LineRecording recording = recording_of(capture_of(
+          link_type_of(form),
+          {usb_packet(form, false, false, {}, 5, setup), usb_packet(form, false, false, kRequest),
+           usb_packet(form, false, true, {}), usb_packet(form, true, false, {}), usb_packet(form, true, true, kAnswer)}));
+      expect_the_conversation(recording, "pcap", 75 * ms);
+      EXPECT_EQ(recording.notes, std::vector<std::string>{fmt::format("USB device 1.5: {}", kind)});
+    }
+  const LineRecording unknown = recording_of(
+      capture_of(249, {usb_packet(Usb::UsbPcap, false, false, kRequest), usb_packet(Usb::UsbPcap, true, true, kAnswer)}));
+  expect_the_conversation(unknown, "pcap", 25 * ms);
+  EXPECT_EQ(unknown.notes,
+            std::vector<std::string>{
+                "USB device 1.5: the capture does not say which adapter it is; its data are taken as they are"});
+}
+
+TEST(SerialLinks, OfSeveralUsbDevicesTheAdapterIsReadOrNobodyGuesses) {
+  const Bytes disk_command = joined({Bytes{'U', 'S', 'B', 'C'}, Bytes(27)});
+  const Bytes request = usb_packet(Usb::LinuxMmapped, false, false, kRequest),
+              answer = usb_packet(Usb::LinuxMmapped, true, true, kAnswer),
+              disk = usb_packet(Usb::LinuxMmapped, false, false, disk_command, 9),
+              sector = usb_packet(Usb::LinuxMmapped, true, true, Bytes(512), 9);
+  expect_the_conversation(recording_of(capture_of(220, {request, answer, disk, sector})), "pcap", 25 * ms);
+  EXPECT_EQ(refusal_of(capture_of(220, {request, answer, usb_packet(Usb::LinuxMmapped, false, false, kRequest, 7)})),
+            "the USB devices 1.5 and 1.7 have data; keep one: tshark -r FILE -Y 'usb.device_address == 5' -w ONE.pcap");
+}
+
+TEST(SerialLinks, APacketThatEndsWithinItsHeadIsCounted) {
+  EXPECT_EQ(recording_of(capture_of(250, {joined({Bytes(8), Bytes{1, 0, 0, 0}, kRequest}), Bytes(11)})).notes,
+            std::vector<std::string>{"1 of the packets of serial lines end within their heads"});
+  for (const std::uint32_t link_type : {189U, 220U, 249U, 250U})
+    for (std::size_t length = 0; length < 70; ++length)
+      refusal_of(capture_of(link_type, {Bytes(length), Bytes(length, 0xFF)}));
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -478,18 +478,18 @@ TEST(Recordings, APcapngMayHaveInterfacesOfSeveralLinkTypes) {
     data.resize((data.size() + 3) / 4 * 4);
     return block(6, words({interface, 0, microseconds, length, length}) + data);
   };
-  constexpr std::uint32_t kUsb = 220, kSerial = 147;
+  constexpr std::uint32_t kWireless = 105, kSerial = 147;
   const std::string head = block(0x0A0D0D0A, words({0x1A2B3C4D, 1, 0xFFFFFFFF, 0xFFFFFFFF})),
-                    usb = block(1, words({kUsb, 65535})), serial = block(1, words({kSerial, 65535}));
+                    wireless = block(1, words({kWireless, 65535})), serial = block(1, words({kSerial, 65535}));
   const LineRecording read =
-      recording_of(head + usb + serial + packet(0, 500, {9}) + packet(1, 1000, kRequest) + packet(1, 26'000, kAnswer));
+      recording_of(head + wireless + serial + packet(0, 500, {9}) + packet(1, 1000, kRequest) + packet(1, 26'000, kAnswer));
   ASSERT_EQ(read.frames.size(), 2U);
   EXPECT_EQ(read.frames[0].bytes, kRequest);
   EXPECT_EQ(read.frames[0].place, "packet 2") << "as Wireshark counts them";
   EXPECT_EQ(read.frames[1].at, 25 * ms);
-  EXPECT_EQ(read.notes, std::vector<std::string>{"what has link type 220 was left out"});
+  EXPECT_EQ(read.notes, std::vector<std::string>{"what has link type 105 was left out"});
   EXPECT_EQ(recording_of(head + serial + serial + packet(1, 0, kRequest)).frames.size(), 1U);
-  EXPECT_TRUE(refusal_of(head + usb + packet(0, 0, kRequest)).starts_with("link type 220 is not one of"));
+  EXPECT_TRUE(refusal_of(head + wireless + packet(0, 0, kRequest)).starts_with("link type 105 is not one of"));
 }
 
 TEST(Recordings, ACsvMayHaveAColumnForEachDirection) {
@@ -796,7 +796,10 @@ TEST(Recordings, WhatIsNoRecordingIsRefused) {
   EXPECT_NE(refusal_of("\xD4\xC3\xB2\xA1 cut off"), "");
   std::string other = ethernet_pcap({});
   other[20] = 105;
-  EXPECT_EQ(refusal_of(other), "link type 105 is not one of 147 (serial), Ethernet, Linux cooked or raw IP");
+  EXPECT_EQ(
+      refusal_of(other),
+      "link type 105 is not one of 147 to 162 (serial), 250 (RTAC serial), 189, 220 and 249 (USB), Ethernet, Linux cooked "
+      "or raw IP");
 }
 
 TEST(Recordings, RandomPacketsAreNeverReadBeyondTheirEnd) {
