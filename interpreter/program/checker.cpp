@@ -583,6 +583,14 @@ std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {
   return fine;
 }
 
+const CpuModel* first_cpu_without_errors(stl::ParseResult parsed, std::span<const CpuModel* const> tried) {
+  read_names(parsed);
+  if (has_errors(parsed.diagnostics)) return nullptr;
+  const auto first = std::ranges::find_if(
+      tried, [&](const CpuModel* model) { return Checker(parsed.source, {}, *model).is_fine(); });
+  return first == tried.end() ? nullptr : *first;
+}
+
 TimeTable default_times(const CpuModel& model) {
   const auto tables = times_of(model);
   assert(!tables.empty() && tables.front()->own);

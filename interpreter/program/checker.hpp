@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
@@ -22,6 +23,9 @@ CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTabl
 
 /// The CPUs on which check() finds no errors. Each is given up at the first one.
 std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed);
+
+/// The first of `tried` on which check() finds no errors; null if there is none.
+const CpuModel* first_cpu_without_errors(stl::ParseResult parsed, std::span<const CpuModel* const> tried);
 
 /// The model's own table of times.
 TimeTable default_times(const CpuModel& model);

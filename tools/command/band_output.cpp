@@ -128,7 +128,7 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
     outcomes.resize(exchanges.labels.size(), {.verdict = "not sent", .stop = stop_text(rig->cpu())});
     return Turn{std::move(outcomes), tip41 && agrees(programs->model(), programs->times(table), *tip41)};
   };
-  Results results{band_title(program, band.settings()), std::vector<OneExchange>(exchanges.labels.size()),
+  Results results{band_title(programs->model(), program.times_table, band.settings()), std::vector<OneExchange>(exchanges.labels.size()),
                   tip41.has_value()};
   BandProgress progress(programs->size());
   ParallelRun<Turn> run(programs->size(), band.jobs(), with_table);

@@ -102,7 +102,7 @@ void add_calibrate(CLI::App& app, int& exit_code) {
       ->type_name("TEXT");
   const std::size_t before = verb->get_options().size();
   options->program.CpuOptions::add_to(*verb);
-  options->cpu = verb->get_option("--cpu")->description("CPU that is measured");
+  options->cpu = verb->get_option("--cpu")->description("CPU that is measured [214]");
   const auto all = verb->get_options();
   for (std::size_t i = before; i < all.size(); ++i)
     if (all[i] != options->cpu) options->of_programs.push_back(all[i]);

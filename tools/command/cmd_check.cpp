@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -26,6 +27,23 @@ struct CheckOptions {
   bool json = false, no_warnings = false;
 };
 
+/// The execution times for each CPU, read once: a table may come from a pipe.
+class Tables {
+ public:
+  explicit Tables(const CpuOptions& options) : options_(options) {}
+
+  /// Null after a message.
+  const TimeTable* of(const CpuModel& model) {
+    const auto [found, added] = tables_.try_emplace(&model);
+    if (added) found->second = options_.times(model);
+    return found->second ? &*found->second : nullptr;
+  }
+
+ private:
+  const CpuOptions& options_;
+  std::map<const CpuModel*, std::optional<TimeTable>> tables_;
+};
+
 /// Without the warnings that are switched off.
 CheckResult check_with(const CheckOptions& options, const SourceText& text, const CpuModel& model, const TimeTable& times) {
   CheckResult result = check(text.parsed, model, times);
@@ -37,14 +55,18 @@ CheckResult check_with(const CheckOptions& options, const SourceText& text, cons
 }
 
 int run_check(const CheckOptions& options) {
-  const CpuModel* model = options.cpu.model();
-  if (!model) return kUnusable;
-  const auto times = options.cpu.times(*model);
-  if (!times) return kUnusable;
+  if (!options.cpu.model()) return kUnusable;
   int exit_code = kFine;
+  Tables tables(options.cpu);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (auto& [path, text] : read_programs(options.paths, exit_code)) {
     if (!repair(text, options.cpu.repairs)) {
+      exit_code = kUnusable;
+      continue;
+    }
+    const CpuModel* model = options.cpu.model_for(text, path);
+    const TimeTable* times = model ? tables.of(*model) : nullptr;
+    if (!times) {
       exit_code = kUnusable;
       continue;
     }
@@ -83,7 +105,7 @@ void add_check(CLI::App& app, int& exit_code) {
   verb->add_option("PROGRAM", options->paths,
                    "STL files or published documents, with symbol tables and data blocks for all; - is standard input")
       ->required();
-  options->cpu.add_cpu_and_times_to(*verb, "CPU that they are to run on");
+  options->cpu.add_cpu_and_times_to(*verb, fmt::format("CPU that they are to run on {}", kCpuFound));
   add_repair_option(*verb, options->cpu.repairs);
   std::vector<std::string> warnings;
   for (const WarningInfo& warning : all_warnings()) warnings.emplace_back(warning.name);

@@ -90,7 +90,7 @@ void add_import_capture(CLI::App& app, int& exit_code) {
   options->recording.add_to(*verb);
   verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --target")
       ->type_name("FILE");
-  add_cpu_option(*verb, options->cpu, "CPU that --program is to run on");
+  add_cpu_option(*verb, options->cpu, "CPU that --program is to run on [214]");
   verb->get_option("--cpu")->needs("--program");
   add_whole_number(
       *verb, "--port", [options](std::uint64_t port) { options->choices.port = static_cast<std::uint8_t>(port); }, {0, 1},

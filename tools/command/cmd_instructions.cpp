@@ -107,7 +107,7 @@ void add_instructions(CLI::App& app, int& exit_code) {
   std::vector<std::string> mnemonics;
   for (const Instruction& instruction : all_instructions()) mnemonics.emplace_back(instruction.mnemonic);
   offer(verb->add_option("MNEMONIC", options->mnemonics, "instructions to explain; all if none is given"), mnemonics);
-  options->cpu.add_to(*verb);
+  options->cpu.add_cpu_and_times_to(*verb, "CPU whose times are shown [214]");
   verb->add_flag("--json", options->json, "print as JSON");
   verb->add_flag("--markdown", options->markdown, "print the reference page")->excludes("--json");
   verb->footer("Example: s7200 instructions MOVW 'LDW>='");

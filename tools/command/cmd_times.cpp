@@ -84,7 +84,7 @@ void add_times(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("times", "the execution times in use, each with where it comes from");
   auto* tables = verb->add_option("TABLE", options->tables, "names of tables, or CSV files, to show side by side");
   tables->check(refuse_no_name);
-  options->cpu.add_cpu_and_times_to(*verb, "CPU whose times these are");
+  options->cpu.add_cpu_and_times_to(*verb, "CPU whose times these are [214]");
   auto* check = verb->add_option("--check", options->checked, "check a table against what is known of real CPUs")
                     ->check(refuse_no_name)
                     ->type_name("TABLE");

@@ -18,6 +18,7 @@
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "tools/rig/clock_text.hpp"
+#include "tools/rig/program_cpu.hpp"
 #include "tools/rig/system_block_reader.hpp"
 
 namespace s7200::tools {
@@ -37,7 +38,7 @@ class PlcReader {
   void read(const Named& plc) {
     const YamlNode& map = plc.item;
     check_keys(map, {Where::Plc}, values_);
-    const CpuModel* const model = read_cpu(map);
+    const CpuModel* const model = read_cpu(plc);
     const std::int64_t copies = values_.number(map.find("copies"), 1, kMostCopies).value_or(1);
     const bool numbered = map.find("copies") != nullptr;
     const auto station = values_.number(map.find("station"), 1, modbus::kLastStation - (copies - 1));
@@ -64,13 +65,30 @@ class PlcReader {
   }
 
  private:
-  const CpuModel* read_cpu(const YamlNode& map) {
-    const std::string name = values_.optional_text(map, "cpu").value_or("214");
-    const CpuModel* const model = find_cpu(name);
+  /// As the key `cpu` says, else as is found for the program. Null after a complaint.
+  const CpuModel* read_cpu(const Named& plc) {
+    const auto name = values_.optional_text(plc.item, "cpu");
+    if (!name) return find_cpu_of(plc);
+    const CpuModel* const model = find_cpu(*name);
     if (!model)
-      values_.wrong(*map.find("cpu"), fmt::format("there is no model of CPU '{}'", stl::shortened(name)),
+      values_.wrong(*plc.item.find("cpu"), fmt::format("there is no model of CPU '{}'", stl::shortened(*name)),
                     "modelled: " + stl::joined(all_cpus(), &CpuModel::name));
     return model;
+  }
+
+  const CpuModel* find_cpu_of(const Named& plc) {
+    const auto project = read_project(plc);
+    if (!project) return nullptr;
+    const ProgramCpu found = cpu_of_program(*project, beside(reading_.path, plc.item.find("program")->text));
+    if (!found.model) values_.wrong(*plc.item.find("program"), found.why);
+    if (!found.note.empty())
+      reading_.file.file.diagnostics.push_back({.severity = stl::Severity::Warning,
+                                                .position = plc.key.position,
+                                                .message = fmt::format("PLC '{}' names no CPU", plc.key.text),
+                                                .hint = fmt::format("its program does not run on a CPU 214, so CPU {0} is "
+                                                                    "assumed; write cpu: {0} if that is right",
+                                                                    found.model->name)});
+    return found.model;
   }
 
   /// The files of a project as one text, read once. Nothing after a complaint.

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "interpreter/program/load.hpp"
+#include "tools/rig/program_cpu.hpp"
 #include "tools/scenario/conformance_suite.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/steps/random_traffic.hpp"
@@ -74,7 +76,7 @@ class Collector {
     std::vector<std::string> found;
     for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, error), end;
          it != end && !error; it.increment(error))
-      if (is_yaml_file(it->path())) found.push_back(it->path().string());
+      if (is_yaml_file(it->path()) && it->path().filename() != kFolderSettings) found.push_back(it->path().string());
     if (error) return fail(fmt::format("cannot read {}: {}", path, error.message()));
     if (found.empty()) return fail(fmt::format("there is no .yaml file in {}", path));
     std::sort(found.begin(), found.end());
@@ -104,6 +106,10 @@ class Collector {
       messages_.push_back(
           {.kind = Message::Kind::Note, .text = fmt::format("values for ${{…}} are from {}", given_->source->name)});
     if (given_) add(file.given_diagnostics, given_->source);
+    std::set<std::string> told;
+    for (const Scenario& scenario : file.scenarios)
+      if (!scenario.cpu_note.empty() && told.insert(scenario.cpu_note).second)
+        messages_.push_back({.kind = Message::Kind::Note, .text = scenario.cpu_note});
     std::move(file.scenarios.begin(), file.scenarios.end(), std::back_inserter(scenarios_));
   }
 

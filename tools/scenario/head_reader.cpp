@@ -7,9 +7,11 @@
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
+#include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "tools/rig/clock_text.hpp"
+#include "tools/rig/program_cpu.hpp"
 #include "tools/rig/rig.hpp"
 #include "tools/rig/system_block_reader.hpp"
 #include "tools/rig/system_reader.hpp"
@@ -33,13 +35,11 @@ class HeadReader {
 
   bool read(const YamlNode& map, Scenario& scenario) {
     if (const auto name = values_.optional_text(map, "name")) scenario.name = *name;
-    if (const auto cpu = values_.optional_text(map, "cpu")) {
-      if (find_cpu(*cpu))
-        scenario.cpu = *cpu;
-      else
-        values_.wrong(*map.find("cpu"), fmt::format("there is no model of CPU '{}'", stl::shortened(*cpu)),
-                      "modelled: " + cpu_names());
-    }
+    const auto cpu = values_.optional_text(map, "cpu");
+    if (cpu && !find_cpu(*cpu))
+      values_.wrong(*map.find("cpu"), fmt::format("there is no model of CPU '{}'", stl::shortened(*cpu)),
+                    "modelled: " + cpu_names());
+    if (cpu && find_cpu(*cpu)) scenario.cpu = *cpu, scenario.cpu_named = true;
     read_rule(map, scenario.rule);
     if (const auto why = values_.optional_text(map, "expected_failure")) scenario.expected_failure = *why;
     std::string missing;
@@ -52,6 +52,7 @@ class HeadReader {
     if (const auto on = values_.optional_text(map, "on")) read_on(*map.find("on"), *on, scenario);
     if (const YamlNode* with = map.find("with")) read_parts(*with, scenario.with);
     read_symbols(scenario);
+    if (!scenario.cpu_named && (map.find("program") || map.find("with"))) find_cpu_of_program(scenario);
     if (const auto repair = values_.optional_text(map, "repair")) {
       std::string why;
       parse_repairs(*repair, why);
@@ -62,8 +63,12 @@ class HeadReader {
       scenario.may_be_missing = *path == scenario.program;
       if (!std::filesystem::exists(*path)) scenario.skipped = *path + " is not there";
     }
-    if (const auto times = values_.optional_text(map, "times"))
+    if (const auto times = values_.optional_text(map, "times")) {
       scenario.times = find_times(*times) ? *times : *optional_path(map, "times");
+      std::vector<std::string> errors;
+      load_times(*find_cpu(scenario.cpu), scenario.times, errors);
+      for (const std::string& error : errors) values_.wrong(*map.find("times"), error);
+    }
     read_system_block(map, *find_cpu(scenario.cpu), scenario.system_block, values_);
     if (const YamlNode* port = map.find("port")) read_port(*port, scenario);
     if (const YamlNode* line = map.find("line")) read_line(*line, scenario.line);
@@ -160,6 +165,23 @@ class HeadReader {
       auto& symbols = source->parsed.source.symbols;
       scenario.symbols.insert(scenario.symbols.end(), symbols.begin(), symbols.end());
     }
+  }
+
+  /// As the program says, or its folder, or as it needs. A file that cannot be read is complained about when the program is.
+  void find_cpu_of_program(Scenario& scenario) {
+    std::vector<SourceText> files;
+    std::vector<std::string> paths{scenario.program};
+    paths.insert(paths.end(), scenario.with.begin(), scenario.with.end());
+    for (const std::string& path : paths) {
+      std::string why;
+      const auto bytes = read_file(path, why);
+      auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
+      if (!text) return;
+      files.push_back(std::move(*text));
+    }
+    const ProgramCpu found = cpu_of_program(join_files(std::move(files)), scenario.program);
+    if (found.model) scenario.cpu = found.model->name;
+    scenario.cpu_note = found.model ? found.note : found.why;
   }
 
   std::optional<std::uint8_t> read_station(const YamlNode& map) {

@@ -38,18 +38,18 @@ void BandOptions::add_to(CLI::App& app) {
 
 std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, int& exit_code) const {
   exit_code = kUnusable;
-  const CpuModel* model = program.model();
-  auto text = model ? read_project(program.path, program.parts) : std::nullopt;
-  auto tables = text ? program.band(*model, settings_) : std::nullopt;
-  const auto checked = tables ? program.load(*text, (*tables)[0], exit_code) : nullptr;
+  auto text = program.cpu.empty() || program.model() ? read_project(program.path, program.parts) : std::nullopt;
+  const CpuModel* model = text ? program.model_for(*text, program.path) : nullptr;
+  auto tables = model ? program.band(*model, settings_) : std::nullopt;
+  const auto checked = tables ? program.load(*text, *model, (*tables)[0], exit_code) : nullptr;
   if (!checked) return nullptr;
   std::vector<std::string> unknown;
   repair(text->parsed.source, program.repairs, unknown);
   return std::make_unique<ProgramBand>(std::move(text->parsed), *model, std::move(*tables), checked->system_block);
 }
 
-std::string band_title(const CpuOptions& cpu, const BandSettings& settings) {
-  const auto names = names_in_band(*cpu.model(), cpu.times_table);
+std::string band_title(const CpuModel& model, const std::string& times_table, const BandSettings& settings) {
+  const auto names = names_in_band(model, times_table);
   return fmt::format("execution times: {}, and {} random table{} around {} (seed {})",
                      stl::printable(stl::joined(names, std::identity{})), settings.random, settings.random == 1 ? "" : "s",
                      names.size() == 1 ? "it" : "them", settings.seed);

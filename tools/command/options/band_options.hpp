@@ -34,7 +34,7 @@ class BandOptions {
 };
 
 /// `execution times: cpu214, cpu214_from_22x, and 200 random tables around them (seed 1)`
-std::string band_title(const CpuOptions& cpu, const BandSettings& settings);
+std::string band_title(const CpuModel& model, const std::string& times_table, const BandSettings& settings);
 
 /// How far the work has come: on a terminal, from the second second on.
 class BandProgress {

@@ -14,6 +14,7 @@
 #include "tools/command/options/input.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/measuring/band.hpp"
+#include "tools/rig/program_cpu.hpp"
 #include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
@@ -32,7 +33,6 @@ void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text) {
   for (const CpuModel* each : all_cpus()) names.emplace_back(each->name);
   offer(app.add_option("--cpu", cpu, text), names)
       ->check([](const std::string& name) { return find_cpu(name) ? "" : unknown_cpu(name); })
-      ->capture_default_str()
       ->type_name("TYPE");
 }
 
@@ -80,7 +80,7 @@ void CpuOptions::add_cpu_and_times_to(CLI::App& app, const std::string& meaning)
 }
 
 void CpuOptions::add_to(CLI::App& app) {
-  add_cpu_and_times_to(app, "CPU to run on");
+  add_cpu_and_times_to(app, fmt::format("CPU to run on {}", kCpuFound));
   app.add_option("--ppi-baud", ppi_baud,
                  fmt::format("rate of PPI: {}; 9600,187500: port 0 and port 1 [{}]", ppi_rates_text(),
                              s7200::to_text(SystemBlock{}.ppi_rates)))
@@ -94,9 +94,17 @@ void CpuOptions::add_to(CLI::App& app) {
 }
 
 const CpuModel* CpuOptions::model() const {
-  const CpuModel* found = find_cpu(cpu);
+  const CpuModel* found = cpu.empty() ? &cpu214() : find_cpu(cpu);
   if (!found) print_error(unknown_cpu(cpu));
   return found && system_block(*found) ? found : nullptr;
+}
+
+const CpuModel* CpuOptions::model_for(const SourceText& text, const std::string& path) const {
+  if (!cpu.empty()) return model();
+  const ProgramCpu found = cpu_of_program(text, path);
+  if (!found.model) return print_error(found.why), nullptr;
+  print_note_if_any(found.note);
+  return system_block(*found.model) ? found.model : nullptr;
 }
 
 std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
@@ -149,29 +157,29 @@ void ProgramOptions::add_parts_to(CLI::App& app) {
 
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {
   exit_code = kUnusable;
-  auto text = model() ? read_project(path, parts) : std::nullopt;
+  auto text = cpu.empty() || model() ? read_project(path, parts) : std::nullopt;
   return text ? load(std::move(*text), exit_code) : nullptr;
 }
 
 std::shared_ptr<const Program> ProgramOptions::load(SourceText text, int& exit_code) const {
   exit_code = kUnusable;
-  const CpuModel* cpu_model = model();
-  const auto table = cpu_model ? times(*cpu_model) : std::nullopt;
-  return table ? load(std::move(text), *table, exit_code) : nullptr;
+  const CpuModel* found = model_for(text, path);
+  const auto table = found ? times(*found) : std::nullopt;
+  return table ? load(std::move(text), *found, *table, exit_code) : nullptr;
 }
 
-std::shared_ptr<const Program> ProgramOptions::load(SourceText text, const TimeTable& table, int& exit_code) const {
+std::shared_ptr<const Program> ProgramOptions::load(SourceText text, const CpuModel& model, const TimeTable& table,
+                                                    int& exit_code) const {
   exit_code = kUnusable;
-  const CpuModel* cpu_model = model();
-  if (!cpu_model || !repair(text, repairs)) return nullptr;
+  if (!repair(text, repairs)) return nullptr;
   print_note_if_any(left_out_note(text));
-  CheckResult result = check(text.parsed, *cpu_model, table);
+  CheckResult result = check(text.parsed, model, table);
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
   print_diagnostics(result.diagnostics, result.source);
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
   auto program = std::move(result.program);
-  const SystemBlock block = *system_block(*cpu_model);
+  const SystemBlock block = *system_block(model);
   if (program && block != SystemBlock{}) program = with_system_block(*program, block);
   return every_scan && program ? with_every_scan(*program) : program;
 }

@@ -17,8 +17,11 @@ class App;
 
 namespace s7200::tools {
 
-/// --cpu, with one of the CPUs that are modelled.
+/// --cpu, with one of the CPUs that are modelled; `text` says what it is for.
 void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text);
+
+/// For the text of --cpu where a program is run: which one is taken without it.
+inline constexpr const char* kCpuFound = "[as its head or s7200.yaml says, else the first that can run it]";
 
 /// For doubters.
 inline constexpr const char* kNoSkip = "--no-skip";
@@ -31,7 +34,7 @@ void add_repair_option(CLI::App& app, Repairs& repairs);
 bool repair(SourceText& text, const Repairs& repairs);
 
 struct CpuOptions {
-  std::string cpu = "214";
+  std::string cpu;          ///< empty: not named
   std::string times_table;  ///< a name or a file; empty: the CPU's own
   std::string ppi_baud;     ///< as parse_ppi_rates() takes it; empty: as a CPU is delivered
   std::string ppi_station;  ///< as parse_ppi_stations() takes it; the same
@@ -40,12 +43,14 @@ struct CpuOptions {
 
   void add_to(CLI::App& app);
 
-  /// --cpu and --times alone, for verbs that run nothing; `meaning` of the CPU.
+  /// --cpu and --times alone, for verbs that run nothing; `meaning` of the CPU, with the one that is taken without it.
   void add_cpu_and_times_to(CLI::App& app, const std::string& meaning);
 
-  /// The model and its times; nothing after a message. Ends in kUnusable. A model can have the system block that was asked
-  /// for.
+  /// The model, a CPU 214 if none is named, and its times; nothing after a message. Ends in kUnusable. A model can have the
+  /// system block that was asked for.
   const CpuModel* model() const;
+  /// The same of the CPU to run a program of the file `path` on: if none is named, the one that is found for it.
+  const CpuModel* model_for(const SourceText& text, const std::string& path) const;
   std::optional<TimeTable> times(const CpuModel& model) const;
   /// The table and others around it, in place of times(): a table from a pipe can be read once only.
   std::optional<TimesBand> band(const CpuModel& model, const BandSettings& settings) const;
@@ -71,8 +76,8 @@ struct ProgramOptions : CpuOptions {
   /// The same of a text that has been read.
   std::shared_ptr<const Program> load(SourceText text, int& exit_code) const;
 
-  /// And with a table that has been read.
-  std::shared_ptr<const Program> load(SourceText text, const TimeTable& table, int& exit_code) const;
+  /// And for a CPU that has been found, with a table that has been read.
+  std::shared_ptr<const Program> load(SourceText text, const CpuModel& model, const TimeTable& table, int& exit_code) const;
 };
 
 /// Tables of execution times, by their names or files; nothing after messages.

@@ -47,7 +47,7 @@ void TestOptions::add_to(CLI::App& app) {
   add_whole_number(app, "--random", suite.random, {1, 100'000}, "send so many random requests to the --target");
   add_whole_number(app, "--seed", suite.seed, {0, UINT32_MAX}, "seed of the random requests", "1");
   add_whole_number(app, "--station", suite.station, {1, 247}, "station that most random requests go to", "1");
-  add_cpu_option(app, suite.random_cpu, "CPU of a program that gets random requests; scenarios say theirs themselves");
+  add_cpu_option(app, suite.random_cpu, "CPU of a program that gets random requests [214]; scenarios say theirs themselves");
   app.add_option("--record", record, "write what went over the line as a transcript, which is a scenario again")
       ->type_name("FILE");
   app.add_flag("--force", force, "overwrite an existing transcript");

@@ -1,0 +1,101 @@
+#include "interpreter/program/cpu_choice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/checker.hpp"
+
+namespace s7200 {
+namespace {
+
+constexpr std::string_view kBlanks = " \t", kPunctuation = " \t:=-,./*";
+
+/// What may stand before a CPU in a line that is about nothing else: `PLC type: CPU 224`.
+constexpr std::array<std::string_view, 12> kWordsBefore{"FOR",  "A",      "AN",     "THE",     "PLC",     "TYPE",
+                                                         "ON",   "TARGET", "SIEMENS", "SIMATIC", "S7", "200"};
+
+std::string_view last_word(std::string_view& text) {
+  text = text.substr(0, text.find_last_not_of(kPunctuation) + 1);
+  const std::size_t begin = text.find_last_of(kPunctuation) + 1;  // 0 if there is none
+  const std::string_view word = text.substr(begin);
+  text = text.substr(0, begin);
+  return word;
+}
+
+bool is_about_nothing_else(std::string_view before) {
+  for (std::string_view word = last_word(before); !word.empty(); word = last_word(before))
+    if (std::ranges::find(kWordsBefore, word) == kWordsBefore.end()) return false;
+  return true;
+}
+
+/// Whether a title goes on with a CPU: `Modbus slave for the CPU 224`.
+bool ends_in_for(std::string_view before) {
+  std::string_view word = last_word(before);
+  if (word == "THE" || word == "A") word = last_word(before);
+  return word == "FOR";
+}
+
+/// `224 XP, release 2.01`: the CPU, and the rest of the line. Nothing if it is not modelled.
+const CpuModel* cpu_at(std::string_view text, std::string_view& rest) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t:=-"), text.size()));
+  constexpr std::size_t kDigits = 3;
+  if (text.size() < kDigits || !std::ranges::all_of(text.substr(0, kDigits), stl::is_digit)) return nullptr;
+  std::string name(text.substr(0, kDigits));
+  rest = text.substr(kDigits);
+  std::string_view suffix = rest.substr(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+  suffix = suffix.substr(0, 2);
+  if (suffix == "XP" || suffix == "XM") {
+    rest.remove_prefix(static_cast<std::size_t>(suffix.data() - rest.data()) + suffix.size());
+    name += suffix;
+  }
+  if (!rest.empty() && (stl::is_letter(rest.front()) || stl::is_digit(rest.front()))) return nullptr;
+  return find_cpu(name);
+}
+
+const CpuModel* cpu_in_line(const std::string& comment, bool is_title) {
+  const std::string upper = stl::upper_case(comment);
+  const std::size_t at = upper.find("CPU");
+  if (at == std::string::npos || (at > 0 && stl::is_letter(upper[at - 1]))) return nullptr;
+  const std::string_view before = std::string_view(upper).substr(0, at);
+  std::string_view rest;
+  const CpuModel* const model = cpu_at(std::string_view(upper).substr(at + 3), rest);
+  if (!model) return nullptr;
+  if (is_title && ends_in_for(before)) return model;
+  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+  const bool ends_there = rest.empty() || std::string_view(",.;:(*").find(rest.front()) != std::string_view::npos;
+  return ends_there && is_about_nothing_else(before) ? model : nullptr;
+}
+
+}  // namespace
+
+const CpuModel* cpu_in_head(const stl::Source& source) {
+  bool is_title = true;
+  for (const stl::Line& line : source.lines) {
+    if (std::holds_alternative<stl::Statement>(line)) break;
+    const auto* const comment = std::get_if<stl::CommentLine>(&line);
+    if (!comment) continue;
+    if (const CpuModel* model = cpu_in_line(comment->text, is_title)) return model;
+    is_title &= stl::trim(comment->text).empty();
+  }
+  const auto main = std::ranges::find(source.blocks, stl::Block::Kind::Main, &stl::Block::kind);
+  return main == source.blocks.end() ? nullptr : cpu_in_line(main->title, true);
+}
+
+const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {
+  std::vector<const CpuModel*> tried{&cpu214(), &cpu224(), &cpu226(), &cpu224xp()};
+  const auto common = static_cast<std::ptrdiff_t>(tried.size());
+  for (const CpuModel* model : all_cpus())
+    if (std::ranges::find(tried, model) == tried.end()) tried.push_back(model);
+  if (const CpuModel* first = first_cpu_without_errors(parsed, tried)) return *first;
+  const auto errors_on = [&](const CpuModel* model) {
+    const auto diagnostics = check(parsed, *model, default_times(*model)).diagnostics;
+    return std::ranges::count(diagnostics, stl::Severity::Error, &stl::Diagnostic::severity);
+  };
+  return **std::ranges::min_element(tried.begin(), tried.begin() + common, {}, errors_on);
+}
+
+}  // namespace s7200

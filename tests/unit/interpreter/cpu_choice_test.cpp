@@ -1,0 +1,74 @@
+// Which CPU a program is for where nobody has named one.
+#include "interpreter/program/cpu_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include "interpreter/program/load.hpp"
+
+namespace s7200 {
+namespace {
+
+stl::ParseResult read(const std::string& text) {
+  std::string why;
+  auto source = read_source(text, "program.awl", why);
+  EXPECT_TRUE(source) << why;
+  return source ? source->parsed : stl::ParseResult{};
+}
+
+/// "none" if the head names none.
+std::string named(const std::string& head) {
+  const CpuModel* model = cpu_in_head(read(head + "\nNETWORK 1\nLD SM0.0\nMEND\n").source);
+  return model ? std::string(model->name) : "none";
+}
+
+TEST(CpuInHead, IsNamedByALineOfItsOwn) {
+  EXPECT_EQ(named("// CPU 224"), "224");
+  EXPECT_EQ(named("// drain pump\n//\n// PLC type: CPU 224 XP, release 2.01"), "224XP");
+  EXPECT_EQ(named("// SIMATIC S7-200, CPU226"), "226");
+  EXPECT_EQ(named("// for the CPU 222 (6ES7 212-1AB23)"), "222");
+}
+
+TEST(CpuInHead, IsNamedByTheTitle) {
+  EXPECT_EQ(named("// MODBUS SLAVE FOR THE CPU 224, on port 0"), "224");
+  EXPECT_EQ(named("//\n// times, for the CPU 214 and all later ones"), "214");
+}
+
+TEST(CpuInHead, IsNotTakenFromASentence) {
+  EXPECT_EQ(named("// a title\n// On CPU 22x nobody types MEND. For CPU 212 an error is right."), "none");
+  EXPECT_EQ(named("// it replaces the CPU 212 of 1996"), "none");
+  EXPECT_EQ(named("// CPU 2240"), "none");
+  EXPECT_EQ(named("// CPU 314"), "none");
+  EXPECT_EQ(named("// ACPU 224"), "none");
+  EXPECT_EQ(named("// nothing"), "none");
+}
+
+TEST(CpuInHead, IsNotTakenFromBelowTheFirstInstruction) {
+  EXPECT_EQ(cpu_in_head(read("NETWORK 1\nLD SM0.0\n// CPU 224\nMEND\n").source), nullptr);
+}
+
+TEST(CpuInHead, IsNamedByTheTitleOfAnExport) {
+  const auto parsed = read("ORGANIZATION_BLOCK MAIN:OB1\nTITLE=Pump station, CPU 226\nBEGIN\nNetwork 1\nLD SM0.0\n= Q0.0\n"
+                           "END_ORGANIZATION_BLOCK\n");
+  EXPECT_EQ(cpu_in_head(parsed.source), nullptr) << "a sentence about something else";
+  const auto named = read("ORGANIZATION_BLOCK MAIN:OB1\nTITLE=Pump station for CPU 226\nBEGIN\nNetwork 1\nLD SM0.0\n= Q0.0\n"
+                          "END_ORGANIZATION_BLOCK\n");
+  ASSERT_NE(cpu_in_head(named.source), nullptr);
+  EXPECT_EQ(cpu_in_head(named.source)->name, "226");
+}
+
+std::string first_for(const std::string& text) { return std::string(first_cpu_for(read(text)).name); }
+
+TEST(FirstCpu, IsThe214WhereItWillDo) { EXPECT_EQ(first_for("LD SM0.0\n= Q0.0\nMEND\n"), "214"); }
+
+TEST(FirstCpu, HasWhatTheProgramUses) {
+  EXPECT_EQ(first_for("LD SM0.0\nRCV VB100, 0\nMEND\n"), "224");
+  EXPECT_EQ(first_for("LD SM0.0\nRCV VB100, 1\nMEND\n"), "226");
+}
+
+TEST(FirstCpu, OfAProgramWithMistakesHasTheFewest) {
+  EXPECT_EQ(first_for("LD SM0.0\nRCV VB100, 0\nRCV VB300, 0\nMOVB VW10, VB0\nMEND\n"), "224");
+  EXPECT_EQ(first_for("LD SM0.0\nMOVB VW10, VB0\nMEND\n"), "214");
+}
+
+}  // namespace
+}  // namespace s7200

@@ -1,0 +1,61 @@
+#include "tools/rig/program_cpu.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "interpreter/base/joined.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/cpu_choice.hpp"
+#include "tools/yaml/values.hpp"
+
+namespace s7200::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A complaint about the file, at its line.
+ProgramCpu wrong(const std::string& file, std::uint32_t line, const std::string& why) {
+  return {.why = fmt::format("{}:{}: {}", stl::printable(file), line, why)};
+}
+
+ProgramCpu read_settings(const std::string& file) {
+  ProgramCpu cpu;
+  const auto text = read_text(file, cpu.why);
+  if (!text) return {.why = fmt::format("cannot read {}: {}", stl::printable(file), cpu.why)};
+  stl::Diagnostics diagnostics;
+  const auto source = source_of(*text, file);
+  const auto root = read_yaml(*text, *source, diagnostics, {"the settings of a folder", "'cpu:'"});
+  if (!root) return wrong(file, diagnostics.front().position.line, diagnostics.front().message);
+  if (!root->is_map()) return wrong(file, 1, "write for example cpu: 224");
+  for (const YamlNode& key : root->keys)
+    if (key.text != "cpu")
+      return wrong(file, key.position.line,
+                   fmt::format("there is no setting '{}'; a folder has one: cpu", stl::printable(stl::shortened(key.text))));
+  YamlValues values(diagnostics);
+  const auto name = values.optional_text(*root, "cpu");
+  if (!name) return wrong(file, 1, "write for example cpu: 224");
+  cpu.model = find_cpu(*name);
+  if (!cpu.model)
+    return wrong(file, root->find("cpu")->position.line,
+                 fmt::format("there is no model of CPU '{}'; modelled: {}", stl::printable(stl::shortened(*name)),
+                             stl::joined(all_cpus(), &CpuModel::name)));
+  return cpu;
+}
+
+}  // namespace
+
+ProgramCpu cpu_of_program(const SourceText& text, const std::string& path) {
+  if (const CpuModel* named = cpu_in_head(text.parsed.source)) return {.model = named};
+  const fs::path settings = fs::path(path).parent_path() / kFolderSettings;
+  std::error_code none;
+  if (!is_standard_input(path) && fs::exists(settings, none)) return read_settings(settings.string());
+  const CpuModel& first = first_cpu_for(text.parsed);
+  if (&first == &cpu214()) return {.model = &first};
+  return {.model = &first,
+          .note = fmt::format("{} does not run on a CPU 214; CPU {} is assumed, --cpu names another",
+                              stl::printable(text.parsed.source.name), first.name)};
+}
+
+}  // namespace s7200::tools
