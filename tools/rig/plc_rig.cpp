@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/trace/output_record.hpp"
+#include "interpreter/trace/output_waves.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/views/memory.hpp"
 
@@ -41,12 +44,17 @@ bool PlcRig::claim(WrittenFiles& files, std::string& why) {
     trace_ = made.get();
     return made;
   };
-  const auto output = [](std::ostream& out) { return std::make_unique<OutputRecord>(out); };
+  const bool waves = stl::lower_case(std::filesystem::path(settings_.output).extension().string()) == ".vcd";
+  const FileKind rows{"a record of outputs", fmt::format("{}\n", OutputRecord::kFirstLine)};
+  const FileKind dump{"a dump of outputs", std::string(OutputWaves::kBeginning)};
+  const auto output = [this, waves](std::ostream& out) -> std::unique_ptr<TraceSink> {
+    if (waves) return std::make_unique<OutputWaves>(out, *program_->model);
+    return std::make_unique<OutputRecord>(out);
+  };
   return memory_.claim(files, settings_.memory, why) &&
          traces_.claim(files, "--trace", settings_.trace, {"a trace", fmt::format("{}\n", TextTrace::kFirstLine)}, trace,
                        why) &&
-         traces_.claim(files, "--output", settings_.output,
-                       {"a record of outputs", fmt::format("{}\n", OutputRecord::kFirstLine)}, output, why);
+         traces_.claim(files, "--output", settings_.output, waves ? dump : rows, output, why);
 }
 
 bool PlcRig::read_memory(std::string& why) { return memory_.read(*program_->model, why); }

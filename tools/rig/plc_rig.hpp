@@ -26,7 +26,7 @@ struct PlcSettings {
   MemorySettings memory{};           ///< read at power-up, written by keep_memory()
   std::string trace{};
   TraceDetail trace_detail = TraceDetail::Way;
-  std::string output{};              ///< changes of outputs, as CSV
+  std::string output{};              ///< changes of outputs, as CSV; to FILE.vcd as a Value Change Dump
   std::vector<MemoryRange> dumps{};  ///< shown at the end
   std::vector<std::string> dump_names{};
 };

@@ -64,7 +64,7 @@ const std::array kKeys{
     SystemKey{Where::Plc, "memory", "PATH", "retentive memory, EEPROM and clock: read at the start if it exists, written at the end"},
     SystemKey{Where::Plc, "trace", "PATH", "interrupts, characters, attachments and errors are written there"},
     SystemKey{Where::Plc, "trace_instructions", "true, false", "every instruction is traced too; `false` if left out"},
-    SystemKey{Where::Plc, "output", "PATH", "each change of an output is written there, as CSV"},
+    SystemKey{Where::Plc, "output", "PATH", "each change of an output is written there: CSV, or waves if it ends in .vcd"},
     SystemKey{Where::Plc, "dump", "LIST", "memory to show at the end: `[VB0:16, VW100]`"},
 
     SystemKey{Where::Line, "stations", "LIST", kept(fmt::format("who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; {} at most", serial::Line::kDrivers))},

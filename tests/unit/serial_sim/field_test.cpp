@@ -5,6 +5,7 @@
 
 #include "interpreter/trace/fan_out.hpp"
 #include "interpreter/trace/output_record.hpp"
+#include "interpreter/trace/output_waves.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/plc.hpp"
 
@@ -178,6 +179,21 @@ TEST(OutputRecordTest, OneRowForEachPointAndAnalogWordThatChanges) {
   record.record({.at = 3 * ms, .kind = TraceKind::AnalogChanged, .op = 4, .count = 0xFFFB});
   record.record({.at = 3 * ms, .kind = TraceKind::ScanBegin});
   EXPECT_EQ(out.str(), "time_ms,address,value\n2.000000,Q0.0,1\n2.000000,Q0.3,1\n2.000005,Q0.0,0\n3.000000,AQW4,-5\n");
+}
+
+TEST(OutputWavesTest, AWireForEachPointAndAVectorForEachAnalogWord) {
+  std::ostringstream out;
+  OutputWaves waves(out, cpu214());
+  const std::size_t head = out.str().size();
+  for (const char* part : {"$comment s7200: outputs of CPU 214 $end\n", "$timescale 1 ns $end\n", "$var wire 1 q7.7 Q7.7 $end\n",
+                           "$var wire 16 a30 AQW30 $end\n", "#0\n$dumpvars\n0q0.0\n"})
+    EXPECT_NE(out.str().find(part), std::string::npos) << part;
+  EXPECT_EQ(out.str().find("Q8.0"), std::string::npos) << "the CPU has no QB8";
+  waves.record({.at = 2 * ms, .kind = TraceKind::OutputChanged, .byte = 0x09, .op = 0});
+  waves.record({.at = 2 * ms, .kind = TraceKind::AnalogChanged, .op = 4, .count = 0xFFFB});
+  waves.record({.at = 3 * ms, .kind = TraceKind::OutputChanged, .byte = 0x09, .op = 0});
+  waves.record({.at = 4 * ms, .kind = TraceKind::OutputChanged, .byte = 0x08, .op = 0});
+  EXPECT_EQ(out.str().substr(head), "#2000000\n1q0.0\n1q0.3\nb1111111111111011 a4\n#4000000\n0q0.0\n");
 }
 
 struct Watcher final : TraceSink {

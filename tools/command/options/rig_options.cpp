@@ -38,7 +38,7 @@ void RigOptions::add_to(CLI::App& app) {
          "I, AIW, SMB28, SMB29 and SM0.7 over time, CSV rows such as 10ms,I0.3,1  1s,SM0.7,0  1s,I0.6,pulses,5kHz,200ms")
       ->type_name("FILE");
   app.add_option("--output", settings_.output,
-                 "write each change of an output (Q, AQ) to FILE, as CSV; - is standard output")
+                 "write each change of an output (Q, AQ) to FILE: CSV, or waves if it ends in .vcd; - is standard output")
       ->type_name("FILE");
   MemorySettings& memory = settings_.memory;
   auto* file =
