@@ -23,18 +23,40 @@ constexpr std::array<std::pair<std::string_view, Notation>, 4> kNotations{{{"iec
                                                                            {"microwin", Notation::MicroWin},
                                                                            {"german", Notation::German}}};
 
+// --- names ---
+
+/// Quotes for what a listing would take for something else: `K1` is a constant, `E1` an address.
+std::string quoted_if_needed(const std::string& name) {
+  std::string why;
+  const auto read = stl::parse_operand(name, why);
+  const auto* plain = read ? std::get_if<stl::Name>(&read->value) : nullptr;
+  const bool word = std::ranges::all_of(name, [](char c) { return stl::is_letter(c) || stl::is_digit(c) || c == '_'; });
+  return plain && word ? name : fmt::format("\"{}\"", name);
+}
+
+/// A name with the & or * before it; `#local` has no quotes.
+std::string quoted_symbol(const std::string& symbol) {
+  const std::size_t begin = std::min(symbol.find_first_not_of("&*"), symbol.size());
+  const std::string name = symbol.substr(begin);
+  const bool as_it_is = name.starts_with('#') || name.starts_with('"');
+  return symbol.substr(0, begin) + (as_it_is ? name : quoted_if_needed(name));
+}
+
 // --- one statement ---
 
 bool is_one_of(std::string_view mnemonic, std::initializer_list<std::string_view> mnemonics) {
   return std::ranges::find(mnemonics, mnemonic) != mnemonics.end();
 }
 
-/// Local variables keep their names among blocks, which declare them; other symbols become addresses.
-void leave_out_symbols(stl::Statement& statement, Notation notation) {
-  for (stl::Operand& operand : statement.operands) {
+/// Names stay among blocks, which declare their local variables and have a symbol table; in a listing they become addresses.
+/// Routines are named by name_blocks().
+void keep_or_leave_out_symbols(stl::Statement& statement, Notation notation) {
+  const bool names_routine = is_one_of(statement.mnemonic, {"CALL", "ATCH"});
+  for (std::size_t i = 0; i < statement.operands.size(); ++i) {
+    stl::Operand& operand = statement.operands[i];
     const std::string symbol = std::exchange(operand.symbol, {});
-    const bool local = symbol.find('#') == symbol.find_first_not_of("&*") && !symbol.empty();
-    if (notation == Notation::MicroWin && local) operand.value = stl::Name{symbol};
+    if (notation != Notation::MicroWin || symbol.empty() || (names_routine && i == 0)) continue;
+    operand.value = stl::Name{quoted_symbol(symbol)};
   }
 }
 
@@ -118,15 +140,6 @@ std::vector<Routine> routines_of(const stl::Source& source) {
   const auto is_code = [](const stl::Line& line) { return std::holds_alternative<stl::Statement>(line); };
   if (std::ranges::any_of(routine.lines, is_code)) finish();
   return routines;
-}
-
-/// Quotes for what a listing would take for something else: `K1` is a constant, `E1` an address.
-std::string quoted_if_needed(const std::string& name) {
-  std::string why;
-  const auto read = stl::parse_operand(name, why);
-  const auto* plain = read ? std::get_if<stl::Name>(&read->value) : nullptr;
-  const bool word = std::ranges::all_of(name, [](char c) { return stl::is_letter(c) || stl::is_digit(c) || c == '_'; });
-  return plain && word ? name : fmt::format("\"{}\"", name);
 }
 
 std::string declarations_text(const std::vector<stl::Variable>& variables) {
@@ -269,7 +282,7 @@ std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation) 
   if (!Printable(parsed, notation).check()) return {};
   stl::Source source = parsed.source;
   for (stl::Line& line : source.lines)
-    if (auto* statement = std::get_if<stl::Statement>(&line)) leave_out_symbols(*statement, notation);
+    if (auto* statement = std::get_if<stl::Statement>(&line)) keep_or_leave_out_symbols(*statement, notation);
   for (stl::DataLine& line : source.data)
     if (line.address) line.address->symbol.clear();
   if (notation == Notation::MicroWin) return blocks_text(source);
@@ -279,6 +292,14 @@ std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation) 
     if (statement && notation == Notation::German) to_german(*statement);
   }
   return stl::to_text(source);
+}
+
+std::string symbol_table_text(const stl::Source& source) {
+  std::string text;
+  for (const stl::Symbol& symbol : source.symbols)
+    if (symbol.value)
+      text += fmt::format("{}\t{}\t{}\n", symbol.name, stl::to_text(stl::Operand{*symbol.value, {}}), symbol.comment);
+  return text.empty() ? text : "Symbol\tAddress\tComment\n" + text;
 }
 
 }  // namespace s7200

@@ -23,12 +23,16 @@ std::string_view name_of(Notation notation);
 /// `iec, microdos, microwin and german`
 std::string notation_names();
 
-/// The source in a notation. Names become addresses; the data block is printed among blocks only. Returns nothing and adds
-/// diagnostics to `parsed` if it cannot be printed: names that nothing defines, parameters of CALL outside of blocks.
+/// The source in a notation. Names stay among blocks and become addresses in a listing; the data block is printed among blocks
+/// only. Returns nothing and adds diagnostics to `parsed` if it cannot be printed: names that nothing defines, parameters of
+/// CALL outside of blocks.
 ///
 /// Not documented, modelled so: Micro/DOS writes numbers of labels and routines without K, as the published tip does. The
 /// German set is U for A and the letters of addresses; all else is as in the international set.
 /// [Convert.MicroDosWritesConstantsWithKButNotLabelsAndRoutines, Convert.GermanLettersAndU]
 std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation);
+
+/// The symbols of a source as a table that Micro/WIN takes: name, address and comment, with tabs between. Empty without any.
+std::string symbol_table_text(const stl::Source& source);
 
 }  // namespace s7200

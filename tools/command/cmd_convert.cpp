@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/convert.hpp"
@@ -24,6 +25,17 @@ struct ConvertOptions {
   bool to_file() const { return !output.empty() && output != "-"; }
 };
 
+/// The table of the names that stay in the text; empty if none do.
+std::string symbols_of(const ConvertOptions& options, const SourceText& source) {
+  return options.notation == name_of(Notation::MicroWin) ? symbol_table_text(source.parsed.source) : "";
+}
+
+/// Beside the program: `plant.awl` has its symbols in `plant_symbols.txt`.
+std::string table_path(const ConvertOptions& options) {
+  const std::filesystem::path program(options.output);
+  return (program.parent_path() / (program.stem().string() + "_symbols.txt")).string();
+}
+
 void print_json(const ConvertOptions& options, const SourceText& source, const std::string& text) {
   auto results = results_of("convert");
   results["program"] = options.program.path;
@@ -31,6 +43,9 @@ void print_json(const ConvertOptions& options, const SourceText& source, const s
   results["notation"] = options.notation;
   results["output"] = options.to_file() ? nlohmann::ordered_json(options.output) : nullptr;
   results["stl"] = options.to_file() ? nullptr : nlohmann::ordered_json(text);
+  const std::string table = symbols_of(options, source);
+  results["symbols_output"] = options.to_file() && !table.empty() ? nlohmann::ordered_json(table_path(options)) : nullptr;
+  results["symbols"] = options.to_file() || table.empty() ? nullptr : nlohmann::ordered_json(table);
   fmt::print("{}", lines_of(results));
 }
 
@@ -69,9 +84,20 @@ int run_convert(const ConvertOptions& options) {
   const auto encoded = stl::encode(*text, options.encoding, why);
   if (!encoded) return print_error("--encoding: " + why + "; nothing was written"), kUnusable;
   print_note_if_any(encoding_note(*text, *encoded, options.encoding));
+  const std::string symbols = symbols_of(options, *source);
+  const auto table = symbols.empty() ? std::nullopt : stl::encode(symbols, options.encoding, why);
+  if (!symbols.empty() && !table) return print_error("--encoding: " + why + "; nothing was written"), kUnusable;
   std::vector<std::string> inputs = options.program.parts;
   inputs.push_back(options.program.path);
-  const int exit_code = options.to_file() ? write_stl(options.output, inputs, options.force, *encoded) : kFine;
+  int exit_code = kFine;
+  if (options.to_file()) {
+    std::vector<StlFile> files{{options.output, *encoded}};
+    if (table) files.push_back({table_path(options), *table});
+    exit_code = write_stl(files, inputs, options.force);
+    if (exit_code == kFine && table) print_note(fmt::format("its symbols are in {}", table_path(options)));
+  } else if (table && !options.json) {
+    print_note("the program keeps its names and needs their symbol table; -o FILE writes that too");
+  }
   if (exit_code == kFine && options.json)
     print_json(options, *source, *text);
   else if (!options.to_file())
@@ -88,7 +114,8 @@ void add_convert(CLI::App& app, int& exit_code) {
   options->program.add_files_to(*verb);
   add_repair_option(*verb, options->program.repairs);
   verb->add_option("--to", options->notation,
-                   "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (the blocks of an export), german (E, A, U)")
+                   "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (the blocks of an export, with their symbols), german (E, "
+                   "A, U)")
       ->required()
       ->check([](const std::string& name) {
         return notation_named(name)
@@ -101,7 +128,7 @@ void add_convert(CLI::App& app, int& exit_code) {
           "UTF-8, UTF-16, Windows-1250 to -1254, CP437, GBK or Shift-JIS; Micro/WIN reads the code page of its Windows")
       ->capture_default_str()
       ->type_name("NAME");
-  verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE");
+  verb->add_option("-o,--output", options->output, "file to write, and FILE_symbols.txt for the symbols of microwin; standard output if not given")->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was converted as JSON, with the STL if no file is written");
   verb->footer("Example: s7200 convert stl_programs/modbus_slave.stl --to microwin");

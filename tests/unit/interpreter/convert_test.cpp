@@ -181,5 +181,23 @@ TEST(Convert, NamesThatAListingWouldTakeForSomethingElseAreQuoted) {
   EXPECT_NE(text.find("CALL    \"K1\""), std::string::npos) << text;
 }
 
+TEST(Convert, KeepsNamesAmongBlocksAndTheirTable) {
+  std::string why;
+  std::vector<SourceText> files;
+  files.push_back(*read_source("LD Button\nA \"Level low\"\n= Lamp\nMOVD &Table, VD20\nMEND\n", "p.stl", why));
+  files.push_back(*read_source("Symbol\tAddress\tComment\nButton\tI0.0\tgreen\nLamp\tQ0.1\t\nLevel low\tI0.2\t\nTable\tVB100\t\n",
+                               "s.txt", why));
+  SourceText project = join_files(std::move(files));
+  const auto text = convert(project.parsed, Notation::MicroWin);
+  ASSERT_TRUE(text);
+  for (const char* line : {"LD      Button\n", "A       \"Level low\"\n", "=       Lamp\n", "MOVD    &Table, VD20\n"})
+    EXPECT_NE(text->find(line), std::string::npos) << line << *text;
+  EXPECT_EQ(symbol_table_text(project.parsed.source),
+            "Symbol\tAddress\tComment\nButton\tI0.0\tgreen\nLamp\tQ0.1\t\nLevel low\tI0.2\t\nTable\tVB100\t\n");
+  const auto listing = convert(project.parsed, Notation::Iec);
+  ASSERT_TRUE(listing);
+  EXPECT_NE(listing->find("LD      I0.0\n"), std::string::npos) << *listing;
+}
+
 }  // namespace
 }  // namespace s7200
