@@ -22,14 +22,13 @@ nlohmann::ordered_json dumps_json(const PlcSettings& settings, const Cpu& cpu) {
 nlohmann::ordered_json plc_json(const PlcPlan& plan, const serial::Plc& plc) {
   const Cpu& cpu = plc.cpu();
   const State& state = cpu.state();
-  return {{"name", plan.name},
-          {"cpu", plan.program->model->name},
-          {"mode", mode_of(plc)},
-          {"scans", state.scans},
-          {"instructions", state.instructions},
-          {"errors", errors_json(cpu)},
-          {"errors_not_listed", errors_not_listed(cpu)},
-          {"dump", dumps_json(plan.settings, cpu)}};
+  nlohmann::ordered_json json{{"name", plan.name}, {"cpu", plan.program->model->name}, {"mode", mode_of(plc)}};
+  json.update(scans_json(state));
+  json["instructions"] = state.instructions;
+  json["errors"] = errors_json(cpu);
+  json["errors_not_listed"] = errors_not_listed(cpu);
+  json["dump"] = dumps_json(plan.settings, cpu);
+  return json;
 }
 
 nlohmann::ordered_json poll_json(const std::string& name, const serial::Poller::State& polls) {
@@ -63,6 +62,13 @@ bool is_system(const Rig& rig) { return !rig.plan().lines.front().name.empty(); 
 
 std::string_view mode_of(const serial::Plc& plc) {
   return !plc.powered() ? "off" : plc.cpu().state().mode == Mode::Run ? "RUN" : "STOP";
+}
+
+nlohmann::ordered_json scans_json(const State& state) {
+  using Json = nlohmann::ordered_json;
+  return {{"scans", state.scans},
+          {"shortest_scan_ns", state.scans ? Json(state.shortest_scan) : nullptr},
+          {"longest_scan_ns", state.scans ? Json(state.longest_scan) : nullptr}};
 }
 
 std::string indented(const std::string& lines) {

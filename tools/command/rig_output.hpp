@@ -19,6 +19,9 @@ bool is_system(const Rig& rig);
 /// `RUN`, `STOP`, or `off` without power.
 std::string_view mode_of(const serial::Plc& plc);
 
+/// How many scans a CPU has completed since it last went to RUN, and how long they took; null if there was none.
+nlohmann::ordered_json scans_json(const State& state);
+
 /// Each line two columns to the right.
 std::string indented(const std::string& lines);
 

@@ -32,7 +32,7 @@ void print_json(const Rig& rig, const Ending& ending, const RunOptions& options)
   auto results = results_of("run");
   results["stop_reason"] = ending.reason;
   results["time_ns"] = state.time;
-  results["scans"] = state.scans;
+  results.update(scans_json(state));
   results["instructions"] = state.instructions;
   results.update(rig_json(rig));
   if (ending.pace)
