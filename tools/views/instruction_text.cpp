@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "interpreter/base/text.hpp"
@@ -84,6 +86,53 @@ std::string ranges_text(const OperandRule& rule, const CpuModel& model) {
     if (contains(rule.areas, area.area) && model.size_of(area.area) != 0)
       ranges.push_back(range_text(model, area.area, rule.width));
   return fmt::format("{}", fmt::join(ranges, ", "));
+}
+
+/// `T33 to T36, T97`
+std::string elements_text(std::string_view area, std::uint32_t size, const std::function<bool(std::uint32_t)>& is_one) {
+  std::vector<std::string> runs;
+  for (std::uint32_t first = 0; first < size; ++first) {
+    if (!is_one(first)) continue;
+    std::uint32_t last = first;
+    while (last + 1 < size && is_one(last + 1)) ++last;
+    runs.push_back(last == first ? fmt::format("{}{}", area, first) : fmt::format("{0}{1} to {0}{2}", area, first, last));
+    first = last;
+  }
+  return fmt::format("{}", fmt::join(runs, ", "));
+}
+
+/// The timers of a kind by their resolution.
+std::string resolution_text(TimerKind kind) {
+  std::string text;
+  for (const Time base : {kMillisecond, 10 * kMillisecond, 100 * kMillisecond})
+    text += fmt::format("    {:<11}{}\n", format_duration(base), elements_text("T", image::kTimers, [&](std::uint32_t number) {
+                          const TimerBase timer = timer_base(number);
+                          return timer.base == base && timer.retentive == (kind == TimerKind::Retentive);
+                        }));
+  return text;
+}
+
+/// Which timers or counters keep their current value while the power is off, as the CPUs are delivered.
+std::string retention_text(Area area, const Instruction& instruction) {
+  std::vector<std::pair<std::string, CpuSet>> groups;  // what they keep, and which CPUs keep that
+  for (const CpuModel* model : all_cpus()) {
+    if (!(model->self & instruction.cpus)) continue;
+    const auto is_kept = [&](std::uint32_t number) {
+      return std::ranges::any_of(model->retentive, [&](const RetentiveRange& range) {
+        return range.area == area && number >= range.first && number < range.first + range.count;
+      });
+    };
+    const std::string kept = elements_text(info(area).name, model->size_of(area), is_kept);
+    const auto known = std::ranges::find(groups, kept, &std::pair<std::string, CpuSet>::first);
+    if (known == groups.end())
+      groups.emplace_back(kept, model->self);
+    else
+      known->second = static_cast<CpuSet>(known->second | model->self);
+  }
+  std::string text;
+  for (const auto& [kept, cpus] : groups)
+    text += fmt::format("    kept       {} while the power is off, as {} is delivered\n", kept, to_text(cpus));
+  return text;
 }
 
 std::vector<const TimeRow*> times_of(const TimeTable& times, const Instruction& instruction) {
@@ -194,6 +243,9 @@ std::string explain(const Instruction& instruction, const TimeTable& times) {
   for (const OperandRule& rule : instruction.rules()) {
     text += fmt::format("  {:<11} {}{}\n", rule.name, operand_text(rule), rule.role == Role::In ? "" : "   (written)");
     if (rule.kind != OperandKind::Memory) continue;
+    if (rule.timer != TimerKind::Any) text += resolution_text(rule.timer);
+    for (const Area area : {Area::T, Area::C})
+      if (rule.areas == set_of(area) && rule.role != Role::In) text += retention_text(area, instruction);
     for (const CpuModel* model : all_cpus())
       if (model->self & instruction.cpus) text += fmt::format("    CPU {}   {}\n", model->name, ranges_text(rule, *model));
   }
