@@ -23,31 +23,38 @@ Time drawn_time(double ns, Time in_place_of) {
   return std::clamp<Time>(std::llround(ns), in_place_of == 0 ? 0 : 1, kLongestFigure);
 }
 
+/// How often each line of a table is a part of a sum, by its number: a line may have several mnemonics of the sum.
+std::map<std::size_t, int> lines_of_sum(const TimeTable& table, const std::string& sum) {
+  std::map<std::size_t, int> lines;
+  for (const std::string& name : parts_of_sum(sum))
+    if (const TimeRow* known = table.find(name, {})) ++lines[static_cast<std::size_t>(known - table.rows().data())];
+  return lines;
+}
+
 /// A table drawn around another, with the sums that are known. What an earlier sum has settled stays as it is.
 TimeTable with_sums(TimeTable drawn, const TimeTable& around) {
-  std::map<std::string, PartOfSum> settled;
-  for (std::size_t line = 0; line < around.rows().size(); ++line) {
-    const TimeRow sum = drawn.rows()[line];
+  std::map<std::size_t, double> settled;  // figures by their lines
+  for (const TimeRow& sum : drawn.rows()) {
     if (sum.mnemonics.front() != kSum) continue;
     auto left = static_cast<double>(sum.base);
-    std::vector<std::string> names;
+    const std::map<std::size_t, int> lines = lines_of_sum(around, sum.form);
     std::vector<PartOfSum> parts;
-    for (const std::string& name : parts_of_sum(sum.form)) {
-      const TimeRow* known = around.find(name, {});
-      if (!known) continue;
-      if (settled.contains(name)) {
-        left -= settled[name].figure;
-        continue;
-      }
-      names.push_back(name);
-      parts.push_back({static_cast<double>(drawn.find(name, {})->base), range_of_base(*known)});
+    for (const auto& [line, times] : lines) {
+      const TimeRange range = range_of_base(around.rows()[line]);
+      if (settled.contains(line))
+        left -= times * settled[line];
+      else
+        parts.push_back({static_cast<double>(times * drawn.rows()[line].base), {times * range.least, times * range.most}});
     }
     settle(parts, left);
-    for (std::size_t i = 0; i < parts.size(); ++i) settled[names[i]] = parts[i];
+    auto part = parts.begin();
+    for (const auto& [line, times] : lines)
+      if (!settled.contains(line)) settled[line] = (part++)->figure / times;
   }
+  std::size_t line = 0;
   return drawn.with([&](TimeRow& row) {
-    const auto part = settled.find(row.mnemonics.front());
-    if (part != settled.end()) row.base = drawn_time(part->second.figure, row.base);
+    const auto figure = settled.find(line++);
+    if (figure != settled.end()) row.base = drawn_time(figure->second, row.base);
   });
 }
 

@@ -76,6 +76,21 @@ TEST(TimesBand, WhatAnEarlierSumHasSettledStaysInALaterOne) {
   }
 }
 
+TEST(TimesBand, ALineWithSeveralMnemonicsOfASumCountsForEachOfThem) {
+  TimeTable times;
+  ASSERT_EQ(times.add("mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent,base_within_us\n"
+                      "(sum),MOVW + RET + MOVB,45,,,measured,,,0.001\n(sum),MOVB + (interrupt entry),60,,,measured,,,0.001\n"
+                      "MOVB MOVW,,15,,,measured,,,10\nRET,,10,,,measured,,,10\n(interrupt entry),,50,,,measured,,,40\n",
+                      "sums.csv"),
+            std::vector<std::string>{});
+  for (std::uint32_t number = 0; number < 50; ++number) {
+    const TimeTable drawn = random_times(times, 1, number);
+    const Time move = drawn.find("MOVW", {})->base;
+    EXPECT_NEAR(static_cast<double>(2 * move + drawn.find("RET", {})->base), 45'000, 3) << number;
+    EXPECT_NEAR(static_cast<double>(move + drawn.find("(interrupt entry)", {})->base), 60'000, 3) << number;
+  }
+}
+
 TEST(TimesBand, NoFigureIsDrawnBeyondTheLongestThatATableMayHave) {
   const std::string header = "mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent\n";
   TimeTable table = default_times(cpu214());
