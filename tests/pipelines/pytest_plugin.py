@@ -39,12 +39,43 @@ class Plugin(Case):
                           "    plc = s7200_plc(SLAVE, '--set', 'VW20=1234', '--dump', 'VW20')\n"
                           "    assert '1234' in plc.stop() and plc.stop() == plc.stop()\n")
 
-    def test_a_plc_that_prints_much_runs_on(self):
+    def test_memory_and_inputs_are_read_and_written_while_it_runs(self):
+        (self.folder / "copy.stl").write_text("NETWORK 1\nLD I0.3\n= Q0.1\nLD SM0.0\nMOVW VW0, VW2\nMEND\n", encoding="utf-8")
         self.pytest(FINE, "import time\n"
                           "def test_it(s7200_plc):\n"
-                          "    plc = s7200_plc(SLAVE, '--trace', '-', '--trace-instructions')\n"
-                          "    time.sleep(1)\n"
-                          "    assert len(plc.stop()) > 4 * 65536\n")
+                          f"    plc = s7200_plc({str(self.folder / 'copy.stl')!r}, '--set', 'VW0=-5', speed=100)\n"
+                          "    assert plc.memory['VW2'] == -5 and plc.memory['Q0.1'] == 0\n"
+                          "    plc.inputs['I0.3'] = 1\n"
+                          "    plc.memory['VW0'] = 7\n"
+                          "    time.sleep(0.2)\n"
+                          "    assert plc.memory['VW2'] == 7 and plc.memory['Q0.1'] == 1\n"
+                          "    plc.force('Q0.1', 0)\n"
+                          "    time.sleep(0.2)\n"
+                          "    assert plc.memory['Q0.1'] == 0\n"
+                          "    plc.unforce('Q0.1')\n"
+                          "    time.sleep(0.2)\n"
+                          "    assert plc.memory['Q0.1'] == 1\n"
+                          "    with plc.at('50ms'):\n"
+                          "        assert plc.memory['VW2'] == -5\n"
+                          "    assert plc.memory['VW2'] == 7\n")
+
+    def test_an_assertion_about_memory_says_who_wrote_it(self):
+        (self.folder / "count.stl").write_text("NETWORK 1\nLD SM0.1\nMOVW 5, VW2\nMEND\n", encoding="utf-8")
+        shown = self.pytest(FAILED, f"def test_it(s7200_plc):\n    assert s7200_plc({str(self.folder / 'count.stl')!r}).memory['VW2'] == 6\n")
+        self.assertIn("VW2 is 5: VW2 was 16#0000 (0), became 16#0005 (5)", shown)
+        self.assertIn("MOVW", shown)
+
+    def test_an_address_that_does_not_exist_is_refused_in_words(self):
+        shown = self.pytest(FAILED, "def test_it(s7200_plc):\n    s7200_plc(SLAVE).memory['VW99999']\n")
+        self.assertIn("Refused", shown)
+        self.assertIn("VW99999", shown)
+
+    def test_a_plc_whose_messages_nobody_reads_runs_on(self):
+        self.pytest(FINE, "def test_it(s7200_plc):\n"
+                          "    plc = s7200_plc(SLAVE)\n"
+                          "    for _ in range(2000):\n"
+                          "        plc._ask('evaluate', expression='VB0:64', context='repl')\n"
+                          "    assert plc.memory['VW20'] == 0\n")
 
     def test_when_a_plc_cannot_be_stopped_the_others_are_all_the_same(self):
         shown = self.pytest(FAILED, "import os, pytest_s7200, signal\n"
@@ -52,7 +83,7 @@ class Plugin(Case):
                                     "def test_one(s7200_plc):\n"
                                     "    plcs = [s7200_plc(SLAVE) for _ in range(3)]\n"
                                     "    ports.extend(plc.port for plc in plcs)\n"
-                                    "    plcs[1]._process.send_signal(signal.SIGSTOP)\n"
+                                    "    plcs[1]._session._process.send_signal(signal.SIGSTOP)\n"
                                     "    pytest_s7200.PATIENCE = 1\n"
                                     "def test_two():\n"
                                     "    assert [os.path.lexists(port) for port in ports] == [False, True, False]\n")
