@@ -86,8 +86,9 @@ const CpuModel* cpu_in_head(const stl::Source& source) {
 }
 
 const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {
-  std::vector<const CpuModel*> tried{&cpu214(), &cpu224(), &cpu226(), &cpu224xp()};
-  const auto common = static_cast<std::ptrdiff_t>(tried.size());
+  constexpr std::array kCommon{&cpu214, &cpu224, &cpu226, &cpu224xp};
+  std::vector<const CpuModel*> tried;
+  for (const auto model : kCommon) tried.push_back(&model());
   for (const CpuModel* model : all_cpus())
     if (std::ranges::find(tried, model) == tried.end()) tried.push_back(model);
   if (const CpuModel* first = first_cpu_without_errors(parsed, tried)) return *first;
@@ -95,7 +96,8 @@ const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {
     const auto diagnostics = check(parsed, *model, default_times(*model)).diagnostics;
     return std::ranges::count(diagnostics, stl::Severity::Error, &stl::Diagnostic::severity);
   };
-  return **std::ranges::min_element(tried.begin(), tried.begin() + common, {}, errors_on);
+  const CpuModel& fewest = **std::ranges::min_element(tried.begin(), tried.begin() + kCommon.size(), {}, errors_on);
+  return 2 * errors_on(&fewest) <= errors_on(&cpu214()) ? fewest : cpu214();
 }
 
 }  // namespace s7200

@@ -1058,7 +1058,7 @@ class Json(Case):
         path = self.program("LD SM0.0\nMOVW 16#1234, VW2\nMOVD 0, *VD100\nMEND\n")
         result = self.json(FINE, "run", path, "--scans", "3", "--set", "VD100=16#7F000000", "--dump", "VB0:4",
                            "--dump", "VW2", "--dump", "V2.1", "--json")
-        self.assertEqual(list(result), ["s7200", "stop_reason", "time_ns", "scans", "instructions", "mode", "errors",
+        self.assertEqual(list(result), ["s7200", "stop_reason", "time_ns", "scans", "shortest_scan_ns", "longest_scan_ns", "instructions", "mode", "errors",
                                         "errors_not_listed", "faults", "dump"])
         self.assertEqual((result["stop_reason"], result["scans"]), ("scans", 3))
         self.assertEqual((result["instructions"], result["mode"]), (12, "RUN"))
@@ -2397,7 +2397,7 @@ class Files(Case):
 
     def test_parameters_need_a_cpu_22x_and_run_on_it(self):
         path = EXPORTS / "parameters.awl"
-        self.assertIn("they need CPU 22x; choose one, such as CPU 224", self.ends(FAILED, "check", path).stderr)
+        self.assertIn("they need CPU 22x; choose one, such as CPU 224", self.ends(FAILED, "check", path, "--cpu", "214").stderr)
         self.assertRegex(self.ends(FINE, "run", path, "--cpu", "224", "--scans", "2", "--dump", "VW20").stdout, r"VW20 .* 10\n")
 
     def test_convert_reads_back_as_the_same_program(self):
@@ -2409,6 +2409,79 @@ class Files(Case):
             self.assertEqual(answer, self.ends(FINE, "send", SLAVE, "--crc", "0103000a0002").stdout)
         self.assertIn("neither an address", self.ends(FAILED, "convert", EXPORTS / "pump.awl", "--to", "iec").stderr)
         self.ends(FINE, "convert", *self.PUMP, "--to", "iec")
+
+    def test_convert_keeps_names_among_blocks_and_writes_their_table(self):
+        out, table = self.folder / "pump.awl", self.folder / "pump_symbols.txt"
+        done = self.ends(FINE, "convert", *self.PUMP, "--to", "microwin", "-o", out)
+        self.assertIn(f"its symbols are in {table}", done.stderr)
+        self.assertIn('A       "Level low"\n', out.read_text(encoding="utf-8"))
+        self.assertIn("Level low\tI0.1\tlower level switch, closed when wet\n", table.read_text(encoding="utf-8"))
+        self.ends(FINE, "run", out, table, "--scans", "2")
+        again = self.ends(UNUSABLE, "convert", *self.PUMP, "--to", "microwin", "-o", out)
+        self.assertIn(f"{out} exists; --force overwrites it", again.stderr)
+        out.unlink()
+        self.assertIn(f"{table} exists; --force overwrites it", self.ends(UNUSABLE, "convert", *self.PUMP, "--to", "microwin", "-o", out).stderr)
+        self.assertFalse(out.exists(), "written although its table could not be")
+        self.assertIn("needs their symbol table", self.ends(FINE, "convert", *self.PUMP, "--to", "microwin").stderr)
+        result = json.loads(self.ends(FINE, "convert", *self.PUMP, "--to", "microwin", "--json").stdout)
+        self.assertIn("Pump\tQ0.0\tcontactor\n", result["symbols"])
+
+    RCV = "LD SM0.1\nMOVB 16#09, SMB30\nRCV VB100, 0\nMEND\n"
+
+    def test_the_cpu_is_what_the_head_of_the_program_says(self):
+        named = self.program("// CPU 226\n" + self.RCV, "named.stl")
+        done = self.ends(FINE, "check", named)
+        self.assertIn("for CPU 226", done.stdout)
+        self.assertNotIn("assumed", done.stderr)
+        self.assertIn("for CPU 224", self.ends(FINE, "check", named, "--cpu", "224").stdout)
+
+    def test_the_cpu_is_what_the_folder_says_if_the_program_names_none(self):
+        program, settings = self.program(self.RCV), self.program("cpu: 222\n", "s7200.yaml")
+        self.assertIn("for CPU 222", self.ends(FINE, "check", program).stdout)
+        for text, why in (("cpu: 225\n", "s7200.yaml:1: there is no model of CPU '225'; modelled: 212"),
+                          ("cpux: 224\n", "s7200.yaml:1: there is no setting 'cpux'; a folder has one: cpu"),
+                          ("cpu: [\n", "s7200.yaml:1: "), ("- 224\n", "write for example cpu: 224")):
+            settings.write_text(text, encoding="utf-8")
+            for verb in (["check"], ["run", "--scans", "1"]):
+                self.assertIn(why, self.ends(UNUSABLE, *verb, program).stderr)
+
+    def test_the_cpu_is_the_first_that_can_run_the_program_if_nothing_names_one(self):
+        program = self.program(self.RCV)
+        done = self.ends(FINE, "run", program, "--scans", "1")
+        self.assertIn("program.stl does not run on a CPU 214; CPU 224 is assumed, --cpu names another", done.stderr)
+        plain = self.ends(FINE, "run", SLAVE, "--scans", "1")
+        self.assertEqual(plain.stderr, "")
+
+    def test_scenarios_and_systems_find_the_cpu_in_the_same_way(self):
+        self.program("// CPU 226\n" + self.RCV, "named.stl")
+        self.program(self.RCV, "unnamed.stl")
+        scenario = self.program("scenarios:\n  - {name: a, program: named.stl, port: 1, steps: [{memory: {SMB30: 9}}]}\n"
+                                "  - {name: b, program: unnamed.stl, steps: [{memory: {SMB30: 9}}]}\n", "both.yaml")
+        self.assertIn("unnamed.stl does not run on a CPU 214; CPU 224 is assumed", self.ends(FINE, "test", scenario).stderr)
+        system = self.program("plcs:\n  a: {program: named.stl}\n  b: {program: unnamed.stl}\n"
+                              "lines: {l: {stations: [a, b]}}\n", "system.yaml")
+        done = self.ends(FINE, "run", system, "--for", "10ms", "--json")
+        self.assertEqual([plc["cpu"] for plc in json.loads(done.stdout)["plcs"]], ["226", "224"])
+        self.assertIn("PLC 'b' names no CPU", done.stderr)
+
+    def test_a_folder_of_scenarios_may_have_settings(self):
+        self.program("cpu: 224\n", "s7200.yaml")
+        self.program(self.RCV, "unnamed.stl")
+        self.program("program: unnamed.stl\nsteps: [{memory: {SMB30: 9}}]\n", "only.yaml")
+        self.assertIn("1 scenario: 1 passed", self.ends(FINE, "test", self.folder).stdout)
+
+    def test_outputs_go_into_waves_for_sigrok_if_the_file_ends_in_vcd(self):
+        program = self.program("LD SM0.5\n= Q0.3\nMEND\n", "blink.stl")
+        waves = self.folder / "outputs.vcd"
+        self.ends(FINE, "run", program, "--for", "3s", "--output", waves)
+        text = waves.read_text(encoding="utf-8")
+        self.assertIn("$var wire 1 q0.3 Q0.3 $end", text)
+        self.assertGreaterEqual(text.count("1q0.3\n"), 3)
+        self.ends(FINE, "run", program, "--for", "1s", "--output", waves)  # its own file is written anew
+
+    def test_a_wrong_table_of_times_is_reported_where_the_scenario_names_it(self):
+        scenario = self.program(f"name: a\nprogram: {SLAVE}\ntimes: nosuch.csv\nsteps: [{{wait: 1ms}}]\n", "times.yaml")
+        self.assertRegex(self.ends(UNUSABLE, "test", scenario).stderr, r"times\.yaml:3:8: error: cannot read .*nosuch\.csv")
 
     def test_convert_prints_no_program_that_is_wrong(self):
         wrong = self.program("MOVB 1000, VW0\nXYZ 5\n", "wrong.stl")

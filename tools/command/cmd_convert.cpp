@@ -114,8 +114,7 @@ void add_convert(CLI::App& app, int& exit_code) {
   options->program.add_files_to(*verb);
   add_repair_option(*verb, options->program.repairs);
   verb->add_option("--to", options->notation,
-                   "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (the blocks of an export, with their symbols), german (E, "
-                   "A, U)")
+                   "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (blocks of an export, with names), german (E, A, U)")
       ->required()
       ->check([](const std::string& name) {
         return notation_named(name)
