@@ -122,14 +122,14 @@ def show(rows):
 
 def check_program(s7200, path):
     expected, run_time, command, texts, code = expectations(path)
-    exit_code, _, error = run([s7200, "check", str(path)])
+    exit_code, _, error = run([s7200, "check", "--cpu", "214", str(path)])
     found = reports(error, path)
     if not same(expected, found):
         raise Failure(f"expected\n{show(expected)}  but the check says\n{show(found)}")
     has_errors = any(r[0] == "error" for r in found)
     if exit_code != (1 if has_errors else 0):
         raise Failure(f"check ended with {exit_code}")
-    command = command or ["run", "--for", "1ms"]
+    command = command or ["run", "--cpu", "214", "--for", "1ms"]
     exit_code, output, error = run([s7200, command[0], str(path), *command[1:]])
     reported = [(kind, number, line or place) for kind, number, line, place in RUN_TIME.findall(output + error)]
     if exit_code != code or reported != run_time:
