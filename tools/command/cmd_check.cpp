@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/choices.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/options/tables_by_cpu.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/views/check_report.hpp"
 #include "tools/views/results_json.hpp"
@@ -25,23 +25,6 @@ struct CheckOptions {
   std::vector<std::string> paths;
   std::vector<std::string> unwanted;  // names of warnings
   bool json = false, no_warnings = false;
-};
-
-/// The execution times for each CPU, read once: a table may come from a pipe.
-class Tables {
- public:
-  explicit Tables(const CpuOptions& options) : options_(options) {}
-
-  /// Null after a message.
-  const TimeTable* of(const CpuModel& model) {
-    const auto [found, added] = tables_.try_emplace(&model);
-    if (added) found->second = options_.times(model);
-    return found->second ? &*found->second : nullptr;
-  }
-
- private:
-  const CpuOptions& options_;
-  std::map<const CpuModel*, std::optional<TimeTable>> tables_;
 };
 
 /// Without the warnings that are switched off.
@@ -57,7 +40,7 @@ CheckResult check_with(const CheckOptions& options, const SourceText& text, cons
 int run_check(const CheckOptions& options) {
   if (!options.cpu.model()) return kUnusable;
   int exit_code = kFine;
-  Tables tables(options.cpu);
+  TablesByCpu tables(options.cpu);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (auto& [path, text] : read_programs(options.paths, exit_code)) {
     if (!repair(text, options.cpu.repairs)) {
