@@ -44,7 +44,7 @@ ROOMS = {
     "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/measuring", "tools/yaml", "tools/rig", "tools/slave"],
-    "tools/recordings": CORE + ["tools/views", "tools/scenario"],
+    "tools/recordings": CORE + ["tools/views", "tools/json", "tools/scenario"],
     "tools/debugger": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig"],
     "tools/dap": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig", "tools/debugger"],
 }
@@ -59,6 +59,7 @@ LIBRARIES = {
     "nlohmann/": ["tools", "tests"],
     "yaml-cpp/": ["tools/yaml"],
     "pcap/": ["tools/recordings"],
+    "zip.h": ["tools/recordings"],
     "histedit.h": ["tools/command"],
     "curses.h": ["tools/command"],
     "term.h": ["tools/command"],

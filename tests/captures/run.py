@@ -153,6 +153,38 @@ class Sigrok(Case):
         self.silent()
         self.assertEqual(self.decode("-A", "uart"), b"")
 
+    def frames(self, recording, *arguments):
+        done = run(S7200, "decode", recording, "--json", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [frame["bytes"] for frame in json.loads(done.stdout)["frames"]]
+
+    def test_levels_in_the_files_of_sigrok_are_read_as_what_was_sent(self):
+        """Our receiver at the end of: our sender, our VCD, sigrok's file."""
+        exchanges = self.send(SLAVE, "--timeout", "100ms", *map(with_crc, TALK[:8]))
+        sent = [e[what] for e in exchanges for what in ("request", "response") if e[what]]
+        self.assertEqual(self.frames(self.vcd), sent)
+        for kind, name in (("srzip", "line.sr"), ("vcd", "again.vcd"), ("csv", "line.csv")):
+            with self.subTest(kind):
+                path = self.folder / name
+                done = run("sigrok-cli", "-I", "vcd:downsample=1000", "-i", self.vcd, "-O", kind, "-o", path)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(self.frames(path), sent)
+
+    def test_annotations_of_sigrok_are_read_as_what_was_sent(self):
+        exchanges = self.send(SLAVE, "--timeout", "100ms", *map(with_crc, TALK[:8]))
+        sent = [e[what] for e in exchanges for what in ("request", "response") if e[what]]
+        path = self.folder / "annotations.txt"
+        for kinds, options in (("uart=rx-data:tx-data", ["--protocol-decoder-samplenum"]), ("uart", ["--protocol-decoder-samplenum"]),
+                               ("uart=rx-data:tx-data", [])):
+            for form in ("hex", "ascii", "bin", "oct", "dec"):
+                if (kinds, form) in (("uart", "ascii"), ("uart", "dec")):
+                    continue  # a bit looks like a character there
+                with self.subTest(f"{kinds} {form}"):
+                    done = run("sigrok-cli", "-I", "vcd:downsample=1000", "-i", self.vcd, "-P",
+                               f"uart:rx=rx:tx=tx:baudrate=9600:parity=even:format={form}", "-A", kinds, *options)
+                    path.write_bytes(done.stdout)
+                    self.assertEqual(self.frames(path), sent)
+
 
 Packet = collections.namedtuple("Packet", "time_ns bytes")
 
@@ -244,6 +276,24 @@ class Tshark(Case):
                 self.assertEqual(status, "1", frame)
             else:
                 self.assertNotIn("1", status, frame)
+
+    def test_link_types_as_wireshark_reads_them(self):
+        """The head of an RTAC, and pcapng with each link type, written by Wireshark's tools."""
+        request, answer = with_crc("0103000a0002"), with_crc("01030412345678")
+        rtac = [bytes(8) + bytes([event, 0, 0, 0]) + bytes.fromhex(frame) for event, frame in ((1, request), (2, answer))]
+        plain = [bytes.fromhex(frame) for frame in (request, answer)]
+        for link_type, packets in ((147, plain), (153, plain), (250, rtac)):
+            with self.subTest(link_type):
+                dump = self.folder / "dump.txt"
+                dump.write_text("".join(f"0000 {packet.hex(' ')}\n" for packet in packets), encoding="utf-8")
+                written = self.folder / "written.pcapng"
+                self.assertEqual(run("text2pcap", "-l", link_type, dump, written).returncode, 0)
+                decoded = run(S7200, "decode", written, "--json")
+                self.assertEqual(decoded.returncode, 0, decoded.stderr)
+                self.assertEqual([frame["bytes"] for frame in json.loads(decoded.stdout)["frames"]], [request, answer])
+                if link_type == 250:
+                    done = run("tshark", "-r", written, "-T", "fields", "-e", "rtacser.eventtype")
+                    self.assertEqual([int(field, 16) for field in done.stdout.split()], [1, 2])
 
     def test_a_quiet_line(self):
         self.silent()

@@ -405,11 +405,16 @@ class Verbs(Case):
         scenario.write_text(scenario.read_text(encoding="utf-8").replace("cpu: 226", "cpu: 224"), encoding="utf-8")
         self.assertIn("CPU 224 has no port 1", self.ends(UNUSABLE, "test", scenario).stderr)
 
-    def test_levels_are_no_frames(self):
-        capture = self.folder / "line.vcd"
-        self.ends(FINE, "send", SLAVE, "--crc", "010300000001", "--capture", capture)
-        for verb in ("decode", "import-capture"):
-            self.assertIn("a VCD has levels, not frames; record the line with --capture FILE.pcap", self.ends(UNUSABLE, verb, capture).stderr)
+    def test_levels_are_read_by_the_receiver_of_the_simulated_line(self):
+        capture, scenario = self.folder / "line.vcd", self.folder / "levels.yaml"
+        sent = self.json(FINE, "send", SLAVE, "--crc", "010300000001", "--json", "--capture", capture)["exchanges"][0]
+        decoded = self.json(FINE, "decode", capture, "--json")
+        self.assertEqual([frame["bytes"] for frame in decoded["frames"]], [sent["request"], sent["response"]])
+        self.assertAlmostEqual(decoded["summary"]["shortest_latency_us"], sent["latency_us"], delta=1)
+        self.assertEqual(decoded["line"], "9600 baud, 8 data bits, even parity, 1 stop bit")
+        self.ends(FINE, "import-capture", capture, "--program", SLAVE, "-o", scenario)
+        self.ends(FINE, "test", scenario)
+        self.assertIn("; 9600 baud fit better", self.ends(FINE, "decode", capture, "--baud", "300").stderr)
 
     def test_a_capture_shows_what_was_on_the_line_whoever_sent_it(self):
         capture, levels = self.folder / "line.pcap", self.folder / "line.vcd"

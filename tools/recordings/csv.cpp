@@ -33,32 +33,10 @@ struct Columns {
   std::string unknown_unit{};  ///< the name of the times' column, if what it has in brackets is no unit
 };
 
-struct Unit {
-  std::string_view word;
-  Time time;
-};
-constexpr std::array kUnits{
-    Unit{"S", kSecond},       Unit{"SEC", kSecond},          Unit{"SECONDS", kSecond},      Unit{"MS", kMillisecond},
-    Unit{"US", kMicrosecond}, Unit{"\u00B5S", kMicrosecond}, Unit{"\u03BCS", kMicrosecond}, Unit{"NS", 1}};
-
 /// `text` in any case, `words` in capitals.
 bool contains(std::string_view text, std::initializer_list<std::string_view> words) {
   const std::string capitals = stl::upper_case(text);
   return std::ranges::any_of(words, [&](std::string_view word) { return capitals.find(word) != std::string::npos; });
-}
-
-/// The first word of a column's name that is one: `Time [ms]`, `time_us`.
-std::optional<Time> unit_of(std::string_view name) {
-  const std::string capitals = stl::upper_case(name);
-  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; };
-  for (auto begin = capitals.begin(); begin != capitals.end();) {
-    begin = std::find_if(begin, capitals.end(), is_letter);
-    const auto end = std::find_if_not(begin, capitals.end(), is_letter);
-    const auto unit = std::ranges::find(kUnits, std::string_view(begin, end), &Unit::word);
-    if (unit != kUnits.end()) return unit->time;
-    begin = end;
-  }
-  return {};
 }
 
 /// `us`, `[ms]`, `t [us]`: all that it says.
@@ -66,7 +44,7 @@ bool is_unit(std::string_view name) {
   std::string word = stl::upper_case(name);
   std::erase_if(word, [](char c) { return std::ispunct(static_cast<unsigned char>(c)) != 0 || c == ' '; });
   if (word.size() > 1 && word.front() == 'T') word.erase(0, 1);
-  return std::ranges::find(kUnits, word, &Unit::word) != kUnits.end();
+  return unit_of(word).has_value();
 }
 
 /// `Time,TX,RX`: a column with the bytes of each direction. A row with digits has bytes already, and names nothing.

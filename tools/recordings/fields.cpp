@@ -209,11 +209,40 @@ const Word* what_is_doubtful(Words before, Words run, Words after) {
   return is_comment && (run.size() > 1 || run.front().bytes.size() > 1) ? nullptr : &after.front();
 }
 
+struct Unit {
+  std::string_view word;
+  Time time;
+};
+constexpr std::array kUnits{Unit{"S", kSecond},
+                            Unit{"SEC", kSecond},
+                            Unit{"SECONDS", kSecond},
+                            Unit{"MS", kMillisecond},
+                            Unit{"US", kMicrosecond},
+                            Unit{"\u00B5S", kMicrosecond},
+                            Unit{"\u03BCS", kMicrosecond},
+                            Unit{"NS", 1},
+                            Unit{"MILLISECONDS", kMillisecond},
+                            Unit{"MICROSECONDS", kMicrosecond},
+                            Unit{"NANOSECONDS", 1}};
+
 }  // namespace
 
 std::optional<LeadingTime> leading_time(std::string_view text) {
   if (const auto time = time_of_day(text)) return time;
   return time_since(text);
+}
+
+std::optional<Time> unit_of(std::string_view name) {
+  const std::string capitals = stl::upper_case(name);
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; };
+  for (auto begin = capitals.begin(); begin != capitals.end();) {
+    begin = std::find_if(begin, capitals.end(), is_letter);
+    const auto end = std::find_if_not(begin, capitals.end(), is_letter);
+    const auto unit = std::ranges::find(kUnits, std::string_view(begin, end), &Unit::word);
+    if (unit != kUnits.end()) return unit->time;
+    begin = end;
+  }
+  return {};
 }
 
 Direction direction_of_brackets(std::string_view bytes) {

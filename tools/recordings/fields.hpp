@@ -43,6 +43,9 @@ struct LeadingTime {
 };
 std::optional<LeadingTime> leading_time(std::string_view text);
 
+/// How long a unit is, by the first word of a column's name that is one: `Time [ms]`, `time_us`.
+std::optional<Time> unit_of(std::string_view name);
+
 /// What a word says: TX, sent, request, > … ask; RX, received, response, < … answer.
 Direction direction_of(std::string_view text);
 

@@ -36,6 +36,18 @@ std::optional<LineRecording> read_text_log(std::string_view bytes, const Reading
 /// so, and what is no such message is left out.
 void read_modbus_tcp(LineRecording& recording);
 
+/// By the sections of its head.
+bool looks_like_vcd(std::string_view bytes);
+std::optional<LineRecording> read_vcd(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// Any zip; the reader names those of other tools.
+bool looks_like_sigrok_session(std::string_view bytes);
+std::optional<LineRecording> read_sigrok_session(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// By rows that have nothing but levels after the time.
+bool looks_like_levels_table(std::string_view bytes);
+std::optional<LineRecording> read_levels_table(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
 /// By the names of its columns.
 bool looks_like_dsview(std::string_view bytes);
 std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices, std::string& why);

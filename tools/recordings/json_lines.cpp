@@ -1,9 +1,9 @@
 // An object of JSON in each line, after whatever a logger puts before it: what nodes of Node-RED, loggers and our own users
 // write.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "interpreter/base/text.hpp"
+#include "tools/json/json.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/lines.hpp"
 #include "tools/recordings/named_fields.hpp"
@@ -11,27 +11,16 @@
 namespace s7200::tools {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
-constexpr int kDeepest = 16;                            // objects within objects
-constexpr std::size_t kLongest = std::size_t{1} << 20;  // characters of a line
-
-/// Counted before it is parsed: the destructor of a deep value would take the stack for each level.
-bool is_deep(std::string_view text) {
-  std::ptrdiff_t depth = 0, deepest = 0;
-  for (const char c : text) {
-    depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
-    deepest = std::max(deepest, depth);
-  }
-  return deepest > kDeepest;
-}
+constexpr JsonLimits kLimits{.bytes = std::size_t{1} << 20, .depth = 16, .members = 1000};
 
 /// Numbers from 0 to 255, or bytes in texts.
 std::optional<Bytes> bytes_of_list(const json& list) {
   Bytes bytes;
   for (const json& each : list) {
-    if (each.is_number_unsigned() && each.get<std::uint64_t>() <= 0xFF)
-      bytes.push_back(static_cast<std::uint8_t>(each.get<std::uint64_t>()));
+    if (const auto byte = number_from<std::uint8_t>(each))
+      bytes.push_back(*byte);
     else if (const auto some = each.is_string() ? bytes_of_text(each.get<std::string>()) : std::nullopt)
       bytes.insert(bytes.end(), some->begin(), some->end());
     else
@@ -61,14 +50,13 @@ struct Record {
 /// Nothing if there is no object in the line.
 std::optional<Record> record_of(std::string_view line) {
   const std::size_t begin = line.find("{\"");
-  if (begin == std::string_view::npos || line.size() > kLongest) return {};
+  if (begin == std::string_view::npos) return {};
   std::string_view text = stl::trim(line.substr(begin));
   if (text.ends_with(',')) text.remove_suffix(1);  // a row of a list
   Record record{.before = line.substr(0, begin)};
-  if (is_deep(text)) return record;
-  const json object = json::parse(text, nullptr, false);
-  if (!object.is_object()) return record;
-  add_fields(object, "", record.fields.emplace());
+  std::string why;
+  const auto object = parse_json(text, why, kLimits);
+  if (object && object->is_object()) add_fields(*object, "", record.fields.emplace());
   return record;
 }
 

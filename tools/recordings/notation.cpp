@@ -48,7 +48,7 @@ std::optional<Bytes> decimal(std::string_view cell) {
 
 /// `[0D]` for what cannot be printed and `U` for what can, as sigrok and DSView have it.
 std::optional<Bytes> bracketed(std::string_view cell) {
-  if (cell.size() == 1 && cell.front() > ' ' && cell.front() <= '~') return Bytes{static_cast<std::uint8_t>(cell.front())};
+  if (cell.size() == 1 && cell.front() >= ' ' && cell.front() <= '~') return Bytes{static_cast<std::uint8_t>(cell.front())};
   const bool has_brackets = cell.size() == 4 && cell.front() == '[' && cell.back() == ']';
   return has_brackets ? one(byte_in_base(cell.substr(1, 2), 16)) : std::nullopt;
 }

@@ -20,6 +20,12 @@ constexpr std::array kForms{
         "pcap of a serial line, as --capture writes it (link types 147 to 162), of an RTAC (250), of a USB adapter\n"
         "    (189, 220, 249: FTDI, CP210x, CH340, PL2303, CDC-ACM), or of Modbus TCP",
         false, looks_like_pcap, read_pcap},
+    RecordingForm{"VCD", "VCD with the levels of a line, as --capture and logic analysers write it", false, looks_like_vcd,
+                  read_vcd},
+    RecordingForm{".sr", "sessions of sigrok and PulseView with its levels", false, looks_like_sigrok_session,
+                  read_sigrok_session},
+    RecordingForm{"levels", "CSV of levels: sigrok-cli -O csv, PulseView, DSView, raw data of Saleae Logic", false,
+                  looks_like_levels_table, read_levels_table},
     RecordingForm{"DSView", "the decoder list that DSView exports", true, looks_like_dsview, read_dsview},
     RecordingForm{"sigrok", "what sigrok-cli -A uart prints; with --protocol-decoder-samplenum it says where frames end",
                   true, looks_like_sigrok_annotations, read_sigrok_annotations},
@@ -65,11 +71,6 @@ std::string_view in_utf8(std::string_view file, std::string& decoded) {
   return decoded = std::move(text->text);
 }
 
-/// By the sections of its head.
-bool is_vcd(std::string_view bytes) {
-  return bytes.starts_with('$') && bytes.find("$enddefinitions") != std::string_view::npos;
-}
-
 }  // namespace
 
 std::span<const RecordingForm> recording_forms() { return kForms; }
@@ -82,10 +83,6 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
     why = fmt::format("it has none of the forms {}", stl::joined(kForms, &RecordingForm::name));
-    return {};
-  }
-  if (is_vcd(bytes)) {
-    why = "a VCD has levels, not frames; record the line with --capture FILE.pcap, or let sigrok decode it and write CSV";
     return {};
   }
   auto recording = form->read(bytes, choices, why);

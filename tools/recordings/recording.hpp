@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/serial_format.hpp"
 #include "interpreter/base/time.hpp"
+#include "serial_sim/line/line_settings.hpp"
 
 namespace s7200::tools {
 
@@ -30,7 +32,8 @@ struct RecordedFrame {
 
 struct LineRecording {
   std::vector<RecordedFrame> frames{};
-  std::string form{};                ///< name of its RecordingForm
+  std::string form{};                  ///< name of its RecordingForm
+  std::optional<SerialFormat> line{};  ///< if the recording shows it
   bool is_log = false;               ///< programs have noted its times when they were told; a capture has those of the line
   bool over_tcp = false;             ///< its frames were messages of Modbus TCP
   std::vector<std::string> notes{};  ///< what was left out, and why
@@ -42,6 +45,8 @@ inline constexpr Time kCharacterGap = 5 * kMillisecond;
 struct ReadingChoices {
   Time gap = 0;  ///< between the characters of a frame, at most; 0: kCharacterGap
   std::uint16_t tcp_port = 502;
+  serial::LineSettings line{};   ///< as far as the user knows them
+  SerialFormat usual{};          ///< of the protocol, for what the user does not know
   std::uint64_t samplerate = 0;  ///< samples a second of a recording that counts them; 0: as it says itself, or not known
   /// mbpoll had its option -0: references count from 0. They do without this, too, in a run of it that starts at 0.
   bool mbpoll_from_zero = false;

@@ -29,7 +29,8 @@ std::optional<Annotation> annotation_of(std::string_view line) {
   static const std::regex kHead(R"((?:(\d{1,18})-\d{1,18} )?uart-\d+: )");
   TextMatch match;
   if (!begins_with(line, match, kHead)) return {};
-  Annotation annotation{.text = stl::trim(line.substr(static_cast<std::size_t>(match.length())))};
+  const std::string_view written = line.substr(static_cast<std::size_t>(match.length()));
+  Annotation annotation{.text = written == " " ? written : stl::trim(written)};  // a blank may be a character
   if (match[1].matched) annotation.begin = parse_decimal<std::int64_t>(match.str(1));
   if (annotation.text.size() > 2 && annotation.text.starts_with('"') && annotation.text.ends_with('"'))
     annotation.text = annotation.text.substr(1, annotation.text.size() - 2);  // sigrok-cli -l 3
@@ -89,8 +90,8 @@ class Frames {
   }
 
   void finish() {
-    if (choices_.samplerate != 0) join_characters(recording, choices_);
     count_from_first(recording);
+    if (choices_.samplerate != 0) join_characters(recording, choices_);
     if (!recording.frames.empty() && !recording.frames.front().at)
       recording.notes.emplace_back(
           last_ ? "it counts samples: --samplerate, as 1MHz, makes times of them"

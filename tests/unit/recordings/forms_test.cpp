@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <tuple>
 
+#include "serial_sim/line/character.hpp"
 #include "tools/recordings/conversation.hpp"
 #include "tools/recordings/notation.hpp"
 #include "tools/recordings/samplerate.hpp"
@@ -539,6 +542,202 @@ TEST(SerialLinks, APacketThatEndsWithinItsHeadIsCounted) {
   for (const std::uint32_t link_type : {189U, 220U, 249U, 250U})
     for (std::size_t length = 0; length < 70; ++length)
       refusal_of(capture_of(link_type, {Bytes(length), Bytes(length, 0xFF)}));
+}
+
+// --- levels ---
+
+/// An instant of a channel at which it gets a level.
+struct Edge {
+  Time at;
+  bool level;
+};
+
+/// The frames as levels, each bit at its time.
+std::vector<Edge> edges_of(std::initializer_list<std::pair<Time, Bytes>> frames, const SerialFormat& format) {
+  std::vector<Edge> edges;
+  for (const auto& [begin, bytes] : frames)
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      const Time start = begin + static_cast<Time>(i) * format.character_time();
+      const unsigned levels = serial::character_levels(format, bytes[i], format.parity_bit(bytes[i]));
+      for (int bit = 0; bit <= serial::first_stop_bit(format); ++bit)
+        edges.push_back({start + format.bit_times(bit), (levels >> bit & 1U) != 0});
+    }
+  return edges;
+}
+
+struct DumpedChannel {
+  std::string name;
+  std::vector<Edge> edges;
+  bool idle = true;
+};
+
+std::string vcd_of(const std::vector<DumpedChannel>& channels, std::string_view scale = "1 ns", Time tick = 1) {
+  std::string text = fmt::format("$timescale {} $end\n$scope module top $end\n", scale);
+  std::vector<std::tuple<Time, std::size_t, bool>> all;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    text += fmt::format("$var wire 1 {} {} $end\n", static_cast<char>('!' + i), channels[i].name);
+    for (const Edge& edge : channels[i].edges) all.emplace_back(edge.at / tick, i, edge.level == channels[i].idle);
+  }
+  std::ranges::stable_sort(all, {}, [](const auto& each) { return std::get<0>(each); });
+  text += "$upscope $end\n$enddefinitions $end\n#0\n$dumpvars\n";
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    text += fmt::format("{}{}\n", channels[i].idle ? '1' : '0', static_cast<char>('!' + i));
+  text += "$end\n";
+  for (const auto& [at, channel, level] : all)
+    text += fmt::format("#{}\n{}{}\n", at, level ? '1' : '0', static_cast<char>('!' + channel));
+  return text;
+}
+
+constexpr SerialFormat kUsual{};
+
+std::vector<Edge> conversation_edges(const SerialFormat& format) {
+  return edges_of({{5 * ms, kRequest}, {100 * ms, kAnswer}}, format);
+}
+
+void expect_one_wire(const LineRecording& recording, std::string_view form, const SerialFormat& format) {
+  expect_the_conversation(recording, form, 95 * ms);
+  EXPECT_EQ(recording.line, format);
+  EXPECT_FALSE(recording.is_log) << "the times of the line";
+}
+
+TEST(Levels, ALineIsReadAtTheRateAndFormatThatFitItsLevels) {
+  for (const std::uint32_t baud : {1200U, 9600U, 19'200U, 57'600U, 115'200U, 187'500U})
+    for (const auto& [data_bits, parity] : {std::pair{8, Parity::Even}, {8, Parity::Odd}, {8, Parity::None}}) {
+      const SerialFormat format{.baud = baud, .data_bits = static_cast<std::uint8_t>(data_bits), .parity = parity};
+      const LineRecording recording = recording_of(vcd_of({{"D0", conversation_edges(format)}}));
+      expect_one_wire(recording, "VCD", format);
+      EXPECT_EQ(recording.notes,
+                std::vector<std::string>{fmt::format("the levels of D0 were read with {}, which fit", format_text(format))});
+    }
+}
+
+TEST(Levels, SevenBitsWithParityNeedEnoughCharactersToBeKnown) {
+  const SerialFormat ascii{.baud = 19'200, .data_bits = 7};
+  const std::string text = ":0103000A0002F0\r\n", few = ":01\r\n";
+  EXPECT_EQ(recording_of(vcd_of({{"D0", edges_of({{ms, Bytes(text.begin(), text.end())}}, ascii)}})).line, ascii);
+  EXPECT_EQ(recording_of(vcd_of({{"D0", edges_of({{ms, Bytes(few.begin(), few.end())}}, ascii)}}),
+                         {.line = {.parity = Parity::Even, .data_bits = 7}})
+                .line,
+            ascii);
+}
+
+TEST(Levels, WhatTheUserSaysOfTheLineHolds) {
+  const SerialFormat format{.baud = 12'345};
+  const std::string vcd = vcd_of({{"D0", conversation_edges(format)}});
+  EXPECT_EQ(refusal_of(vcd), "the levels fit no rate that lines have; name it with --baud");
+  expect_one_wire(recording_of(vcd, {.line = {.baud = 12'345}}), "VCD", format);
+  EXPECT_EQ(refusal_of(vcd_of({{"D0", conversation_edges(kUsual)}}), {.line = {.baud = 7'000, .parity = Parity::Even}}),
+            "no channel of it has characters with 7000 baud, 8 data bits, even parity, 1 stop bit");
+}
+
+TEST(Levels, ALineThatIdlesAtZeroIsInverted) {
+  const LineRecording recording = recording_of(vcd_of({{"A", conversation_edges(kUsual), false}}));
+  expect_one_wire(recording, "VCD", kUsual);
+  EXPECT_EQ(recording.notes.front(), "channel A idles at 0: it was read inverted");
+}
+
+TEST(Levels, AWireThatRepeatsOthersIsLeftOut) {
+  const LineRecording pair =
+      recording_of(vcd_of({{"A", conversation_edges(kUsual)}, {"B", conversation_edges(kUsual), false}}));
+  expect_one_wire(pair, "VCD", kUsual);
+  EXPECT_EQ(pair.notes.front(), "channel B was left out: other channels have its characters");
+  const LineRecording ours = recording_of(vcd_of({{"rx", edges_of({{5 * ms, kRequest}}, kUsual)},
+                                                  {"tx", edges_of({{100 * ms, kAnswer}}, kUsual)},
+                                                  {"line", conversation_edges(kUsual)}}));
+  EXPECT_EQ(ours.notes.front(), "channel line was left out: other channels have its characters");
+  EXPECT_EQ(ours.frames[0].direction, Direction::Answer) << "by the names; settle_directions() knows better";
+  EXPECT_TRUE(ours.is_log);
+}
+
+TEST(Levels, OfTwoWiresWithoutSuchNamesTheFirstThatSpeaksAsks) {
+  const LineRecording two = recording_of(
+      vcd_of({{"D0", edges_of({{100 * ms, kAnswer}}, kUsual)}, {"D1", edges_of({{5 * ms, kRequest}}, kUsual)}}));
+  expect_the_conversation(two, "VCD", 95 * ms);
+}
+
+TEST(Levels, AChannelWithoutCharactersIsNamed) {
+  std::vector<Edge> clock;
+  for (int i = 0; i < 400; ++i) clock.push_back({i * 331'000, i % 2 != 0});
+  const LineRecording recording = recording_of(vcd_of({{"D0", conversation_edges(kUsual)}, {"CLK", clock}, {"quiet", {}}}));
+  expect_one_wire(recording, "VCD", kUsual);
+  EXPECT_EQ(recording.notes.front(), "channel CLK was left out: it has no characters of that line");
+  EXPECT_EQ(refusal_of(vcd_of({{"quiet", {}}})), "no channel of it changes its level");
+}
+
+TEST(Levels, ACharacterWithAParityErrorIsDamaged) {
+  std::vector<Edge> edges = conversation_edges(kUsual);
+  for (Edge& edge : edges)
+    if (edge.at == 5 * ms + 2 * kUsual.character_time() + kUsual.bit_times(9)) edge.level = !edge.level;
+  const LineRecording recording = recording_of(vcd_of({{"D0", edges}}));
+  EXPECT_EQ(recording.frames.at(0).damaged, std::vector<std::size_t>{2});
+  EXPECT_EQ(recording.frames.at(0).bytes, kRequest);
+}
+
+TEST(Levels, AVcdHasATimescaleVectorsAndUndefinedLevels) {
+  expect_the_conversation(recording_of(vcd_of({{"D0", edges_of({{5 * ms, kRequest}, {100 * ms, kAnswer}}, {.baud = 1200})}},
+                                              "10us", 10 * kMicrosecond),
+                                       {.usual = {.baud = 1200}}),
+                          "VCD", 95 * ms);
+  std::string vcd = vcd_of({{"D0", conversation_edges(kUsual)}});
+  vcd.insert(vcd.find("$upscope"), "$var wire 8 # bus $end\n");
+  vcd += "#300000000\nb10101010 #\nx!\n#300000001\nb1 !\n";
+  EXPECT_EQ(recording_of(vcd).notes,
+            (std::vector<std::string>{
+                "channel bus was left out: it has 8 bits",
+                "channel D0 has undefined levels at 300 ms: there it keeps the level before",
+                "the levels of D0 were read with 9600 baud, 8 data bits, even parity, 1 stop bit, which fit"}));
+  EXPECT_EQ(refusal_of("$timescale 3 weeks $end\n$enddefinitions $end\n"), "its $timescale is not one");
+  EXPECT_EQ(refusal_of("$timescale 1 ns $end\n$enddefinitions $end\n#5\n#4\n"), "#4 is not a time after the one before it");
+  EXPECT_EQ(refusal_of("$timescale 1 s $end\n$enddefinitions $end\n#9000000000000000000\n"),
+            "#9000000000000000000 is not a time after the one before it");
+}
+
+/// The level of each microsecond.
+std::string samples_of(const std::vector<Edge>& edges, Time until) {
+  std::string samples;
+  bool level = true;
+  std::size_t next = 0;
+  for (Time at = 0; at < until; at += kMicrosecond) {
+    while (next < edges.size() && edges[next].at <= at) level = edges[next++].level;
+    samples += level ? '1' : '0';
+  }
+  return samples;
+}
+
+TEST(Levels, ATableOfSamplesSaysItsRateOrNeedsIt) {
+  const auto table = [](std::string_view head) {
+    std::string text(head);
+    for (const char level : samples_of(conversation_edges(kUsual), 120 * ms)) text += fmt::format("{},0\n", level);
+    return text;
+  };
+  const std::string comment = "; CSV generated by libsigrok 0.5.2\n; Channels (2/2): A, GND\n";
+  expect_one_wire(recording_of(table(comment + "; Samplerate: 1 MHz\nlogic,logic\n")), "levels", kUsual);
+  EXPECT_EQ(refusal_of(table(comment + "logic,logic\n")),
+            "it has neither times nor a samplerate: name that with --samplerate, as 1MHz");
+  const LineRecording named = recording_of(table(comment + "logic,logic\n"), {.samplerate = 1'000'000});
+  expect_one_wire(named, "levels", kUsual);
+  EXPECT_NE(named.notes.front().find("of A "), std::string::npos) << named.notes.front();
+  EXPECT_EQ(refusal_of(comment + "; Samplerate: 1 MHz\nlogic,logic\n1,1\n0,1\n1,1\n0,2\n"),
+            "line 8: '0,2' is not a row of levels");
+}
+
+TEST(Levels, ATableOfChangesHasTimes) {
+  const auto table = [](std::string_view head, double unit) {
+    std::string text = fmt::format("{}\n{:.9f}, 1\n", head, -0.001 / unit);
+    for (const Edge& edge : conversation_edges(kUsual))
+      text += fmt::format("{:.9f}, {}\n", static_cast<double>(edge.at) / kSecond / unit, edge.level ? 1 : 0);
+    return text;
+  };
+  expect_one_wire(recording_of(table("Time [s],Channel 0", 1)), "levels", kUsual);
+  expect_one_wire(recording_of(table("; CSV, generated by libsigrok4DSL\n; Sample rate: 1 MHz\nTime(s), 0", 1)), "levels",
+                  kUsual);
+  expect_one_wire(recording_of(table("Time[ms],TX", 1e-3)), "levels", kUsual);
+  EXPECT_EQ(refusal_of("Time [s],Channel 0\n0,1\n0.1,0\n0.2,1\n0.1,0\n"),
+            "line 5: '0.1,0' is not at a time after the row above it");
+}
+
+TEST(Levels, AZipThatIsNoSessionOfSigrokIsNamed) {
+  EXPECT_TRUE(refusal_of("PK\x03\x04 and nothing else").starts_with("the zip cannot be read: ")) << "cut off";
 }
 
 }  // namespace

@@ -1298,11 +1298,6 @@ TEST(Conversation, ARecordingWithoutARequestToAStationNamesThoseThatThereAre) {
   EXPECT_EQ(why_nothing_is_asked({}, {.station = 77}), "no request in it; s7200 decode shows what is");
 }
 
-TEST(Recordings, AVcdIsRefusedByItsName) {
-  EXPECT_EQ(refusal_of("$timescale 1 ns $end\n$enddefinitions $end\n#0\n1r\n"),
-            "a VCD has levels, not frames; record the line with --capture FILE.pcap, or let sigrok decode it and write CSV");
-}
-
 TEST(Conversation, AFrameIsCountedOnce) {
   const auto frames = read(recording_of("TX 01 03 00 00 00 01 84 0B\nRX 01 03 02 12 34 B5 33\nRX 01 03 02 12 34 B5 34\n"));
   DecodedSummary summary;

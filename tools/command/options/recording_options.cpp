@@ -177,23 +177,26 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
   const auto bytes = read_input(options.file, read.name);
   if (!bytes) return {};
   std::string why;
-  auto recording = read_recording(*bytes, options.reading, why);
+  ReadingChoices choices = options.reading;
+  choices.line = options.line;
+  choices.usual = options.format();
+  auto recording = read_recording(*bytes, choices, why);
   if (!recording) return print_error(fmt::format("{}: {}", read.name, why)), std::nullopt;
   read.recording = std::move(*recording);
   const bool over_tcp = read.recording.over_tcp;
-  read.stamps =
-      options.complete({.character = over_tcp ? 0 : options.format().character_time(), .at_end = options.stamps == "end"});
+  const SerialFormat format = read.recording.line.value_or(choices.usual);
+  read.stamps = options.complete({.character = over_tcp ? 0 : format.character_time(), .at_end = options.stamps == "end"});
   const bool faster = is_faster_than_said(read.recording, read.stamps);
   read.stamps.exact = !read.recording.is_log && !over_tcp && !faster;
   settle_directions(read.recording, options.spoken(), read.stamps);
   print_notes(read.recording.notes);
   const bool has_times = std::ranges::any_of(read.recording.frames, [](const auto& frame) { return frame.at.has_value(); });
-  if (!over_tcp && has_times) read.line = options.format();
+  if (!over_tcp && has_times) read.line = format;
   if (faster)
     print_note(
         fmt::format("most frames begin before the one before can be over at {} baud: name the rate of the line with "
                     "--baud, or silences are wrong",
-                    options.format().baud));
+                    format.baud));
   read.frames = conversation(read.recording, options.spoken(), read.stamps);
   if (const RecordedProtocol* other = likelier_protocol(read.recording, options.spoken(), read.frames, read.stamps))
     print_note(fmt::format("hardly a frame is right; it looks like {0}: --protocol {0}", other->name));
