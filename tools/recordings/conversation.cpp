@@ -39,6 +39,7 @@ constexpr std::array kProtocols{
     RecordedProtocol{
         .name = "pc500-loader", .reader = pc500_loader_reader, .options = kLoaderOptions, .of_other_makes = true},
     RecordedProtocol{.name = "hppc", .reader = hppc_reader, .options = kHppcOptions, .of_other_makes = true},
+    RecordedProtocol{.name = "text", .reader = text_reader},
 };
 
 /// The characters [begin, end) of a frame.
@@ -82,16 +83,22 @@ void append(RecordedFrame& frame, const RecordedFrame& row) {
   frame.more_was_lost = row.more_was_lost;
 }
 
-/// Frames that are right, and a request or an answer to one.
-std::size_t fitting(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
-  const auto frames = conversation(recording, protocol, stamps);
+std::size_t count_right(std::span<const ReadFrame> frames) {
+  return static_cast<std::size_t>(std::ranges::count_if(frames, &ReadFrame::right));
+}
+
+std::size_t count_fitting(std::span<const ReadFrame> frames) {
   return static_cast<std::size_t>(std::ranges::count_if(
       frames, [](const ReadFrame& each) { return each.right && each.direction != Direction::Unknown; }));
 }
 
+/// Frames that are right, and a request or an answer to one.
+std::size_t fitting(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
+  return count_fitting(conversation(recording, protocol, stamps));
+}
+
 std::size_t percent_right(std::span<const ReadFrame> frames) {
-  const auto right = static_cast<std::size_t>(std::ranges::count_if(frames, &ReadFrame::right));
-  return frames.empty() ? 0 : 100 * right / frames.size();
+  return frames.empty() ? 0 : 100 * count_right(frames) / frames.size();
 }
 
 Direction other_way_round(Direction direction) {
@@ -258,8 +265,10 @@ const RecordedProtocol* likelier_protocol(const LineRecording& recording, const 
                                           std::span<const ReadFrame> in_chosen, const Stamps& stamps) {
   constexpr std::size_t kHardlyAny = 10, kHalf = 50;
   if (percent_right(in_chosen) > kHardlyAny) return nullptr;
-  const RecordedProtocol& best = *std::ranges::max_element(
-      kProtocols, {}, [&](const RecordedProtocol& each) { return fitting(recording, each, stamps); });
+  const RecordedProtocol& best = *std::ranges::max_element(kProtocols, {}, [&](const RecordedProtocol& each) {
+    const auto frames = conversation(recording, each, stamps);
+    return std::pair(count_fitting(frames), count_right(frames));
+  });
   return best.name != chosen.name && percent_right(conversation(recording, best, stamps)) >= kHalf ? &best : nullptr;
 }
 

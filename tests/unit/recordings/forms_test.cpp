@@ -740,5 +740,44 @@ TEST(Levels, AZipThatIsNoSessionOfSigrokIsNamed) {
   EXPECT_TRUE(refusal_of("PK\x03\x04 and nothing else").starts_with("the zip cannot be read: ")) << "cut off";
 }
 
+// --- text ---
+
+std::vector<std::string> texts_in(const std::string& log) {
+  std::vector<std::string> texts;
+  for (const ReadFrame& read : conversation(recording_of(log), *find_recorded_protocol("text")))
+    texts.push_back((read.direction == Direction::Request  ? "> "
+                     : read.direction == Direction::Answer ? "< "
+                                                           : "? ") +
+                    read.text + (read.right ? "" : " !"));
+  return texts;
+}
+
+TEST(TextLines, ALineOfAsciiIsAMessage) {
+  EXPECT_EQ(texts_in("0.000 TX 4D 45 41 53 3F 0D 0A\n0.050 RX 22 31 22 0D 0A\n"),
+            (std::vector<std::string>{R"(> "MEAS?\r\n")", R"(< "\"1\"\r\n")"}));
+  EXPECT_EQ(texts_in("0.000 RX 31 0D 0A 32 0D 0A\n"), std::vector<std::string>{R"(< "1\r\n2\r\n")"}) << "sent at once";
+  EXPECT_EQ(texts_in("Time [s],Value\n0.001,0x31\n0.002,0x0D\n0.003,0x0A\n0.004,0x32\n0.005,0x0A\n"),
+            (std::vector<std::string>{R"(? "1\r\n")", R"(? "2\n")"}));
+  EXPECT_EQ(texts_in("0.000 RX 31\n0.002 RX 32 0D\n"), std::vector<std::string>{R"(< "12\r")"}) << "read in pieces";
+  EXPECT_EQ(texts_in("0.000 31 0D\n1.000 32 0A\n"), (std::vector<std::string>{R"(? "1\r")", R"(? "2\n")"}))
+      << "nothing says who asks";
+}
+
+TEST(TextLines, WhatIsNotOfATextIsNamed) {
+  EXPECT_EQ(texts_in("0.000 TX 4F 80 0D\n0.100 TX 4F 4B\n"),
+            (std::vector<std::string>{R"(> "O\x80\r"; character 2 is not of a text !)", R"(> "OK"; it has no line end !)"}));
+}
+
+TEST(TextLines, ARecordingOfTextIsRecognised) {
+  const RecordedProtocol& modbus = *find_recorded_protocol("modbus");
+  for (const char* log :
+       {"0.000 TX 4D 45 41 53 3F 0D 0A\n0.050 RX 31 2E 35 0D 0A\n", "0.000 4D 45 41 53 3F 0D 0A\n0.050 31 2E 35 0D 0A\n"}) {
+    const LineRecording recording = recording_of(log);
+    const RecordedProtocol* const likelier = likelier_protocol(recording, modbus, conversation(recording, modbus), {});
+    ASSERT_NE(likelier, nullptr) << log;
+    EXPECT_EQ(likelier->name, "text");
+  }
+}
+
 }  // namespace
 }  // namespace s7200::tools
