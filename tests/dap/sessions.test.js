@@ -55,6 +55,29 @@ session("a launch takes the options of debug, and says what is wrong with them",
   assert.match(await s.refused("launch", { program, send: "frob" }), /frob/);
 });
 
+session("a value of the wrong type is named with what it should be", async (s, program) => {
+  const wrong = {
+    trace: [true, /^trace: true is not FILE: a text or a number$/], realtime: ["yes", /^realtime: "yes" is not true or false$/],
+    set: [{ VW10: 5 }, /^set: \{"VW10":5\} is not ADDRESS=VALUE: a text or a number$/], cpu: [["214", "224"], /^cpu: \["214","224"\] is not one TYPE$/],
+    program: [5, /^program: 5 is not a text or a list of texts$/], stopOnEntry: [1, /^stopOnEntry: 1 is not true or false$/],
+    cwd: [7, /^cwd: 7 is not a text$/], input: ["a\0b", /^input: "a\\u0000b" is not a text without the character NUL$/],
+    speed: ["fast", /--speed: 'fast' is not a number/], help: [true, /^launch: there is no attribute 'help'/], memry: ["a", /did you mean 'memory'/],
+    version: [true, /no attribute 'version'/], ramLost: [true, /--ram-lost requires --memory/],
+  };
+  for (const [key, [value, said]] of Object.entries(wrong)) assert.match(await s.refused("launch", { program, [key]: value }), said);
+});
+
+session("relative paths begin at cwd, and a URI is a path", async (s, program) => {
+  const cwd = fs.mkdtempSync(path.join(folder, "cwd with blanks-"));
+  fs.copyFileSync(program, path.join(cwd, path.basename(program)));
+  assert.match(await s.refused("launch", { program: path.basename(program), cwd: path.join(cwd, "none") }), /cwd: '.*' is not a folder/);
+  await s.begin({ program: path.basename(program), cwd: "file://" + cwd.replaceAll(" ", "%20"), trace: "run.trace", stopOnEntry: true });
+  const source = { path: "file://" + encodeURI(path.join(cwd, path.basename(program))) };
+  assert.equal((await s.ask("breakpointLocations", { source, line: 1, endLine: 200 })).breakpoints.length > 10, true);
+  await s.ask("terminate");
+  assert.ok(fs.existsSync(path.join(cwd, "run.trace")));
+});
+
 session("a launch that was refused can be mended", async (s, program) => {
   assert.match(await s.refused("launch", { program: path.join(folder, "missing.stl") }), /missing.stl/);
   const trace = path.join(folder, `launch-${path.basename(program)}.trace`);
@@ -424,25 +447,26 @@ session("a long reversal can be cancelled and stands where it began", async (s, 
 test("on a TCP port clients attach one after the other to a PLC that stays", async () => {
   const server = spawn(S7200, ["dap", "--listen", "0", SLAVE, "--set", "VW20=7"], { stdio: ["ignore", "ignore", "pipe"] });
   try {
-    const port = await new Promise((resolve) => server.stderr.once("data", (text) => resolve(+/:(\d+)/.exec(text)[1])));
+    const [, port, token] = await new Promise((resolve) =>
+      server.stderr.once("data", (text) => resolve(/:(\d+), for clients with "token": "(\w+)"/.exec(text))));
     const first = new Session();
-    await first.start(port);
-    await first.begin({}, undefined, "attach");
+    await first.start(+port);
+    await first.begin({ token }, undefined, "attach");
     await first.stops("stepScan", { count: 3 });
     const there = await first.state();
     await first.disconnect();
     await first.end();
     const second = new Session();
-    await second.start(port);
-    await second.begin({}, undefined, "attach");
+    await second.start(+port);
+    await second.begin({ token }, undefined, "attach");
     assert.equal(await second.state(), there);
     assert.equal(await second.value("VW20"), "16#0007 (7)");
     await second.stops("reverseStepScan");
     await second.disconnect();
     await second.end();
     const third = new Session();
-    await third.start(port);
-    await third.begin({ program: SLAVE, stopOnEntry: true });
+    await third.start(+port);
+    await third.begin({ program: SLAVE, stopOnEntry: true, token });
     assert.equal(await third.value("VW20"), "16#0000 (0)");
     await third.end();
   } finally {

@@ -252,6 +252,17 @@ test("the adapter is the command, or a port to attach to", async () => {
   assert.deepEqual(await adapter({ request: "attach", port: 4711 }), [4711, "127.0.0.1"]);
 });
 
+test("an attach has the token of the server, and asks for one that is missing", async () => {
+  const { configurations, window } = stand_in();
+  const resolved = (more) => configurations.resolveDebugConfiguration(undefined, { type: "s7200", request: "attach", port: 4711, ...more });
+  assert.equal((await resolved({ token: "of launch.json" })).token, "of launch.json");
+  window.showInputBox = async () => " 5b8c \n";
+  assert.equal((await resolved({})).token, "5b8c");
+  window.showInputBox = async () => undefined;
+  assert.equal(await resolved({}), undefined, "no session without one");
+  assert.equal(configurations.resolveDebugConfiguration(undefined, { type: "s7200", request: "launch", program: "a.stl" }).token, undefined);
+});
+
 test("a launch says that the command cannot be run", async () => {
   const { factory, settings } = stand_in();
   settings.path = "no-such-s7200";

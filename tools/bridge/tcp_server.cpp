@@ -15,7 +15,11 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <string_view>
+#include <utility>
 #include <vector>
+
+#include "tools/host/server_rules.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -89,7 +93,7 @@ struct Connection {
   std::string name;
   std::array<std::uint8_t, 1024> input{};
   std::vector<std::uint8_t> unread, writing;  // by the client: what waits, and what has been given to the system
-  bool reading = false;
+  bool reading = false, begun = false;        ///< a read is under way; something has come
   Clock::time_point heard = Clock::now(), listening_since{};  // the latter of the read that is under way
   std::optional<Clock::time_point> last_word;                 ///< when it was seen to have said that, or what makes no sense
   bool ended = false;                                         ///< nothing more is read from it
@@ -251,6 +255,8 @@ class Server final : public TcpServer {
     }
     counts_.bytes_in += count;
     if (count == 0) return;
+    const std::string_view come(reinterpret_cast<const char*>(connection->input.data()), count);
+    if (!std::exchange(connection->begun, true) && is_web_request(come)) return close(client, std::string(kWebRequest));
     protocol_.take(client, std::span(connection->input).first(count));
     if (is_open(client)) read(client, connection);
   }

@@ -1,5 +1,7 @@
-// TCP clients of a bridge. None of them can block another, fill the memory, or keep a place that it does not use.
+// TCP clients of a bridge. None of them can block another, fill the memory, or keep a place that it does not use: the rules
+// of tools/host/server_rules.hpp, as far as the protocols of a line have room for them.
 //
+// - A client whose first bytes are a request of HTTP has to go before any of them is looked at: a web page has sent it.
 // - kMostClients at a time. For one more, the client that has been silent longest has to go.
 // - A client that does not read has to go when kMostUnread bytes wait for it.
 // - A client that has begun a message has to go when nothing more of it comes for kMostPartial.
@@ -19,6 +21,7 @@
 
 #include "tools/bridge/bridge.hpp"
 #include "tools/host/listen_address.hpp"
+#include "tools/host/server_rules.hpp"
 
 namespace boost::asio {
 class io_context;
@@ -32,8 +35,8 @@ class TcpServer {
 
   static constexpr std::size_t kMostClients = 64;
   static constexpr std::size_t kMostUnread = 65'536;
-  static constexpr int kReceiveBuffer = 16'384;          // bytes that the system takes from a client ahead of us
-  static constexpr int kMostPartial = 10, kLinger = 10;  // seconds of the computer
+  static constexpr int kReceiveBuffer = 16'384;  // bytes that the system takes from a client ahead of us
+  static constexpr int kMostPartial = static_cast<int>(kMostSilence.count()), kLinger = 10;  // seconds of the computer
 
   /// What the protocol says to it.
   class Protocol {

@@ -4,14 +4,22 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <optional>
 #include <utility>
 
+#include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/named_times.hpp"
+#include "interpreter/program/load.hpp"
 #include "tools/command/debuggee_run.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/command/usage.hpp"
+#include "tools/json/json.hpp"
+#include "tools/rig/bridge_kinds.hpp"
 #include "tools/views/faults.hpp"
 
 namespace s7200::tools {
@@ -75,6 +83,8 @@ class RigDebuggee final : public dap::Debuggee {
   std::optional<History> history_;  ///< from start() on
 };
 
+namespace fs = std::filesystem;
+
 bool is_option(const std::string& key) { return dap::use_of(key) == dap::AttributeUse::Program && key != "program"; }
 
 /// `--modbus-tcp` for `modbusTcp`
@@ -87,45 +97,115 @@ std::string option_of(const std::string& key) {
   return option;
 }
 
-void add_values(const Json& value, const std::function<void(const std::string&)>& add) {
+[[noreturn]] void refuse_unknown(const std::string& key, const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+  const std::string option = option_of(key).substr(2);
+  const std::string_view meant = nearest(option, std::vector<std::string_view>(names.begin(), names.end()));
+  throw dap::Refused(
+      fmt::format("launch: there is no attribute '{}'{}; the options of s7200 debug are attributes without "
+                  "their dashes",
+                  stl::shortened(key), meant.empty() ? "" : fmt::format(", did you mean '{}'?", meant)));
+}
+
+/// A value as the command line has it: where it names a file, that is a path from `folder` on, or a URI.
+std::string as_written(const std::string& value, const std::string& type, const std::string& folder) {
+  const bool is_table = type == "TABLE" && std::ranges::find(named_times(), value, &NamedTimes::name) == named_times().end();
+  if ((type != "FILE" && type != "LINK" && type != "DEVICE" && !is_table) || is_standard_input(value)) return value;
+  const std::string path = dap::path_of(value);
+  return folder.empty() ? path : (fs::absolute(dap::path_of(folder)) / path).lexically_normal().string();
+}
+
+std::string word_of(const Json& value, std::string_view type) {
+  if (value.is_string()) return text_of(value);
+  if (value.is_number()) return shown(value);
+  throw WrongValue(fmt::format("{} is not {}: a text or a number", shown(value), type));
+}
+
+/// The words of the command line for one attribute; none for one that is off.
+std::vector<std::string> words_of(const Json& value, const std::string& option, const CLI::Option& known,
+                                  const std::string& folder) {
+  if (known.get_items_expected_max() == 0) return truth_of(value) ? std::vector{option} : std::vector<std::string>{};
+  if (value == false) return {};
+  std::vector<std::string> words;
+  const std::string type = known.get_type_name();
   for (const Json& one : value.is_array() ? value : Json::array({value}))
-    add(one.is_string() ? one.get<std::string>() : one.dump());
+    words.push_back(option + "=" + as_written(word_of(one, type), type, folder));
+  if (words.size() > 1 && known.get_items_expected_max() == 1 &&
+      known.get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
+    throw WrongValue(fmt::format("{} is not one {}", shown(value), type));
+  return words;
 }
 
 std::vector<std::string> words_of(const Json& arguments, const CLI::App& app) {
+  const std::string folder = text_at(arguments, "cwd", "");
+  if (!folder.empty() && !fs::is_directory(dap::path_of(folder)))
+    throw dap::Refused(fmt::format("launch: cwd: '{}' is not a folder", stl::shortened(folder)));
   std::vector<std::string> words;
   for (const auto& [key, value] : arguments.items()) {
-    if (!is_option(key)) continue;
+    if (!is_option(key) || value.is_null()) continue;
     const std::string option = option_of(key);
-    if (!app.get_option_no_throw(option))
-      throw dap::Refused(
-          fmt::format("launch: there is no attribute '{}'; the options of s7200 debug are attributes without "
-                      "their dashes",
-                      stl::shortened(key)));
-    if (value.is_boolean() && value == true) words.push_back(option);
-    if (!value.is_boolean() && !value.is_null())
-      add_values(value, [&](const std::string& text) { words.push_back(option + "=" + text); });
+    const CLI::Option* const known = app.get_option_no_throw(option);
+    if (!known) refuse_unknown(key, app);
+    const auto more = taken(value, key.c_str(), [&](const Json& of) { return words_of(of, option, *known, folder); });
+    words.insert(words.end(), more.begin(), more.end());
   }
   words.emplace_back("--");
-  if (!arguments.contains("program")) throw dap::Refused("launch: 'program' is missing: the file of the program to debug");
-  const auto is_name = [](const Json& one) { return one.is_string(); };
-  const Json& program = arguments["program"];
-  if (!is_name(program) && !(program.is_array() && std::ranges::all_of(program, is_name)))
-    throw dap::Refused(fmt::format("launch: 'program' is the name of a file, not {}", program.dump()));
-  add_values(program, [&](const std::string& file) { words.push_back(file); });
+  const std::vector<std::string> programs = texts_at(arguments, "program");
+  if (programs.empty()) throw dap::Refused("launch: 'program' is missing: the file of the program to debug");
+  for (const std::string& file : programs) words.push_back(as_written(file, "FILE", folder));
   return words;
+}
+
+// --- what a launch may do ---
+
+void refuse_to_open(std::string_view what, const LaunchLimits& limits) {
+  if (!limits.may_open || std::ranges::find(*limits.may_open, what) != limits.may_open->end()) return;
+  throw dap::Refused(
+      fmt::format("launch: '{0}' writes a file or opens a port, which this server does not allow; s7200 dap --listen "
+                  "PORT --allow {0} does",
+                  what));
+}
+
+void check_limits(const Json& arguments, const std::vector<std::string>& words, const LaunchLimits& limits) {
+  for (const auto& [key, value] : arguments.items())
+    for (const std::string& name : writing_attributes())
+      if (option_of(key) == "--" + name && !value.is_null() && value != false) refuse_to_open(name, limits);
+  const auto may_run = [&](const std::string& file) {
+    std::error_code gone;
+    return std::ranges::any_of(limits.programs, [&](const std::string& one) { return fs::equivalent(one, file, gone); });
+  };
+  for (auto file = std::next(std::ranges::find(words, "--")); file != words.end() && !limits.programs.empty(); ++file)
+    if (!may_run(*file))
+      throw dap::Refused(fmt::format("launch: {} is not what this server was started with, and it runs nothing else: {}",
+                                     *file, fmt::join(limits.programs, ", ")));
+}
+
+/// A system file opens and writes on its own.
+void check_limits(const SystemPlan& plan, const LaunchLimits& limits) {
+  for (const BridgePlan& bridge : plan.bridges) refuse_to_open(row_of(bridge.kind).word(), limits);
+  for (const LinePlan& line : plan.lines)
+    if (!line.captures.empty()) refuse_to_open("capture", limits);
+  for (const PlcPlan& plc : plan.plcs) {
+    if (!plc.settings.trace.empty()) refuse_to_open("trace", limits);
+    if (!plc.settings.output.empty()) refuse_to_open("output", limits);
+    if (!plc.settings.memory.path.empty()) refuse_to_open("memory", limits);
+  }
 }
 
 }  // namespace
 
 std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_ptr<DebuggeeOptions> options,
-                                             const std::atomic<bool>& stop_request, int& exit_code) {
+                                             const std::atomic<bool>& stop_request, int& exit_code,
+                                             const LaunchLimits& limits) {
   exit_code = kUnusable;
   if (is_standard_input(options->program.path)) {
     print_error("the program cannot come from standard input, where the messages come from");
     return nullptr;
   }
   if (!options->rig.load_all(app, options->program, exit_code)) return nullptr;
+  if (options->rig.plan()) check_limits(*options->rig.plan(), limits);
   exit_code = kUnusable;
   options->bridge.set_line(options->master);
   if (!options->bridge.prepare()) return nullptr;
@@ -148,8 +228,23 @@ std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_pt
   return debuggee;
 }
 
-std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const std::atomic<bool>& stop_request) {
+std::vector<std::string> writing_attributes() {
+  std::vector<std::string> names{"trace", "output", "memory", "capture"};
+  for (const BridgeRow& row : kBridges) names.emplace_back(row.word());
+  return names;
+}
+
+std::string not_a_writing_attribute(const std::string& word) {
+  const std::vector<std::string> names = writing_attributes();
+  if (std::ranges::find(names, word) != names.end()) return {};
+  return fmt::format("'{}' is not an attribute that writes or opens something; there are {}", stl::shortened(word),
+                     fmt::join(names, ", "));
+}
+
+std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const LaunchLimits& limits,
+                                               const std::atomic<bool>& stop_request) {
   CLI::App app;
+  app.set_help_flag();  // there is no one to read it
   auto options = std::make_shared<DebuggeeOptions>();
   options->add_program_to(app);
   options->add_plant_to(app);
@@ -157,11 +252,12 @@ std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const std:
   int exit_code = kFine;
   try {
     std::vector<std::string> words = words_of(arguments, app);
+    check_limits(arguments, words, limits);
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     app.parse(std::move(words));
-    if (auto debuggee = make_debuggee(app, std::move(options), stop_request, exit_code)) return debuggee;
+    if (auto debuggee = make_debuggee(app, std::move(options), stop_request, exit_code, limits)) return debuggee;
   } catch (const CLI::ParseError& error) {
-    throw dap::Refused(fmt::format("launch: {}", error.what()));
+    throw dap::Refused(fmt::format("launch: {}", in_our_words(error)));
   }
   throw dap::Refused(std::string(stl::trim(messages.text)));
 }

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
@@ -41,6 +42,39 @@ std::string not_an_option(const std::string& option, const CLI::App& app, bool a
   return fmt::format("{}there is no option {} before {}{}", any_verb ? "" : "a verb is missing, and ",
                      stl::shortened(option), any_verb ? "the verb" : "one",
                      meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
+}
+
+/// Of CLI11 what stands around a name or a value in a message, and what we say instead: `{0}` is in front of `between`,
+/// `{1}` behind it.
+struct ParserWords {
+  std::string_view before, between, after, ours;
+};
+
+constexpr ParserWords kParserWords[] = {
+    {"", " is required", "", "{0} is missing"},
+    {"", ": 1 required ", " missing", "{0} needs a value: {1}"},
+    {"", ": At Most 1 required but received ", "", "{0} stands here {1} times, and takes one value"},
+    {"", ": At least 1 required but received 0", "", "{0} needs a value"},
+    {"", " was given a disallowed flag override", "", "{0} takes no value"},
+    {"", ": Should be true/false or a number", "", "{0} takes no value"},
+    {"", ": too many inputs for a flag", "", "{0} takes no value"},
+    {"Could not convert: ", " = ", "", "{0} does not take '{1}'"},
+    {"The value ", " is not an allowed value for ", "", "{1} does not take '{0}'"},
+    {"", " not in {", "}", "{0} is not one of {1}"},
+    {"The following argument was not expected: ", "", "", "'{0}' has no place here"},
+    {"The following arguments were not expected: ", "", "", "'{0}' have no place here"},
+};
+
+/// Nothing if the message is not of these words.
+std::optional<std::string> translated(std::string_view text, const ParserWords& words) {
+  if (!text.starts_with(words.before) || !text.ends_with(words.after)) return {};
+  text.remove_prefix(words.before.size());
+  text.remove_suffix(words.after.size());
+  const std::size_t place = words.between.empty() ? text.size() : text.find(words.between);
+  if (place == std::string_view::npos) return {};
+  const std::string_view rest = text.substr(place + words.between.size());
+  if (words.after.empty() && words.ours.find("{1}") == std::string_view::npos && !rest.empty()) return {};
+  return fmt::format(fmt::runtime(words.ours), text.substr(0, place), rest);
 }
 
 bool is_help_word(const std::string& word) { return word == "help" || word == "version"; }
@@ -83,7 +117,13 @@ void refuse_empty_values(CLI::App& app) {
 std::string usage_error(const CLI::App* app, const CLI::Error& error) {
   const auto verbs = app->get_subcommands();
   const std::string command = verbs.empty() ? app->get_name() : fmt::format("{} {}", app->get_name(), verbs[0]->get_name());
-  return fmt::format("s7200: error: {}\n'{} --help' shows how it is used\n", error.what(), command);
+  return fmt::format("s7200: error: {}\n'{} --help' shows how it is used\n", in_our_words(error), command);
+}
+
+std::string in_our_words(const CLI::Error& error) {
+  for (const ParserWords& words : kParserWords)
+    if (auto ours = translated(error.what(), words)) return *std::move(ours);
+  return error.what();
 }
 
 }  // namespace s7200::tools

@@ -29,19 +29,25 @@ bool Inbox::is_urgent(const Json& message) {
   return ends_what_goes_on(message);
 }
 
-void Inbox::put(Json message) {
+void Inbox::put(Json message, std::size_t bytes) {
   const std::lock_guard lock(mutex_);
   const bool urgent = is_urgent(message);
-  put({std::move(message), false}, urgent);
+  add({std::move(message), false, bytes}, urgent);
+}
+
+bool Inbox::has_room() const {
+  const std::lock_guard lock(mutex_);
+  return messages_.size() < kMostMessages && bytes_ < kMostBytes;
 }
 
 void Inbox::put_unreadable(const std::string& wrong) {
   const std::lock_guard lock(mutex_);
-  put({wrong, true}, false);
+  add({wrong, true, wrong.size()}, false);
 }
 
-void Inbox::put(Item item, bool urgent) {
+void Inbox::add(Item item, bool urgent) {
   if (runs_ || urgent) stop_request_ = true;
+  bytes_ += item.bytes;
   messages_.push_back(std::move(item));
   come_.notify_one();
 }
@@ -66,6 +72,7 @@ Inbox::Next Inbox::take(bool runs, Json& message) {
   runs_ = false;
   message = std::move(messages_.front().message);
   const bool unreadable = messages_.front().unreadable;
+  bytes_ -= messages_.front().bytes;
   messages_.pop_front();
   stop_request_ = closed_ || std::ranges::any_of(messages_, ends_what_goes_on, &Item::message);
   if (unreadable) return Next::Unreadable;

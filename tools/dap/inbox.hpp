@@ -17,12 +17,17 @@ namespace s7200::tools::dap {
 
 class Inbox {
  public:
+  static constexpr std::size_t kMostMessages = 1000, kMostBytes = 16 << 20;  // that wait before no more is read
+
   explicit Inbox(std::atomic<bool>& stop_request) : stop_request_(stop_request) {}
 
-  // For the thread that reads.
-  void put(Json message);
+  // For the thread that reads. `bytes`: of its text.
+  void put(Json message, std::size_t bytes = 0);
   /// Something came that is no message: what is wrong with it.
   void put_unreadable(const std::string& wrong);
+  /// Whether more may be read: what waits is bounded, so that a client that sends without end is held back.
+  bool has_room() const;
+
   /// No more will come. `failure`: what is wrong with the stream; empty if it has ended as it should.
   void close(const std::string& failure = {});
 
@@ -38,14 +43,16 @@ class Inbox {
   struct Item {
     Json message;
     bool unreadable = false;
+    std::size_t bytes = 0;
   };
   bool is_urgent(const Json& message);
-  void put(Item item, bool urgent);
+  void add(Item item, bool urgent);
 
   std::atomic<bool>& stop_request_;
   mutable std::mutex mutex_;
   std::condition_variable come_;
   std::deque<Item> messages_;
+  std::size_t bytes_ = 0;             ///< of the messages
   std::set<std::int64_t> cancelled_;  ///< numbers of requests that wait
   bool runs_ = false, closed_ = false;
   std::string failure_;

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "tools/host/interruption.hpp"
+#include "tools/host/server_rules.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -65,7 +66,7 @@ std::unique_ptr<TcpListener> TcpListener::open(const ListenAddress& address, std
   const int fd = socket(where.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int on = 1;
   if (fd < 0 || setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 || bind(fd, where.get(), where.size) != 0 ||
-      listen(fd, 1) != 0) {
+      listen(fd, kMostWaitingClients) != 0) {
     why = std::strerror(errno);
     if (fd >= 0) close(fd);
     return nullptr;
@@ -83,6 +84,9 @@ int TcpListener::accept(std::string& why) {
     if (client >= 0) {
       const int on = 1;
       setsockopt(client, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+      setsockopt(client, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+      const timeval unread{.tv_sec = kMostSilence.count(), .tv_usec = 0};
+      setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &unread, sizeof unread);
       return client;
     }
     if (errno == EINTR || errno == ECONNABORTED) continue;
@@ -90,6 +94,16 @@ int TcpListener::accept(std::string& why) {
     return -1;
   }
   return -1;
+}
+
+int send_all(int client, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = send(client, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR && !interrupted()) continue;
+    if (count < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return 0;
 }
 
 }  // namespace s7200::tools

@@ -1,8 +1,9 @@
-// A TCP port of this computer that serves one client after the other.
+// A TCP port of this computer that serves one client after the other, by the rules of server_rules.hpp.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "tools/host/listen_address.hpp"
 
@@ -28,5 +29,8 @@ class TcpListener {
   int fd_;
   ListenAddress address_;
 };
+
+/// Sends all bytes to a client that accept() returned. 0 or the error: EAGAIN for one that has not read for kMostSilence.
+int send_all(int client, std::string_view bytes);
 
 }  // namespace s7200::tools

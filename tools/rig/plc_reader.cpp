@@ -102,7 +102,7 @@ class PlcReader {
     for (const YamlNode* part : items_of(plc.item, "with", "symbols.txt", values_)) nodes.push_back(part);
     std::vector<SourceText> files;
     for (const YamlNode* node : nodes) {
-      const auto written = values_.text(*node);
+      const auto written = values_.name(*node);
       if (!written) return {};
       std::string why;
       const SourceText* const text = text_of(beside(reading_.path, *written), why);

@@ -30,10 +30,19 @@ const adapters = {
   },
 };
 
-// F5 without a launch.json debugs the program in the editor. What is ours of an attach is not for the server.
+// The server prints a token, without which it lets nobody in. No session begins if none is typed.
+async function withToken(configuration) {
+  const token = await vscode.window.showInputBox({
+    prompt: "The token that 's7200 dap --listen' has printed", ignoreFocusOut: true,
+  });
+  return token ? { ...configuration, token: token.trim() } : undefined;
+}
+
+// F5 without a launch.json debugs the program in the editor.
 const configurations = {
   resolveDebugConfiguration(folder, configuration) {
-    if (configuration.type) return configuration;
+    const needsToken = configuration.request === "attach" && !configuration.token;
+    if (configuration.type) return needsToken ? withToken(configuration) : configuration;
     const editor = vscode.window.activeTextEditor;
     if (!editor || !PROGRAMS.some(({ language }) => language === editor.document.languageId)) {
       vscode.window.showInformationMessage("Open the STL program that is to be debugged.");

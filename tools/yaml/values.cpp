@@ -31,9 +31,16 @@ std::optional<std::string> YamlValues::text(const YamlNode& node) {
   return {};
 }
 
+std::optional<std::string> YamlValues::name(const YamlNode& node) {
+  auto written = text(node);
+  if (!written || written->find('\0') == std::string::npos) return written;
+  wrong(node, fmt::format("'{}' has the character NUL in it, which no name can have", stl::shortened(*written)));
+  return {};
+}
+
 std::optional<std::string> YamlValues::optional_text(const YamlNode& map, std::string_view key) {
   const YamlNode* node = map.find(key);
-  auto written = node ? text(*node) : std::nullopt;
+  auto written = node ? name(*node) : std::nullopt;
   return written && written->empty() ? std::nullopt : written;
 }
 

@@ -43,7 +43,7 @@ bool is_yaml_file(const std::filesystem::path& path);
 /// For messages: "a map", "a list", "'text'".
 std::string to_text(const YamlNode& node);
 
-inline constexpr int kDeepestYaml = 24;            ///< maps and lists inside each other
+inline constexpr int kDeepestYaml = 24;             ///< maps and lists inside each other
 inline constexpr std::size_t kMostYamlKeys = 500;  ///< in one map
 
 /// A text with the name that messages have for it.

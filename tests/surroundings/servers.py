@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+"""The rules of tools/host/server_rules.hpp, with each server that the help lists: servers.py S7200 SOURCE_DIR
+
+Whatever takes [ADDRESS:]PORT is a server. Nothing here depends on how fast the computer is: what has to come is waited for.
+"""
+import json
+import pathlib
+import re
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+S7200, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+SLAVE = SOURCE / "stl_programs/modbus_slave.stl"
+LONG = 120  # seconds, for what has to come
+PAGE = (b"POST /any HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: http://example.org\r\nContent-Type: text/plain\r\n"
+        b"Content-Length: %d\r\n\r\n")
+
+
+def servers():
+    """[(its name, the words of a command line that starts it)]"""
+    found = []
+    for verb, words in (("dap", ["dap"]), ("run", ["run", str(SLAVE)])):
+        text = subprocess.run([S7200, verb, "--help"], capture_output=True, check=True, text=True, timeout=LONG).stdout
+        for option in re.findall(r"(?m)^ +--([-\w]+) \[ADDRESS:\]PORT", text):
+            if verb == "run" or option == "listen":
+                found.append((option, [*words, "--" + option]))
+    return found
+
+
+def framed(content):
+    content = content if isinstance(content, bytes) else json.dumps(content).encode()
+    return b"Content-Length: %d\r\n\r\n%s" % (len(content), content)
+
+
+def request(seq, command, **arguments):
+    return framed({"seq": seq, "type": "request", "command": command, "arguments": arguments})
+
+
+class Server:
+    def __init__(self, words, *more, place="0", folder=None):
+        self.process = subprocess.Popen([S7200, *words, place, *map(str, more)], stdin=subprocess.DEVNULL, cwd=folder,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.first = self.process.stderr.readline().decode()
+        while self.process.poll() is None and "listening on" not in self.first:
+            self.first = self.process.stderr.readline().decode()
+        self.address = re.search(r"listening on ([\d.]+):(\d+)", self.first)
+        self.token = (re.search(r'"token": "(\w+)"', self.first) or [None, None])[1]
+
+    def connect(self, *chunks):
+        client = socket.create_connection((self.address[1], int(self.address[2])), timeout=LONG)
+        for chunk in chunks:
+            client.sendall(chunk)
+        return client
+
+    def said(self, wanted):
+        """The line of its messages that has this; lines before it are skipped."""
+        for line in self.process.stderr:
+            if wanted in line.decode():
+                return line.decode()
+        return ""
+
+    def end(self):
+        self.process.terminate()
+        rest = self.process.communicate(timeout=LONG)
+        return rest[0].decode(), rest[1].decode()
+
+
+def heard(client):
+    """All that comes until the server ends the connection."""
+    data = b""
+    try:
+        while chunk := client.recv(65536):
+            data += chunk
+    except ConnectionResetError:
+        pass
+    client.close()
+    return data
+
+
+def messages(data):
+    found = []
+    while data:
+        header, data = data.split(b"\r\n\r\n", 1)
+        size = int(header.split(b":")[1])
+        found.append(json.loads(data[:size]))
+        data = data[size:]
+    return found
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def start(self, words, *more, **options):
+        server = Server(words, *more, **options)
+        self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.process.communicate()))
+        self.assertTrue(server.address, server.first)
+        return server
+
+
+class AllServers(Case):
+    def test_there_are_some(self):
+        names = [name for name, _ in servers()]
+        for name in ("listen", "tcp", "rtu-over-tcp", "modbus-tcp"):
+            self.assertIn(name, names)
+
+    def test_without_an_address_it_serves_this_computer_only(self):
+        for name, words in servers():
+            with self.subTest(name):
+                server = self.start(words)
+                self.assertTrue(server.address[1].startswith("127."), server.first)
+                server.end()
+
+    def test_a_web_page_is_disconnected_and_nothing_is_done_for_it(self):
+        frame = bytes.fromhex("0106000a1234a4c1") + bytes.fromhex("000100000006010600 0a1234".replace(" ", ""))
+        bodies = (b"", frame * 40, framed({"seq": 1, "type": "request", "command": "initialize"}), b"x" * 5000 + frame)
+        for name, words in servers():
+            for body in bodies:
+                for head in (PAGE % len(body), b"GET / HTTP/1.1\r\nHost: x\r\n\r\n", b"OPTIONS /" + b"a" * 3000 + b" HTTP/1.1\r\n\r\n"):
+                    with self.subTest(name=name, head=head[:20], body=body[:20]):
+                        server = self.start(words, *([] if name == "listen" else ["--dump", "VW20"]))
+                        self.assertEqual(heard(server.connect(head + body)), b"")
+                        self.assertIn("HTTP, as a web page does", server.said("HTTP"))
+                        out, _ = server.end()
+                        if name != "listen":
+                            self.assertRegex(out, r"VW20\s+(16#0000|0)|VW20.*\b0\b")
+
+    def test_after_a_web_page_others_are_served(self):
+        for name, words in servers():
+            with self.subTest(name):
+                server = self.start(words)
+                heard(server.connect(PAGE % 0))
+                good = {"listen": request(1, "initialize"), "modbus-tcp": bytes.fromhex("0001000000060103000a0001")}.get(
+                    name, bytes.fromhex("0103000a0001a408"))
+                until = time.monotonic() + LONG
+                with server.connect() as client:
+                    client.settimeout(0.5)
+                    self.assertTrue(self.answers(client, good, until))
+                server.end()
+
+    @staticmethod
+    def answers(client, good, until):
+        """On the raw line a frame is lost that comes before the program has set its port."""
+        while time.monotonic() < until:
+            client.sendall(good)
+            try:
+                return client.recv(1)
+            except TimeoutError:
+                continue
+        return b""
+
+
+class Dap(Case):
+    LISTEN = ["dap", "--listen"]
+
+    def test_what_is_no_header_ends_the_connection_and_is_said(self):
+        server = self.start(self.LISTEN)
+        for stream in (b"hello", b"\x16\x03\x01\x02\x00\x01", b"{\"seq\":1}", b"content-lengt_", b"\r\nContent-Length: 2\r\n\r\n{}"):
+            with self.subTest(stream):
+                self.assertEqual(heard(server.connect(stream)), b"")
+                self.assertIn("not the Debug Adapter Protocol", server.said("disconnected"))
+        for stream in (b"Content-Length: two\r\n\r\n", b"Content-Type: x\r\n\r\n{}", framed(b"no json"), framed(b"[1]"),
+                       framed(b"[" * 100000 + b"]" * 100000), b"Content-Length: 99999999999\r\n\r\n"):
+            with self.subTest(stream[:40]):
+                self.assertEqual(heard(server.connect(stream)), b"")
+                self.assertTrue(server.said("disconnected"))
+        server.end()
+
+    def test_the_first_request_is_initialize(self):
+        server = self.start(self.LISTEN)
+        for first in (request(1, "launch", program=str(SLAVE), token=server.token), request(1, "evaluate", expression="VW0"),
+                      framed({"seq": 1, "type": "event", "event": "x"}), framed({})):
+            with self.subTest(first):
+                for message in messages(heard(server.connect(first, request(2, "threads")))):
+                    self.assertFalse(message["success"])
+                self.assertIn("is not the request initialize", server.said("disconnected"))
+        server.end()
+
+    def test_without_the_token_nothing_is_launched_written_or_opened(self):
+        server = self.start(self.LISTEN, "--allow", "trace,memory", folder=self.folder)
+        launch = {"program": str(SLAVE), "trace": "owned.txt", "memory": "owned.json"}
+        for token in ({}, {"token": ""}, {"token": "0" * 32}, {"token": server.token[:-1]}, {"token": server.token + "0"}, {"token": 5},
+                      {"token": [server.token]}):
+            with self.subTest(token):
+                answers = messages(heard(server.connect(request(1, "initialize"), request(2, "launch", **launch, **token),
+                                                        request(3, "configurationDone"))))
+                self.assertEqual([(m["command"], m["success"]) for m in answers], [("initialize", True), ("launch", False)])
+                self.assertIn("token", answers[1]["message"])
+                self.assertNotIn(server.token, json.dumps(answers))
+                self.assertIn("token", server.said("disconnected"))
+        self.assertEqual(list(self.folder.iterdir()), [])
+        server.end()
+
+    def launched(self, server, **arguments):
+        """The answer to a launch with the right token, in a session that ends."""
+        data = heard(server.connect(request(1, "initialize"), request(2, "launch", token=server.token, **arguments),
+                                    request(3, "disconnect")))
+        return next(m for m in messages(data) if m.get("command") == "launch")
+
+    def test_a_launch_writes_and_opens_only_what_the_command_line_allows(self):
+        server = self.start(self.LISTEN, "--allow", "trace", folder=self.folder)
+        text = subprocess.run([S7200, "debug", "--help"], capture_output=True, check=True, text=True, timeout=LONG).stdout
+        writing = set(re.findall(r"(?m)^  --([-\w]+) FILE\S*(?: \.\.\.)?(?: (?:Excludes|Needs): .*)?\s+.*\b(?:write|written)\b", text))
+        opening = set(re.findall(r"(?m)^  --([-\w]+) (?:\[ADDRESS:\]PORT|LINK|DEVICE)", text))
+        self.assertGreaterEqual(writing | opening, {"trace", "output", "memory", "capture", "pty", "device", "tcp"})
+        for name in sorted((writing | opening) - {"trace"}):
+            with self.subTest(name):
+                value = "0" if name in ("tcp", "modbus-tcp", "rtu-over-tcp") else str(self.folder / "owned.pcap")
+                answer = self.launched(server, program=str(SLAVE), **{name: value})
+                self.assertFalse(answer["success"])
+                self.assertIn(f"--allow {name}", answer["message"])
+        self.assertEqual(list(self.folder.iterdir()), [])
+        self.assertTrue(self.launched(server, program=str(SLAVE), trace="run.trace")["success"])
+        self.assertTrue((self.folder / "run.trace").exists())
+        server.end()
+
+    def test_a_system_file_writes_and_opens_no_more(self):
+        system = self.folder / "system.yaml"
+        system.write_text(f"plcs: {{a: {{program: {SLAVE}}}}}\nbridges: {{b: {{tcp: 0}}}}\nlines: {{l: {{stations: [a, b], capture: [l.pcap]}}}}\n",
+                          encoding="utf-8")
+        server = self.start(self.LISTEN)
+        self.assertIn("--allow tcp", self.launched(server, program=str(system))["message"])
+        server.end()
+        server = self.start(self.LISTEN, "--allow", "tcp")
+        self.assertIn("--allow capture", self.launched(server, program=str(system))["message"])
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["system.yaml"])
+        server.end()
+
+    def test_with_a_program_no_other_is_launched(self):
+        other = self.folder / "other.stl"
+        other.write_text("LD SM0.0\nMEND\n", encoding="utf-8")
+        server = self.start(self.LISTEN, SLAVE)
+        for program in (str(other), [str(SLAVE), str(other)], "/etc/passwd", "missing.stl"):
+            with self.subTest(program):
+                answer = self.launched(server, program=program)
+                self.assertIn("is not what this server was started with", answer["message"])
+        self.assertTrue(self.launched(server, program=f"{SLAVE.parent}/./{SLAVE.name}")["success"])
+        server.end()
+
+    def test_clients_wait_their_turn_and_a_silent_one_is_dropped(self):
+        server = self.start(self.LISTEN, SLAVE)
+        silent = server.connect()
+        slow = server.connect(b"Content-Length: 5")
+        waiting = [server.connect(request(1, "initialize"), request(2, "attach", token=server.token), request(3, "disconnect"))
+                   for _ in range(3)]
+        self.assertEqual(heard(silent), b"")
+        self.assertEqual(heard(slow), b"")
+        for client in waiting:
+            self.assertTrue([m for m in messages(heard(client)) if m.get("command") == "attach" and m["success"]])
+        _, error = server.end()
+        self.assertEqual(error.count("a client said nothing for 10 s"), 2, error)
+
+    def test_a_client_that_was_let_in_may_be_silent(self):
+        server = self.start(self.LISTEN, SLAVE)
+        with server.connect(request(1, "initialize"), request(2, "attach", token=server.token, stopOnEntry=True),
+                            request(3, "configurationDone")) as client:
+            time.sleep(11)
+            client.sendall(request(4, "evaluate", expression="1+1") + request(5, "disconnect"))
+            self.assertTrue([m for m in messages(heard(client)) if m.get("command") == "evaluate" and m["success"]])
+        server.end()
+
+    def test_the_token_may_come_from_a_file(self):
+        path = self.folder / "token"
+        path.write_text("correct horse battery\n", encoding="utf-8")
+        server = self.start(self.LISTEN, SLAVE, "--token-file", path)
+        self.assertNotIn("correct", server.first)
+        server.token = "correct horse battery"
+        self.assertTrue(self.launched(server, program=str(SLAVE))["success"])
+        server.end()
+        for text in ("", "short\n", "\n" + "x" * 40):
+            path.write_text(text, encoding="utf-8")
+            done = subprocess.run([S7200, *self.LISTEN, "0", "--token-file", path], capture_output=True, check=False, timeout=LONG)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(b"is not a token of 16 characters or more", done.stderr)
+
+    def test_a_flood_of_messages_needs_no_more_memory_than_a_few(self):
+        server = self.start(self.LISTEN, SLAVE)
+        with server.connect(request(1, "initialize"), request(2, "attach", token=server.token)) as client:
+            heard_first = client.recv(1)
+            self.assertTrue(heard_first)
+            flood = request(3, "evaluate", expression="1" + "+1" * 20000)
+            client.settimeout(2)
+            try:
+                for _ in range(4000):  # 160 MB, and none of the answers is read
+                    client.sendall(flood)
+            except (TimeoutError, ConnectionError):
+                pass
+            status = pathlib.Path(f"/proc/{server.process.pid}/status").read_text(encoding="utf-8")
+            self.assertLess(int(re.search(r"VmHWM:\s+(\d+)", status)[1]), 150_000)
+        server.end()
+
+
+if __name__ == "__main__":
+    del sys.argv[1:]
+    unittest.main(verbosity=0)
