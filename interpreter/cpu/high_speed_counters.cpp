@@ -13,11 +13,12 @@ bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
 bool has_start(std::uint8_t mode) { return mode % 3 == 2; }
 
 /// What the clocks of a mode are.
-enum class Clocking { InternalDirection, DirectionInput, UpAndDown, Quadrature };
+enum class Clocking { InternalDirection, DirectionInput, UpAndDown, Quadrature, PulseOutput };
 Clocking clocking(std::uint8_t mode) { return static_cast<Clocking>(mode / 3); }
 
 /// The input points that a counter uses in a mode, as a set of bits.
 std::uint32_t points_of(std::uint8_t number, std::uint8_t mode) {
+  if (clocking(mode) == Clocking::PulseOutput) return 0;
   const CounterInfo& info = kCounters[number];
   std::uint32_t points = 1u << info.clock;
   if (clocking(mode) != Clocking::InternalDirection) points |= 1u << info.direction;
@@ -77,7 +78,8 @@ void turn(Core& core, std::uint8_t number, bool up, Time at) {
 
 void count(Core& core, std::uint8_t number, bool up, Time at) {
   HighSpeedCounter& counter = core.s.counter[number];
-  if (clocking(counter.mode) >= Clocking::UpAndDown) turn(core, number, up, at);
+  const bool clocks_turn = clocking(counter.mode) == Clocking::UpAndDown || clocking(counter.mode) == Clocking::Quadrature;
+  if (clocks_turn) turn(core, number, up, at);
   counter.current = static_cast<std::int32_t>(static_cast<std::uint32_t>(counter.current) + (up ? 1u : ~0u));
   show(core.s, number);
   if (counter.current == counter.preset) interrupts::occurred(core, kCounters[number].reached, at);
@@ -102,6 +104,8 @@ void count_pulse(Core& core, std::uint8_t number, std::uint8_t point, bool level
         count(core, number, on_clock ? a != b : a == b, at);  // A ahead: up
       break;
     }
+    case Clocking::PulseOutput:
+      break;
   }
 }
 
@@ -148,6 +152,14 @@ void program(Core& core, std::uint8_t number) {
   counter.enabled = control & kEnable;
   if (counter.enabled && in_reset(s, number)) counter.current = 0;
   show(s, number);
+}
+
+void pulse_begins(Core& core, std::uint8_t output, Time at) {
+  for (std::uint8_t number = 0; number < core.s.counter.size(); ++number) {
+    const HighSpeedCounter& counter = core.s.counter[number];
+    const bool counts = counter.enabled && clocking(counter.mode) == Clocking::PulseOutput;
+    if (counts && kCounters[number].pulse_output == output) count(core, number, counter.up, at);
+  }
 }
 
 void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time at) {

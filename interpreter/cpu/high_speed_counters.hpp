@@ -1,7 +1,8 @@
 // High-speed counters: HDEF, HSC, SMB36–65 and SMB136–165, events 12–18 and 27–33 (facts 3.1, 4.5, 5.2, 10.4).
 //
 // Modes: 0–2 direction by the control byte, 3–5 by an input, 6–8 separate up and down clocks, 9–11 two clocks 90° apart;
-// the second of each group adds an external reset, the third reset and start. Inputs and events of each counter:
+// the second of each group adds an external reset, the third reset and start. In mode 12, on late CPUs 22x, HSC0 counts the
+// pulses of PTO0 and HSC3 those of PTO1, without inputs; the control byte gives the direction (facts 10.4). Inputs and events of each counter:
 // model/counters.hpp. The counters of a CPU and their modes: in its model.
 //
 //   SMB37 …   .0 reset active low  .1 start active low  .2 quadrature counts once a period, otherwise four times
@@ -26,6 +27,8 @@
 // - HDEF with an input that another counter uses is error 0003, and an interrupt is not attached to an edge of it: 0002.
 //   [HighSpeedCounter.CountersDoNotShareAnInput]
 // - In STOP the counters go on, but their events are ignored. [HighSpeedCounter.InStopTheCounterGoesOnWithoutEvents]
+// - In mode 12 a pulse counts when it begins; the cycles of a PWM do not count.
+//   [HighSpeedCounter.Mode12CountsThePulsesOfAnOutput]
 // Not modelled: the highest frequency of the inputs (7 kHz, 2 kHz for HSC0). The counters follow every edge.
 #pragma once
 
@@ -33,12 +36,15 @@
 
 namespace s7200::high_speed_counters {
 
-/// HDEF, once for each counter: mode 0 to 11, with bits .0–.2 of the control byte. Error 000A if the counter already has a
+/// HDEF, once for each counter: mode 0 to 12, with bits .0–.2 of the control byte. Error 000A if the counter already has a
 /// mode, 0003 if an interrupt is attached to one of its inputs or another counter uses one.
 void define(Core& core, std::uint8_t number, std::uint8_t mode);
 
 /// HSC: takes over the control byte, the values and enable. Error 0001 before HDEF.
 void program(Core& core, std::uint8_t number);
+
+/// A pulse of a PTO begins at Q0.0 or Q0.1.
+void pulse_begins(Core& core, std::uint8_t output, Time at);
 
 /// Whether a counter uses the input of an edge event.
 bool use_event(const Core& core, std::uint8_t event);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter/cpu/high_speed_counters.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/points.hpp"
 #include "interpreter/cpu/units.hpp"
@@ -40,6 +41,7 @@ void begin_pulse(Core& core, std::uint8_t output, Time at) {
   const Time high = high_time(train);
   core.s.pulse[output].cycle_end = at + train.cycle;
   points::put_output(core, 0, output, high > 0, at);
+  if (!train.pwm) high_speed_counters::pulse_begins(core, output, at);
   core.schedule(high > 0 ? at + high : at + train.cycle, event_of(output));
   core.attend();
 }

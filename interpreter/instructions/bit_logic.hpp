@@ -51,13 +51,14 @@ inline void push_copy(Core& core, const Op&) { core.s.stack.push(core.s.stack.to
 /// LDS n
 inline void push_level(Core& core, const Op& op) { core.s.stack.push(core.s.stack.level(static_cast<int>(op[0].at))); }
 
-/// AENO. Every box sets ENO: 0 without power flow, after a run-time error, or if a flag of SM1 says that it has failed
+/// AENO. Every box sets ENO: 0 after a run-time error, or if a flag of SM1 says that it has failed
 /// (facts 10.7).
 /// Not documented, modelled so:
 /// - ENO is 1 at the start of a scan and of a routine, and after a return to the caller; an interrupt leaves it alone.
 ///   [Eno.IsOneAtTheStartOfAScanAndOfARoutineAndAfterTheReturn, Eno.AnInterruptRoutineLeavesItAlone]
 /// - The flags that make ENO 0 are SM1.1 and SM1.3 to SM1.7, of boxes that set them for a failure: not SM1.1 of shifts.
 ///   [Eno.FlagsThatSayFailureMakeItZero]
+/// - A box without power flow makes ENO 0. [FastLoop.ABoxWithoutPowerFlowLeavesNoEno]
 /// - S, R, SI, RI, ENI and DISI are coils: they leave ENO alone. [Vectors.AENO]
 inline void and_eno(Core& core, const Op&) { core.s.stack.set_top(core.s.stack.top() && core.s.eno); }
 

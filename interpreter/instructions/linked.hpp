@@ -61,7 +61,8 @@ void last_on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std:
   if (left <= op->cost) return leave(core, op, left, stack, executed);
   core.s.time = core.loop.until - left + op->cost;
   core.s.stack = LogicStack::from_bits(stack);
-  core.s.pc = static_cast<std::uint32_t>(op - core.program().ops.data()) + 1;
+  core.loop.op = static_cast<std::uint32_t>(op - core.program().ops.data());
+  core.s.pc = core.loop.op + 1;
   body(core, *op);
   core.s.instructions += executed + 1;
 }

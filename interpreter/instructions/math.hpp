@@ -8,7 +8,10 @@
 // - INCB, INCW, INCD and DECB, DECW, DECD wrap on every CPU, and SM1.0 and SM1.2 show what was stored.
 //   [Vectors.INCW, Overflow.IncrementAndDecrementWrapOnEveryCpu]
 // - SM1.0 and SM1.2 after DIV show only the quotient. [Vectors.DIV]
-// - -32768 / -1 is an overflow of DIV: the wrapped quotient is 16#8000, the remainder 0. [Vectors.DIV]
+// - -32768 / -1 is an overflow of DIV: on a CPU 21x the wrapped quotient is 16#8000, the remainder 0; on a CPU 22x both
+//   words of OUT stay as they were. [Vectors.DIV, Overflow.ACpuThatKeepsItsOperandsSetsSM11Only]
+// - *I, *D, /I and /D reset SM1.3 if they do not divide by zero; +I, -I, +D and -D leave it as it was.
+//   [Overflow.MultiplicationsAndDivisionsResetSM13AndSumsLeaveIt]
 #pragma once
 
 #include <limits>

@@ -16,14 +16,14 @@ inline void set_shift_flags(Core& core, bool zero, bool last_out) {
 }
 
 /// SLB, SRB, SLW, SRW, SLD, SRD: a count above the width counts as the width.
-/// Not documented, modelled so: a shift by 0 changes nothing, not even SM1.0. [Vectors.SLW]
+/// Not documented, modelled so: a shift by 0 sets SM1.0, as a rotate by 0 does, and leaves SM1.1 as it was. [Vectors.SLW]
 template <class Value, bool left>
 void shift(Core& core, const Op& op) {
   constexpr std::uint32_t kBits = 8 * sizeof(Value);
   const std::uint32_t count = std::min<std::uint32_t>(core.get<std::uint8_t>(op[1]), kBits);
-  if (count == 0) return;
-  core.spend(op, count);
   const std::uint64_t value = core.get<Value>(op[0]);
+  if (count == 0) return core.set_flags(kZero, value == 0 ? kZero : 0);
+  core.spend(op, count);
   const auto result = static_cast<Value>(left ? value << count : value >> count);
   const bool last_out = left ? (value >> (kBits - count)) & 1 : (value >> (count - 1)) & 1;
   core.put(op[0], result);

@@ -10,6 +10,7 @@
 // - A timer's preset is the one that its last execution found. [Choices.ATimersPresetIsTheOneItsLastExecutionFound]
 // - The input of a TOF that is on at its first execution after it was off, or at power-up, puts its bit on; only a change to
 //   off starts it. A preset of 0 or less puts the bit off at once. [Vectors.TOF]
+// - A TOF writes its bit whenever it is executed, whatever else has written it. [Timer22x.ATofWritesItsBitAtEveryExecution]
 // - A TOF in a segment that is off has its value at 0 and its bit off. [Vectors.TOF]
 // - CTD counts down to 0 and no further; its bit is on at 0 and below. A counter input that is 1 at the first execution is
 //   not a rising edge either. [Vectors.CTD]

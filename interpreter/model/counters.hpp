@@ -16,6 +16,7 @@ struct CounterInfo {
   std::uint32_t status;                         ///< place of its status byte in the image
   std::uint8_t clock, direction, reset, start;  ///< input points, as byte * 8 + bit; the second clock is at `direction`
   std::uint8_t reached, turned, was_reset;      ///< events
+  std::uint8_t pulse_output = kNoPoint;         ///< whose pulses it counts in mode 12
 };
 
 // clang-format off
@@ -23,13 +24,13 @@ struct CounterInfo {
 /// By number.
 inline constexpr std::array<CounterInfo, 6> kCounters{{
     // I0.0, I0.1, I0.2
-    {sm::byte(36),   0,        1,        2, kNoPoint, event::kCounter0Reached, event::kCounter0Turned, event::kCounter0Reset},
+    {sm::byte(36),   0,        1,        2, kNoPoint, event::kCounter0Reached, event::kCounter0Turned, event::kCounter0Reset, 0},
     // I0.6, I0.7, I1.0, I1.1
     {sm::byte(46),   6,        7,        8,        9, event::kCounter1Reached, event::kCounter1Turned, event::kCounter1Reset},
     // I1.2, I1.3, I1.4, I1.5
     {sm::byte(56),  10,       11,       12,       13, event::kCounter2Reached, event::kCounter2Turned, event::kCounter2Reset},
     // I0.1
-    {sm::byte(136),  1, kNoPoint, kNoPoint, kNoPoint, event::kCounter3Reached, kNoEvent,               kNoEvent},
+    {sm::byte(136),  1, kNoPoint, kNoPoint, kNoPoint, event::kCounter3Reached, kNoEvent,               kNoEvent,              1},
     // I0.3, I0.4, I0.5
     {sm::byte(146),  3,        4,        5, kNoPoint, event::kCounter4Reached, event::kCounter4Turned, event::kCounter4Reset},
     // I0.4
@@ -40,7 +41,7 @@ inline constexpr std::array<CounterInfo, 6> kCounters{{
 
 /// The modes that a counter has, as a set of bits: mode 3 is bit 3. Without modes the CPU does not have the counter.
 using CounterModes = std::uint16_t;
-inline constexpr CounterModes kMode0 = 0x001, kAllModes = 0xFFF;
+inline constexpr CounterModes kMode0 = 0x001, kAllModes = 0xFFF, kMode12 = 0x1000;
 inline constexpr CounterModes kModesWithoutStart = 0x6DB;  ///< 0 1 3 4 6 7 9 10
 
 }  // namespace s7200

@@ -13,7 +13,7 @@
 // - The CPUs 221 and 222 lack HSC1 and HSC2, although one extract of the manual prints HC0 to HC5 for all (facts 10.1).
 //   [Cpu22x.The221And222HaveNoHsc1AndHsc2]
 //
-// Not modelled: mode 12 of HSC0 and HSC3, linear pulse profiles, auto-tuning of PID, expansion modules that are more than
+// Not modelled: linear pulse profiles, auto-tuning of PID, expansion modules that are more than
 // points, a memory cartridge, a clock that has to be plugged in.
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/embedded_times.hpp"
@@ -28,7 +28,13 @@ struct Size {
 /// HC1 and HC2 need inputs from I0.6 on: the CPUs 221 and 222 do not have them (facts 10.1).
 std::array<CounterModes, kCounters.size()> counter_modes(CpuSet self) {
   const CounterModes of_12 = self & kHasCounters12 ? kAllModes : 0;
-  return {kModesWithoutStart, of_12, of_12, kMode0, kModesWithoutStart, kMode0};
+  const bool counts_pulses = (self & kCpu22xRelease2) != 0;
+  return {counts_pulses ? CounterModes{kModesWithoutStart | kMode12} : kModesWithoutStart,
+          of_12,
+          of_12,
+          counts_pulses ? CounterModes{kMode0 | kMode12} : kMode0,
+          kModesWithoutStart,
+          kMode0};
 }
 
 CpuModel release2(std::string_view name, CpuSet self, Size size, std::uint32_t ports, std::uint32_t program_words,

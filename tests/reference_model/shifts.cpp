@@ -40,13 +40,12 @@ bool move_down(std::vector<bool>& bits, bool enters) {
 void shift(Machine& m, std::size_t width, bool left) {
   const Place out = m.place(0, width);
   const std::uint32_t count = std::min(m.in(1, 1), static_cast<std::uint32_t>(8 * width));
-  if (count == 0) return;
   std::vector<bool> bits = bits_of(read(out, width), width);
   bool last = false;
   for (std::uint32_t i = 0; i < count; ++i) last = left ? move_up(bits, false) : move_down(bits, false);
   write(out, width, value_of(bits));
   set_flag(m, kZero, value_of(bits) == 0);
-  set_flag(m, kOverflow, last);
+  if (count > 0) set_flag(m, kOverflow, last);
   m.spend_units(count);
 }
 

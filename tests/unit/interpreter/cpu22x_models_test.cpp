@@ -216,12 +216,6 @@ TEST(Cpu22x, The226XmHas128Subroutines) {
   EXPECT_FALSE(check_text(call + last, "x", *find_cpu("226"), default_times(*find_cpu("226"))).program);
 }
 
-TEST(Cpu22x, Mode12OfAHighSpeedCounterIsRefusedByName) {
-  const CheckResult result = check_text("LD SM0.1\nHDEF 0, 12\nMEND\n", "x", cpu224(), default_times(cpu224()));
-  ASSERT_EQ(result.diagnostics.size(), 1U);
-  EXPECT_EQ(result.diagnostics[0].message, "mode 12 of a high-speed counter is not modelled yet");
-}
-
 TEST(Cpu22x, TwoPidsOfOneLoopAreWarnedOf) {
   const CheckResult result =
       check_text("LD SM0.0\nPID VB100, 0\nPID VB200, 1\nPID VB300, 0\nMEND\n", "x", cpu224(), default_times(cpu224()));

@@ -15,6 +15,35 @@ class Observer final : public TraceSink {
   bool wants_instructions() const override { return true; }
 };
 
+/// A first scan of 300 ms, to 10 us: MEND is the last instruction in it.
+std::string long_scan(Time rest) {
+  std::string program = "LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nDIV VW100, VD104\nDIV VW100, VD104\n";
+  for (int i = 0; i < 19; ++i) program += "SQRT VD0, VD4\n";
+  for (Time spent = 0; spent + 10 * us <= rest; spent += 10 * us) program += "NOP 0\n";
+  return program + "MEND\nINT 0\nRETI\n";
+}
+
+// The watchdog expires while an interrupt routine is entered: the error names the instruction before.
+TEST(FastLoop, AFatalErrorAfterMendNamesItAsThePlainLoopDoes) {
+  Plc measured(long_scan(0));
+  measured.set("VW100", 1);
+  measured.run_scans(1);
+  const std::string program = long_scan(300 * ms - measured.cpu.time());
+  std::vector<std::uint32_t> named;
+  for (const bool observed : {false, true}) {
+    Observer observer;
+    Plc plc(program);
+    if (observed) plc.cpu.set_sink(&observer);
+    plc.set("VW100", 1);
+    plc.input_at(300 * ms - 10 * us, "I0.0", true);
+    plc.run_until(302 * ms);
+    ASSERT_EQ(plc.cpu.state().fatal_code, 3);
+    named.push_back(plc.cpu.state().fatal_op);
+  }
+  const auto mend = static_cast<std::uint32_t>(program_of(program)->ops.size() - 3);
+  EXPECT_EQ(named, (std::vector{mend, mend}));
+}
+
 /// Networks of contacts, coils and boxes, drawn by lot: chains of every length and way to join.
 std::string networks(std::mt19937& draw, int count) {
   const auto below = [&](unsigned n) { return static_cast<unsigned>(draw() % n); };

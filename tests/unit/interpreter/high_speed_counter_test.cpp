@@ -310,5 +310,32 @@ TEST(HighSpeedCounter, Errors) {
   }
 }
 
+// Facts 10.4: on late CPUs 22x HSC0 counts the pulses of PTO0, HSC3 those of PTO1, without an input.
+TEST(HighSpeedCounter, Mode12CountsThePulsesOfAnOutput) {
+  for (const auto& [counter, control, preset, output, pulses] :
+       {std::tuple{0, "SMB37", "SMD42", 0, 67}, std::tuple{3, "SMB137", "SMD142", 1, 77}}) {
+    Plc plc(fmt::format("LD SM0.1\nMOVB 16#F8, {1}\nMOVD 5, {2}\nHDEF {0}, 12\nHSC {0}\nATCH 0, {5}\nENI\n"
+                        "MOVW 10, SMW{6}\nMOVD 7, SMD{7}\nMOVB 16#8D, SMB{4}\nPLS {3}\nMEND\nINT 0\nINCW VW0\nRETI\n",
+                        counter, control, preset, output, pulses, counter == 0 ? 12 : 32, pulses + 1, pulses + 5),
+            cpu224());
+    plc.run_until(45 * ms);
+    EXPECT_EQ(plc.value(fmt::format("HC{}", counter)), 5) << "the fifth has begun";
+    EXPECT_EQ(plc.value("VW0"), 1) << "current = preset";
+    plc.run_until(100 * ms);
+    EXPECT_EQ(plc.value(fmt::format("HC{}", counter)), 7);
+    plc.pulse("I0.0", 3);
+    plc.pulse("I0.1", 3);
+    EXPECT_EQ(plc.value(fmt::format("HC{}", counter)), 7) << "it has no input";
+    EXPECT_EQ(plc.records.errors(), Ints{});
+  }
+}
+
+TEST(HighSpeedCounter, Mode12DoesNotCountTheCyclesOfAPwm) {
+  Plc plc("LD SM0.1\nMOVB 16#F8, SMB37\nHDEF 0, 12\nHSC 0\nMOVW 10, SMW68\nMOVW 5, SMW70\nMOVB 16#CB, SMB67\nPLS 0\nMEND\n",
+          cpu224());
+  plc.run_until(100 * ms);
+  EXPECT_EQ(plc.value("HC0"), 0);
+}
+
 }  // namespace
 }  // namespace s7200::test

@@ -81,6 +81,13 @@ TEST(Overflow, DivisionByZeroChangesNothingButSM13OnBoth) {
               (Outcome{0x1234'8000, kZero | kOverflow | kDivisionByZero}));
 }
 
+TEST(Overflow, MultiplicationsAndDivisionsResetSM13AndSumsLeaveIt) {
+  for (const char* op : {"*I VW106, VW102", "*D VD104, VD100", "/I VW106, VW102", "/D VD104, VD100"})
+    EXPECT_EQ(execute(cpu224(), op, 6, 2, kDivisionByZero).flags, 0) << op;
+  for (const char* op : {"+I VW106, VW102", "-I VW106, VW102", "+D VD104, VD100", "-D VD104, VD100"})
+    EXPECT_EQ(execute(cpu224(), op, 6, 2, kDivisionByZero).flags, kDivisionByZero) << op;
+}
+
 TEST(Overflow, IncrementAndDecrementWrapOnEveryCpu) {
   for (const CpuModel* model : {&cpu215(), &keeping_cpu()}) {
     EXPECT_EQ(execute(*model, "INCB VB103", 0xFF, 0, 0), (Outcome{0, kZero | kOverflow}));
