@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <span>
 
 #include "interpreter/base/text.hpp"
@@ -18,7 +19,7 @@
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "interpreter/stl/project.hpp"
-#include "interpreter/stl/symbols.hpp"
+#include "interpreter/stl/symbol_table.hpp"
 
 namespace s7200 {
 namespace {
@@ -177,6 +178,7 @@ stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::stri
     case SourceKind::StatusChart: {
       stl::ParseResult chart;
       chart.source.name = name;
+      chart.notes.push_back(fmt::format("{} is a status chart: nothing of it is part of the program", name));
       return chart;
     }
     case SourceKind::Listing:
@@ -195,15 +197,25 @@ SourceText read_decoded(const stl::DecodedText& decoded, const std::string& name
 
 }  // namespace
 
+namespace {
+
+bool is_code(const stl::Line& line) {
+  return std::holds_alternative<stl::Statement>(line) || std::holds_alternative<stl::NetworkHead>(line);
+}
+
+/// Only comments, or headings of a table.
+bool is_empty(const stl::ParseResult& parsed) {
+  const stl::Source& source = parsed.source;
+  return std::ranges::none_of(source.lines, is_code) && std::ranges::all_of(source.data, &stl::DataLine::only_comment) &&
+         source.blocks.empty() && source.symbols.empty() && parsed.diagnostics.empty();
+}
+
+}  // namespace
+
 bool SourceText::is_program() const {
   if (kind == SourceKind::Document) return true;
   if (kind == SourceKind::Listing)  // not if it is all comments, as the data block of a new project is
-    return std::ranges::any_of(parsed.source.lines,
-                               [](const stl::Line& line) {
-                                 return std::holds_alternative<stl::Statement>(line) ||
-                                        std::holds_alternative<stl::NetworkHead>(line);
-                               }) ||
-           !parsed.diagnostics.empty();
+    return std::ranges::any_of(parsed.source.lines, is_code) || !parsed.diagnostics.empty();
   const auto& blocks = parsed.source.blocks;
   return kind == SourceKind::Blocks && std::ranges::find(blocks, stl::Block::Kind::Main, &stl::Block::kind) != blocks.end();
 }
@@ -212,8 +224,15 @@ SourceText join_files(std::vector<SourceText> files) {
   const auto program = std::ranges::find_if(files, &SourceText::is_program);
   if (program != files.end()) std::rotate(files.begin(), program, std::next(program));
   SourceText project = std::move(files.front());
-  for (auto file = std::next(files.begin()); file != files.end(); ++file)
-    if (file->kind != SourceKind::StatusChart) stl::append(project.parsed, std::move(file->parsed));
+  for (auto file = std::next(files.begin()); file != files.end(); ++file) {
+    if (file->kind == SourceKind::StatusChart) {
+      std::ranges::move(file->parsed.notes, std::back_inserter(project.parsed.notes));
+      continue;
+    }
+    if (is_empty(file->parsed))
+      file->parsed.notes.push_back(fmt::format("nothing in {} is part of the program", file->parsed.source.name));
+    stl::append(project.parsed, std::move(file->parsed));
+  }
   return project;
 }
 

@@ -58,6 +58,8 @@ bool has_main_program(const Source& source) {
 }  // namespace
 
 void append(ParseResult& source, ParseResult file) {
+  source.notes.insert(source.notes.end(), std::make_move_iterator(file.notes.begin()),
+                      std::make_move_iterator(file.notes.end()));
   Source &to = source.source, &from = file.source;
   const auto lines_before = static_cast<std::uint32_t>(to.text.size());
   const Shift shift(lines_before);
