@@ -21,6 +21,7 @@
 #include "interpreter/program/lint_ops.hpp"
 #include "interpreter/program/networks.hpp"
 #include "interpreter/program/operands.hpp"
+#include "interpreter/program/other_width.hpp"
 #include "interpreter/program/parameters.hpp"
 #include "interpreter/program/routine_ends.hpp"
 #include "interpreter/program/special_memory_use.hpp"
@@ -240,6 +241,7 @@ class Checker {
     }
     bool good = true;
     auto& placed = placed_.back();
+    const std::size_t diagnostics_before = diagnostics_.size();
     for (std::size_t i = 0; i < taken; ++i) {
       const auto operand =
           place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
@@ -247,6 +249,7 @@ class Checker {
       placed[i].read = operand.has_value();
       good = good && operand;
     }
+    if (!good) offer_other_width(instruction, statement, diagnostics_before);
     if (called && good) return pass_parameters(instruction, statement, *called);
     return good && blocks_fit(instruction, statement) && mode_fits(instruction, statement);
   }
@@ -263,6 +266,13 @@ class Checker {
     error(second->position, "two statements in one line",
           fmt::format("begin a new line with {}", std::get<stl::Name>(second->value).text));
     return true;
+  }
+
+  /// One instruction that takes all the operands as they are is better than what can be said of each of them.
+  void offer_other_width(const Instruction& instruction, const stl::Statement& statement, std::size_t first_diagnostic) {
+    const std::string fitting = in_other_width(instruction, statement, model_);
+    if (fitting.empty()) return;
+    for (std::size_t i = first_diagnostic; i < diagnostics_.size(); ++i) diagnostics_[i].hint = "write " + fitting;
   }
 
   /// A CALL or ATCH of a name that no block has. True after a message.
