@@ -217,22 +217,24 @@ void Debugger::go(const Run& run) {
   const std::uint64_t errors_before = errors_of_all();
   begin_live_status();
   let_traces_follow();
-  const History::Place before = history_.here();
-  const Stop stop = at_length([&] { return run_through(run); });
-  if (quit_asked_ || history_.here().branch != before.branch) return;
+  const auto stop = at_length([&] { return run_through(run); });
   live_status_.reset();
   write_trace(kNever);
-  look_at(stop.station);
-  report(stop, run, errors_of_all() - errors_before);
+  if (!stop) return;
+  look_at(stop->station);
+  report(*stop, run, errors_of_all() - errors_before);
+  if (typed_) carry_out_typed();  // the run has ended meanwhile
 }
 
-/// To its end, with what is typed meanwhile.
-Stop Debugger::run_through(const Run& run) {
+/// To its end, with what is typed meanwhile. Nothing after a typed command that has moved it, which has said where it stands.
+std::optional<Stop> Debugger::run_through(const Run& run) {
   const Time now = history_.now().time, end = now < kNever - run.limit ? now + run.limit : kNever;
   is_typed_to_ = run.of_all && layout_.typed && options_.history.drive;
   Stop stop = stepper_.run(run.goal, end, run.stop_at_answer);
-  while (stop.reason == StopReason::Request && typed_ && carry_out_typed())
+  while (stop.reason == StopReason::Request && typed_) {
+    if (!carry_out_typed()) return is_typed_to_ = false, std::nullopt;
     stop = stepper_.run(run.goal, end, run.stop_at_answer);
+  }
   is_typed_to_ = false;
   if (stop.reason != StopReason::Limit || !run.to_scan_end || !simulation().plc().executes()) return stop;
   return stepper_.run(goal::scan(simulation().cpu().state(), 1), kNever, run.stop_at_answer);

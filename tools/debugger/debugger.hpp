@@ -190,7 +190,7 @@ class Debugger {
     bool to_scan_end = false;  ///< after the limit it goes on to the end of the scan
   };
   void go(const Run& run);
-  Stop run_through(const Run& run);
+  std::optional<Stop> run_through(const Run& run);
   bool carry_out_typed();
   void go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
   void act(Action action) { act(std::move(action), focus()); }

@@ -224,8 +224,7 @@ std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const 
   if (first == "event") return named(event_stop(words, *program.model, why));
   const auto place = find_place(words, program, listing, "break", why);
   if (!place && !is_word_of_place(first)) return becoming_stop(joined(words), program, why);
-  if (!place && words.size() > 1)  // 40 > VW0
-    if (std::string no_condition; auto stop = becoming_stop(joined(words), program, no_condition)) return stop;
+  if (!place && has_operator(joined(words))) return becoming_stop(joined(words), program, why);  // 40 > VW0
   if (!place) return {};
   note = place->note;
   return named(StopPoint{.on = On::Place, .op = place->op, .needs_power = true});

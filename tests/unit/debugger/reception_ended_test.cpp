@@ -42,7 +42,7 @@ TEST(ReceptionEnded, WithoutAStartConditionTheControlByteIsNamed) {
 
 TEST(ReceptionEnded, WhatWorksOnlyOnceSaysWhichRcvCouldStartTheNext) {
   Session session = session_of_cpu_224(kOnce);
-  session("continue 50ms; send 41 42 0d; continue 1s; break unanswered; send 41 43 0d; continue 1s");
+  session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "the last one, RCV VB100, 0 in line 7 at 0."));
   EXPECT_TRUE(has(text,
@@ -53,14 +53,14 @@ TEST(ReceptionEnded, WhatWorksOnlyOnceSaysWhichRcvCouldStartTheNext) {
 
 TEST(ReceptionEnded, AsManyCharactersAsAllowedAreCounted) {
   Session session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 2, SMB94"));
-  session("continue 50ms; send 41 42; continue 1s; break unanswered; send 41 43 0d; continue 1s");
+  session("continue 50ms; send 41 42; continue; break unanswered; send 41 43 0d; continue");
   EXPECT_TRUE(has(session("why"), "with SMB86 = 16#02 because 2 characters came, as many as SMB94 allows; "));
 }
 
 TEST(ReceptionEnded, AnInterruptRoutineThatNoEventCallsStartsNothing) {
   const std::string text = test::changed(kOnce, "MEND\n", "MEND\nINT 3\nLD SM0.0\nRCV VB100, 0\nRETI\n");
   Session session = session_of_cpu_224(text);
-  session("continue 50ms; send 41 42 0d; continue 1s; break unanswered; send 41 43 0d; continue 1s");
+  session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
   EXPECT_TRUE(has(session("why"), "; or by RCV VB100, 0 in line 11: INT 3 is attached to no event\n"));
 }
 
@@ -68,7 +68,7 @@ TEST(ReceptionEnded, AnRcvRightAfterXmtWasRefused) {
   const std::string text = test::changed(test::changed(kOnce, "MOVB 10, SMB94\n", "MOVB 10, SMB94\nATCH 0, 23\nENI\n"),
                                          "MEND\n", "MEND\nINT 0\nLD SM0.0\nXMT VB100, 0\nRCV VB100, 0\nRETI\n");
   Session session = session_of_cpu_224(text);
-  session("continue 50ms; send 41 42 0d; continue 1s; break unanswered; send 41 43 0d; continue 1s");
+  session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
   EXPECT_TRUE(has(session("why"), "the last one, RCV VB100, 0 in line 14 at "));
   EXPECT_TRUE(has(session.out.str(), " was refused with run-time error 0009, "));
   session("rwhy");
@@ -76,9 +76,10 @@ TEST(ReceptionEnded, AnRcvRightAfterXmtWasRefused) {
 }
 
 TEST(ReceptionEnded, AReceptionThatStopHasGivenUpIsSaidToBe) {
-  Session session = session_of_cpu_224(kOnce);
-  session("continue 50ms; mode stop; continue 20ms; mode run; continue 20ms; break unanswered; send 41 43 0d; continue 1s");
-  EXPECT_TRUE(has(session("why"), "RCV"));
+  Session session = session_of_cpu_224(test::changed(kOnce, "RCV VB100, 0", "AN M0.0\nRCV VB100, 0"));
+  session("continue 50ms; mode stop; continue 20ms; mode run; continue 20ms; mode stop; continue 20ms");
+  session("set M0.0=1; mode run; continue 20ms; break unanswered; send 41 43 0d; continue");
+  EXPECT_TRUE(has(session("why"), " was given up when the CPU went to STOP at "));
 }
 
 }  // namespace
