@@ -15,6 +15,7 @@ INTERPRETER = ["interpreter/base", "interpreter/stl", "interpreter/model", "inte
 SERIAL_SIM = ["serial_sim/line", "serial_sim/faults", "serial_sim/peers", "serial_sim/modbus", "serial_sim/pc_protocol",
               "serial_sim/westinghouse", "serial_sim/field", "serial_sim/system", "serial_sim/record"]
 CORE = INTERPRETER + SERIAL_SIM
+SESSION = ["tools/session/past", "tools/session/causes"]
 
 ROOMS = {
     "interpreter/base": [],
@@ -39,14 +40,16 @@ ROOMS = {
     "tools/yaml": INTERPRETER,
     "tools/json": ["interpreter/base"],
     "tools/rig": CORE + ["tools/host", "tools/views", "tools/yaml", "tools/json"],
+    "tools/session/past": CORE + ["tools/views", "tools/rig"],
+    "tools/session/causes": CORE + ["tools/views", "tools/rig", "tools/session/past"],
     "tools/slave": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/bridge": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
-    "tools/scenario": CORE + ["tools/host", "tools/views", "tools/measuring", "tools/yaml", "tools/rig", "tools/slave"],
+    "tools/scenario": CORE + ["tools/host", "tools/views", "tools/measuring", "tools/yaml", "tools/rig", "tools/slave"] + SESSION,
     "tools/recordings": CORE + ["tools/views", "tools/json", "tools/scenario"],
-    "tools/debugger": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig"],
-    "tools/dap": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig", "tools/debugger"],
+    "tools/debugger": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig"] + SESSION,
+    "tools/dap": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig", "tools/debugger"] + SESSION,
 }
 ROOMS["tools/command"] = list(ROOMS)
 ROOMS["tests"] = list(ROOMS)

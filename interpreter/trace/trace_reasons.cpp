@@ -248,6 +248,11 @@ bool TraceReasons::has_own_contacts(const Way& way) const {
 
 std::optional<TraceReasons::Cause> TraceReasons::cause() const { return cause_of(decision()); }
 
+std::string TraceReasons::contacts() const {
+  const Way& way = flow().way;
+  return has_own_contacts(way) ? contacts_text(way.contacts) : "";
+}
+
 std::optional<TraceReasons::Decision> TraceReasons::decision() const {
   const Way& way = flow().way;
   if (has_own_contacts(way)) return Decision{way.contacts.back(), way.contacts, in_interrupt_, true};

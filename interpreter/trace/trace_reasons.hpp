@@ -84,6 +84,9 @@ class TraceReasons {
   /// nothing if the main program, or the interrupt routine, has met none so far.
   std::optional<Cause> cause() const;
 
+  /// The contacts of the rung so far, with what they saw: `LD SM0.1: SM0.1=0`. Empty if it has none that decide anything.
+  std::string contacts() const;
+
   /// This one has come; to be told after all that is asked about it.
   void note(const TraceRecord& record);
   void note(const InstructionRecord& record);

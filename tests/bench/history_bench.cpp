@@ -10,8 +10,8 @@
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/debugger/history.hpp"
 #include "tools/debugger/stepper.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace {
 

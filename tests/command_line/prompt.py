@@ -237,6 +237,35 @@ class Prompt(unittest.TestCase):
         self.assertRegex(shown, r"… \d+ more lines; 'display' prints all")
         self.quit(terminal)
 
+    def test_what_is_typed_while_a_run_follows_the_clock_is_carried_out_and_the_run_goes_on(self):
+        for pace in (("--realtime",), ("--speed", "20")):
+            terminal = self.session(SLAVE, *pace)
+            terminal.type("continue 1000h\n")
+            terminal.until("\n")
+            terminal.type("set VW20=77\n")
+            terminal.until("\n")
+            terminal.type("print VW20\n")
+            self.assertNotIn(PROMPT, terminal.until("(77)"), "while it runs")
+            terminal.type("force I0.3=1\nforce\n")
+            self.assertNotIn(PROMPT, terminal.until("I0.3=1", "I0.3=1"), "while it runs")
+            terminal.type("contineu\n")
+            self.assertNotIn(PROMPT, terminal.until("did you mean continue?"), "while it runs")
+            terminal.signal(signal.SIGINT)
+            terminal.until("interrupted by Ctrl-C", PROMPT)
+            self.assertIn("77", terminal.command("print VW20"))
+            self.quit(terminal)
+
+    def test_a_command_that_moves_the_program_ends_the_run_it_is_typed_into(self):
+        terminal = self.session(SLAVE, "--realtime")
+        terminal.type("continue 1000h\n")
+        terminal.until("\n")
+        terminal.type("step\n")
+        terminal.until("S0=", PROMPT)
+        terminal.type("continue 1000h\n")
+        terminal.until("\n")
+        terminal.type("quit\n")
+        self.assertEqual(terminal.end(), 0)
+
     def test_the_layout_lives_while_the_program_runs_until_ctrl_c(self):
         terminal = self.session()
         terminal.command("display VW3300; layout on")

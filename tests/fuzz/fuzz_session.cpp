@@ -7,10 +7,10 @@
 
 #include "interpreter/program/load.hpp"
 #include "tests/fuzz/promise.hpp"
-#include "tools/debugger/digest.hpp"
-#include "tools/debugger/history.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/json/json.hpp"
+#include "tools/session/past/digest.hpp"
+#include "tools/session/past/history.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace {

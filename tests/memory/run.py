@@ -17,7 +17,7 @@ SLAVE = SOURCE / "stl_programs/modbus_slave.stl"
 LONG_SCAN = SOURCE / "tests/programs/long_scan.stl"  # 0.4 s: its trace has a line for each
 MINUTE, HOUR, DAY = 60, 3600, 86_400
 MOST_GROWTH = 2048  # kB; what the C library does with small pieces makes some hundred
-OF_THE_PAST = 256 * 1024  # kB; the debugger keeps so much to go back to, however long it runs (tools/debugger/README.md)
+OF_THE_PAST = 256 * 1024  # kB; the debugger keeps so much to go back to, however long it runs (tools/session/past/README.md)
 
 # An A every 50 ms, 9600 8E1, and Q0.0 that follows it.
 BEACON = ("LD SM0.1\nMOVB 16#49, SMB30\nMOVB 1, VB0\nMOVB 16#41, VB1\nMOVB 50, SMB34\nATCH 0, 10\nENI\nMEND\n"

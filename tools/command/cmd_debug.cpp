@@ -1,13 +1,12 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
-#include <sstream>
 
 #include "tools/command/commands.hpp"
-#include "tools/command/console.hpp"
+#include "tools/command/debug_scenario.hpp"
+#include "tools/command/debug_script.hpp"
 #include "tools/command/debug_session.hpp"
 #include "tools/command/debuggee_run.hpp"
 #include "tools/command/exit_code.hpp"
@@ -20,42 +19,15 @@
 namespace s7200::tools {
 namespace {
 
-/// False after a message for a wrong command.
-bool run_script(Debugger& debugger, std::istream& in, std::string_view name, bool is_whole = true) {
-  if (constexpr int kByteOrderMark = 0xEF; in.peek() == kByteOrderMark) in.ignore(3);
-  const auto error = debugger.run_script(in, is_whole);
-  if (error) print_error(fmt::format("{}:{}: {}", name, error->line, error->message));
-  return !error;
-}
-
-/// The commands of the command line; false when one is wrong.
-bool run_given(Debugger& debugger, const std::string& script, const DebugOptions& options) {
-  std::istringstream file(script);
-  if (!options.commands_file.empty() && !run_script(debugger, file, options.commands_file)) return false;
-  std::string given;
-  for (const std::string& command : options.commands) given += command + "\n";
-  std::istringstream in(given);
-  return run_script(debugger, in, "-x");
-}
-
-/// The commands that are given, and standard input. False after a message for a wrong one.
-bool run_commands(Debugger& debugger, const std::string& script, const DebugOptions& options) {
-  const bool terminal = isatty(STDIN_FILENO) != 0;
-  if (!options.given() && terminal) std::cout << "'help' lists the commands.\n";
-  debugger.show_place();
-  if (options.given() && !run_given(debugger, script, options)) return false;
-  if (options.given() && !options.interactive) return true;
-  if (!terminal) return run_script(debugger, std::cin, "standard input", false);
-  talk(debugger);
-  return true;
-}
-
 int run_debug(const CLI::App& verb, DebugOptions& options) {
   if (is_standard_input(options.program.path) && (!options.given() || options.interactive)) {
     print_error(
         "the program comes from standard input, so the commands cannot: give them with -x or --commands, without -i");
     return kUnusable;
   }
+  if (is_scenario_file(options.program.path)) return run_debug_scenario(verb, options);
+  if (!options.only.empty() || !options.target.empty())
+    return print_error("--only and --target choose from a file of scenarios, and this is none"), kUnusable;
   int exit_code = kFine;
   if (!options.rig.load_all(verb, options.program, exit_code)) return exit_code;
   std::string why;
@@ -110,6 +82,7 @@ A program from standard input, -, needs --commands or -x.
 With a bridge, --realtime or --speed it follows the clock, and masters outside wait while it stands still; their
 time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. A
 new branch goes on in traces after what ran before, and ends captures.
+A file of scenarios (.yaml) instead of a PROGRAM: the first of them that fails, or that of --only, is opened where it failed.
 A system file (.yaml) instead of a PROGRAM: all its PLCs run, and go back, in one time; 'station NAME' goes over from
 one to another.
 Example: s7200 debug stl_programs/modbus_slave.stl -x "continue 2s; send 01 03 00 00 00 02 crc; continue; regs")");

@@ -36,10 +36,11 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   const serial::Requester& master = rig->requester(line)->requester();
   const auto failed_strictly = [&] { return !options.rig.without_s7200() && options.rig.failed_strictly(rig->cpu()); };
   Timelines timelines(*rig);
+  FirstUnanswered unanswered(*rig, !options.rig.plan());
 
   StreamedResults results(results_of("send"), "exchanges");
   bool ready = false;
-  const std::unique_ptr<SlaveInSimulation> slave = slave_to_send_to(options, *rig, ready);
+  const std::unique_ptr<SlaveInSimulation> slave = slave_to_send_to(options, *rig, ready, unanswered);
   std::size_t answered = 0, damaged = 0, foreign = 0;
   for (const serial::Frame& frame : *frames) {
     if (!ready || interrupted() || failed_strictly()) break;
@@ -50,6 +51,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     mark_request_of_another(exchange);
     if (options.timeline) timelines.end();
     if (master.busy()) break;  // Ctrl-C came before the answer
+    unanswered.note(exchange);
     foreign += exchange.of_another_master;
     answered += !exchange.timed_out && !exchange.of_another_master;
     damaged += is_damaged(exchange);
@@ -65,7 +67,8 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     slave->wait(options.pause == kNever ? slave->pause() : options.pause);
   }
   const bool all_written = finish(*rig);
-  fmt::print("{}", options.json ? results.end(rig_json(*rig)) : dump_text(*rig));
+  const std::vector<std::string> reasons = unanswered.reasons(options.master.timeout);
+  fmt::print("{}", options.json ? results.end(with_why(rig_json(*rig), reasons)) : why_text(reasons) + dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
   print_notes(line_notes(*rig));
   if (damaged > 0) print_note(fmt::format("{} of {} answers damaged", damaged, answered));

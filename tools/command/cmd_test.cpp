@@ -49,7 +49,7 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
     };
   const auto result = suite.run(watcher, messages);
   print_messages(messages);
-  if (!result) return kUnusable;
+  if (!result) return write(to.junit, to_junit(messages)), kUnusable;
   output.end(*result);
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
@@ -90,7 +90,7 @@ int run_test(TestOptions& options) {
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);
   print_messages(messages);
-  if (!suite) return kUnusable;
+  if (!suite) return write(to.junit, to_junit(messages)), kUnusable;
   if (options.list) {
     print_list(suite->scenarios(), options.json);
     return kFine;

@@ -1,5 +1,9 @@
 #include "tools/command/console.hpp"
 
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
 #include <chrono>
 #include <iostream>
 
@@ -27,6 +31,17 @@ std::optional<std::string> read_line(LineEditor& editor, std::string& last) {
     if (!interrupted()) return {};
     last.clear();
   }
+}
+
+/// A line that was typed while nobody reads one: the terminal hands over whole lines then. Nothing if there is none.
+std::optional<std::string> typed_line() {
+  constexpr std::size_t kLongest = 4096;  // of a line of a terminal
+  pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+  if (poll(&input, 1, 0) != 1 || (input.revents & POLLIN) == 0) return {};
+  std::array<char, kLongest> line{};
+  const ssize_t length = read(STDIN_FILENO, line.data(), line.size());
+  if (length <= 0) return {};
+  return std::string(line.data(), static_cast<std::size_t>(length));
 }
 
 /// The layout: while it is wanted, it is shown whenever the terminal has room for it.
@@ -81,8 +96,10 @@ void talk(Debugger& debugger) {
     else
       view.draw();
   };
-  debugger.set_layout(
-      {.turn = [&view](bool on) { return view.turn(on); }, .shown = [&view] { return view.shown(); }, .refresh = refresh});
+  debugger.set_layout({.turn = [&view](bool on) { return view.turn(on); },
+                       .shown = [&view] { return view.shown(); },
+                       .refresh = refresh,
+                       .typed = typed_line});
   editor.when_changed([&view] { view.fit(); });
   std::string last;
   while (!debugger.quit_asked()) {

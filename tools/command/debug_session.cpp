@@ -8,9 +8,9 @@
 
 #include "tools/command/session_scenario.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/debugger/digest.hpp"
-#include "tools/debugger/host_frames.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/session/past/digest.hpp"
+#include "tools/session/past/host_frames.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -62,7 +62,7 @@ class StepsOfSession {
     }
     if (!recording.complete) fail("what came over a bridge before power was switched off is forgotten");
     cut_until_.clear();
-    const std::size_t first = steps_.size();
+    const std::size_t first = last_power_up_ = steps_.size();
     std::vector<HostFrames> from_hosts(hosts_.size());
     for (std::size_t i = 0; i < recording.now.actions; ++i) {
       const Action& action = recording.actions[i];
@@ -74,6 +74,13 @@ class StepsOfSession {
     for (std::size_t host = 0; host < hosts_.size(); ++host)
       for (const HostTransmission& sent : from_hosts[host].transmissions()) add(sent, host, first);
     limit_waiting(first, recording.now.time);
+  }
+
+  /// Memory that was looked at is expected to be so again, after all that was done by then.
+  void expect(const SessionRecord::LookedAt& one) {
+    const auto later = std::find_if(steps_.begin() + static_cast<std::ptrdiff_t>(last_power_up_), steps_.end(),
+                                    [&](const SessionSteps::Step& step) { return step.at > one.at; });
+    steps_.insert(later, {.at = one.at, .expect = one.memory, .on = place(one.station)});
   }
 
   /// Why nothing of the session can be recorded; empty if something can.
@@ -183,6 +190,7 @@ class StepsOfSession {
   std::string why_nothing_;
   std::vector<std::string> left_out_{};
   Steps steps_{};
+  std::size_t last_power_up_ = 0;            // the first step after it
   std::map<std::string, Time> cut_until_{};  // by place, the end of the last character of a request that was given up
 };
 
@@ -196,6 +204,7 @@ std::optional<SessionSteps> steps_of(const SessionRecord& record, const Places& 
     const SessionRecord::Station& station = record.stations[i];
     session.ends.push_back({steps.place(i), station.memory, station.stopped, station.fatal_code});
   }
+  for (const SessionRecord::LookedAt& one : record.looked_at) steps.expect(one);
   session.steps = steps.take();
   session.left_out = steps.left_out();
   return session;

@@ -8,7 +8,7 @@
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/options/debug_options.hpp"
 #include "tools/command/system_bridges.hpp"
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 

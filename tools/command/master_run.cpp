@@ -8,6 +8,7 @@
 #include "interpreter/model/special_memory.hpp"
 #include "tools/command/band_output.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/first_unanswered.hpp"
 #include "tools/command/master_menu.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
@@ -65,12 +66,15 @@ bool somebody_answers_in_stop(const Rig& rig, std::size_t line, const Protocol& 
 
 int run_session(const MasterOptions& options, MasterSession& session, const std::vector<MasterAction>& actions,
                 MasterOutput& output, const std::function<bool()>& over,
-                const std::function<nlohmann::ordered_json()>& plant) {
+                const std::function<nlohmann::ordered_json()>& plant, const std::function<void(const MasterResult&)>& seen) {
   std::string error;
   output.begin();
   try {
-    session.run({[&](const MasterResult& result) { output.show(result); }, [&] { output.end_round(session.statistics()); }},
-                over);
+    const auto show = [&](const MasterResult& result) {
+      seen(result);
+      output.show(result);
+    };
+    session.run({show, [&] { output.end_round(session.statistics()); }}, over);
   } catch (const std::exception& end) {  // SlaveUnreachable, or a frame that cannot be sent to this slave
     error = end.what();
   }
@@ -143,9 +147,15 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
   if (options.rig.without_s7200()) return run_on_line(options, *rig, actions);
-  const auto plant = [&] { return rig_json(*rig); };
+  FirstUnanswered unanswered(*rig, !options.rig.plan());
+  std::vector<std::string> reasons;
+  const auto plant = [&] {
+    reasons = unanswered.reasons(options.master.timeout);
+    return with_why(rig_json(*rig), reasons);
+  };
   SimulatedSlave slave(rig->simulation(), options.master, options.rig.target(),
                        somebody_answers_in_stop(*rig, options.rig.line(), *options.protocol));
+  unanswered.listen_to(slave);
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
   std::string why;
@@ -168,7 +178,8 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
     const std::string note = slave.note_on_port(options.protocol->wants_freeport);
     print_note_if_any(note);
     exit_code = run_session(
-        options, session, actions, output, [&] { return options.rig.failed_strictly(rig->cpu()); }, plant);
+        options, session, actions, output, [&] { return options.rig.failed_strictly(rig->cpu()); }, plant,
+        [&](const MasterResult& result) { unanswered.note(result.exchange); });
     if (note.empty() && !options.protocol->wants_freeport) print_note_if_any(slave.note_on_port(false));
   } else {
     if (!why.empty()) print_error(why);
@@ -177,7 +188,7 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
     exit_code = kCheckFailed;
   }
   const bool all_written = finish(*rig);
-  if (ready && !options.json) fmt::print("{}", dump_text(*rig));
+  if (ready && !options.json) fmt::print("{}{}", why_text(reasons), dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
   const bool fatal = exit_code_of(*rig) == kCpuFatal, stopped = rig->cpu().state().mode == Mode::Stop;
   if (!ready && stopped && !fatal) print_error("the CPU went to STOP before the first request");

@@ -11,10 +11,12 @@
 
 namespace s7200::tools {
 
-/// Whichever way it ends. `over`: whether it is to end now. `plant` then says what the JSON has of the plant around the CPU.
-int run_session(const MasterOptions& options, MasterSession& session, const std::vector<MasterAction>& actions,
-                MasterOutput& output, const std::function<bool()>& over,
-                const std::function<nlohmann::ordered_json()>& plant);
+/// Whichever way it ends. `over`: whether it is to end now. `plant` then says what the JSON has of the plant around the CPU,
+/// and `seen` is told each result.
+int run_session(
+    const MasterOptions& options, MasterSession& session, const std::vector<MasterAction>& actions, MasterOutput& output,
+    const std::function<bool()>& over, const std::function<nlohmann::ordered_json()>& plant,
+    const std::function<void(const MasterResult&)>& seen = [](const MasterResult&) {});
 
 /// On a PROGRAM, or on a line of a system file.
 int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vector<MasterAction>& actions);

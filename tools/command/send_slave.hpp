@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "tools/command/first_unanswered.hpp"
 #include "tools/command/send_band.hpp"
 #include "tools/rig/rig.hpp"
 #include "tools/slave/slave.hpp"
@@ -10,6 +11,8 @@
 namespace s7200::tools {
 
 /// The program, or the line of a system without an S7-200; and whether the first frame can be sent: if not, after messages.
-std::unique_ptr<SlaveInSimulation> slave_to_send_to(const SendOptions& options, Rig& rig, bool& ready);
+/// `unanswered` listens to the program.
+std::unique_ptr<SlaveInSimulation> slave_to_send_to(const SendOptions& options, Rig& rig, bool& ready,
+                                                    FirstUnanswered& unanswered);
 
 }  // namespace s7200::tools

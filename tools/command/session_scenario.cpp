@@ -35,6 +35,7 @@ std::string send_text(const SessionSteps::Step& step) {
 std::string done_text(const SessionSteps::Step& step) {
   if (step.mode) return *step.mode == Mode::Run ? "set_mode: run" : "set_mode: stop";
   if (!step.fault.empty()) return "fault: " + step.fault;
+  if (!step.expect.empty()) return "memory: " + assignments_text(step.expect);
   if (!step.force.empty()) return "force: " + assignments_text(step.force);
   if (!step.unforce.empty()) return "unforce: " + unforce_text(step.unforce);
   return "set: " + assignments_text(step.set);
@@ -83,6 +84,11 @@ std::string why_too_late(const SessionSteps::Step& step) {
         "the request of {} was sent while another one or its answer was under way, and the steps of a scenario come one "
         "after the other: 'continue' to the end of that answer before the next 'send'",
         moment_text(step.at));
+  if (!step.expect.empty())
+    return fmt::format(
+        "what was printed or expected at {}: a request or its answer was under way, and the steps of a scenario come one "
+        "after the other",
+        moment_text(step.at));
   return fmt::format(
       "what was done at {} came while a request or its answer was under way, and the steps of a scenario come one after "
       "the other: do it before 'send', or after the answer and the silence that ends it",
@@ -103,6 +109,20 @@ std::string end_text(const SessionSteps& session) {
   }
   return text;
 }
+
+/// Whether anything is expected: an answer, memory, or a STOP.
+bool expects_something(const SessionSteps& session) {
+  const auto of_step = [](const SessionSteps::Step& step) { return step.send || !step.expect.empty(); };
+  const auto of_end = [](const SessionSteps::End& end) { return end.stopped || !end.memory.empty(); };
+  return std::ranges::any_of(session.steps, of_step) || std::ranges::any_of(session.ends, of_end);
+}
+
+constexpr std::string_view kNothingExpected =
+    "nothing was sent, printed, expected or displayed, so it would test nothing; 'expect VW100 = 5' or 'display VW100' "
+    "first says what";
+
+/// How much earlier or later an answer may come: a program that is changed a little has another place in its scan then.
+constexpr Time kTolerance = 5 * kMillisecond;
 
 /// What options have asked for that a scenario has no word for.
 std::string_view without_a_key(const DebugOptions& options) {
@@ -186,6 +206,13 @@ const Finding* bad_finding(const ScenarioResult& result) {
 
 bool is_too_late(const Finding& finding) { return finding.what == "wait" || finding.what.starts_with("begin"); }
 
+/// A scenario looks between two instructions in front of which the session stood.
+std::string why_left_out(const SessionSteps::Step& step, const Finding& finding) {
+  if (is_too_late(finding)) return why_too_late(step);
+  return fmt::format("what was printed or expected at {}, which is different there in a scenario: {} is {}",
+                     moment_text(step.at), finding.what, finding.found);
+}
+
 /// Runs the session as a scenario, and again without what came too late. Nothing, and `why`, if it cannot be run.
 std::optional<Trial> tried(const SessionSource& source, SessionSteps& session, const std::string& path, std::string& why) {
   for (;;) {
@@ -194,10 +221,10 @@ std::optional<Trial> tried(const SessionSource& source, SessionSteps& session, c
     trial.result = run_scenario(*trial.scenario, {.program = source.program});
     if (interrupted()) return why = interruption_text(), std::nullopt;
     const Finding* const bad = bad_finding(trial.result);
-    if (!bad || !is_too_late(*bad) || !bad->step) return trial;
+    if (!bad || !(is_too_late(*bad) || bad->memory) || !bad->step) return trial;
     const auto late = done_in(session, *bad->step);
     if (!late) return why = "it stands before the end of an answer: 'continue 1ms' first", std::nullopt;
-    session.left_out.push_back(why_too_late(session.steps[*late]));
+    session.left_out.push_back(why_left_out(session.steps[*late], *bad));
     session.steps.erase(session.steps.begin() + static_cast<std::ptrdiff_t>(*late));
   }
 }
@@ -232,7 +259,7 @@ std::string why_it_fails(const std::string& text, const std::string& path, const
 
 bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
                             SessionSteps& session, const Destination& to, std::string& why) {
-  why = without_a_key(options);
+  why = expects_something(session) ? without_a_key(options) : kNothingExpected;
   if (!why.empty()) return false;
   add_faults(session, options.rig.settings().faults);
   const SessionSource source{options, program, session};
@@ -241,8 +268,11 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
   if (session.left_out.empty()) why = difference(session, *trial);
   if (!why.empty()) return false;
   const Report report{&*trial->scenario, std::move(trial->result)};
-  const std::string steps =
-      transcript_text({report}, {.path = to.path, .recorded_from = source.name(), .by = "s7200 debug, record"});
+  const std::string steps = transcript_text({report}, {.path = to.path,
+                                                       .recorded_from = source.name(),
+                                                       .tolerance = kTolerance,
+                                                       .memory = true,
+                                                       .by = "s7200 debug, record"});
   std::string text = steps + end_text(session);
   why = why_not_replayed(text.size());
   if (why.empty()) why = why_it_fails(text, to.path, program);

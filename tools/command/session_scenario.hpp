@@ -23,6 +23,7 @@ struct SessionSteps {
   struct Step {
     Time at = 0;
     std::vector<Assignment> set{}, force{};
+    std::vector<Assignment> expect{};  ///< memory has these values
     std::vector<MemoryRange> unforce{};
     std::optional<Mode> mode{};
     std::optional<serial::Request> send{};
@@ -35,7 +36,8 @@ struct SessionSteps {
     std::string on{};     ///< a PLC of a system
 
     bool does_something() const {
-      return send || power || mode || !(set.empty() && force.empty() && unforce.empty() && fault.empty() && event.empty());
+      return send || power || mode ||
+             !(expect.empty() && set.empty() && force.empty() && unforce.empty() && fault.empty() && event.empty());
     }
   };
 

@@ -32,16 +32,29 @@ std::string not_a_verb(const std::string& word, const std::vector<std::string>& 
                        : fmt::format("'{}' is not a verb; did you mean {}?", shown, meant);
 }
 
-/// `a verb is missing, and there is no option --verison before one; did you mean --version?`
-std::string not_an_option(const std::string& option, const CLI::App& app, bool any_verb) {
+/// `; did you mean --version?`; empty if no option is close.
+std::string meant_option(const std::string& option, const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* known : app.get_options())
     for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
   const std::vector<std::string_view> known(names.begin(), names.end());
-  const std::string_view meant = nearest(option, known);
+  const std::string_view meant = nearest(option.substr(0, option.find('=')), known);
+  return meant.empty() ? "" : fmt::format("; did you mean {}?", meant);
+}
+
+/// `a verb is missing, and there is no option --verison before one; did you mean --version?`
+std::string not_an_option(const std::string& option, const CLI::App& app, bool any_verb) {
   return fmt::format("{}there is no option {} before {}{}", any_verb ? "" : "a verb is missing, and ",
-                     stl::shortened(option), any_verb ? "the verb" : "one",
-                     meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
+                     stl::shortened(option), any_verb ? "the verb" : "one", meant_option(option, app));
+}
+
+/// Of what a verb does not take: `there is no option --cup; did you mean --cpu?`. Empty if no word of it is an option.
+std::string not_an_option_of(const CLI::App& verb) {
+  for (const std::string& word : verb.remaining())
+    if (word.starts_with("--"))
+      return fmt::format("there is no option {}{}", stl::shortened(word.substr(0, word.find('='))),
+                         meant_option(word, verb));
+  return {};
 }
 
 /// Of CLI11 what stands around a name or a value in a message, and what we say instead: `{0}` is in front of `between`,
@@ -117,7 +130,10 @@ void refuse_empty_values(CLI::App& app) {
 std::string usage_error(const CLI::App* app, const CLI::Error& error) {
   const auto verbs = app->get_subcommands();
   const std::string command = verbs.empty() ? app->get_name() : fmt::format("{} {}", app->get_name(), verbs[0]->get_name());
-  return fmt::format("s7200: error: {}\n'{} --help' shows how it is used\n", in_our_words(error), command);
+  const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !verbs.empty();
+  const std::string option = is_extra ? not_an_option_of(*verbs[0]) : "";
+  return fmt::format("s7200: error: {}\n'{} --help' shows how it is used\n", option.empty() ? in_our_words(error) : option,
+                     command);
 }
 
 std::string in_our_words(const CLI::Error& error) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "serial_sim/peers/requester.hpp"
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools::dap {
 

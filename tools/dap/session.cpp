@@ -15,7 +15,7 @@
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/line_words.hpp"
 #include "tools/debugger/stop_words.hpp"
-#include "tools/debugger/two_masters.hpp"
+#include "tools/session/causes/two_masters.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/text_frame.hpp"

@@ -11,10 +11,10 @@
 #include "tools/dap/session.hpp"
 #include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/goals.hpp"
-#include "tools/debugger/past_words.hpp"
 #include "tools/debugger/stop_words.hpp"
-#include "tools/debugger/two_masters.hpp"
-#include "tools/debugger/writer.hpp"
+#include "tools/session/causes/two_masters.hpp"
+#include "tools/session/causes/writer.hpp"
+#include "tools/session/past/past_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools::dap {
 

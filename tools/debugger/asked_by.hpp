@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tools/debugger/heard_frames.hpp"
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 
@@ -71,9 +71,5 @@ inline Time timeout_of(const serial::Requester& requester) {
   const bool waits = state.phase == serial::Requester::Phase::Waiting;
   return waits ? state.exchange.request_end + state.request.timeout : kNever;
 }
-
-/// Why the answer to a request cannot be taken: `damage` of its characters, or, to a Modbus RTU request, that it is none.
-/// What another protocol makes of it is not known. Empty if nothing is wrong; an exception is an answer.
-std::string wrong_with(std::span<const std::uint8_t> request, std::span<const std::uint8_t> answer, std::string_view damage);
 
 }  // namespace s7200::tools

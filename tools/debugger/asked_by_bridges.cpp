@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "tools/debugger/line_times.hpp"
+#include "tools/session/past/line_times.hpp"
 #include "tools/views/broadcast.hpp"
 
 namespace s7200::tools {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/debugger/line_times.hpp"
+#include "tools/session/past/line_times.hpp"
 
 namespace s7200::tools {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/base/bytes.hpp"
-#include "tools/debugger/expression.hpp"
+#include "tools/session/causes/expression.hpp"
 
 namespace s7200::tools {
 

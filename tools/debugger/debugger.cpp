@@ -10,11 +10,12 @@
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
-#include "tools/debugger/past_words.hpp"
+#include "tools/debugger/goals.hpp"
 #include "tools/debugger/trace_of_past.hpp"
-#include "tools/debugger/two_masters.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/session/causes/two_masters.hpp"
+#include "tools/session/past/past_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -23,6 +24,8 @@
 namespace s7200::tools {
 namespace {
 
+constexpr std::string_view kBlanks = " \t\r";
+
 /// Where the character at `place` ends, or the quotation that begins a word there.
 std::size_t end_of_piece(std::string_view text, std::size_t place) {
   const bool begins_a_word = place == 0 || stl::is_blank(text[place - 1]);
@@ -30,9 +33,19 @@ std::size_t end_of_piece(std::string_view text, std::size_t place) {
   return quotation == std::string_view::npos ? text.size() : place + std::max<std::size_t>(quotation, 1);
 }
 
+/// `//` begins one in front of any word, `#` only at the beginning of a line: #name is a variable of a block. `# ` is none
+/// of those.
+bool begins_comment(std::string_view line, std::size_t place) {
+  if (place > 0 && !stl::is_blank(line[place - 1])) return false;
+  if (line.substr(place).starts_with("//")) return true;
+  const bool first = line.substr(0, place).find_first_not_of(kBlanks) == std::string_view::npos;
+  const bool alone = place + 1 == line.size() || stl::is_blank(line[place + 1]);
+  return line[place] == '#' && (first || alone);
+}
+
 std::string_view without_comment(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); i = end_of_piece(line, i))
-    if (line[i] == '#' && (i == 0 || stl::is_blank(line[i - 1]))) return line.substr(0, i);
+    if (begins_comment(line, i)) return line.substr(0, i);
   return line;
 }
 
@@ -45,8 +58,6 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
   }
   return parts;
 }
-
-constexpr std::string_view kBlanks = " \t\r";
 
 /// Those of a line, which `;` separates; none of a comment.
 std::vector<std::string> commands_in(std::string_view line) {
@@ -88,6 +99,7 @@ Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostrea
       options_(options),
       history_(stations, settings_of(options, [this] { show_progress(); })),
       stepper_(history_, options.stop_request) {
+  stepper_.pause_when(&pause_asked_);
   for (serial::Simulation* const station : stations) stations_.emplace_back(*station);
   for (const DebuggedStation& station : options_.stations) name_width_ = std::max(name_width_, station.name.size());
   for (const LineStation& station : history_.line_stations()) name_width_ = std::max(name_width_, station.name.size());
@@ -100,6 +112,12 @@ Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostrea
   stepper_.on_message = [this](const StopPoint& stop, const Hit& hit) { print_message(stop, hit); };
   stepper_.on_answer = [this](std::size_t station, const serial::Exchange& exchange) { print_answer(station, exchange); };
   stepper_.on_unasked = [this](const SentByPlc& sent) { print_unasked(sent); };
+}
+
+bool Debugger::open(Recording recording, const Moment& at) {
+  if (!history_.replay(std::move(recording))) return false;
+  history_.go_to(at);
+  return true;
 }
 
 Debugger::Error Debugger::execute(std::string_view line) {
@@ -135,6 +153,8 @@ Debugger::Error Debugger::execute_one(std::string_view text) {
   const Command* command = find_command(arguments.front(), why);
   if (!command) return why;
   arguments.erase(arguments.begin());
+  if (command->run != &Debugger::set_break)  // its condition is about the routine of its place
+    if (Error error = with_local_variables(arguments, current_op())) return error;
   command_ = std::string(command->name) + (arguments.empty() ? "" : " ") + joined(arguments);
   repeatable_ = command->repeats ? command_ : "";
   return (this->*command->run)(arguments);
@@ -142,6 +162,7 @@ Debugger::Error Debugger::execute_one(std::string_view text) {
 
 /// Once a second; the view, which shows it too, while a run goes on.
 void Debugger::show_progress() {
+  if (is_typed_to_ && !typed_ && (typed_ = layout_.typed())) pause_asked_ = true;
   if (live_status_ && layout_.refresh) layout_.refresh();
   if (host_time() < progress_at_ || is_in_view()) return;
   progress_at_ = host_time() + std::min(options_.patience, kSecond);
@@ -194,14 +215,45 @@ void Debugger::go(const Run& run) {
   first_error_.reset();
   unasked_ = 0;
   const std::uint64_t errors_before = errors_of_all();
-  const Time now = history_.now().time, end = now < kNever - run.limit ? now + run.limit : kNever;
   begin_live_status();
   let_traces_follow();
-  const Stop stop = at_length([&] { return stepper_.run(run.goal, end, run.stop_at_answer); });
+  const auto stop = at_length([&] { return run_through(run); });
   live_status_.reset();
   write_trace(kNever);
-  look_at(stop.station);
-  report(stop, run, errors_of_all() - errors_before);
+  if (!stop) return;
+  look_at(stop->station);
+  report(*stop, run, errors_of_all() - errors_before);
+  if (typed_) carry_out_typed();  // the run has ended meanwhile
+}
+
+/// To its end, with what is typed meanwhile. Nothing after a typed command that has moved it, which has said where it stands.
+std::optional<Stop> Debugger::run_through(const Run& run) {
+  const Time now = history_.now().time, end = now < kNever - run.limit ? now + run.limit : kNever;
+  is_typed_to_ = run.of_all && layout_.typed && options_.history.drive;
+  Stop stop = stepper_.run(run.goal, end, run.stop_at_answer);
+  while (stop.reason == StopReason::Request && typed_) {
+    if (!carry_out_typed()) return is_typed_to_ = false, std::nullopt;
+    stop = stepper_.run(run.goal, end, run.stop_at_answer);
+  }
+  is_typed_to_ = false;
+  if (stop.reason != StopReason::Limit || !run.to_scan_end || !simulation().plc().executes()) return stop;
+  return stepper_.run(goal::scan(simulation().cpu().state(), 1), kNever, run.stop_at_answer);
+}
+
+/// What was typed while a run goes on. Returns whether the run is to go on: not after a command that has moved it.
+bool Debugger::carry_out_typed() {
+  const std::string line = std::exchange(typed_, {}).value();
+  pause_asked_ = false;
+  hide_progress();
+  const History::Place place = history_.here();
+  const std::string command = command_, repeatable = repeatable_;
+  if (const Error error = execute_line(line)) out_ << red(stl::printable(*error)) << '\n';
+  out_.flush();
+  command_ = command;
+  repeatable_ = repeatable;
+  const History::Place here = history_.here();
+  return !quit_asked_ && here.branch == place.branch && here.moment.instructions == place.moment.instructions &&
+         here.moment.time == place.moment.time;
 }
 
 /// There is nothing to step through, and what can be done.
@@ -304,8 +356,9 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
     case StopReason::Answer:
       return;
     case StopReason::Limit:
-      out_ << fmt::format("{} of simulated time passed with nothing to stop for{}\n", format_duration(run.limit),
-                          run.limit == kDefaultLimit ? " (the limit; 'continue TIME' sets another)" : "");
+      out_ << fmt::format("{} of simulated time passed with nothing to stop for{}{}\n", format_duration(run.limit),
+                          run.limit == kDefaultLimit ? " (the limit; 'continue TIME' sets another)" : "",
+                          within_scan_text(run));
       return;
     case StopReason::Request: {
       const std::string failure = options_.take_failure();
@@ -320,6 +373,14 @@ void Debugger::report_reason(const Stop& stop, const Run& run) {
       report_uncounted();
       return;
   }
+}
+
+/// Outputs and what the program has computed are those of a scan that is not over.
+std::string Debugger::within_scan_text(const Run& run) const {
+  const State& state = simulation().cpu().state();
+  const bool is_within = run.of_all && simulation().plc().executes() && standing_at(state).value_or(0) != 0;
+  if (!is_within) return {};
+  return fmt::format("; it stands within a scan, to whose end 'continue {} scan' would go", format_duration(run.limit));
 }
 
 void Debugger::report_cpu_stop() {

@@ -20,17 +20,17 @@
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/debugger/access.hpp"
-#include "tools/debugger/history.hpp"
-#include "tools/debugger/last_decision.hpp"
 #include "tools/debugger/last_executions.hpp"
 #include "tools/debugger/print_forms.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/stepper.hpp"
 #include "tools/debugger/words.hpp"
-#include "tools/debugger/writer.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/written_files.hpp"
+#include "tools/session/causes/last_decision.hpp"
+#include "tools/session/causes/writer.hpp"
+#include "tools/session/past/access.hpp"
+#include "tools/session/past/history.hpp"
 #include "tools/views/listing.hpp"
 
 namespace s7200::tools {
@@ -83,11 +83,14 @@ class Debugger {
   /// The same of a system, seen from each of its PLCs, in their order.
   Debugger(const std::vector<serial::Simulation*>& stations, std::ostream& out, const DebuggerOptions& options);
 
+  /// Runs a recording instead of what has run, and goes to a moment of it. False if it does not come to its end here.
+  bool open(Recording recording, const Moment& at);
+
   /// Where it stands, and what is displayed.
   void show_place();
 
-  /// One line: commands separated by `;`, a comment after `#`. Ends with the first wrong one. After a stop request the rest
-  /// is not done, which is said.
+  /// One line: commands separated by `;`, a comment after `//`, or after `#` at its beginning. Ends with the first wrong
+  /// one. After a stop request the rest is not done, which is said.
   Error execute(std::string_view line);
 
   /// Executes line by line, each command echoed after the prompt, to the first wrong one, to `quit`, to a stop request or
@@ -102,11 +105,13 @@ class Debugger {
   };
   Offers completions(std::string_view line) const;
 
-  /// Who shows view() steadily. Without it there is no layout.
+  /// Who shows view() steadily, and hears what is typed while a run goes on. Without it there is neither.
   struct Layout {
     std::function<Error(bool on)> turn{};  ///< switches it on or off, and returns why that cannot be
     std::function<bool()> shown{};
     std::function<void()> refresh{};  ///< called often while a run goes on
+    /// A line that was typed while a run goes on; nothing if there is none. Asked often, while it follows the clock.
+    std::function<std::optional<std::string>()> typed{};
   };
   void set_layout(Layout layout) { layout_ = std::move(layout); }
 
@@ -181,9 +186,12 @@ class Debugger {
     Time limit = kDefaultLimit;  ///< from now on
     bool stop_at_answer = false;
     Show show = Show::None;
-    bool of_all = false;  ///< of all stations, and not of the one that it looks at
+    bool of_all = false;       ///< of all stations, and not of the one that it looks at
+    bool to_scan_end = false;  ///< after the limit it goes on to the end of the scan
   };
   void go(const Run& run);
+  std::optional<Stop> run_through(const Run& run);
+  bool carry_out_typed();
   void go_back(const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
   void act(Action action) { act(std::move(action), focus()); }
   void act(Action action, std::size_t station);
@@ -194,6 +202,7 @@ class Debugger {
   void note_the_past();
   void report(const Stop& stop, const Run& run, std::uint64_t errors);
   void report_reason(const Stop& stop, const Run& run);
+  std::string within_scan_text(const Run& run) const;
   void report_cpu_stop();
   void report_standstill();
   void print_answer(std::size_t station, const serial::Exchange& exchange);
@@ -270,6 +279,9 @@ class Debugger {
   std::optional<Named> find_range(const std::string& text, std::string& why);
   Error ranges_of(const Arguments& arguments, std::string_view command, std::vector<Named>& ranges);
 
+  // The variables of blocks (debugger_local_variables.cpp).
+  Error with_local_variables(Arguments& words, std::optional<std::uint32_t> op);
+
   // What a word may become (debugger_completion.cpp).
   static Arguments command_names();
   Arguments words_after(const Command& command, const Arguments& given, std::string_view last) const;
@@ -289,6 +301,7 @@ class Debugger {
   void report_breakpoint(const Hit& hit);
   std::string asked_by(const Hit& hit) const;
   void report_access(const Hit& hit);
+  void report_changer(const Hit& hit);
   void report_uncounted();
   void print_message(const StopPoint& stop, const Hit& hit);
   static std::string value_of(const Cpu& cpu, const MemoryRange& range);
@@ -324,6 +337,7 @@ class Debugger {
   // Memory and expressions (debugger_print.cpp).
   Error print(const Arguments& arguments);
   Error expect(const Arguments& arguments);
+  void note_looked_at(const Place& place);
   void print_place(const Place& place, const std::string& name, const PrintForm* form);
   void print_bad_pointer(const std::string& name, const MemoryRange& pointer);
   void print_bad_pointers(std::uint32_t op);
@@ -370,6 +384,7 @@ class Debugger {
   std::optional<serial::Exchange> last_exchange() const;
   std::string requests_under_way();
   SessionRecord::Station record_of(std::size_t station) const;
+  std::vector<SessionRecord::LookedAt> looked_at_here();
   std::optional<std::size_t> station_at_host(std::size_t host) const;
 
   struct Kept {
@@ -382,6 +397,14 @@ class Debugger {
   struct Displayed {
     std::size_t station = 0;
     MemoryRange range{};
+  };
+
+  /// Memory that was printed or expected.
+  struct LookedAt {
+    std::size_t station = 0;
+    Moment moment;
+    MemoryRange range{};
+    std::vector<std::uint8_t> bytes{};
   };
 
   /// A run-time error of a station.
@@ -399,6 +422,7 @@ class Debugger {
   std::vector<TraceLine> trace_waiting_;  ///< of a system: others may come before them
   std::deque<Kept> kept_;                 ///< newest last
   std::vector<Displayed> displayed_;
+  std::vector<LookedAt> looked_at_;          ///< since the last power-up, on whatever branch
   std::optional<StationError> first_error_;  ///< of the run under way
   Show show_ = Show::None;
   std::size_t unasked_ = 0;  ///< transmissions of the run under way
@@ -414,6 +438,9 @@ class Debugger {
   Time progress_at_ = kNever;  ///< of the host: when progress is shown next
   bool progress_shown_ = false;
   Layout layout_{};
+  bool is_typed_to_ = false;               ///< a run goes on that follows the clock: what is typed is carried out
+  std::optional<std::string> typed_{};     ///< a line that waits for that
+  std::atomic<bool> pause_asked_ = false;  ///< the run is to stand still for it
 
   /// What is in view while a run goes on.
   struct LiveStatus {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "interpreter/base/nearest.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
@@ -14,8 +15,10 @@
 #include "tools/debugger/frame_words.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/line_words.hpp"
+#include "tools/debugger/mode_words.hpp"
 #include "tools/debugger/stop_words.hpp"
-#include "tools/debugger/two_masters.hpp"
+#include "tools/session/causes/two_masters.hpp"
+#include "tools/session/past/past_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -27,7 +30,7 @@ namespace {
 constexpr std::size_t kListed = 15, kListedBefore = 6;
 
 constexpr std::string_view kAboutCommands =
-    R"(A name may be cut short while it stays clear. ';' separates commands, '#' begins a comment.
+    R"(A name may be cut short while it stays clear. ';' separates commands, '//' begins a comment, '#' at the start of a line too.
 On a terminal an empty line repeats the last step or run, forwards or backwards; the tab key completes commands, addresses,
 places and files.
 Examples:
@@ -74,10 +77,13 @@ time. For example: break INT 123; continue; step 5.)",
        Takes::Nothing, true, "begins ends"},
       {"scan", "n", "scan [n]", "run to the start of the next scan's program, or of the nth",
        "For example: input I0.3=1; scan 2; print Q0.0.", &Debugger::scan, Takes::Nothing, true},
-      {"continue", "c", "continue [TIME]", "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
+      {"continue", "c", "continue [TIME] [scan]",
+       "run until a breakpoint, a watch, an answer, STOP, or TIME has passed (10 s)",
        R"(TIME is simulated, in ns, us, ms, s, min or h: 250ms, 1.5s, 20min. The run ends before the first instruction after
-that time. Ctrl-C stops it too.)",
-       &Debugger::continue_run, Takes::Nothing, true},
+that time, which is mostly within a scan; with 'scan' it goes on to the end of that scan, where the outputs are written.
+Ctrl-C stops it too. With a bridge, --realtime or --speed commands may be typed while it runs: they are carried out at
+once, and the run goes on after set, force, print and all others that do not move it.)",
+       &Debugger::continue_run, Takes::Nothing, true, "scan"},
       {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n", "run to a place", "", &Debugger::until, Takes::Places,
        true},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
@@ -153,8 +159,8 @@ more than a week of simulated time, which is run again.)",
        &Debugger::load, Takes::Sessions},
       {"restart", "", "restart", "power up again; breakpoints, watches and displays are kept",
        "A new branch: back takes it back.", &Debugger::restart},
-      {"break", "b", "break [PLACE | WHAT] [always] [if CONDITION] [hits N] [log 'TEXT']",
-       "stop at a place or when something happens; alone: list",
+      {"break", "b", "break [PLACE | WHAT | CONDITION] [always] [if CONDITION] [hits N] [log 'TEXT']",
+       "stop at a place, when something happens, or when a condition comes to hold; alone: list",
        R"(PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has
 one; boxes and coils stop only with power flow, or 'always'.
 WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a
@@ -163,7 +169,8 @@ cannot take: wrong parity or CRC, cut short, of another station or function; an 
 polling masters use their own time-outs. A request from a bridge, or from a PLC (Modbus RTU, one XMT each), counts as
 unanswered if nothing is sent within --timeout or before the next request. PPI requests are not covered. To a request
 that is not Modbus RTU an answer is wrong if its characters are damaged.
-CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7; a constant that an operand can never be is refused.
+CONDITION in STL terms: break 40 if VW3300 > 8 and M31.7; a constant that an operand can never be is refused. Without a
+place, break VW0 > 3, the run stops after the instruction that makes it hold.
 hits N stops from the Nth time on since it was set: moments before that do not count when 'back' or 'at' lead there.
 log prints a line and goes on: break INT 123 log '{SMB2} at {time}'; also {scan} {line} {event}.)",
        &Debugger::set_break, Takes::Break},
@@ -189,7 +196,9 @@ they were set at. What stops at another station goes over to it.)",
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", &Debugger::registers},
       {"record", "", "record FILE.yaml [!]", "write this session, up to now, as a scenario that 's7200 test' replays",
        R"(Frames, those that came over a bridge too, memory and inputs that were set, what was forced, modes, faults of the line
-and power cycles, each at its time, and the answers that came. Displayed memory is expected to have its values at the end.
+and power cycles, each at its time, and the answers that came, which may come up to 5 ms earlier or later ('tolerance'). What
+was printed or expected is expected again where it was, and what is displayed at the end. A session without any of these
+is refused: it would test nothing.
 What no scenario can do is left out, and said: something set or sent while a frame or its answer was under way, a request
 given up within its answer, 'goto' and the logic stack of an editor. 'power all' of a system, and a session with --memory,
 cannot be recorded. A file that exists is replaced if ! follows its name.)",
@@ -261,7 +270,11 @@ const Debugger::Command* Debugger::find_command(std::string_view word, std::stri
   }
   if (found.size() == 1) return found[0];
   if (found.empty()) {
-    why = fmt::format("unknown command '{}'; 'help' lists them", stl::shortened(word));
+    std::vector<std::string_view> names;
+    for (const Command& command : commands()) names.push_back(command.name);
+    const std::string_view meant = nearest(name, names);
+    why = meant.empty() ? fmt::format("unknown command '{}'; 'help' lists them", stl::shortened(word))
+                        : fmt::format("unknown command '{}'; did you mean {}?", stl::shortened(word), meant);
     return nullptr;
   }
   why = fmt::format("'{}' may be", stl::shortened(word));
@@ -318,10 +331,15 @@ Debugger::Error Debugger::scan(const Arguments& arguments) {
 
 Debugger::Error Debugger::continue_run(const Arguments& arguments) {
   Run run{.goal = goal::none(), .stop_at_answer = true, .of_all = true};
-  if (!arguments.empty()) {
-    const auto time = parse_duration(joined(arguments));
+  Arguments words = arguments;
+  run.to_scan_end = !words.empty() && stl::lower_case(words.back()) == "scan";
+  if (run.to_scan_end) words.pop_back();
+  if (!words.empty()) {
+    const auto time = parse_duration(joined(words));
     if (!time || *time == 0)
-      return expects("continue", fmt::format("a duration above 0 in {}, for example: continue 250ms", kTimeUnits));
+      return expects("continue", fmt::format("a duration above 0 in {}, and scan if it is to go on to the end of the scan, "
+                                             "for example: continue 250ms, continue 1s scan",
+                                             kTimeUnits));
     run.limit = *time;
   }
   go(run);

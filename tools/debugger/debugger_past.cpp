@@ -11,10 +11,10 @@
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/goals.hpp"
 #include "tools/debugger/last_instructions.hpp"
-#include "tools/debugger/past_words.hpp"
 #include "tools/debugger/timeline_of_past.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/session/past/past_words.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 
@@ -266,6 +266,7 @@ Debugger::Error Debugger::restart(const Arguments& arguments) {
   if (!arguments.empty()) return no_argument("restart");
   remember();
   history_.restart();
+  looked_at_.clear();
   note_new_branch();
   note_going_elsewhere();
   show_place();

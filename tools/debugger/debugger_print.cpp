@@ -99,6 +99,13 @@ std::string Debugger::name_of(const MemoryRange& range, std::string_view written
   return fmt::format("{} ({})", range.name_of(0), stl::printable(symbol->name));
 }
 
+/// A test of this session expects it to be so again.
+void Debugger::note_looked_at(const Place& place) {
+  const Cpu& cpu = simulation().cpu();
+  if (const auto range = range_now(place, cpu))
+    looked_at_.push_back({focus(), history_.now(), *range, range->bytes_in(cpu.state().image)});
+}
+
 void Debugger::print_place(const Place& place, const std::string& name, const PrintForm* form) {
   const Cpu& cpu = simulation().cpu();
   const auto range = range_now(place, cpu);
@@ -106,6 +113,7 @@ void Debugger::print_place(const Place& place, const std::string& name, const Pr
     print_bad_pointer(name, place.range);
     return;
   }
+  note_looked_at(place);
   if (place.pointer) out_ << fmt::format("{} is {}\n", name, range->name_of(0));
   out_ << range_text(cpu, *range, form);
   if (const std::string forced = forced_text(simulation().cpu(), {bits_of(*range)}); !forced.empty())
@@ -140,6 +148,7 @@ Debugger::Error Debugger::print(const Arguments& arguments) {
   std::string why_no_expression;
   const auto expression = Expression::parse(joined(words), program, why_no_expression);
   if (!expression) return has_operator(words) ? why_no_expression : why;
+  for (const Place& place : expression->places()) note_looked_at(place);
   const auto value = expression->value(simulation().cpu(), why);
   out_ << fmt::format("{} {}\n", stl::printable(expression->text()),
                       value ? "= " + number_text(*value, form) : "cannot be computed: " + why);
@@ -152,6 +161,7 @@ Debugger::Error Debugger::expect(const Arguments& arguments) {
   const auto expression = Expression::parse(joined(arguments), simulation().cpu().program(), why);
   if (!expression) return why;
   const auto value = expression->value(simulation().cpu(), why);
+  for (const Place& place : expression->places()) note_looked_at(place);
   if (value && value->truth()) return {};
   expectation_failed_ = true;
   std::string found = expression->places_text(simulation().cpu());

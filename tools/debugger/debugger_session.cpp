@@ -8,11 +8,11 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/debugger/debugger.hpp"
-#include "tools/debugger/digest.hpp"
-#include "tools/debugger/past_words.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/session/past/digest.hpp"
+#include "tools/session/past/past_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/text_frame.hpp"
 
@@ -147,6 +147,7 @@ Debugger::Error Debugger::load(const Arguments& arguments) {
   }
   if (kept_.size() == kKeptStates) kept_.pop_front();
   kept_.push_back({command_, place, focus()});
+  looked_at_.clear();
   note_new_branch();
   note_going_elsewhere();
   if (const std::size_t added = add_loaded(*stops))
@@ -163,6 +164,24 @@ SessionRecord::Station Debugger::record_of(std::size_t number) const {
   for (const auto& [station, range] : displayed_)
     for (std::uint32_t i = 0; i < range.count && station == number; ++i) record.memory.push_back(object_of(state, range, i));
   return record;
+}
+
+/// What was printed or expected on the way to where it stands, as far as it is so there still.
+std::vector<SessionRecord::LookedAt> Debugger::looked_at_here() {
+  const Moment here = history_.now();
+  std::vector<SessionRecord::LookedAt> all;
+  for (const auto& [station, moment, range, bytes] : looked_at_) {
+    if (moment > here) continue;
+    history_.go_to(moment);
+    const State& state = stations_[station].simulation->cpu().state();
+    if (history_.now() != moment || range.bytes_in(state.image) != bytes) continue;
+    SessionRecord::LookedAt one{.station = station, .at = moment.time, .memory = {}};
+    for (std::uint32_t i = 0; i < range.count; ++i) one.memory.push_back(object_of(state, range, i));
+    all.push_back(std::move(one));
+  }
+  history_.go_to(here);
+  std::ranges::stable_sort(all, {}, &SessionRecord::LookedAt::at);
+  return all;
 }
 
 std::optional<std::size_t> Debugger::station_at_host(std::size_t host) const {
@@ -188,6 +207,7 @@ Debugger::Error Debugger::record(const Arguments& arguments) {
   if (!record.session.complete) return "cannot record: " + oldest_text(history_);
   for (std::size_t number = 0; number < stations_.size(); ++number) record.stations.push_back(record_of(number));
   record.last = last_exchange();
+  record.looked_at = looked_at_here();
   const auto left_out = options_.write_scenario(record, *to, why);
   if (!left_out) return fmt::format("cannot record this session: {}", why);
   for (const std::string& what : *left_out) out_ << fmt::format("left out: {}\n", what);
@@ -256,6 +276,7 @@ Debugger::Error Debugger::power(const Arguments& arguments) {
   const std::string requests = requests_under_way();
   remember();
   history_.power_cycle(lost, *off);
+  looked_at_.clear();
   out_ << fmt::format("power was off{}: {}\n", *off == 0 ? "" : " for " + format_duration(*off),
                       lost ? "the EEPROM is left, RAM and clock are lost" : "retentive memory, EEPROM and clock are kept");
   if (!requests.empty())

@@ -11,8 +11,8 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/stop_words.hpp"
-#include "tools/debugger/two_masters.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/session/causes/two_masters.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
@@ -110,7 +110,7 @@ const AccessWord* take_access(Words& words) {
 std::string options_text(const StopPoint& stop) {
   std::string text;
   if (stop.on == On::Place && !stop.needs_power) text += ", always";
-  if (stop.condition) text += fmt::format(", if {}", stl::printable(stop.condition->text()));
+  if (stop.condition && stop.on != On::Becomes) text += fmt::format(", if {}", stl::printable(stop.condition->text()));
   if (stop.from_hit > 1) text += fmt::format(", from hit {}", stop.from_hit);
   if (!stop.log.empty()) text += fmt::format(", logs '{}'", stl::printable(stop.log));
   return text;
@@ -119,7 +119,7 @@ std::string options_text(const StopPoint& stop) {
 /// As they are written: ` if VW2 > 8 hits 4`.
 std::string option_words(const StopPoint& stop) {
   std::string text;
-  if (stop.condition) text += fmt::format(" if {}", stl::printable(stop.condition->text()));
+  if (stop.condition && stop.on != On::Becomes) text += fmt::format(" if {}", stl::printable(stop.condition->text()));
   if (stop.from_hit > 1) text += fmt::format(" hits {}", stop.from_hit);
   if (!stop.log.empty()) text += fmt::format(" log '{}'", stl::printable(stop.log));
   return text;
@@ -140,10 +140,14 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
     return {};
   }
   Words words = arguments;
-  const Words place = take_words(words);
+  Words place = take_words(words);
   std::string why;
   if (place.empty()) return expects("break", "a place or what happens first, for example: break 40 if VW2 > 8");
+  if (Error error = with_local_variables(place, current_op())) return error;
   auto stop = stop_of(place, why);
+  if (stop)
+    if (Error error = with_local_variables(words, stop->on == On::Place ? std::optional(stop->op) : current_op()))
+      return error;
   if (!stop || !read_options(words, simulation().cpu().program(), *stop, why)) return why;
   const std::vector<SetStop>& all = stepper_.stops();
   const auto is_the_same = [&](const StopPoint& s) {
@@ -158,7 +162,10 @@ Debugger::Error Debugger::set_break(const Arguments& arguments) {
   stop->number = next_number_++;
   stop->station = focus();
   out_ << fmt::format("breakpoint {} {}{}\n", stop->number,
-                      stop->on == On::Place ? "in " + op_text(stop->op) : "at " + stop->name, options_text(*stop));
+                      stop->on == On::Place ? "in " + op_text(stop->op) : "at " + stl::printable(stop->name),
+                      options_text(*stop));
+  if (stop->on == On::Becomes && stop->condition->value(simulation().cpu(), why).value_or(Value{}).truth())
+    out_ << "  it holds now: the run stops when it comes to hold again\n";
   stepper_.add(std::move(*stop));
   return {};
 }
@@ -250,7 +257,7 @@ SessionFile::SavedStop saved(const StopPoint& stop) {
           .on = stop.is_watch() ? address_of(*stop.range) : stop.name,
           .access = stop.is_watch() ? std::string(access->word) : "",
           .always = stop.on == On::Place && !stop.needs_power,
-          .condition = stop.condition ? stop.condition->text() : "",
+          .condition = stop.condition && stop.on != On::Becomes ? stop.condition->text() : "",
           .from_hit = stop.from_hit,
           .log = stop.log};
 }
@@ -343,6 +350,9 @@ void Debugger::report_breakpoint(const Hit& hit) {
                                                 : fmt::format(", hit {} times", hit.stop.hits);
   const std::string name = hit.stop.on == On::Place ? "" : ", " + hit.stop.name;
   out_ << said_of(hit.stop.station) << bold(fmt::format("breakpoint {}{}{}", hit.stop.number, name, hits)) << '\n';
+  if (const std::string values = values_text(hit, stations_[hit.stop.station].simulation->cpu()); !values.empty())
+    out_ << fmt::format("  {}\n", values);
+  if (hit.stop.on == On::Becomes) report_changer(hit);
   if (hit.record) out_ << fmt::format("  {}  {}\n", moment_text(hit.record->at), describe(*hit.record, program));
   if (!hit.frame.empty()) out_ << fmt::format("  {}{}\n", serial::to_hex(hit.frame), asked_by(hit));
   if (!hit.wrong.empty()) out_ << fmt::format("  {}\n", wrong_answer_text(hit));
@@ -359,15 +369,23 @@ std::string Debugger::asked_by(const Hit& hit) const {
 
 void Debugger::report_access(const Hit& hit) {
   const Station& station = stations_[hit.stop.station];
-  const Cpu& cpu = station.simulation->cpu();
-  const Program& program = cpu.program();
+  const Program& program = station.simulation->cpu().program();
   out_ << said_of(hit.stop.station) << bold(fmt::format("watch {}: {}", hit.stop.number, value_text(hit, program))) << '\n';
-  if (hit.by)
+  report_changer(hit);
+}
+
+/// The instruction, or who else has changed memory.
+void Debugger::report_changer(const Hit& hit) {
+  const Station& station = stations_[hit.stop.station];
+  const Cpu& cpu = station.simulation->cpu();
+  if (hit.by) {
     out_ << fmt::format("  by {} {}\n", station.listing.routine_of(hit.by->op),
-                        execution_text(execution_of(*hit.by, cpu), program));
-  else
-    out_ << "  by " << changer_text(history_, hit.action, hit.planned)
-         << (hit.action || hit.planned ? "" : forced_text(cpu, {bits_of(*hit.stop.range)})) << '\n';
+                        execution_text(execution_of(*hit.by, cpu), cpu.program()));
+    return;
+  }
+  const bool by_system = !hit.action && !hit.planned && hit.stop.range;
+  out_ << "  by " << changer_text(history_, hit.action, hit.planned)
+       << (by_system ? forced_text(cpu, {bits_of(*hit.stop.range)}) : "") << '\n';
 }
 
 void Debugger::print_message(const StopPoint& stop, const Hit& hit) {

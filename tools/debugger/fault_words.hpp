@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 

@@ -10,8 +10,8 @@
 #include "interpreter/cpu/forcing.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/special_memory.hpp"
-#include "tools/debugger/access.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/session/past/access.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tools/debugger/reader.hpp"
+#include "tools/session/past/reader.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <map>
 
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 #include "tools/views/execution_text.hpp"
 
 namespace s7200::tools {

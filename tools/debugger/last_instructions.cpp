@@ -1,6 +1,6 @@
 #include "tools/debugger/last_instructions.hpp"
 
-#include "tools/debugger/reader.hpp"
+#include "tools/session/past/reader.hpp"
 
 namespace s7200::tools {
 namespace {

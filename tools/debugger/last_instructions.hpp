@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 #include "tools/views/execution_text.hpp"
 
 namespace s7200::tools {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "serial_sim/peers/requester.hpp"
-#include "tools/debugger/action.hpp"
+#include "tools/session/past/action.hpp"
 
 namespace s7200::tools {
 

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "interpreter/base/text.hpp"
-#include "tools/debugger/expression.hpp"
+#include "tools/session/causes/expression.hpp"
 
 namespace s7200::tools {
 namespace {

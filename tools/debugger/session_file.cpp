@@ -11,9 +11,9 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/cpu/forcing.hpp"
 #include "serial_sim/line/frame.hpp"
-#include "tools/debugger/digest.hpp"
 #include "tools/json/json.hpp"
 #include "tools/rig/memory_file.hpp"
+#include "tools/session/past/digest.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {

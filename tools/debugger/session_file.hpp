@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 
@@ -38,7 +38,15 @@ struct SessionRecord {
     std::uint16_t fatal_code = 0;
   };
 
+  /// Memory that was printed or expected, at its time.
+  struct LookedAt {
+    std::size_t station = 0;
+    Time at = 0;
+    std::vector<Assignment> memory{};
+  };
+
   Recording session;                                        ///< up to its `now`
+  std::vector<LookedAt> looked_at{};                        ///< in their order
   std::vector<Station> stations;                            ///< all
   std::vector<std::optional<std::size_t>> host_stations{};  ///< by host port, one on its line; nothing if there is none
   std::optional<serial::Exchange> last{};                   ///< if it is over

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "interpreter/program/networks.hpp"
-#include "tools/debugger/access.hpp"
+#include "tools/session/past/access.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -201,15 +201,19 @@ void Stepper::begin_watching() {
 /// What comes from outside ends a row of such scans by itself. A time that has come is looked for here.
 bool Stepper::wants_scans() const {
   if (history_.stations() > 1) return true;  // a CPU in step never runs a whole one at once
-  const auto is_within_a_scan = [](const StopPoint& stop) { return stop.on == On::Place || stop.is_watch(); };
+  const auto is_within_a_scan = [](const StopPoint& stop) {
+    return stop.on == On::Place || stop.on == On::Becomes || stop.is_watch();
+  };
   const bool waits = requests_.has_patient_one() || frames_.next_end() != kNever;
   const bool ends = station(0).time() >= limit_;
   return goal_ || backwards_ || waits || ends || std::ranges::any_of(stops_, is_within_a_scan);
 }
 
 void Stepper::read_values() {
-  for (StopPoint& stop : stops_)
+  for (StopPoint& stop : stops_) {
     if (stop.range) stop.value = stop.range->bytes_in(station(stop.station).cpu().state().image);
+    if (stop.on == On::Becomes) stop.held = holds(stop);
+  }
 }
 
 /// What has come up until now is not what the action does. A bridge acts between any two events, where no run stops.
@@ -310,7 +314,11 @@ void Stepper::planned_done(std::size_t number) {
 
 /// They are no hits that count: only what the CPU does is.
 void Stepper::note_changes_from_outside() {
-  for (StopPoint& stop : stops_) {
+  for (SetStop& stop : stops_) {
+    if (stop.on == On::Becomes && has_come_to_hold(stop) && stop.from_hit == 1) {
+      if (!stop.log.empty() && !backwards_) on_message(stop, {});
+      if (stop.log.empty()) stop_.hits.push_back({.stop = stop, .action = history_.now().actions - 1});
+    }
     if (!stop.range) continue;
     std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);
     const bool meant = value != stop.value && stop.on != On::Read && stop.from_hit == 1 && holds(stop);
@@ -480,6 +488,12 @@ bool Stepper::holds(StopPoint& stop) {
   return value && value->truth();
 }
 
+/// Whether the condition holds since it was last looked at.
+bool Stepper::has_come_to_hold(StopPoint& stop) {
+  const bool held = std::exchange(stop.held, holds(stop));
+  return stop.held && !held;
+}
+
 /// Counts, and stops unless there is a reason not to. It also stops at hits from before the stop was set, unless it waits
 /// for a number.
 void Stepper::hit(SetStop& stop, Hit with) {
@@ -627,6 +641,8 @@ void Stepper::note_changes(std::size_t number, const InstructionRecord* by) {
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     SetStop& stop = stops_[i];
     const bool is_turn = stop.station == number || (!by && !station(stop.station).plc().executes());
+    if (is_turn && stop.on == On::Becomes && has_come_to_hold(stop))
+      hit(stop, {.by = by ? std::optional(*by) : std::nullopt});
     if (!stop.range || !is_turn) continue;
     std::vector<std::uint8_t> value = stop.range->bytes_in(station(stop.station).cpu().state().image);
     const bool changed = value != stop.value;

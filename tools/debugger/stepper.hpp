@@ -15,9 +15,9 @@
 
 #include "interpreter/model/ports.hpp"
 #include "tools/debugger/heard_frames.hpp"
-#include "tools/debugger/history.hpp"
 #include "tools/debugger/open_requests.hpp"
 #include "tools/debugger/stop_point.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 
@@ -41,6 +41,9 @@ class Stepper final : public Observer {
 
   /// `stop_request` may be set from a signal handler; it may be null. Nothing is owned.
   Stepper(History& history, const std::atomic<bool>* stop_request);
+
+  /// Besides the stop request, a run ends as if it had been asked to when this becomes true. Not owned.
+  void pause_when(const std::atomic<bool>* asked) { pause_asked_ = asked; }
 
   /// Which of the stations it looks at, from the next run on; the first one until then.
   void look_at(std::size_t station) { focus_ = station; }
@@ -156,6 +159,7 @@ class Stepper final : public Observer {
   std::optional<Found> found_after_part();
   Moment place_of_first_hit(const Moment& earliest);
   bool holds(StopPoint& stop);
+  bool has_come_to_hold(StopPoint& stop);
   void hit_places(std::uint32_t op);
   void hit(SetStop& stop, Hit with);
   Time time_of(const Hit& hit) const;
@@ -173,10 +177,11 @@ class Stepper final : public Observer {
   void look_at_lines(std::size_t station, Time now);
   void note_ended(const EndedRequest& request);
   bool hears(const StopPoint& stop, std::size_t line) const;
-  bool asked_to_stop() const { return stop_request_ && *stop_request_; }
+  bool asked_to_stop() const { return (stop_request_ && *stop_request_) || (pause_asked_ && *pause_asked_); }
 
   History& history_;
   const std::atomic<bool>* stop_request_;
+  const std::atomic<bool>* pause_asked_ = nullptr;
   std::size_t focus_ = 0;
   std::vector<SetStop> stops_;
 

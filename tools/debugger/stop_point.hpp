@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "interpreter/trace/trace.hpp"
-#include "tools/debugger/expression.hpp"
-#include "tools/debugger/plc_requests.hpp"
+#include "tools/session/causes/expression.hpp"
+#include "tools/session/past/plc_requests.hpp"
 
 namespace s7200::tools {
 
@@ -33,7 +33,8 @@ struct StopPoint {
     Read,         ///< access to memory by an instruction
     Write,
     ReadWrite,  ///< either of them, or a change
-    Change      ///< of memory, whoever did it
+    Change,     ///< of memory, whoever did it
+    Becomes     ///< the condition holds, and did not before, whoever did it
   };
 
   int number = 0;
@@ -57,6 +58,7 @@ struct StopPoint {
   std::uint64_t unknown = 0;             ///< times that its condition could not be computed
   std::string why_unknown{};             ///< the first time
   std::vector<std::uint8_t> value{};     ///< of the memory as last seen, like bytes_of()
+  bool held = false;                     ///< Becomes: the condition, as last seen
   std::optional<std::size_t> planned{};  ///< what of the system file has changed it since, its number in History::planned()
 
   bool is_watch() const { return range.has_value(); }

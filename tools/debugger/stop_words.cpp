@@ -14,6 +14,7 @@
 #include "interpreter/model/ports.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/session/causes/two_masters.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -129,6 +130,29 @@ std::string happenings_text() {
   return text;
 }
 
+bool has_operator(std::string_view text) {
+  return text.find_first_of("<>=") != std::string_view::npos || stl::lower_case(text).starts_with("not ");
+}
+
+/// Of `VW0 > 3`, or a bit alone: it stops when that comes to hold. `why` says of other text what was expected.
+std::optional<StopPoint> becoming_stop(const std::string& text, const Program& program, std::string& why) {
+  std::string no_condition, no_address;
+  const auto address = parse_place(text, program, no_address);
+  if (address && !address->pointer && address->range.width != Width::Bit) {
+    why = fmt::format("break {0}: when? 'watch {0}' stops when it changes, 'break {0} > 3' when that comes to hold",
+                      stl::printable(text));
+    return {};
+  }
+  const auto condition = Expression::parse(text, program, no_condition);
+  const bool has_place = condition && !condition->places().empty();
+  if (has_place) return StopPoint{.on = On::Becomes, .name = text, .condition = condition};
+  if (has_operator(text))
+    why = condition ? fmt::format("break {}: no address is in it, so it never changes", stl::printable(text)) : no_condition;
+  else
+    why += fmt::format("; or what happens: {}; or a condition, for example: break VW0 > 3", happenings_text());
+  return {};
+}
+
 /// Those that are not among the words; none where an option has not got what it needs.
 std::vector<std::string> options_after(const std::vector<std::string>& words, bool of_place) {
   std::vector<std::string> options;
@@ -148,6 +172,8 @@ const StopOption* find_stop_option(std::string_view word) {
 }
 
 std::string refused_option(const StopOption& option, const StopPoint& stop) {
+  if (option.word == "if" && stop.on == On::Becomes)
+    return fmt::format("'{0}' is a condition already: write 'break {0} and …'", stl::printable(stop.name));
   if (!option.for_places_only || stop.on == On::Place) return {};
   return fmt::format("'{}' is for places; what happens has no power flow", option.word);
 }
@@ -197,7 +223,8 @@ std::optional<StopPoint> find_stop(const std::vector<std::string>& words, const 
     if (first == happening.word) return named(happening_stop(happening, words, *program.model, why));
   if (first == "event") return named(event_stop(words, *program.model, why));
   const auto place = find_place(words, program, listing, "break", why);
-  if (!place && !is_word_of_place(first)) why += fmt::format("; or what happens: {}", happenings_text());
+  if (!place && !is_word_of_place(first)) return becoming_stop(joined(words), program, why);
+  if (!place && has_operator(joined(words))) return becoming_stop(joined(words), program, why);  // 40 > VW0
   if (!place) return {};
   note = place->note;
   return named(StopPoint{.on = On::Place, .op = place->op, .needs_power = true});
@@ -230,6 +257,14 @@ std::vector<std::string_view> happening_words() {
 
 std::string wrong_answer_text(const Hit& hit) {
   return hit.answer.empty() ? hit.wrong : fmt::format("answered {}: {}", serial::to_hex(hit.answer), hit.wrong);
+}
+
+std::string not_an_answer_text(const History& history, const Hit& hit) {
+  return hit.asker ? not_an_answer_text(history, *hit.asker, hit.answer) : "";
+}
+
+std::string values_text(const Hit& hit, const Cpu& cpu) {
+  return hit.stop.on == On::Becomes ? hit.stop.condition->places_text(cpu) : "";
 }
 
 std::string value_text(const Hit& hit, const Program& program) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/debugger/stop_point.hpp"
+#include "tools/session/past/history.hpp"
 #include "tools/views/listing.hpp"
 
 namespace s7200::tools {
@@ -66,6 +67,12 @@ std::vector<std::string_view> happening_words();
 
 /// `answered 01 83 02 c0: wrong CRC`, of a hit of WrongAnswer.
 std::string wrong_answer_text(const Hit& hit);
+
+/// Whose request a master that polls has taken for its answer, or who has sent one into it; empty if nobody has.
+std::string not_an_answer_text(const History& history, const Hit& hit);
+
+/// Of a condition that has come to hold: `VW0 is 4`, as the simulation stands. Empty of all else.
+std::string values_text(const Hit& hit, const Cpu& cpu);
 
 /// `VW20 was 1, is 2`, or `VW20 is 2 as before`, of a hit of a watch.
 std::string value_text(const Hit& hit, const Program& program);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "tools/debugger/reader.hpp"
 #include "tools/debugger/trace_of_past.hpp"
+#include "tools/session/past/reader.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 #include "tools/views/timeline.hpp"
 
 namespace s7200::tools {

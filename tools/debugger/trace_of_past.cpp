@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "tools/debugger/last_enable.hpp"
-#include "tools/debugger/reader.hpp"
+#include "tools/session/causes/last_enable.hpp"
+#include "tools/session/past/reader.hpp"
 
 namespace s7200::tools {
 namespace {

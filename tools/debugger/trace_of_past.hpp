@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interpreter/trace/trace_lines.hpp"
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 

@@ -14,12 +14,6 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string list_text(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
-}
-
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> texts;
   bool open = false;

@@ -12,17 +12,11 @@ namespace s7200::tools {
 /// The words with a blank between them.
 std::string joined(const std::vector<std::string>& words);
 
-/// `panel`, `panel and recorder`, `panel, recorder and pump`
-std::string list_text(const std::vector<std::string>& names);
-
 /// `VW100 = 5` is written with or without blanks.
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments);
 
 /// `break expects a line number`
 std::string expects(std::string_view command, std::string_view what);
-
-/// As parse_duration() takes them.
-inline constexpr std::string_view kTimeUnits = "ns, us, ms, s, min or h";
 
 /// `regs takes no argument`
 std::string no_argument(std::string_view command);

@@ -18,9 +18,9 @@ enum class Needs : std::uint8_t {
 };
 
 /// Each kind is a file in steps/.
-class Action {
+class StepAction {
  public:
-  virtual ~Action() = default;
+  virtual ~StepAction() = default;
 
   virtual Needs needs() const { return Needs::Line; }
 

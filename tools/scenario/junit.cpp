@@ -88,6 +88,11 @@ std::string properties_text(const Report& report) {
   return fmt::format("{0}<properties>\n{1}{0}</properties>\n", kInCase, text);
 }
 
+std::string debug_line(const Report& report) {
+  const std::string command = debug_command(report);
+  return command.empty() ? "" : command + '\n';
+}
+
 std::string outcome_xml(const Report& report) {
   const ScenarioResult& result = report.result;
   if (result.outcome == Outcome::Skipped || result.outcome == Outcome::ExpectedFailure)
@@ -99,7 +104,7 @@ std::string outcome_xml(const Report& report) {
                      failed ? fmt::format("failure{}{}", attribute("message", message),
                                           attribute("type", result.findings.front().of_run ? "run" : "expectation"))
                             : "skipped" + attribute("message", "not done as it should be: " + message),
-                     xml(findings_text(report, false, kFindingsShown)), failed ? "failure" : "skipped");
+                     xml(findings_text(report, false, kFindingsShown) + debug_line(report)), failed ? "failure" : "skipped");
 }
 
 std::string case_xml(const Report& report) {
@@ -140,6 +145,53 @@ std::string to_junit(const std::vector<Report>& reports) {
     from = to;
   }
   return text + "</testsuites>\n";
+}
+
+namespace {
+
+/// What kept scenarios from being run, and where it is.
+struct Mistake {
+  std::string file{};
+  stl::Position position{};
+  std::string text{};
+};
+
+std::vector<Mistake> mistakes_in(const Messages& messages) {
+  std::vector<Mistake> all;
+  for (const Message& message : messages) {
+    if (message.kind == Message::Kind::Error) all.push_back({.text = message.text});
+    if (message.kind != Message::Kind::Diagnostics) continue;
+    for (const auto& one : message.diagnostics) {
+      if (one.severity == stl::Severity::Warning) continue;
+      const stl::FileLine place = stl::in_file(*message.source, one.position.line);
+      all.push_back({place.file, {place.line, one.position.column}, one.message});
+    }
+  }
+  return all;
+}
+
+std::string error_xml(const Mistake& mistake) {
+  const bool has_place = !mistake.file.empty();
+  const std::string name = has_place ? fmt::format("line {}", mistake.position.line) : "s7200 test";
+  const std::string place =
+      has_place ? attribute("file", mistake.file) + attribute("line", std::to_string(mistake.position.line)) : "";
+  const std::string where =
+      has_place ? fmt::format("{}:{}:{}: ", mistake.file, mistake.position.line, mistake.position.column) : "";
+  return fmt::format("{0}<testcase{1}{2}{3} time=\"0.000\">\n{4}<error{5} type=\"unusable\">{6}</error>\n{0}</testcase>\n",
+                     kOneCase, attribute("classname", has_place ? class_name(mistake.file) : "s7200"),
+                     attribute("name", name), place, kInCase, attribute("message", mistake.text), xml(where + mistake.text));
+}
+
+}  // namespace
+
+std::string to_junit(const Messages& messages) {
+  const std::vector<Mistake> mistakes = mistakes_in(messages);
+  const std::string totals =
+      fmt::format(" tests=\"{0}\" failures=\"0\" errors=\"{0}\" skipped=\"0\" time=\"0.000\"", mistakes.size());
+  std::string text = fmt::format("{}<testsuites name=\"s7200 test\"{}>\n", kJunitBeginning, totals);
+  text += fmt::format("{}<testsuite name=\"s7200 test\"{}>\n", kOneSuite, totals);
+  for (const Mistake& mistake : mistakes) text += error_xml(mistake);
+  return text + fmt::format("{}</testsuite>\n</testsuites>\n", kOneSuite);
 }
 
 }  // namespace s7200::tools

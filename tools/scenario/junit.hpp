@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/scenario/messages.hpp"
 #include "tools/scenario/report.hpp"
 
 namespace s7200::tools {
@@ -16,5 +17,8 @@ inline constexpr std::string_view kJunitBeginning =
 /// The XML that continuous integration reads: a suite for each file, a case for each scenario. A rule that says should and
 /// is broken counts as skipped there, which has no third way.
 std::string to_junit(const std::vector<Report>& reports);
+
+/// Of what kept scenarios from being run: an error for each mistake in a file, at its place.
+std::string to_junit(const Messages& messages);
 
 }  // namespace s7200::tools

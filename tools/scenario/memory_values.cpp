@@ -138,6 +138,21 @@ std::string real_text(const std::vector<std::uint8_t>& bytes) {
   return stl::to_text(stl::Operand{.value = stl::Real{std::bit_cast<float>(load32(bytes.data()))}});
 }
 
+/// `Conveyor (Q0.1)`, or the address alone.
+std::string named(const Program& program, const MemoryRange& range) {
+  const std::string symbol = symbol_name(program, range);
+  return symbol.empty() ? range.name_of(0) : fmt::format("{} ({})", symbol, range.name_of(0));
+}
+
+/// In the notation of what was expected: hex beside hex, decimal beside decimal.
+std::string found_text(const Program& program, const MemoryExpected& expected, const Bytes& found) {
+  if (expected.range.real) return real_text(found);
+  const bool in_hex = expected.written.find('#') != std::string::npos;
+  if (in_hex) return value_text(program, expected.range, found);
+  const bool is_signed = !expected.limits || expected.limits->is_signed;
+  return fmt::format("{:.0f}", value_of(expected.range, is_signed, found));
+}
+
 }  // namespace
 
 std::vector<Assignment> read_assignments(ValueReader& values, const YamlNode& map, const AddressSpace& space) {
@@ -172,15 +187,16 @@ bool MemoryExpected::fits(const std::vector<std::uint8_t>& found) const {
 }
 
 Finding memory_finding(const Program& program, const MemoryExpected& expected, const Bytes& found) {
-  Finding finding{
-      .what = expected.range.name_of(0), .expected_bytes = expected.bytes, .found_bytes = {found.begin(), found.end()}};
-  if (expected.limits) {
-    finding.expected = expected.written;
-    finding.found = expected.range.real ? real_text(found) : value_text(program, expected.range, found);
-  } else if (expected.range.width == Width::Double && expected.range.count == 1) {
-    const std::string real = real_text(found);
-    if (real == expected.written + ".0") finding.found = fmt::format("the real {}: write {} for it", real, real);
-  }
+  Finding finding{.what = named(program, expected.range),
+                  .expected_bytes = expected.bytes,
+                  .found_bytes = {found.begin(), found.end()},
+                  .memory = expected.range};
+  if (expected.range.count > 1) return finding;
+  finding.expected = expected.written;
+  finding.found = found_text(program, expected, found);
+  if (!expected.limits && expected.range.width == Width::Double)
+    if (const std::string real = real_text(found); real == expected.written + ".0")
+      finding.found += fmt::format(", the real {}: write {} for it", real, real);
   return finding;
 }
 

@@ -72,6 +72,21 @@ serial::MasterSettings Plant::master_of(const Spot& spot) const {
   return scenario_.plan ? on_line(scenario_.line, scenario_.plan->lines[spot.line]) : scenario_.line;
 }
 
+void Plant::act(Action action) {
+  note(action);
+  perform(action, simulation());
+}
+
+std::vector<Recording> Plant::recordings() const {
+  std::vector<Recording> all = recordings_;
+  if (journal_) all.push_back(journal_->recording());
+  return all;
+}
+
+std::optional<PlaceInRun> Plant::place() const {
+  return journal_ ? std::optional(PlaceInRun{recordings_.size(), journal_->now()}) : std::nullopt;
+}
+
 void Plant::power_up(const RetentiveMemory* memory) {
   slaves_.clear();
   simulation_ = std::make_unique<serial::Simulation>(program_, scenario_.field, scenario_.port);
@@ -79,6 +94,10 @@ void Plant::power_up(const RetentiveMemory* memory) {
   simulation_->stop_when(&interruption());
   simulation_->power_up(memory);
   slaves_.push_back(std::make_unique<SimulatedSlave>(*simulation_, scenario_.line, program_->source.name));
+  journal_.emplace(*simulation_, memory ? std::vector{*memory} : std::vector<RetentiveMemory>{});
+  slaves_.back()->when_asked([this](const SerialFormat& format, const serial::Request& request) {
+    journal_->note(SendFrame{.format = format, .request = request});
+  });
 }
 
 void Plant::power_cycle(bool memory_lost, Time power_off) {
@@ -86,9 +105,10 @@ void Plant::power_cycle(bool memory_lost, Time power_off) {
   memory.ram_lost = memory_lost;
   memory.power_off = power_off;
   before_ += simulation().time();
+  recordings_.push_back(journal_->recording());
   const State before = cpu().state();
   power_up(&memory);
-  for (const Assignment& input : inputs_as_before(cpu(), before)) assign(cpu(), input);
+  act(SetMemory{inputs_as_before(cpu(), before)});
 }
 
 bool Plant::get_ready() {

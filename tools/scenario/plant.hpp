@@ -4,13 +4,17 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interpreter/trace/fan_out.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/rig/rig.hpp"
+#include "tools/scenario/result.hpp"
 #include "tools/scenario/scenario.hpp"
+#include "tools/session/past/journal.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/timeline.hpp"
 
@@ -51,6 +55,20 @@ class Plant {
 
   /// The same of the scenario's system.
   explicit Plant(const Scenario& scenario);
+
+  /// Does it to the PLC that is looked at, as a programming device or the plant around it does.
+  void act(Action action);
+
+  /// Is told of what a step is about to do itself.
+  void note(Action action) {
+    if (journal_) journal_->note(std::move(action));
+  }
+
+  /// Of one program: what has been done to it, a recording for each power-up, the last one up to now. Nothing of a system.
+  std::vector<Recording> recordings() const;
+
+  /// Where that stands now; nothing of a system.
+  std::optional<PlaceInRun> place() const;
 
   /// What follows is about that PLC of the system, and a master on that line.
   void look_at(const Spot& spot);
@@ -123,6 +141,8 @@ class Plant {
   std::vector<Spot> spots_{Spot{}};                      // from which it is looked at
   std::vector<std::unique_ptr<SimulatedSlave>> slaves_;  // by spot
   std::size_t here_ = 0;                                 // the spot
+  std::optional<Journal> journal_;                       // of a program, since the last power-up
+  std::vector<Recording> recordings_;                    // what was before that
   Time before_ = 0;                                      // what had passed at the last power cycle
 };
 

@@ -44,10 +44,36 @@ std::string field(std::string_view name, std::string_view text) {
   return result;
 }
 
+/// A word of a command line, in quotes where a shell would take it apart.
+std::string quoted_for_shell(std::string_view word) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+=:,@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) return std::string(word);
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 std::string shortened_hex(const Bytes& bytes) {
   constexpr std::size_t kShown = 16;
   if (bytes.size() <= kShown) return serial::to_hex(bytes);
   return fmt::format("{} … {} bytes", serial::to_hex(Bytes(bytes.begin(), bytes.begin() + kShown)), bytes.size());
+}
+
+/// Of memory, which a sentence says best.
+bool is_one_value(const Finding& finding) { return finding.memory && finding.memory->count == 1; }
+
+/// `Conveyor (Q0.1) is 0, expected 1; last written at 2100.000000 ms by = Q0.1 in line 42`
+std::string value_sentence(const Finding& finding) {
+  std::string text = fmt::format("{} is {}, expected {}", finding.what, finding.found, finding.expected);
+  for (const std::string& why : finding.why) text += "; " + why;
+  return text;
+}
+
+std::string field_lines(std::string_view text) {
+  std::string result;
+  for (const std::string& line : stl::split_lines(std::string(text)))
+    if (!line.empty()) result += kIndent + stl::printable(line) + '\n';
+  return result;
 }
 
 std::string finding_text(const Scenario& scenario, const Finding& finding, bool colour) {
@@ -57,6 +83,7 @@ std::string finding_text(const Scenario& scenario, const Finding& finding, bool 
   std::string text = fmt::format("    {} {}{}\n", painted(place_of(scenario, position) + ":", kBold, colour),
                                  line_of(scenario, position), loop);
   if (step && !step->note.empty()) text += kIndent + stl::printable(step->note) + '\n';
+  if (is_one_value(finding)) return text + field_lines(value_sentence(finding));
   text += fmt::format("{}{} is not what was expected\n", kIndent, finding.what);
   if (finding.exchange && !finding.exchange->request.empty())
     text += field("request", shortened_hex(serial::bytes_of(finding.exchange->request)));
@@ -69,6 +96,7 @@ std::string finding_text(const Scenario& scenario, const Finding& finding, bool 
   }
   if (!finding.expected.empty()) text += field("expected", finding.expected);
   if (!finding.found.empty()) text += field("found", finding.found);
+  for (const std::string& why : finding.why) text += field("why", why);
   if (!finding.timeline.empty()) text += painted(indented(finding.timeline, kIndent), kDim, colour);
   return text;
 }
@@ -141,7 +169,20 @@ std::string findings_text(const Report& report, bool colour, std::size_t most) {
   return text;
 }
 
+std::string debug_command(const Report& report) {
+  const Scenario& scenario = *report.scenario;
+  if (report.result.recordings.empty()) return {};
+  const std::string target = scenario.program_given ? fmt::format(" --target {}", quoted_for_shell(scenario.program)) : "";
+  return fmt::format("s7200 debug {} --only {}{}", quoted_for_shell(scenario.source->name), quoted_for_shell(scenario.name),
+                     target);
+}
+
 std::string finding_line(const Scenario& scenario, const Finding& finding) {
+  if (is_one_value(finding)) {
+    const Step* const step = step_of(scenario, finding);
+    const std::string loop = step && !step->loop.empty() ? fmt::format(" ({})", step->loop) : "";
+    return in_one_line(value_sentence(finding) + loop);
+  }
   const bool asked = finding.exchange && !finding.exchange->request.empty();
   const std::string request = asked ? shortened_hex(serial::bytes_of(finding.exchange->request)) : "";
   const std::string about = !asked                     ? finding.what
@@ -165,6 +206,12 @@ std::string reason_text(const ScenarioResult& result) {
   return result.outcome == Outcome::ExpectedFailure ? "expected failure: " + result.reason : result.reason;
 }
 
+/// Where to look at it.
+static std::string debug_text(const Report& report) {
+  const std::string command = debug_command(report);
+  return command.empty() || report.result.outcome != Outcome::Failed ? "" : field("debug", command);
+}
+
 std::string report_text(const Report& report, bool colour, std::size_t most) {
   const ScenarioResult& result = report.result;
   std::string remark;
@@ -177,7 +224,7 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
   const std::string time = result.outcome == Outcome::Skipped ? "" : format_duration(result.time, 1);
   return fmt::format("  {}  {:>10}  {}{}\n", outcome_text(result.outcome, colour), time,
                      stl::printable(report.scenario->name), stl::printable(remark)) +
-         (result.outcome == Outcome::ExpectedFailure ? "" : findings_text(report, colour, most));
+         (result.outcome == Outcome::ExpectedFailure ? "" : findings_text(report, colour, most)) + debug_text(report);
 }
 
 std::string summary_text(const std::vector<Report>& reports) {

@@ -41,6 +41,10 @@ std::string report_text(const Report& report, bool colour, std::size_t most = kF
 /// What was found instead.
 std::string findings_text(const Report& report, bool colour, std::size_t most);
 
+/// `s7200 debug tests/pump.yaml --only 'it starts'`, which opens a scenario that failed at what it found; empty of one that
+/// cannot be opened: it is not about one program in simulation.
+std::string debug_command(const Report& report);
+
 /// What was sent, what was expected, what was found, in one line.
 std::string finding_line(const Scenario& scenario, const Finding& finding);
 

@@ -28,6 +28,7 @@ nlohmann::ordered_json finding_json(const Scenario& scenario, const Finding& fin
   json["found"] = finding.found;
   json["expected_bytes"] = bytes_json(finding.expected_bytes);
   json["found_bytes"] = bytes_json(finding.found_bytes);
+  json["why"] = finding.why;
   return json;
 }
 
@@ -65,6 +66,7 @@ nlohmann::ordered_json outcome_json(const Report& report) {
                     {"latency_us", to_json(band->latency)}};
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : report.result.findings) json["findings"].push_back(finding_json(scenario, finding));
+  if (const std::string command = debug_command(report); !command.empty()) json["debug"] = command;
   return json;
 }
 

@@ -8,8 +8,15 @@
 #include "serial_sim/peers/requester.hpp"
 #include "tools/measuring/band.hpp"
 #include "tools/scenario/text.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
+
+/// A moment of a run, after the power-up of that number.
+struct PlaceInRun {
+  std::size_t power_up = 0;
+  Moment moment{};
+};
 
 /// What a step expected and did not find.
 struct Finding {
@@ -19,10 +26,13 @@ struct Finding {
   std::vector<BytePattern> expected_bytes{};
   std::vector<BytePattern> found_bytes{};  ///< of memory, or of an answer
   std::optional<serial::Exchange> exchange{};
-  bool of_run = false;                ///< the scenario could not be run as it is written, whatever the answers
-  std::optional<Time> waited{};       ///< for what did not come, where a step waits for something
-  std::optional<stl::Position> at{};  ///< in the file, of what is about no step
-  std::string timeline{};             ///< what the CPU did in that exchange; empty if it cannot be seen, or is not shown
+  bool of_run = false;                  ///< the scenario could not be run as it is written, whatever the answers
+  std::optional<Time> waited{};         ///< for what did not come, where a step waits for something
+  std::optional<stl::Position> at{};    ///< in the file, of what is about no step
+  std::string timeline{};               ///< what the CPU did in that exchange; empty if it cannot be seen, or is not shown
+  std::optional<MemoryRange> memory{};  ///< of a program, whose value is not as expected
+  std::optional<PlaceInRun> place{};    ///< of a program in simulation: when it was found
+  std::vector<std::string> why{};       ///< what led to it, if that is known: a line each
 };
 
 /// From the end of the request to the start of the answer; of what no one asked for, from when it was waited for, 0 if it
@@ -58,9 +68,10 @@ struct ScenarioResult {
   std::string reason{};             ///< of Skipped and of ExpectedFailure
   std::vector<Finding> findings{};  ///< in the order of the steps
   std::vector<Seen> seen{};
-  std::size_t checks = 0;         ///< steps that expected something and were judged
-  std::size_t skipped_steps = 0;  ///< that look inside, or cannot go this way, on a slave that is not a program
-  Time time = 0;                  ///< on the slave's clock
+  std::size_t checks = 0;               ///< steps that expected something and were judged
+  std::size_t skipped_steps = 0;        ///< that look inside, or cannot go this way, on a slave that is not a program
+  Time time = 0;                        ///< on the slave's clock
+  std::vector<Recording> recordings{};  ///< of one that failed on a program in simulation: to run it again, by power-up
   double host_seconds = 0;
   std::optional<BandResult> band{};  ///< all else is of the first table
 };

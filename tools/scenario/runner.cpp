@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "tools/host/interruption.hpp"
+#include "tools/scenario/explanation.hpp"
 #include "tools/scenario/run.hpp"
 
 namespace s7200::tools {
@@ -45,6 +46,7 @@ ScenarioResult Run::result() {
     look_at_mode();
   }
   result_.time = plant_ ? plant_->time() : slave().now() - begin_;
+  if (plant_ && (bench_.recordings_wanted || !result_.findings.empty())) result_.recordings = plant_->recordings();
   settle_outcome();
   return std::move(result_);
 }
@@ -92,6 +94,7 @@ void Run::do_step(const Step& step) {
 void Run::add(Finding finding) {
   if (interrupted()) return;
   if (!scenario_.steps.empty()) finding.step = std::min(step_, scenario_.steps.size() - 1);
+  if (plant_) finding.place = plant_->place();
   const bool names_plc = plant_ && finding.what.find(plant_->of_plc("")) != std::string::npos;
   if (step_ < scenario_.steps.size() && !scenario_.steps[step_].on.empty() && !names_plc)
     finding.what += " of " + scenario_.steps[step_].on;
@@ -161,6 +164,7 @@ ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench) {
   if (!bench.problem.empty()) return could_not_begin(bench.problem);
   const auto begin = std::chrono::steady_clock::now();
   ScenarioResult result = Run(scenario, bench).result();
+  if (result.outcome == Outcome::Failed && !bench.band) explain(scenario, bench.program, result);
   result.host_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

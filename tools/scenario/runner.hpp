@@ -21,7 +21,8 @@ struct Bench {
   /// Instead of both, makes a slave in simulation of which only the line is seen, powered up for this scenario; may be left
   /// out.
   std::function<std::unique_ptr<SlaveInSimulation>(const Scenario&)> make_slave{};
-  bool exchanges_wanted = true;  ///< all of them are in the result
+  bool exchanges_wanted = true;    ///< all of them are in the result
+  bool recordings_wanted = false;  ///< of a run that found nothing, too
   /// Is told of each exchange when it is over, in the thread that runs the scenario, and the result has none; may be left
   /// out.
   std::function<void(const Seen&)> watch{};

@@ -29,7 +29,7 @@ struct Step {
   std::string on{};                   ///< in a system: the PLC or line it is about, as it was written; empty if it was not
   std::optional<Spot> spot{};         ///< that; nothing if it is about none, or about a line of a system without an S7-200
   std::optional<std::size_t> line{};  ///< the line it is about in such a system
-  std::shared_ptr<const Action> action{};
+  std::shared_ptr<const StepAction> action{};
 };
 
 /// What makes a scenario a rule of a conformance suite.
@@ -49,6 +49,7 @@ struct Scenario {
   std::vector<stl::Symbol> symbols{};        ///< of those
   std::string repair{};                      ///< slips of its listing to be repaired: `R1,R2`, `all`
   std::string program{};                     ///< path; empty if only --target names one
+  bool program_given = false;                ///< by --target
   bool may_be_missing = false;               ///< skip_without names it
   std::string system{};                      ///< instead of a program, the path of a system file
   std::shared_ptr<const SystemPlan> plan{};  ///< that was read from it

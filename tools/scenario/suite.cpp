@@ -138,7 +138,10 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
   note_robustness_not_judged(scenarios_, *benches, messages);
   SuiteResult result{.tested = benches->name, .live = benches->slave != nullptr};
   if (!settings_.target.empty())
-    for (Scenario& scenario : scenarios_) scenario.program = benches->of_programs ? settings_.target : "";
+    for (Scenario& scenario : scenarios_) {
+      scenario.program = benches->of_programs ? settings_.target : "";
+      scenario.program_given = benches->of_programs;
+    }
   if (watcher.exchange)
     for (std::size_t i = 0; i < scenarios_.size(); ++i)
       benches->of[i].watch = [&, i](const Seen& seen) { watcher.exchange(result, scenarios_[i], seen); };

@@ -43,6 +43,13 @@ std::string assignments_text(const std::vector<Assignment>& assignments) {
   return "{" + text + "}";
 }
 
+std::string to_text(const std::vector<MemoryExpected>& expected) {
+  std::string text;
+  for (const MemoryExpected& e : expected)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", in_quotes(e.address), in_quotes(e.written));
+  return "{" + text + "}";
+}
+
 std::string unforce_text(const std::vector<MemoryRange>& places) {
   if (places.empty()) return "all";
   std::string text;
@@ -84,7 +91,7 @@ void TranscriptWriter::write(const Seen& seen) {
 /// Returns false if a replay has nothing to do for it.
 bool TranscriptWriter::write_step(const serial::Exchange* seen) {
   seen_ = seen;
-  const Action& action = *scenario().steps[step_].action;
+  const StepAction& action = *scenario().steps[step_].action;
   const bool reached_it = !live() || action.needs() == Needs::Line;
   if (!reached_it || !action.write(*this)) return false;
   if (const std::string& on = scenario().steps[step_].on; !on.empty()) beside("on: " + on);

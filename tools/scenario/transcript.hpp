@@ -15,6 +15,7 @@ struct Transcript {
   std::string recorded_from{};  ///< what answered, for the heading
   Time tolerance = 0;           ///< 0 for programs: their times are exact
   bool live = false;            ///< from a slave outside simulation
+  bool memory = false;          ///< what steps expect of memory is written too
   std::string by = "s7200 test --record";
 };
 

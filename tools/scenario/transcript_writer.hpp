@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/scenario/memory_values.hpp"
 #include "tools/scenario/report.hpp"
 #include "tools/scenario/transcript.hpp"
 
@@ -33,6 +34,9 @@ class TranscriptWriter {
 
   /// From a slave that is not a program: its instants mean nothing to a replay.
   bool live() const { return transcript_.live; }
+
+  /// Whether what memory must hold is expected again.
+  bool expects_memory() const { return transcript_.memory; }
 
   /// What went over the line in this step; null if it did not come to that.
   const serial::Exchange* seen() const { return seen_; }
@@ -69,6 +73,9 @@ std::string in_quotes(std::string_view text);
 
 /// `{VW20: 16#1234}`: in their order, but each place once, with the last value that it is given, where it is given it.
 std::string assignments_text(const std::vector<Assignment>& assignments);
+
+/// `{"VW20": "5", "VB0:4": "01 02 .. 04"}`, as it was written.
+std::string to_text(const std::vector<MemoryExpected>& expected);
 
 /// `[VW20, VB0:4]`, as `unforce` takes them; `all` for none.
 std::string unforce_text(const std::vector<MemoryRange>& places);

@@ -59,6 +59,7 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
   simulation_.finish_exchange();  // what Ctrl-C has left under way
   remark_ = ignored_text(serial::bytes_of(simulation_.master().heard()));
+  if (asked_) asked_(format, request);
   simulation_.configure_master(format);
   simulation_.master().start(request, simulation_.time());
   serial::Exchange exchange = simulation_.finish_exchange();

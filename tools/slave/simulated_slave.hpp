@@ -1,7 +1,9 @@
 // The slave that a program is, in simulation.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "serial_sim/system/simulation.hpp"
 #include "tools/slave/slave.hpp"
@@ -19,6 +21,11 @@ class SimulatedSlave final : public SlaveInSimulation {
   /// `in_stop_too`: somebody answers when the CPU is in STOP as well: it does so itself in PPI.
   SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name,
                  bool in_stop_too = false);
+
+  /// Told of each request in front of it, with the format in which it is sent.
+  void when_asked(std::function<void(const SerialFormat& format, const serial::Request& request)> told) {
+    asked_ = std::move(told);
+  }
 
   /// Runs until the first scan has ended and the line has been quiet for pause(). False if that has not come by `limit`, or
   /// the CPU stopped and does not answer there.
@@ -55,6 +62,7 @@ class SimulatedSlave final : public SlaveInSimulation {
   serial::MasterSettings master_;
   std::string name_;
   std::string remark_;
+  std::function<void(const SerialFormat&, const serial::Request&)> asked_{};
   bool in_stop_too_;
 };
 

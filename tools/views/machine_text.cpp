@@ -324,6 +324,11 @@ const stl::Symbol* symbol_of(const Program& program, const MemoryRange& range) {
   return nullptr;
 }
 
+std::string symbol_name(const Program& program, const MemoryRange& range) {
+  const stl::Symbol* const symbol = symbol_of(program, range);
+  return symbol ? stl::printable(symbol->name) : "";
+}
+
 std::string symbol_text(const Program& program, const MemoryRange& range) {
   const stl::Symbol* symbol = symbol_of(program, range);
   if (!symbol) return {};

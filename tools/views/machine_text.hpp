@@ -42,6 +42,9 @@ std::string special_text(const Cpu& cpu, const MemoryRange& range);
 /// The symbol of the address that a range begins at; null without one.
 const stl::Symbol* symbol_of(const Program& program, const MemoryRange& range);
 
+/// `Speed`: the symbol of an address; nothing without one.
+std::string symbol_name(const Program& program, const MemoryRange& range);
+
 /// `Speed  // of the pump`: that symbol with its comment; nothing without one.
 std::string symbol_text(const Program& program, const MemoryRange& range);
 

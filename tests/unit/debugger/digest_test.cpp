@@ -1,4 +1,4 @@
-#include "tools/debugger/digest.hpp"
+#include "tools/session/past/digest.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/debugger/history.hpp"
+#include "tools/session/past/history.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tools/debugger/goals.hpp"
-#include "tools/debugger/last_write.hpp"
-#include "tools/debugger/past_words.hpp"
 #include "tools/debugger/stepper.hpp"
+#include "tools/session/causes/last_write.hpp"
+#include "tools/session/past/past_words.hpp"
 #include "tools/views/listing.hpp"
 #include "tools/views/machine_text.hpp"
 

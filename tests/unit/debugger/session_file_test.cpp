@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "tests/unit/debugger/session.hpp"
-#include "tools/debugger/digest.hpp"
+#include "tools/session/past/digest.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -8,9 +8,9 @@
 #include "interpreter/base/bytes.hpp"
 #include "tests/unit/debugger/system_bench.hpp"
 #include "tools/debugger/goals.hpp"
-#include "tools/debugger/history.hpp"
-#include "tools/debugger/last_write.hpp"
 #include "tools/debugger/stepper.hpp"
+#include "tools/session/causes/last_write.hpp"
+#include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -21,11 +21,14 @@ void DebuggeeOptions::add_plant_to(CLI::App& app) {
 
 void DebugOptions::add_to(CLI::App& app) {
   add_program_to(app);
-  app.add_option("--commands", commands_file, "commands to execute, one a line; # begins a comment")->type_name("FILE");
+  app.add_option("--commands", commands_file, "commands to execute, one a line; // begins a comment")->type_name("FILE");
   app.add_option("-x,--execute", commands, "commands to execute, separated by ; (repeatable; after --commands)")
       ->type_name("COMMANDS")
       ->allow_extra_args(false);
   app.add_flag("-i,--interactive", interactive, "go on with standard input after --commands and -x");
+  app.add_option("--only", only, "of a file of scenarios: the first that fails with PATTERN in its name; * is anything")
+      ->type_name("PATTERN");
+  app.add_option("--target", target, "of a file of scenarios: the program to run it on")->type_name("PROGRAM");
   add_plant_to(app);
 }
 

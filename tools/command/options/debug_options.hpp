@@ -25,6 +25,7 @@ struct DebugOptions : DebuggeeOptions {
   std::string commands_file;
   std::vector<std::string> commands;
   bool interactive = false;
+  std::string only, target;  ///< of a file of scenarios
 
   void add_to(CLI::App& app);
 

@@ -10,7 +10,7 @@
 namespace s7200::tools {
 namespace {
 
-struct ErrorsStep final : Action {
+struct ErrorsStep final : StepAction {
   struct Error {
     std::uint16_t code = 0;
     Count count{};
@@ -42,7 +42,7 @@ struct ErrorsStep final : Action {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_errors(const StepSource& source) {
+std::shared_ptr<const StepAction> read_errors(const StepSource& source) {
   auto step = std::make_shared<ErrorsStep>();
   const YamlNode& is = source.is;
   if (is.is_scalar() && stl::lower_case(is.text) == "none") return step;

@@ -7,7 +7,7 @@
 namespace s7200::tools {
 namespace {
 
-struct EventOfSystemStep final : Action {
+struct EventOfSystemStep final : StepAction {
   EventPlan event{};
   std::string written{};              ///< `cut: bus`
   std::vector<std::string> beside{};  ///< `after: slave1`
@@ -25,7 +25,7 @@ struct EventOfSystemStep final : Action {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_event_of_system(const StepSource& source) {
+std::shared_ptr<const StepAction> read_event_of_system(const StepSource& source) {
   auto step = std::make_shared<EventOfSystemStep>();
   if (!source.scenario.plan) {
     source.values.wrong(source.node, "only a system has several PLCs and lines",

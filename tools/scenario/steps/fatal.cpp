@@ -10,7 +10,7 @@ std::string text_of(std::uint16_t code) {
   return code == 0 ? "none" : fmt::format("{:04X}, {}", code, meaning_of(FatalError{code}));
 }
 
-struct FatalStep final : Action {
+struct FatalStep final : StepAction {
   std::uint16_t code = 0;  ///< 0: none
 
   Needs needs() const override { return Needs::ToLook; }
@@ -25,7 +25,7 @@ struct FatalStep final : Action {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_fatal(const StepSource& source) {
+std::shared_ptr<const StepAction> read_fatal(const StepSource& source) {
   auto step = std::make_shared<FatalStep>();
   step->code = read_error_code(source.values, source.is, true).value_or(std::uint16_t{0});
   return step;

@@ -10,7 +10,7 @@
 namespace s7200::tools {
 namespace {
 
-struct FaultStep final : Action {
+struct FaultStep final : StepAction {
   std::optional<serial::Fault> fault{};
   std::optional<EventPlan> event{};  ///< the same in a system
   std::string station{};             ///< as it was written
@@ -20,10 +20,8 @@ struct FaultStep final : Action {
   void act(Run& run) const override {
     if (event)
       run.carry_out(*event);
-    else if (fault)
-      run.plant()->simulation().inject(*fault);
     else
-      run.plant()->simulation().clear_faults();
+      run.plant()->act(InjectFault{.fault = fault});
   }
 
   bool write(TranscriptWriter& writer) const override {
@@ -55,7 +53,7 @@ std::optional<EventPlan> event_of(const StepSource& source, const std::optional<
 
 }  // namespace
 
-std::shared_ptr<const Action> read_fault(const StepSource& source) {
+std::shared_ptr<const StepAction> read_fault(const StepSource& source) {
   auto step = std::make_shared<FaultStep>();
   const auto written = source.values.text(source.is);
   const bool none = !written || stl::lower_case(*written) == "none";

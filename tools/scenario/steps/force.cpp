@@ -15,19 +15,21 @@ bool reaches_it(Run& run, const std::string& what) {
   return false;
 }
 
-struct ForceStep final : Action {
+struct ForceStep final : StepAction {
   std::vector<Assignment> assignments{};
 
   Needs needs() const override { return Needs::ToChange; }
 
   void act(Run& run) const override {
     if (!reaches_it(run, "force")) return;
-    for (const Assignment& assignment : assignments)
-      if (!run.plant()->cpu().force(assignment.place, assignment.value))
-        run.add({.what = "force",
-                 .expected = "room for " + assignment.place.name_of(0),
-                 .found = "as many values are forced already as the CPU can",
-                 .of_run = true});
+    for (const Assignment& assignment : assignments) {
+      run.plant()->note(Force{{assignment}});
+      if (run.plant()->cpu().force(assignment.place, assignment.value)) continue;
+      run.add({.what = "force",
+               .expected = "room for " + assignment.place.name_of(0),
+               .found = "as many values are forced already as the CPU can",
+               .of_run = true});
+    }
   }
 
   bool write(TranscriptWriter& writer) const override {
@@ -36,17 +38,17 @@ struct ForceStep final : Action {
   }
 };
 
-struct UnforceStep final : Action {
+struct UnforceStep final : StepAction {
   std::vector<MemoryRange> places{};  ///< none: all that is forced
 
   Needs needs() const override { return Needs::ToChange; }
 
   void act(Run& run) const override {
     if (!reaches_it(run, "unforce")) return;
-    Cpu& cpu = run.plant()->cpu();
-    for (const MemoryRange& place : places) cpu.unforce(place);
-    if (!places.empty()) return;
-    for (const Assignment& forced : forcing::listed(cpu.state().forcing)) cpu.unforce(forced.place);
+    std::vector<MemoryRange> released = places;
+    if (released.empty())
+      for (const Assignment& forced : forcing::listed(run.plant()->cpu().state().forcing)) released.push_back(forced.place);
+    run.plant()->act(Unforce{released});
   }
 
   bool write(TranscriptWriter& writer) const override {
@@ -66,7 +68,7 @@ std::optional<MemoryRange> read_place_of(ValueReader& values, const YamlNode& no
 
 }  // namespace
 
-std::shared_ptr<const Action> read_force(const StepSource& source) {
+std::shared_ptr<const StepAction> read_force(const StepSource& source) {
   auto step = std::make_shared<ForceStep>();
   if (source.is.is_map() && source.is.keys.empty())
     source.values.wrong(source.is, "nothing to force", "write for example {VW20: 16#1234, I0.3: 1}");
@@ -78,7 +80,7 @@ std::shared_ptr<const Action> read_force(const StepSource& source) {
   return step;
 }
 
-std::shared_ptr<const Action> read_unforce(const StepSource& source) {
+std::shared_ptr<const StepAction> read_unforce(const StepSource& source) {
   auto step = std::make_shared<UnforceStep>();
   const YamlNode& is = source.is;
   const bool all = is.is_scalar() && stl::lower_case(source.values.text(is).value_or("")) == "all";

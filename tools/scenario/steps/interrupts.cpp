@@ -23,7 +23,7 @@ struct InterruptCount {
   }
 };
 
-struct InterruptsStep final : Action {
+struct InterruptsStep final : StepAction {
   std::vector<InterruptCount> counts{};
 
   Needs needs() const override { return Needs::ToLook; }
@@ -56,7 +56,7 @@ std::optional<InterruptCount> parse_what(const std::string& text) {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_interrupts(const StepSource& source) {
+std::shared_ptr<const StepAction> read_interrupts(const StepSource& source) {
   auto step = std::make_shared<InterruptsStep>();
   ValueReader& values = source.values;
   const YamlNode& map = source.is;

@@ -4,11 +4,12 @@
 #include "tools/scenario/memory_values.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
+#include "tools/scenario/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {
 
-struct MemoryStep final : Action {
+struct MemoryStep final : StepAction {
   std::vector<MemoryExpected> expected{};
 
   Needs needs() const override { return Needs::ToLook; }
@@ -24,11 +25,17 @@ struct MemoryStep final : Action {
       run.add(std::move(finding));
     }
   }
+
+  bool write(TranscriptWriter& writer) const override {
+    if (!writer.expects_memory()) return false;
+    writer.step("memory: " + to_text(expected));
+    return true;
+  }
 };
 
 }  // namespace
 
-std::shared_ptr<const Action> read_memory(const StepSource& source) {
+std::shared_ptr<const StepAction> read_memory(const StepSource& source) {
   auto step = std::make_shared<MemoryStep>();
   step->expected = read_memory_expected(source.values, source.is, source.addresses());
   return step;

@@ -7,7 +7,7 @@ namespace {
 
 std::string text_of(Mode mode) { return mode == Mode::Run ? "RUN" : "STOP"; }
 
-struct ModeStep final : Action {
+struct ModeStep final : StepAction {
   Mode mode = Mode::Run;
 
   Needs needs() const override { return Needs::ToLook; }
@@ -25,7 +25,7 @@ struct ModeStep final : Action {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_mode(const StepSource& source) {
+std::shared_ptr<const StepAction> read_mode(const StepSource& source) {
   auto step = std::make_shared<ModeStep>();
   step->mode = source.values.choice<Mode>(&source.is, {{"run", Mode::Run}, {"stop", Mode::Stop}}).value_or(Mode::Run);
   return step;

@@ -6,7 +6,7 @@
 namespace s7200::tools {
 namespace {
 
-struct PowerCycleStep final : Action {
+struct PowerCycleStep final : StepAction {
   bool memory_lost = false;  ///< power was off for longer than the retentive memory lasts
   Time power_off = 0;        ///< how long it was off: the clock goes on
 
@@ -29,7 +29,7 @@ struct PowerCycleStep final : Action {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_power_cycle(const StepSource& source) {
+std::shared_ptr<const StepAction> read_power_cycle(const StepSource& source) {
   auto step = std::make_shared<PowerCycleStep>();
   ValueReader& values = source.values;
   if (source.scenario.plan)

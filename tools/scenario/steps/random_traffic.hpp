@@ -6,7 +6,7 @@
 namespace s7200::tools {
 
 /// Made as they are sent: however many there are, they need no memory.
-struct RandomTraffic final : Action {
+struct RandomTraffic final : StepAction {
   std::size_t exchanges = 0;
   std::uint32_t seed = 1;
   std::uint8_t station = 1;

@@ -59,7 +59,7 @@ bool ReceiveStep::write(TranscriptWriter& writer) const {
   return true;
 }
 
-std::shared_ptr<const Action> read_receive(const StepSource& source) {
+std::shared_ptr<const StepAction> read_receive(const StepSource& source) {
   auto step = std::make_shared<ReceiveStep>();
   step->read(source);
   return step;

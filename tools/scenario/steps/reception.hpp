@@ -11,7 +11,7 @@
 
 namespace s7200::tools {
 
-struct Reception : Action {
+struct Reception : StepAction {
   bool has_crc = false;              ///< a right CRC must be at its end
   std::vector<Expected> expected{};  ///< one of these; anything if empty
   bool disturbed = false;            ///< it has parity or framing errors

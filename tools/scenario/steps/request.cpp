@@ -115,14 +115,14 @@ void check_values(const StepSource& source, const ExchangeStep& step) {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_request(const StepSource& source) { return with_station(source, hex_pdu(source)); }
+std::shared_ptr<const StepAction> read_request(const StepSource& source) { return with_station(source, hex_pdu(source)); }
 
-std::shared_ptr<const Action> read_read(const StepSource& source) {
+std::shared_ptr<const StepAction> read_read(const StepSource& source) {
   auto step = with_station(source, read_pdu(source));
   check_values(source, *step);
   return step;
 }
 
-std::shared_ptr<const Action> read_write(const StepSource& source) { return with_station(source, write_pdu(source)); }
+std::shared_ptr<const StepAction> read_write(const StepSource& source) { return with_station(source, write_pdu(source)); }
 
 }  // namespace s7200::tools

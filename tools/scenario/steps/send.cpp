@@ -25,7 +25,7 @@ bool is_of_modbus(const Expected& expected) {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_send(const StepSource& source) {
+std::shared_ptr<const StepAction> read_send(const StepSource& source) {
   auto step = std::make_shared<ExchangeStep>();
   step->request = source.is.is_map() ? text_frame(source.values, source.is) : hex_frame(source.values, source.is);
   step->has_crc = source.values.truth(source.beside("crc"));

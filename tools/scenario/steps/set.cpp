@@ -8,7 +8,7 @@
 namespace s7200::tools {
 namespace {
 
-struct SetStep final : Action {
+struct SetStep final : StepAction {
   std::vector<Assignment> assignments{};
 
   Needs needs() const override { return Needs::ToChange; }
@@ -18,7 +18,7 @@ struct SetStep final : Action {
     if (!run.plant()->has_power())
       return run.add(
           {.what = "set", .expected = "a PLC with power", .found = "it has none: nothing was set", .of_run = true});
-    for (const Assignment& assignment : assignments) assign(run.plant()->cpu(), assignment);
+    run.plant()->act(SetMemory{assignments});
   }
 
   bool write(TranscriptWriter& writer) const override {
@@ -29,7 +29,7 @@ struct SetStep final : Action {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_set(const StepSource& source) {
+std::shared_ptr<const StepAction> read_set(const StepSource& source) {
   auto step = std::make_shared<SetStep>();
   if (source.is.is_map() && source.is.keys.empty())
     source.values.wrong(source.is, "nothing to set", "write for example {VW20: 16#1234, I0.3: 1}");

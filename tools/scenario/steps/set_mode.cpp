@@ -1,5 +1,4 @@
 // set_mode: a programming device asks for RUN or STOP.
-#include "tools/rig/programming_device.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
 #include "tools/scenario/transcript_writer.hpp"
@@ -7,7 +6,7 @@
 namespace s7200::tools {
 namespace {
 
-struct SetModeStep final : Action {
+struct SetModeStep final : StepAction {
   Mode mode = Mode::Run;
 
   Needs needs() const override { return Needs::ToChange; }
@@ -17,7 +16,7 @@ struct SetModeStep final : Action {
     if (!plant.has_power()) return refuse(run, "a PLC with power", "it has none");
     if (plant.cpu().state().fatal_code != 0)
       return refuse(run, "a CPU that can change its mode", "a fatal error keeps it in STOP");
-    change_mode(plant.cpu(), mode);
+    plant.act(SetMode{mode});
     run.expect_mode(mode == Mode::Stop ? std::optional(mode) : std::nullopt);
   }
 
@@ -34,7 +33,7 @@ struct SetModeStep final : Action {
 
 }  // namespace
 
-std::shared_ptr<const Action> read_set_mode(const StepSource& source) {
+std::shared_ptr<const StepAction> read_set_mode(const StepSource& source) {
   auto step = std::make_shared<SetModeStep>();
   step->mode = source.values.choice<Mode>(&source.is, {{"run", Mode::Run}, {"stop", Mode::Stop}}).value_or(Mode::Run);
   return step;

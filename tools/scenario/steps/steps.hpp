@@ -30,7 +30,7 @@ struct StepSource {
 };
 
 /// Complains about what is wrong; the action is not run then.
-using ReadStep = std::shared_ptr<const Action>(const StepSource& source);
+using ReadStep = std::shared_ptr<const StepAction>(const StepSource& source);
 
 ReadStep read_send, read_request, read_read, read_write, read_receive, read_wait, read_wait_until, read_set, read_force,
     read_unforce, read_set_mode, read_memory, read_interrupts, read_mode, read_fatal, read_errors, read_fault,

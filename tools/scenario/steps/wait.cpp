@@ -59,7 +59,7 @@ bool WaitStep::write(TranscriptWriter& writer) const {
   return true;
 }
 
-std::shared_ptr<const Action> read_wait(const StepSource& source) {
+std::shared_ptr<const StepAction> read_wait(const StepSource& source) {
   const auto step =
       source.values.value(&source.is, ValueReader::kDuration, "20ms, 3.5 characters, 2 scans, until 1.5s", parse_wait);
   const bool is_said = source.program() || !source.scenario.on.empty();

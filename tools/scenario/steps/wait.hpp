@@ -5,7 +5,7 @@
 
 namespace s7200::tools {
 
-struct WaitStep final : Action {
+struct WaitStep final : StepAction {
   Span time{};
   std::uint64_t scans = 0;      ///< instead of a time
   std::optional<Time> until{};  ///< the same: since power-up

@@ -46,15 +46,12 @@ bool WaitUntilStep::write(TranscriptWriter& writer) const {
     writer.step("wait: " + exact(*waited));
     return true;
   }
-  std::string memory;
-  for (const MemoryExpected& e : expected)
-    memory += fmt::format("{}{}: {}", memory.empty() ? "" : ", ", in_quotes(e.address), in_quotes(e.written));
-  writer.step("wait_until: {" + memory + "}");
+  writer.step("wait_until: " + to_text(expected));
   if (timeout) writer.beside("timeout: " + exact(*timeout));
   return true;
 }
 
-std::shared_ptr<const Action> read_wait_until(const StepSource& source) {
+std::shared_ptr<const StepAction> read_wait_until(const StepSource& source) {
   auto step = std::make_shared<WaitUntilStep>();
   step->expected = read_memory_expected(source.values, source.is, source.addresses());
   step->timeout = source.values.time(source.beside("timeout"));

@@ -8,7 +8,7 @@
 
 namespace s7200::tools {
 
-struct WaitUntilStep final : Action {
+struct WaitUntilStep final : StepAction {
   std::vector<MemoryExpected> expected{};
   std::optional<Time> timeout{};  ///< the scenario's if not given
 

@@ -1,0 +1,86 @@
+// What `why` says of characters that no RCV waits for: how the last RCV ended, and which could start the next.
+#include <fmt/format.h>
+
+#include "tests/support/slave_bench.hpp"
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+Session session_of_cpu_224(const std::string& text) {
+  return Session(check_text(text, "test.stl", cpu224(), default_times(cpu224())).program);
+}
+
+/// Takes a message up to a CR, once.
+const std::string kOnce =
+    "LD SM0.1\n"           // 1
+    "MOVB 16#09, SMB30\n"  // 2
+    "MOVB 16#E0, SMB87\n"  // 3
+    "MOVB 16#41, SMB88\n"  // 4
+    "MOVB 16#0D, SMB89\n"  // 5
+    "MOVB 10, SMB94\n"     // 6
+    "RCV VB100, 0\n"       // 7
+    "MEND\n";
+
+TEST(ReceptionEnded, WithoutRoomForACharacterTheParameterIsNamed) {
+  Session session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 0, SMB94"));
+  session("continue 50ms; break unanswered; send 41 42 0d; continue 1s");
+  const std::string text = session("why");
+  EXPECT_TRUE(has(text, "no answer to 3 characters since 50."));
+  EXPECT_TRUE(has(text, ": no RCV waits for them; the last one, RCV VB100, 0 in line 7 at 0."));
+  EXPECT_TRUE(has(text, " with SMB86 = 16#40 because SMB94 is 0: a message must be allowed a character; "));
+  session("rwhy");
+  EXPECT_EQ(session.line(), 7U);
+  EXPECT_EQ(session.state().scans, 0U);
+}
+
+TEST(ReceptionEnded, WithoutAStartConditionTheControlByteIsNamed) {
+  Session session = session_of_cpu_224(test::changed(kOnce, "MOVB 16#E0, SMB87", "MOVB 16#80, SMB87"));
+  session("continue 50ms; break unanswered; send 41 42 0d; continue 1s");
+  EXPECT_TRUE(has(session("why"), " with SMB86 = 16#40 because SMB87 is 16#80, which has no start condition; "));
+}
+
+TEST(ReceptionEnded, WhatWorksOnlyOnceSaysWhichRcvCouldStartTheNext) {
+  Session session = session_of_cpu_224(kOnce);
+  session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
+  const std::string text = session("why");
+  EXPECT_TRUE(has(text, "the last one, RCV VB100, 0 in line 7 at 0."));
+  EXPECT_TRUE(has(text,
+                  "with SMB86 = 16#20 because the end character 16#0D came; the next would be started by RCV VB100, 0 "
+                  "in line 7, which had no power flow at "));
+  EXPECT_TRUE(has(text, " (LD SM0.1: SM0.1=0)\n"));
+}
+
+TEST(ReceptionEnded, AsManyCharactersAsAllowedAreCounted) {
+  Session session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 2, SMB94"));
+  session("continue 50ms; send 41 42; continue; break unanswered; send 41 43 0d; continue");
+  EXPECT_TRUE(has(session("why"), "with SMB86 = 16#02 because 2 characters came, as many as SMB94 allows; "));
+}
+
+TEST(ReceptionEnded, AnInterruptRoutineThatNoEventCallsStartsNothing) {
+  const std::string text = test::changed(kOnce, "MEND\n", "MEND\nINT 3\nLD SM0.0\nRCV VB100, 0\nRETI\n");
+  Session session = session_of_cpu_224(text);
+  session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
+  EXPECT_TRUE(has(session("why"), "; or by RCV VB100, 0 in line 11: INT 3 is attached to no event\n"));
+}
+
+TEST(ReceptionEnded, AnRcvRightAfterXmtWasRefused) {
+  const std::string text = test::changed(test::changed(kOnce, "MOVB 10, SMB94\n", "MOVB 10, SMB94\nATCH 0, 23\nENI\n"),
+                                         "MEND\n", "MEND\nINT 0\nLD SM0.0\nXMT VB100, 0\nRCV VB100, 0\nRETI\n");
+  Session session = session_of_cpu_224(text);
+  session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
+  EXPECT_TRUE(has(session("why"), "the last one, RCV VB100, 0 in line 14 at "));
+  EXPECT_TRUE(has(session.out.str(), " was refused with run-time error 0009, "));
+  session("rwhy");
+  EXPECT_EQ(session.line(), 14U);
+}
+
+TEST(ReceptionEnded, AReceptionThatStopHasGivenUpIsSaidToBe) {
+  Session session = session_of_cpu_224(test::changed(kOnce, "RCV VB100, 0", "AN M0.0\nRCV VB100, 0"));
+  session("continue 50ms; mode stop; continue 20ms; mode run; continue 20ms; mode stop; continue 20ms");
+  session("set M0.0=1; mode run; continue 20ms; break unanswered; send 41 43 0d; continue");
+  EXPECT_TRUE(has(session("why"), " was given up when the CPU went to STOP at "));
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,116 @@
+// What a report says of why a scenario failed.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "interpreter/program/load.hpp"
+#include "tests/support/slave_bench.hpp"
+#include "tools/scenario/junit.hpp"
+#include "tools/scenario/reader.hpp"
+#include "tools/scenario/report.hpp"
+#include "tools/scenario/report_json.hpp"
+#include "tools/scenario/runner.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::shared_ptr<const Program> program_of(const std::string& text) {
+  return check_text(text, "test.stl", cpu214(), default_times(cpu214())).program;
+}
+
+Scenario scenario_of(const std::string& steps) {
+  ScenarioFile file = read_scenarios("timeout: 200ms\nname: it's one\nsteps:\n" + steps, "file.yaml");
+  for (const auto& d : file.diagnostics) ADD_FAILURE() << stl::render(d, *file.source, false);
+  return file.scenarios.empty() ? Scenario{} : file.scenarios[0];
+}
+
+struct Failed {
+  Scenario scenario;
+  Report report;
+
+  Failed(const std::string& steps, std::shared_ptr<const Program> program) : scenario(scenario_of(steps)) {
+    report = {&scenario, run_scenario(scenario, {.program = std::move(program)})};
+  }
+  std::string text() const { return report_text(report, false); }
+};
+
+testing::AssertionResult has(const std::string& text, std::string_view part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "'" << part << "' is not in:\n" << text;
+}
+
+std::shared_ptr<const Program> slave() { return test::compile(test::slave_text()); }
+
+TEST(Explanation, AMissingAnswerHasItsCauseInReportJsonAndJunit) {
+  const Failed failed("  - {send: 01 03 00 0a 00 01 00 00, expect: [0]}\n", slave());
+  EXPECT_TRUE(has(failed.text(), "why       "));
+  EXPECT_TRUE(has(failed.text(), "JMP 255 in line 141 (LDW= AC0, 0: "));
+  const auto json = to_json({failed.report});
+  const std::string why = json["scenarios"][0]["findings"][0]["why"][0];
+  EXPECT_TRUE(has(why, "JMP 255 in line 141"));
+  EXPECT_TRUE(has(to_junit({failed.report}), "JMP 255 in line 141"));
+}
+
+TEST(Explanation, TheCommandThatOpensItIsPrinted) {
+  const Failed failed("  - {send: 01 03 00 0a 00 01 00 00, expect: [0]}\n", slave());
+  const std::string command = R"(s7200 debug file.yaml --only 'it'\''s one')";
+  EXPECT_EQ(debug_command(failed.report), command);
+  EXPECT_TRUE(has(failed.text(), command));
+  EXPECT_TRUE(has(to_junit({failed.report}), "s7200 debug file.yaml --only"));
+  EXPECT_EQ(to_json({failed.report})["scenarios"][0]["debug"], command);
+}
+
+TEST(Explanation, MemoryIsSaidInOneSentenceWithItsLastWriter) {
+  const auto program = program_of("LD SM0.0\nMOVW 7, VW0\n= Q0.1\nLD I0.0\nMOVB 3, VB9\nMEND\n");
+  const Failed failed("  - wait: 20ms\n  - memory: {VW0: 5, Q0.1: 0, VB9: 16#03}\n", program);
+  EXPECT_TRUE(has(failed.text(), "      VW0 is 7, expected 5; last written at "));
+  EXPECT_TRUE(has(failed.text(), " by MOVW 7, VW0 in line 2\n"));
+  EXPECT_TRUE(has(failed.text(), "      Q0.1 is 1, expected 0; last written at "));
+  EXPECT_TRUE(has(failed.text(), "      VB9 is 16#00 (0), expected 16#03; nothing has written it since power-up\n"));
+  EXPECT_TRUE(has(finding_line(failed.scenario, failed.report.result.findings[0]), "VW0 is 7, expected 5; last written at "));
+}
+
+TEST(Explanation, WhatAStepHasSetIsItsWriter) {
+  const auto program = program_of("LD SM0.0\nMEND\n");
+  const Failed failed("  - wait: 20ms\n  - set: {VW0: 7}\n  - wait: 20ms\n  - memory: {VW0: 5}\n", program);
+  EXPECT_TRUE(has(failed.text(), "VW0 is 7, expected 5; last written at "));
+  EXPECT_TRUE(has(failed.text(), " by 'set VW0'"));
+}
+
+TEST(Explanation, FindingsBeforeAndAfterAPowerCycleHaveTheirOwnPasts) {
+  const auto program = program_of("LD SM0.0\nMOVW 7, VW0\nMEND\n");
+  const Failed failed("  - memory: {VW0: 5}\n  - power_cycle: memory lost\n  - memory: {VW0: 6}\n", program);
+  ASSERT_EQ(failed.report.result.findings.size(), 2U);
+  for (const Finding& finding : failed.report.result.findings) {
+    ASSERT_EQ(finding.why.size(), 1U);
+    EXPECT_TRUE(has(finding.why[0], "by MOVW 7, VW0 in line 2"));
+  }
+  EXPECT_EQ(failed.report.result.recordings.size(), 2U);
+}
+
+TEST(Explanation, WaitsForScansAndFaultsOfTheLineRunTheSameWayAgain) {
+  const Failed failed(
+      "  - wait: 3 scans\n  - fault: \"missing:of=answer,character=each\"\n  - {read: holding 0, expect: [0]}\n  - wait_until: {VW20: 1}\n",
+      slave());
+  EXPECT_TRUE(has(failed.text(), "fault missing:character=each,of=answer"));
+}
+
+TEST(Explanation, WhatPassesHasNoRecording) {
+  const Failed passed("  - {read: holding 0, expect: [0]}\n", slave());
+  EXPECT_TRUE(passed.report.result.recordings.empty());
+  EXPECT_EQ(debug_command(passed.report), "");
+}
+
+TEST(Explanation, AMistakeInAFileIsAnErrorInJunit) {
+  ScenarioFile file = read_scenarios("steps:\n  - reed: holding 0\n", "typo.yaml");
+  const Messages messages{{.kind = Message::Kind::Diagnostics, .diagnostics = file.diagnostics, .source = file.source}};
+  const std::string junit = to_junit(messages);
+  EXPECT_TRUE(has(junit, "errors=\"1\""));
+  EXPECT_TRUE(has(junit, "file=\"typo.yaml\" line=\"2\""));
+  EXPECT_TRUE(has(junit, "<error message=\""));
+  EXPECT_TRUE(has(to_junit(Messages{{.text = "cannot read x"}}), "cannot read x"));
+}
+
+}  // namespace
+}  // namespace s7200::tools

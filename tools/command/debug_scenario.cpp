@@ -1,0 +1,130 @@
+#include "tools/command/debug_scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+
+#include "interpreter/base/text.hpp"
+#include "tools/command/debug_script.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/command/test_output.hpp"
+#include "tools/debugger/debugger.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/scenario/benches.hpp"
+#include "tools/scenario/collection.hpp"
+#include "tools/scenario/plant.hpp"
+#include "tools/scenario/report.hpp"
+#include "tools/yaml/yaml.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// What else belongs to a program; a scenario says it itself.
+std::string option_of_a_program(const CLI::App& verb) {
+  constexpr std::array<std::string_view, 5> kOfScenarios{"--only", "--target", "--commands", "--execute", "--interactive"};
+  for (const CLI::Option* option : verb.get_options()) {
+    const bool known = option->get_positional() || std::ranges::find(kOfScenarios, option->get_name()) != kOfScenarios.end();
+    if (option->count() > 0 && !known) return option->get_name();
+  }
+  return {};
+}
+
+/// A scenario as it went.
+struct Opened {
+  const Scenario* scenario = nullptr;
+  std::shared_ptr<const Program> program{};
+  ScenarioResult result{};
+};
+
+/// The first that fails; the first one if none does. Nothing if none is about one program in simulation.
+std::optional<Opened> opened(const std::vector<Scenario>& scenarios, Benches& benches) {
+  std::optional<Opened> first;
+  for (std::size_t i = 0; i < scenarios.size() && !interrupted(); ++i) {
+    benches.of[i].recordings_wanted = true;
+    benches.of[i].band = nullptr;
+    Opened one{&scenarios[i], benches.of[i].program, run_scenario(scenarios[i], benches.of[i])};
+    if (one.result.recordings.empty()) continue;
+    const bool failed = !one.result.findings.empty();
+    if (failed || !first) first = std::move(one);
+    if (failed) break;
+  }
+  return first;
+}
+
+/// Where it is opened: at what it found, or else at its end.
+PlaceInRun place_of(const ScenarioResult& result) {
+  for (const Finding& finding : result.findings)
+    if (finding.place) return *finding.place;
+  return {result.recordings.size() - 1, result.recordings.back().end};
+}
+
+std::string heading(const Opened& one) {
+  const std::string name = stl::printable(one.scenario->name);
+  if (one.result.findings.empty()) return fmt::format("'{}' passes; this is its end\n", name);
+  const Finding& finding = one.result.findings.front();
+  const stl::Position position = position_of(*one.scenario, finding);
+  return fmt::format("'{}' fails in {}:{}:\n  {}\n", name, stl::printable(one.scenario->source->name), position.line,
+                     stl::printable(finding_line(*one.scenario, finding)));
+}
+
+int debug(const Opened& one, const std::string& script, const DebugOptions& options) {
+  const PlaceInRun place = place_of(one.result);
+  Plant plant(*one.scenario, one.program);
+  Debugger debugger(plant.simulation(), std::cout,
+                    {.master = one.scenario->line,
+                     .stop_request = &interruption(),
+                     .history = {.plcs = {}},
+                     .colour = colour_wanted(stdout)});
+  if (!debugger.open(one.result.recordings[place.power_up], place.moment))
+    return print_error("the scenario does not run the same way in the debugger; 'test' shows what it found"), kUnusable;
+  fmt::print("{}", heading(one));
+  std::cout << std::flush;
+  const bool good = run_commands(debugger, script, options);
+  print_interruption();
+  if (interrupted() || (!good && debugger.expectation_failed())) return kCheckFailed;
+  return good ? kFine : kUnusable;
+}
+
+}  // namespace
+
+bool is_scenario_file(const std::string& path) {
+  std::string why;
+  const auto text = is_yaml_file(path) ? read_text(path, why) : std::nullopt;
+  if (!text) return false;
+  stl::Diagnostics ignored;
+  const auto root = read_yaml(*text, *source_of(*text, path), ignored);
+  return root && root->is_map() && (root->find("steps") || root->find("scenarios"));
+}
+
+int run_debug_scenario(const CLI::App& verb, const DebugOptions& options) {
+  if (const std::string option = option_of_a_program(verb); !option.empty()) {
+    print_error(fmt::format("{} is about a program; a scenario says that itself, in its head", option));
+    return kUnusable;
+  }
+  std::string why;
+  const auto script = options.commands_file.empty() ? std::string() : read_file(options.commands_file, why);
+  if (!script) return print_error(fmt::format("cannot read {}: {}", options.commands_file, why)), kUnusable;
+  const SuiteSettings settings{.files = {options.program.path}, .only = options.only, .target = options.target};
+  Messages messages;
+  Programs programs;
+  auto scenarios = collect_scenarios(settings, messages);
+  auto benches = scenarios ? make_benches(*scenarios, settings.target, settings, programs, messages) : std::nullopt;
+  print_messages(messages);
+  if (!benches) return kUnusable;
+  if (!benches->of_programs) return print_error("--target must be a program: nothing else can be looked into"), kUnusable;
+  const auto one = opened(*scenarios, *benches);
+  if (one) return debug(*one, *script, options);
+  print_interruption();
+  if (!interrupted())
+    print_error(fmt::format("no scenario of {} can be opened: the debugger opens those of one program in simulation",
+                            options.program.path));
+  return kUnusable;
+}
+
+}  // namespace s7200::tools

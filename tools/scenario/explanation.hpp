@@ -1,0 +1,16 @@
+// Why a scenario failed: a failed one is run again, with a past that can be asked.
+#pragma once
+
+#include <memory>
+
+#include "interpreter/program/program.hpp"
+#include "tools/scenario/result.hpp"
+#include "tools/scenario/scenario.hpp"
+
+namespace s7200::tools {
+
+/// Adds to the findings that are shown why an answer is missing or wrong, and who wrote memory last. Does nothing where the
+/// run has no recordings: it was not about one program in simulation.
+void explain(const Scenario& scenario, const std::shared_ptr<const Program>& program, ScenarioResult& result);
+
+}  // namespace s7200::tools

@@ -1,0 +1,137 @@
+#include "tools/session/causes/last_write.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "tools/session/past/access.hpp"
+#include "tools/session/past/reader.hpp"
+
+namespace s7200::tools {
+namespace {
+
+class WriteFinder final : public Reader {
+ public:
+  WriteFinder(const History& history, std::size_t station, const MemoryRange& range, const std::atomic<bool>* stop_request)
+      : Reader(station, stop_request),
+        cpu_(history.station(station).cpu()),
+        history_(history),
+        station_(station),
+        range_(range),
+        bits_(bits_of(range)) {
+    for (std::uint32_t op = 0; op < cpu_.program().ops.size(); ++op)
+      may_write_.push_back(may_access(cpu_, op, Access::Write, bits_));
+  }
+
+  void begin() {
+    value_ = range_.bytes_in(cpu_.state().image);
+    in_front_ = history_.now();
+  }
+  /// Whether there was a write, in this part or between its last instruction and its end.
+  bool found() {
+    in_front_ = history_.now();
+    note_change_between();
+    return last_.has_value();
+  }
+  const std::optional<LastWrite>& last() const { return last_; }
+
+  bool before_action() override {
+    in_front_ = history_.now();
+    note_change_between();
+    return true;
+  }
+
+  void before_planned(std::size_t) override { note_change_between(); }
+  void planned_done(std::size_t number) override {
+    if (!changed()) return;
+    note(std::nullopt, history_.now().time);
+    last_->planned = number;
+  }
+
+  void acted() override {
+    const std::size_t number = in_front_.actions;
+    const Action* const action = history_.action(number);
+    const bool own = action && history_.station_of_action(number) == station_;
+    if (!changed() && !(own && assigns(*action))) return;
+    note(std::nullopt, cpu_.time());
+    last_->action = number;
+  }
+
+  bool before(std::uint32_t op) override {
+    if (!Reader::before(op)) return false;
+    in_front_ = history_.in_front();
+    note_change_between();
+    writes_ = may_write_[op] && accesses(cpu_, op, Access::Write, bits_);
+    errors_ = cpu_.state().error_count;
+    in_interrupt_ = cpu_.state().in_interrupt;
+    return true;
+  }
+
+  void instruction(const InstructionRecord& record) override {
+    const bool wrote = writes_ && record.powered && errors_ == cpu_.state().error_count;
+    if (wrote || changed()) note(record, record.end);
+  }
+
+ private:
+  bool changed() const {
+    const auto& image = cpu_.state().image;
+    if (range_.width == Width::Bit) return (image[range_.at] >> range_.bit & 1) != value_[0];
+    return !std::equal(value_.begin(), value_.end(), image.begin() + range_.at);
+  }
+
+  void note_change_between() {
+    if (changed()) note(std::nullopt, cpu_.time());
+  }
+
+  /// Whether it has written the value that is there. Inputs get theirs when they are read.
+  bool assigns(const Action& action) const {
+    const auto holds = [this](const Assignment& one) {
+      std::uint32_t value = 0;
+      for (const std::uint8_t byte : one.place.bytes_in(cpu_.state().image)) value = value << 8 | byte;
+      return value == one.value && bits_of(one.place).overlaps(bits_);
+    };
+    if (const auto* set = std::get_if<SetMemory>(&action)) return std::ranges::any_of(set->assignments, holds);
+    const auto* const force = std::get_if<Force>(&action);
+    return force && std::ranges::any_of(force->assignments, holds);
+  }
+
+  void note(const std::optional<InstructionRecord>& by, Time at) {
+    const State& state = cpu_.state();
+    std::vector<std::uint8_t> value = range_.bytes_in(state.image);
+    last_ = {.moment = in_front_,
+             .by = by,
+             .action = {},
+             .planned = {},
+             .at = at,
+             .in_interrupt = by && in_interrupt_,
+             .event = state.serving_event,
+             .routine = state.serving_routine,
+             .before = std::exchange(value_, value),
+             .after = std::move(value)};
+  }
+
+  const Cpu& cpu_;
+  const History& history_;
+  std::size_t station_;
+  MemoryRange range_;
+  Bits bits_;
+  std::vector<bool> may_write_;  ///< by op
+  std::vector<std::uint8_t> value_;
+  Moment in_front_;
+  bool writes_ = false, in_interrupt_ = false;
+  std::uint64_t errors_ = 0;
+  std::optional<LastWrite> last_;
+};
+
+}  // namespace
+
+WriteSearch find_last_write(History& history, std::size_t station, const MemoryRange& range,
+                            const std::atomic<bool>* stop_request) {
+  const Moment start = history.now();
+  WriteFinder finder(history, station, range, stop_request);
+  const auto search = history.search_back(
+      finder, start, [&] { finder.begin(); }, [&] { return finder.found(); }, history.may_have_written(station, range));
+  history.go_to(start);
+  return {search == History::Search::Found ? finder.last() : std::nullopt, search == History::Search::Interrupted};
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,86 @@
+#include "tools/session/causes/writer.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/session/causes/last_attachment.hpp"
+#include "tools/session/causes/last_write.hpp"
+#include "tools/session/past/past_words.hpp"
+#include "tools/views/execution_text.hpp"
+#include "tools/views/machine_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// `  by INT 123 line 40 …, serving event 8 (…)  // comment`
+std::string by_text(const LastWrite& write, const History& history, const Program& program, const Listing& listing) {
+  if (write.by)
+    return fmt::format("  by {} {}{}{}", listing.routine_of(write.by->op), describe(*write.by, program),
+                       write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "",
+                       remark_on(write.by->op, program));
+  return "  by " + changer_text(history, write.action, write.planned);
+}
+
+}  // namespace
+
+std::string asked_by_text(const History& history, const Asker& asker, const std::string& plc) {
+  switch (asker.kind) {
+    case Asker::Kind::Send:
+      return {};
+    case Asker::Kind::Plc:
+      return "asked by " + (plc.empty() ? "the program" : stl::printable(plc));
+    case Asker::Kind::Bridge:
+      return history.bridge_of(asker.number).empty() ? "" : "asked by " + history.name_of(asker);
+    case Asker::Kind::Poller:
+      break;
+  }
+  return "asked by " + history.name_of(asker);
+}
+
+std::string changer_text(const History& history, std::optional<std::size_t> number, std::optional<std::size_t> planned) {
+  const Action* const action = number ? history.action(*number) : nullptr;
+  if (action) return fmt::format("'{}', from outside", describe(*action));
+  if (planned && *planned < history.planned().size())
+    return fmt::format("'{}', in the system file", stl::printable(history.planned()[*planned]));
+  return "the system, between two instructions";
+}
+
+WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, const MemoryRange& range,
+                         std::string_view name, const std::atomic<bool>* stop_request) {
+  const Program& program = history.station(station).cpu().program();
+  const WriteSearch search = find_last_write(history, station, range, stop_request);
+  if (search.interrupted) return {.writer = {}, .interrupted = true};
+  if (!search.write) {
+    const auto now = range.bytes_in(history.station(station).cpu().state().image);
+    return {.writer = {},
+            .none = fmt::format("nothing has written {} {}; it is {}", name, since_oldest_text(history),
+                                value_text(program, range, now))};
+  }
+  const LastWrite& write = *search.write;
+  return {.writer =
+              Writer{.moment = write.moment,
+                     .by = write.by,
+                     .by_system = !write.by && !write.action && !write.planned,
+                     .text = fmt::format("{} was {}, became {}, at {}\n{}", name, value_text(program, range, write.before),
+                                         value_text(program, range, write.after), moment_text(write.at),
+                                         by_text(write, history, program, listing))}};
+}
+
+WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, std::uint8_t event,
+                         const std::atomic<bool>* stop_request) {
+  const Program& program = history.station(station).cpu().program();
+  const AttachmentSearch search = find_last_attachment(history, station, event, stop_request);
+  if (search.interrupted) return {.writer = {}, .interrupted = true};
+  if (!search.attachment)
+    return {
+        .writer = {},
+        .none = fmt::format("no instruction has attached or detached {} {}", event_text(event), since_oldest_text(history))};
+  const auto& [moment, what, by] = *search.attachment;
+  return {.writer = Writer{.moment = moment,
+                           .by = by,
+                           .text = fmt::format("{}  {}\n  by {} {}", moment_text(what.at), describe(what, program),
+                                               listing.routine_of(by.op), execution_text(by, program))}};
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,80 @@
+#include "tools/session/past/past_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/base/counted.hpp"
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "tools/views/machine_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// Null if the past does not begin with power coming back.
+const PowerCycle* power_cycle(const History& history) { return history.here().branch->power.get(); }
+
+std::string power_cycle_text(const PowerCycle& power) {
+  return fmt::format("power came back{} ('back' leads to before that)",
+                     power.off == 0 ? "" : " after " + format_duration(power.off));
+}
+
+}  // namespace
+
+std::string list_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::string oldest_text(const History& history) {
+  const History::Usage usage = history.usage();
+  if (usage.forgotten == 0) {
+    const PowerCycle* const power = power_cycle(history);
+    return power ? "where " + power_cycle_text(*power) : "where this session powered the CPU up";
+  }
+  return fmt::format("before which what came over the bridge is forgotten: {}, more than {} MB",
+                     counted(usage.forgotten, "action"), usage.log_bound >> 20);
+}
+
+std::string since_oldest_text(const History& history) {
+  const History::Usage usage = history.usage();
+  if (usage.forgotten == 0) {
+    const PowerCycle* const power = power_cycle(history);
+    return power ? "since " + power_cycle_text(*power) : "since power-up";
+  }
+  return fmt::format("since {}, where the past begins", moment_text(usage.oldest.time));
+}
+
+std::string at_oldest_text(const History& history) {
+  const bool whole = history.usage().forgotten == 0 && !power_cycle(history);
+  return "this is the oldest moment: " + (whole ? "the session begins at power-up" : oldest_text(history));
+}
+
+std::optional<Time> parse_moment(std::string_view text, const History& history, std::string& why) {
+  const std::string word = stl::lower_case(text);
+  const Time oldest = history.usage().oldest.time, newest = history.newest().time;
+  if (word == "start") return oldest;
+  if (word == "end") return newest;
+  const bool before_now = text.starts_with('-');
+  const auto given = parse_duration(text.substr(before_now ? 1 : 0));
+  if (!given)
+    return why = fmt::format("'{}' is not a moment; write for example 15.193ms or -5ms (in {}), start or end",
+                             stl::shortened(text), kTimeUnits),
+           std::nullopt;
+  const Time now = history.now().time, time = before_now ? now - *given : *given;
+  if (time < oldest)
+    return why = fmt::format("the oldest moment is {}, {}", moment_text(oldest), oldest_text(history)), std::nullopt;
+  if (time > newest) return why = fmt::format("nothing has run after {} so far", moment_text(newest)), std::nullopt;
+  return time;
+}
+
+bool go_to_parsed(History& history, Time time) {
+  const Moment oldest = history.usage().oldest;
+  if (time > oldest.time) return history.go_to(time);
+  history.go_to(oldest);
+  return true;
+}
+
+}  // namespace s7200::tools
