@@ -39,6 +39,8 @@ needed_to_test=(
   /usr/include/modbus/modbus.h:libmodbus-dev
   /usr/lib/python3/dist-packages/pymodbus:python3-pymodbus
   /usr/lib/python3/dist-packages/serial_asyncio:python3-serial-asyncio
+  /usr/lib/python3/dist-packages/serial:python3-serial
+  /usr/sbin/ser2net:ser2net
   mbpoll:mbpoll
   sigrok-cli:sigrok-cli
   tshark:tshark

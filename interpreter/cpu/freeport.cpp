@@ -63,9 +63,9 @@ void send_next_character(Core& core, std::uint8_t number, Time at) {
   port.on_wire = OnWire::Xmt;
   if (port.sending_break) return core.port(number).send_break(kBreakBits, at);
   port.on_line = core.s.image[port.buffer];
-  core.port(number).send(port.on_line, at);
   ++port.buffer;
   --port.left;
+  core.port(number).send(port.on_line, at);
 }
 
 Ignored reason_to_ignore(const Core& core, std::uint8_t number) {

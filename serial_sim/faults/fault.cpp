@@ -251,9 +251,65 @@ const std::array kParameters{
               [](const Fault& f) { return fmt::format("{}", f.seed); }},
 };
 
-const Parameter& parameter_named(std::string_view name) {
-  return *std::find_if(kParameters.begin(), kParameters.end(), [&](const Parameter& p) { return p.name == name; });
+template <Misbehaviour misbehaviour>
+std::string read_code(std::string_view text, Fault& fault) {
+  if (fault.misbehaviour != Misbehaviour::Nothing) return "comes after another misbehaviour of the same answer: give one of them";
+  fault.misbehaviour = misbehaviour;
+  return read_count<&Fault::code>(text, fault, misbehaviour == Misbehaviour::Station ? 0 : 1,
+                                  misbehaviour == Misbehaviour::Function ? 127 : 255);
 }
+
+template <Misbehaviour misbehaviour>
+std::string write_code(const Fault& fault) {
+  return fault.misbehaviour == misbehaviour ? fmt::format("{}", fault.code) : std::string(kLeftOut);
+}
+
+/// Without a value: it is enough to name it.
+template <Misbehaviour misbehaviour>
+std::string read_named(std::string_view, Fault& fault) {
+  if (fault.misbehaviour != Misbehaviour::Nothing) return "comes after another misbehaviour of the same answer: give one of them";
+  fault.misbehaviour = misbehaviour;
+  return {};
+}
+
+template <Misbehaviour misbehaviour>
+std::string write_named(const Fault& fault) {
+  return fault.misbehaviour == misbehaviour ? std::string() : std::string(kLeftOut);
+}
+
+/// Of a whole answer; `station` means something else elsewhere.
+const std::array kAnswerParameters{
+    Parameter{{"delay", "time, bits", "how late the answer begins"},
+              read_length<&Fault::length, true>,
+              [](const Fault& f) { return f.length == Length{} ? std::string(kLeftOut) : write_length<&Fault::length>(f); }},
+    Parameter{{"exception", "1…255", "the answer is this exception instead"},
+              read_code<Misbehaviour::Exception>,
+              write_code<Misbehaviour::Exception>},
+    Parameter{{"station", "0…255", "of answer: the station that it seems to come from"},
+              read_code<Misbehaviour::Station>,
+              write_code<Misbehaviour::Station>},
+    Parameter{{"function", "1…127", "the function that it seems to be about"},
+              read_code<Misbehaviour::Function>,
+              write_code<Misbehaviour::Function>},
+    Parameter{{"stale", "", "the answer before this one is sent again"},
+              read_named<Misbehaviour::Stale>,
+              write_named<Misbehaviour::Stale>},
+    Parameter{{"twice", "", "the answer is sent twice, 3.5 characters apart"},
+              read_named<Misbehaviour::Twice>,
+              write_named<Misbehaviour::Twice>},
+    Parameter{{"short", "", "the last two bytes of its data are left out"},
+              read_named<Misbehaviour::Short>,
+              write_named<Misbehaviour::Short>},
+    Parameter{{"silent", "", "nothing is sent"}, read_named<Misbehaviour::Silent>, write_named<Misbehaviour::Silent>},
+};
+
+const Parameter& parameter_of(FaultKind kind, std::string_view name) {
+  const auto of_answer = std::ranges::find(kAnswerParameters, name, &Parameter::name);
+  if (kind == FaultKind::Answer && of_answer != kAnswerParameters.end()) return *of_answer;
+  return *std::ranges::find(kParameters, name, &Parameter::name);
+}
+
+bool has_value(const Parameter& parameter) { return !parameter.values.empty(); }
 
 /// What every kind has: when it happens.
 constexpr std::array kWhen{ParameterOfKind{"exchange", kLeftOut}, ParameterOfKind{"every", "1"},
@@ -284,7 +340,8 @@ class Reader {
     kind_ = &*kind;
     result_.fault.kind = kind->kind;
     for (const ParameterOfKind& p : kind->parameters)
-      if (p.standard != kRequired && p.standard != kLeftOut) parameter_named(p.name).read(p.standard, result_.fault);
+      if (p.standard != kRequired && p.standard != kLeftOut)
+        parameter_of(kind->kind, p.name).read(p.standard, result_.fault);
 
     if (colon != std::string_view::npos)
       for (std::string_view rest = text_.substr(colon + 1);;) {
@@ -318,16 +375,20 @@ class Reader {
       fail(name, unknown(fmt::format("parameter of {}", kind_->name), name, of_kind));
       return;
     }
-    const Parameter& parameter = parameter_named(name);
-    if (equals == std::string_view::npos) {
+    const Parameter& parameter = parameter_of(kind_->kind, name);
+    const bool given_value = equals != std::string_view::npos;
+    if (has_value(parameter) && !given_value) {
       fail(name, fmt::format("{} needs a value ({}): write {}=VALUE", name, parameter.values, name));
+    } else if (!has_value(parameter) && given_value) {
+      fail(name, fmt::format("{0} has no value: write {0} alone", name));
     } else if (result_.find(name)) {
       fail(name, fmt::format("{} is given twice", name));
     } else {
       result_.given.push_back({parameter.name, column_of(name), stl::trim(assignment).size()});
-      const std::string_view value = trim(assignment.substr(equals + 1));
+      const std::string_view value = given_value ? trim(assignment.substr(equals + 1)) : name;
       if (const std::string wrong = parameter.read(value, result_.fault); !wrong.empty())
-        fail(value, fmt::format("{}: '{}' {}", name, stl::shortened(value), wrong));
+        fail(value, given_value ? fmt::format("{}: '{}' {}", name, stl::shortened(value), wrong)
+                                : fmt::format("{} {}", name, wrong));
     }
   }
 
@@ -336,10 +397,16 @@ class Reader {
   void check_whole(std::string_view name) {
     for (const ParameterOfKind& p : kind_->parameters)
       if (p.standard == kRequired && !result_.find(p.name)) {
-        fail(name, fmt::format("{} needs {}=VALUE ({}), for example {}", name, p.name, parameter_named(p.name).values,
-                               kind_->example));
+        fail(name, fmt::format("{} needs {}=VALUE ({}), for example {}", name, p.name,
+                               parameter_of(kind_->kind, p.name).values, kind_->example));
         return;
       }
+    const Fault& fault = result_.fault;
+    if (fault.kind == FaultKind::Answer && fault.misbehaviour == Misbehaviour::Nothing && fault.length == Length{}) {
+      fail(name, fmt::format("{} needs one of {}, for example {}", name,
+                             stl::joined(kAnswerParameters, [](const Parameter& p) { return p.name; }), kind_->example));
+      return;
+    }
     for (const GivenParameter& given : result_.given)
       if (excluded_by_instant(result_.fault, given.name)) {
         fail(text_.substr(given.column - 1, given.name.size()), contradiction(given.name));
@@ -404,16 +471,21 @@ std::string to_text(const Fault& fault) {
   char separator = ':';
   for (const ParameterOfKind& p : kind.parameters) {
     if (excluded_by_instant(fault, p.name)) continue;
-    const std::string value = parameter_named(p.name).write(fault);
+    const Parameter& parameter = parameter_of(fault.kind, p.name);
+    const std::string value = parameter.write(fault);
     if (value == p.standard || value == kLeftOut) continue;
-    text += fmt::format("{}{}={}", separator, p.name, value);
+    text += fmt::format("{}{}{}{}", separator, p.name, has_value(parameter) ? "=" : "", value);
     separator = ',';
   }
   return text;
 }
 
 std::span<const FaultParameter> fault_parameters() {
-  static const std::vector<FaultParameter> kTable(kParameters.begin(), kParameters.end());
+  static const std::vector<FaultParameter> kTable = [] {
+    std::vector<FaultParameter> all(kParameters.begin(), kParameters.end());
+    all.insert(all.end(), kAnswerParameters.begin(), kAnswerParameters.end());
+    return all;
+  }();
   return kTable;
 }
 
@@ -447,6 +519,16 @@ const std::array<FaultKindInfo, kFaultKinds>& fault_kinds() {
                 {{"error", kRequired}, {"station", "master"}}),
       kind_info(FaultKind::Cut, "cut", "the line is cut: everybody hears mark", "cut:character=5,for=20ms",
                 {{"character", kLeftOut}, {"at", "0bit"}, {"of", "request"}, {"from", kLeftOut}, {"for", "ever"}}),
+      kind_info(FaultKind::Answer, "answer", "a slave that misbehaves in whole frames, whose CRC is right",
+                "answer:exception=6,every=3",
+                {{"delay", kLeftOut},
+                 {"exception", kLeftOut},
+                 {"station", kLeftOut},
+                 {"function", kLeftOut},
+                 {"stale", kLeftOut},
+                 {"twice", kLeftOut},
+                 {"short", kLeftOut},
+                 {"silent", kLeftOut}}),
   };
   return kKinds;
 }

@@ -27,14 +27,27 @@ enum class FaultKind : std::uint8_t {
   Echo,
   Collision,
   Baud,
-  Cut
+  Cut,
+  Answer
 };
-inline constexpr std::size_t kFaultKinds = static_cast<std::size_t>(FaultKind::Cut) + 1;
+inline constexpr std::size_t kFaultKinds = static_cast<std::size_t>(FaultKind::Answer) + 1;
 
 /// The half of an exchange whose characters are meant: what the PLC's peers send, or what the PLC sends.
 enum class Half : std::uint8_t { Request, Answer, Both };
 
 enum class Station : std::uint8_t { Master, Plc };
+
+/// What a slave does wrong that sends a whole frame, whose CRC is right. Nothing: it is late, at most.
+enum class Misbehaviour : std::uint8_t {
+  Nothing,
+  Exception,  ///< it refuses the request, with an exception code
+  Station,    ///< it answers as another station
+  Function,   ///< it answers another function
+  Stale,      ///< it sends the answer before this one
+  Twice,      ///< it sends the answer twice, 3.5 characters apart
+  Short,      ///< it leaves out the last two bytes of data
+  Silent      ///< it sends nothing
+};
 
 /// A time, or so many bits of whoever sends.
 struct Length {
@@ -74,6 +87,8 @@ struct Fault {
   Length length;
   std::uint32_t count = 1;
   std::vector<std::uint8_t> bytes;  ///< empty: random
+  Misbehaviour misbehaviour{};      ///< of an answer; `length` is how late it is
+  std::uint8_t code = 0;            ///< the exception, station or function in it
 
   bool operator==(const Fault&) const = default;
 };

@@ -50,7 +50,8 @@ std::uint64_t Faults::Chance::draw() { return draw_split_mix(state_); }
 
 bool Faults::Chance::hits(double probability) { return static_cast<double>(draw() >> 11) * 0x1p-53 < probability; }
 
-void Faults::add_plc(const Uart& plc) {
+void Faults::add_plc(const Uart& plc, const FrameSender* sender) {
+  senders_[static_cast<std::size_t>(plc.driver())] = sender;
   if (!first_plc_) first_plc_ = &plc;
   plc_drivers_ |= 1U << plc.driver();
   listen_in();
@@ -125,7 +126,7 @@ void Faults::disturb_wire(Injected& injected, std::uint32_t character, const Dis
   line_.disturb(disturbance);
 }
 
-Mishap Faults::character_begins(int driver, const SerialFormat& format, Time at) {
+Mishap Faults::character_begins(int driver, const SerialFormat& format, std::uint8_t byte, Time at) {
   const bool is_unknown = !state_.begun && state_.master == -1;
   if (is_unknown && has_several_plcs() && is_plc(driver)) state_.master = driver;
   const Half half = answers(driver) ? Half::Answer : Half::Request;
@@ -140,7 +141,7 @@ Mishap Faults::character_begins(int driver, const SerialFormat& format, Time at)
 
   const auto disturbed_by = [&](const Injected& injected) {
     const bool is_its_own = injected.driver == driver || (injected.driver == kAnyDriver && concerns(injected.fault, half));
-    return injected.applies && is_its_own;
+    return injected.applies && is_its_own && injected.fault.kind != FaultKind::Answer;
   };
   const auto number_for = [&](const Injected& injected) {
     return injected.driver == driver ? injected.characters : state_.characters[index(half)];
@@ -149,14 +150,65 @@ Mishap Faults::character_begins(int driver, const SerialFormat& format, Time at)
   for (Injected& injected : state_.injected)
     if (disturbed_by(injected)) disturb_sender(injected, number_for(injected), clock, at, mishap);
 
+  if (half == Half::Answer && follow_answer(driver, byte)) change_answer(driver, clock, at, mishap);
+
   const Time character = clock.character_time();
   const Time start = at + mishap.delay + static_cast<Time>(mishap.before.size()) * character;
   for (Injected& injected : state_.injected)
     if (disturbed_by(injected) && bound_to_character(injected.fault) && hits_character(injected.fault, number_for(injected)))
       disturb_line(injected, number_for(injected), clock, start);
 
-  state_.sent_until[index(half)] = start + static_cast<Time>(1 + mishap.after.size()) * character;
+  state_.sent_until[index(half)] = start + mishap.pause + static_cast<Time>(1 + mishap.after.size()) * character;
   return mishap;
+}
+
+/// Whether the character belongs to an answer that can be changed as a whole. One that had begun before there was such a fault
+/// cannot.
+bool Faults::follow_answer(int driver, std::uint8_t byte) {
+  const auto is_of_answers = [](const Injected& injected) { return injected.fault.kind == FaultKind::Answer; };
+  AnswerInProgress& answer = state_.answer;
+  if (std::ranges::none_of(state_.injected, is_of_answers)) return answer = {}, false;
+  const FrameSender* const sender = senders_[static_cast<std::size_t>(driver)];
+  const bool first = state_.characters[index(Half::Answer)] == 1;
+  if (first || (answer.length != 0 && answer.complete())) {
+    if (answer.length != 0 && answer.complete()) answer.before = std::move(answer.bytes);
+    const auto left = sender ? sender->characters_left() : std::nullopt;
+    answer.length = left ? 1 + *left : 0;
+    answer.bytes.clear();
+    answer.sent.clear();
+  }
+  if (answer.length == 0) {
+    for (Injected& injected : state_.injected)
+      if (first && is_of_answers(injected) && injected.applies) ++injected.impossible;
+    return false;
+  }
+  answer.bytes.push_back(byte);
+  return true;
+}
+
+/// The first fault that misbehaves does; all that delay do.
+void Faults::change_answer(int driver, const BitClock& clock, Time at, Mishap& mishap) {
+  AnswerInProgress& answer = state_.answer;
+  const bool first = answer.bytes.size() == 1;
+  bool misbehaves = false;
+  for (Injected& injected : state_.injected) {
+    const Fault& fault = injected.fault;
+    const bool is_its_own = injected.driver == driver || injected.driver == kAnyDriver;
+    if (fault.kind != FaultKind::Answer || !injected.applies || !is_its_own) continue;
+    if (fault.misbehaviour != Misbehaviour::Nothing && misbehaves) continue;
+    if (!possible(fault.misbehaviour, answer)) {
+      if (first) ++injected.impossible;
+      continue;
+    }
+    if (first) {
+      const Time delay = fault.length.at(clock);
+      mishap.delay += delay;
+      happens(injected, {1, at, at + delay + static_cast<Time>(answer.length) * clock.character_time()});
+    }
+    if (fault.misbehaviour == Misbehaviour::Nothing) continue;
+    misbehaves = true;
+    change(fault, answer, clock.format, mishap);
+  }
 }
 
 void Faults::disturb_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Time at, Mishap& mishap) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/base/event_queue.hpp"
+#include "serial_sim/faults/answer_change.hpp"
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/line/uart.hpp"
 
@@ -59,7 +60,7 @@ class Faults final : private Interference {
     bool hit = false;                   ///< of noise: whether a bit is inverted then
     std::uint64_t count = 0;            ///< how often it happened: bits, characters, glitches, exchanges with echo …
     Time last_begin = 0, last_end = 0;  ///< of what it has done to the wire
-    std::uint64_t impossible = 0;       ///< how often it could not, for want of such a bit in the format
+    std::uint64_t impossible = 0;       ///< how often it could not, for want of such a bit, or of such an answer
     bool operator==(const Injected&) const = default;
   };
 
@@ -71,6 +72,7 @@ class Faults final : private Interference {
     int master = -1;                            ///< driver of the station that asks the others, or -1
     std::array<std::uint32_t, 2> characters{};  ///< of request and answer so far
     std::array<Time, 2> sent_until{};           ///< end of the last of them
+    AnswerInProgress answer{};                  ///< while there is a fault of whole answers
     bool operator==(const State&) const = default;
   };
 
@@ -78,8 +80,8 @@ class Faults final : private Interference {
   Faults(Line& line, EventQueue& queue, EventOwner owner) : line_(line), queue_(queue), owner_(owner) {}
 
   /// The characters of this UART are answers, unless it is the master among several. Noise and lengths in bits go by the
-  /// rate of the first one. Not owned.
-  void add_plc(const Uart& plc);
+  /// rate of the first one. Only answers of a `sender` can be changed as a whole. Not owned.
+  void add_plc(const Uart& plc, const FrameSender* sender = nullptr);
 
   /// What this station sends are requests, and what all PLCs but it send are answers.
   void set_master(int driver) { state_.master = driver; }
@@ -103,7 +105,7 @@ class Faults final : private Interference {
 
  private:
   void exchange_begins(int driver, Time at) override;
-  Mishap character_begins(int driver, const SerialFormat& format, Time at) override;
+  Mishap character_begins(int driver, const SerialFormat& format, std::uint8_t byte, Time at) override;
   std::int32_t clock_error(int driver) const override;
   bool echoes(int driver) const override;
 
@@ -116,6 +118,8 @@ class Faults final : private Interference {
   void happens(Injected& injected, const FaultHappening& what);
   void disturb_wire(Injected& injected, std::uint32_t character, const Disturbance& disturbance);
   void disturb_sender(Injected& injected, std::uint32_t number, const BitClock& clock, Time at, Mishap& mishap);
+  bool follow_answer(int driver, std::uint8_t byte);
+  void change_answer(int driver, const BitClock& clock, Time at, Mishap& mishap);
   void disturb_line(Injected& injected, std::uint32_t number, const BitClock& clock, Time start);
   void disturb(Injected& injected, std::uint32_t number, const BitClock& clock, Time at);
   void invert_bit(Injected& injected, std::uint32_t number, int bit, const BitClock& clock, Time start);
@@ -130,7 +134,8 @@ class Faults final : private Interference {
   EventQueue& queue_;
   EventOwner owner_;
   const Uart* first_plc_ = nullptr;
-  std::uint32_t plc_drivers_ = 0;  // a bit each
+  std::uint32_t plc_drivers_ = 0;                               // a bit each
+  std::array<const FrameSender*, Line::kDrivers> senders_{};  // by driver; null: none
   FaultWatcher* watcher_ = nullptr;
   State state_;
 };

@@ -8,6 +8,9 @@
 
 namespace s7200::serial {
 
+/// What a line may be set to, in bits a second.
+inline constexpr std::uint32_t kSlowestBaud = 50, kFastestBaud = 1'000'000;
+
 /// As far as they are given; what is not given follows the port of the program.
 struct LineSettings {
   std::optional<std::uint32_t> baud{};  ///< bits a second

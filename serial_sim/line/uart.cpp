@@ -105,18 +105,19 @@ void Uart::put_character(unsigned levels, Time at) {
 }
 
 void Uart::put_character_with_mishaps(unsigned levels, Time at) {
-  const Mishap mishap = line_.interference()->character_begins(driver_, state_.format, at);
+  const auto sent = static_cast<std::uint8_t>(levels >> 1 & (state_.format.data_bits == 7 ? 0x7FU : 0xFFU));
+  const Mishap mishap = line_.interference()->character_begins(driver_, state_.format, sent, at);
   const BitClock clock{state_.format, clock_error()};
   at += mishap.delay;
-  const auto put_all = [&](const std::vector<std::uint8_t>& bytes) {
-    for (const std::uint8_t byte : bytes) {
-      const std::uint8_t data = data_of(byte, clock.format);
-      at = drive_character(character_levels(clock.format, data, clock.format.parity_bit(data)), clock, at);
-    }
+  const auto levels_of = [&](std::uint8_t byte) {
+    const std::uint8_t data = data_of(byte, clock.format);
+    return character_levels(clock.format, data, clock.format.parity_bit(data));
   };
-  put_all(mishap.before);
+  for (const std::uint8_t byte : mishap.before) at = drive_character(levels_of(byte), clock, at);
+  if (mishap.instead) levels = levels_of(*mishap.instead);
   at = mishap.lost ? at + clock.character_time() : drive_character(levels, clock, at);
-  put_all(mishap.after);
+  at += mishap.pause;
+  for (const std::uint8_t byte : mishap.after) at = drive_character(levels_of(byte), clock, at);
   sends_until(at);
 }
 

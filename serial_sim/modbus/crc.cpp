@@ -2,14 +2,6 @@
 
 namespace s7200::modbus {
 
-std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
-  std::uint16_t crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) {
-    crc = static_cast<std::uint16_t>(crc >> 8 ^ kCrcTable[(crc ^ byte) & 0xFF]);
-  }
-  return crc;
-}
-
 void add_crc(Bytes& bytes) {
   const std::uint16_t crc = crc16(bytes);
   bytes.push_back(static_cast<std::uint8_t>(crc & 0xFF));

@@ -1,27 +1,15 @@
 // The checksum at the end of a Modbus RTU frame.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
 #include "interpreter/base/bytes.hpp"
+#include "serial_sim/line/crc16.hpp"
 
 namespace s7200::modbus {
 
-/// What one byte does to the CRC: polynomial x^16 + x^15 + x^2 + 1, least significant bit first (Modbus over Serial
-/// Line, 6.2.2).
-inline constexpr std::array<std::uint16_t, 256> kCrcTable = [] {
-  std::array<std::uint16_t, 256> table{};
-  for (unsigned byte = 0; byte < table.size(); ++byte) {
-    unsigned crc = byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1 ^ 0xA001U : crc >> 1;
-    table[byte] = static_cast<std::uint16_t>(crc);
-  }
-  return table;
-}();
-
-std::uint16_t crc16(std::span<const std::uint8_t> bytes);
+using serial::crc16;
 
 /// Appends the CRC of `bytes`, low byte first.
 void add_crc(Bytes& bytes);

@@ -13,6 +13,13 @@ bool answers(std::span<const std::uint8_t> frame, const TcpMessage& request) {
   return frame.size() >= 4 && crc_ok(frame) && frame[0] == request.unit && (frame[1] & 0x7F) == (request.pdu[0] & 0x7F);
 }
 
+/// No slave can answer: none has such a station, or all are asked at once what only one could say.
+bool has_no_path(const TcpMessage& request) {
+  if (request.unit != kBroadcast) return request.unit > kLastStation;
+  const FunctionRow* const function = find_function(request.pdu[0]);
+  return function != nullptr && !function->broadcast;
+}
+
 }  // namespace
 
 void Gateway::take(Client client, std::span<const std::uint8_t> bytes) {
@@ -26,7 +33,7 @@ void Gateway::take_requests(Client client, MbapReader& stream) {
     auto request = stream.next();
     if (!request) return;
     ++counts_.requests;
-    if (request->unit > kLastStation) {
+    if (has_no_path(*request)) {
       ++counts_.no_path;
       answer(client, exception_to(*request, GatewayException::PathUnavailable));
       continue;

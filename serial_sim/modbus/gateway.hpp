@@ -14,8 +14,9 @@ namespace s7200::modbus {
 /// Each request of a client is answered once:
 /// - with the slave's answer, if its CRC, station and function are right
 /// - with exception 0B if no such answer came in time
-/// - with exception 0A, at once, for units 248 to 255, which no slave may have (Modbus over Serial Line, 2.2)
-/// Unit 0 is the broadcast of the serial line: no slave answers, nor does the gateway. A client may send further requests
+/// - with exception 0A, at once, for units 248 to 255, which no slave may have (Modbus over Serial Line, 2.2), and for a
+///   request to unit 0 that needs an answer, such as a read: no slave answers a broadcast
+/// Unit 0 is the broadcast of the serial line: no slave answers, nor does the gateway if it has sent one. A client may send further requests
 /// before the first is answered; kMostOpen of them are taken, the others wait in its stream.
 ///
 /// On a line with an echo the request itself comes back first, and is taken for the answer: station, function and CRC fit.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interpreter/base/bytes.hpp"
+#include "serial_sim/modbus/functions.hpp"
 
 namespace s7200::modbus {
 namespace {
@@ -27,6 +28,11 @@ std::uint32_t exchange_of(const TcpMessage& message) { return std::uint32_t{mess
 TcpMessage exception_to(const TcpMessage& request, GatewayException code) {
   const auto function = static_cast<std::uint8_t>(request.pdu[0] | 0x80);
   return {request.transaction, request.unit, {function, static_cast<std::uint8_t>(code)}};
+}
+
+bool is_tcp_request(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= kHeader + 2 && load16(&bytes[2]) == 0 && load16(&bytes[4]) == bytes.size() - kHeader &&
+         find_function(bytes[kHeader + 1]) != nullptr;
 }
 
 void MbapReader::take(std::span<const std::uint8_t> bytes) {

@@ -31,6 +31,9 @@ std::uint32_t exchange_of(const TcpMessage& message);
 /// The answer to `request` with an exception.
 TcpMessage exception_to(const TcpMessage& request, GatewayException code);
 
+/// Whether the bytes are one message of Modbus TCP from its first to its last, with a function that requests have.
+bool is_tcp_request(std::span<const std::uint8_t> bytes);
+
 /// A stream of bytes, in pieces of any size, to messages.
 class MbapReader {
  public:

@@ -58,4 +58,10 @@ Extent extent_of_request(std::span<const std::uint8_t> stream) {
   return stream.size() < expected ? Extent::Part : Extent::Whole;
 }
 
+bool lacks_crc(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kShortestWithData = 6, kCrc = 2;  // shorter ones are too much like anything else
+  return bytes.size() >= kShortestWithData && bytes.front() <= kLastStation && !crc_ok(bytes) &&
+         length(bytes) == bytes.size() + kCrc;
+}
+
 }  // namespace s7200::modbus

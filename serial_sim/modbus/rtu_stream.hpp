@@ -20,4 +20,7 @@ enum class Extent : std::uint8_t {
 };
 Extent extent_of_request(std::span<const std::uint8_t> stream);
 
+/// Whether it is a whole request of Modbus RTU but for its CRC.
+bool lacks_crc(std::span<const std::uint8_t> bytes);
+
 }  // namespace s7200::modbus

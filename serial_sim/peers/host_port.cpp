@@ -46,6 +46,8 @@ void HostPort::send_next(Time at) {
       return uart_.send_with_wrong_parity(character.byte, at);
     case HostCharacter::Fault::NoStopBit:
       return uart_.send_without_stop_bit(character.byte, at);
+    case HostCharacter::Fault::Break:
+      return uart_.send_break(HostCharacter::kBreakBits, at);
   }
 }
 

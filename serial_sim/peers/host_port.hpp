@@ -13,11 +13,12 @@ namespace s7200::serial {
 
 /// What is to be put on the line.
 struct HostCharacter {
-  enum class Fault : std::uint8_t { None, WrongParity, NoStopBit };
+  enum class Fault : std::uint8_t { None, WrongParity, NoStopBit, Break };
+  static constexpr int kBreakBits = 20;  ///< longer than any character
 
   std::uint8_t byte = 0;
   SerialFormat format{};
-  Fault fault = Fault::None;  ///< WrongParity needs a format with parity
+  Fault fault = Fault::None;  ///< WrongParity needs a format with parity; a Break has no byte
   std::uint64_t sender = 0;   ///< whose it is, where several share the port
 
   bool operator==(const HostCharacter&) const = default;

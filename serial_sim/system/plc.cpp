@@ -17,7 +17,13 @@ Plc::Port::Port(Plc& of, std::uint8_t its_number, SharedLine& shared_line, Dispa
       tap(line.line(), uart.driver()) {
   uart.enable_receiver(false, 0);
   uart.set_bystander(this);
-  line.add_plc(uart);
+  line.add_plc(uart, this);
+}
+
+/// Of what XMT sends; the CPU's answers in PPI mode are not Modbus frames.
+std::optional<std::size_t> Plc::Port::characters_left() const {
+  const Freeport& port = plc.cpu_.state().port[number];
+  return port.transmitting ? std::optional<std::size_t>(port.left) : std::nullopt;
 }
 
 void Plc::Port::configure(const SerialFormat& format, Time at) {

@@ -127,7 +127,7 @@ class Plc final : private EventHandler, private OutputListener {
  private:
   /// A UART as the CPU sees it. What the CPU does to it is an event at its instant: CPUs may run ahead of each other, and a
   /// line is never told of anything that lies before what it knows already.
-  struct Port final : SerialPort, private Uart::Bystander {
+  struct Port final : SerialPort, private Uart::Bystander, private FrameSender {
     Port(Plc& of, std::uint8_t number, SharedLine& shared_line, Dispatcher& events);
 
     void configure(const SerialFormat& format, Time at) override;
@@ -136,6 +136,7 @@ class Plc final : private EventHandler, private OutputListener {
     void send_break(int bit_times, Time at) override;
 
     bool looks() const override { return plc.cpu_.traced(); }
+    std::optional<std::size_t> characters_left() const override;
     void missed(const ReceivedCharacter& character) override { plc.cpu_.character_missed(character, number, plc.powered_); }
 
     void act(const PortAction& action);

@@ -37,8 +37,8 @@ class SharedLine final : private EventHandler {
   void add_master(const Requester& master) { masters_.push_back(&master); }
 
   /// A PLC, whose UART lives as long as the line; as Faults has it, one of several may be their master.
-  void add_plc(const Uart& plc) {
-    faults_.add_plc(plc);
+  void add_plc(const Uart& plc, const FrameSender* sender) {
+    faults_.add_plc(plc, sender);
     plcs_.push_back(&plc);
   }
 

@@ -72,7 +72,12 @@ ResponderStation::ResponderStation(Dispatcher& events, SharedLine& line, std::un
     : PeerStation(events, line),
       tap_(line.line(), uart_.driver()),
       responder_(uart_, queue_, events.add(Rank::Peer, *this), std::move(automaton)) {
-  line.add_plc(uart_);
+  line.add_plc(uart_, this);
+}
+
+std::optional<std::size_t> ResponderStation::characters_left() const {
+  const Responder::State& state = responder_.state();
+  return state.transmission.bytes.size() - state.sent;
 }
 
 void ResponderStation::handle(const Event& event) {

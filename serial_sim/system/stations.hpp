@@ -91,7 +91,7 @@ class PollerStation final : public PeerStation {
   bool powered_ = true;
 };
 
-class ResponderStation final : public PeerStation {
+class ResponderStation final : public PeerStation, private FrameSender {
  public:
   /// Plain, so that a snapshot is a copy.
   struct State {
@@ -124,6 +124,8 @@ class ResponderStation final : public PeerStation {
 
  private:
   void handle(const Event& event) override;
+
+  std::optional<std::size_t> characters_left() const override;
 
   WireTap tap_;
   Responder responder_;

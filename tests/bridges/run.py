@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|modbus_tcp|device|ppi|other_plcs|run|scenarios
+"""`s7200 run` with its bridges, as programs outside meet them: run.py S7200 SOURCE_DIR pty|tcp|rfc2217|modbus_tcp|device|ppi|other_plcs|run|scenarios
 
 Nothing here depends on how fast the computer is: what has to come is waited for, for long; what must not come is waited for
 in multiples of the time it would need.
@@ -11,6 +11,7 @@ import os
 import pathlib
 import re
 import select
+import shutil
 import signal
 import socket
 import struct
@@ -21,6 +22,11 @@ import termios
 import threading
 import time
 import unittest
+
+try:
+    import serial
+except ImportError:
+    serial = None  # pyserial
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from modbus_crc import framed  # noqa: E402
@@ -794,6 +800,106 @@ class TcpTests(TcpCase):
                 time.sleep(SILENCE)
                 client.close()
                 running.end()
+
+
+class Rfc2217Tests(TcpCase):
+    @staticmethod
+    def until_heard(port, request=READ, length=len(ANSWER)):
+        until = time.monotonic() + LONG
+        while time.monotonic() < until:
+            port.write(request)
+            if heard := port.read(length):
+                return heard
+        return b""
+
+    def open(self, running, **settings):
+        if serial is None:
+            self.skipTest("python3-serial is not installed")
+        port = serial.serial_for_url(f"rfc2217://127.0.0.1:{running.port}", **{"baudrate": 9600, "parity": "E", "timeout": 2 * SILENCE, **settings})
+        self.addCleanup(port.close)
+        return port
+
+    def test_pyserial_asks_in_the_format_that_it_sets(self):
+        running = self.serve("--rfc2217")
+        port = self.open(running)
+        self.assertEqual(self.until_heard(port), ANSWER)
+        for wrong, right in (({"baudrate": 19200}, {"baudrate": 9600}), ({"parity": "N"}, {"parity": "E"}), ({"bytesize": 7}, {"bytesize": 8})):
+            with self.subTest(wrong):
+                port.apply_settings(wrong)
+                port.write(READ)
+                self.assertNotEqual(port.read(len(ANSWER)), ANSWER)
+                port.apply_settings(right)
+                port.reset_input_buffer()
+                self.assertEqual(self.until_heard(port), ANSWER)
+        port.dtr, port.rts = True, False
+        bridge = running.end()["bridge"]
+        self.assertEqual((bridge["kind"], bridge["clients"]), ("rfc2217", 1))
+
+    def test_a_break_of_pyserial_is_one_on_the_line(self):
+        capture = self.folder / "line.vcd"
+        running = self.serve("--rfc2217", "--capture", capture)
+        port = self.open(running)
+        self.until_heard(port)
+        port.send_break(0.05)
+        self.assertEqual(self.until_heard(port), ANSWER)
+        self.assertEqual(running.end()["bridge"]["breaks"], 1)
+        levels = re.findall(r"#(\d+)\n((?:[01][rtl]\n)+)", capture.read_text(encoding="utf-8"))
+        falls = [int(at) for at, edges in levels if "0r" in edges]
+        rises = [int(at) for at, edges in levels if "1r" in edges]
+        longest = max(next((rise - fall for rise in rises if rise > fall), 0) for fall in falls)
+        self.assertEqual(longest, 20 * 1_000_000_000 // 9600)
+
+    def test_each_client_has_settings_of_its_own(self):
+        running = self.serve("--rfc2217")
+        wrong, right = self.open(running, parity="N"), self.open(running)
+        self.assertEqual(self.until_heard(right), ANSWER)
+        self.assertNotEqual(wrong.read(1), b"")  # all hear what the line says
+        wrong.write(READ)
+        self.assertNotEqual(wrong.read(2 * len(ANSWER)), ANSWER)
+        self.assertEqual(self.until_heard(right), ANSWER)
+
+    def test_a_client_that_negotiates_nothing_has_the_format_of_the_program(self):
+        running = self.serve("--rfc2217")
+        self.assertEqual(self.until_answered(self.client(running)), ANSWER)
+
+    def test_ser2net_joins_as_a_client(self):
+        ser2net = shutil.which("ser2net") or shutil.which("ser2net", path="/usr/sbin")
+        if ser2net is None:
+            self.skipTest("ser2net is not installed")
+        running = self.serve("--rfc2217")
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        settings = self.folder / "ser2net.yaml"
+        settings.write_text(f"connection: &plc\n  accepter: tcp,127.0.0.1,{port}\n"
+                            f"  connector: telnet(rfc2217=true),tcp,127.0.0.1,{running.port}\n", encoding="utf-8")
+        process = subprocess.Popen([ser2net, "-n", "-d", "-c", settings], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        until = time.monotonic() + LONG
+        while True:
+            try:
+                client = socket.create_connection(("127.0.0.1", port), timeout=2 * SILENCE)
+                break
+            except OSError:
+                self.assertLess(time.monotonic(), until)
+                time.sleep(0.05)
+        self.addCleanup(client.close)
+        heard = b""
+        while ANSWER not in heard:
+            self.assertLess(time.monotonic(), until)
+            client.sendall(READ)
+            try:
+                heard += client.recv(1000)
+            except TimeoutError:
+                pass
+
+    def test_an_endless_command_ends_the_connection(self):
+        running = self.serve("--rfc2217")
+        client = self.client(running)
+        client.send(b"\xff\xfa" + b"," * 10_000)
+        self.assertEqual(client.receive(1000), b"")
+        running.wait_for("this is not RFC 2217")
 
 
 class ModbusTcpTests(TcpCase):
@@ -1673,7 +1779,7 @@ class ScenarioTests(Case):
 
 
 if __name__ == "__main__":
-    group = {"pty": PtyTests, "tcp": TcpTests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "ppi": PpiTests, "other_plcs": OtherPlcTests,
+    group = {"pty": PtyTests, "tcp": TcpTests, "rfc2217": Rfc2217Tests, "modbus_tcp": ModbusTcpTests, "device": DeviceTests, "ppi": PpiTests, "other_plcs": OtherPlcTests,
              "run": RunTests, "scenarios": ScenarioTests}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

@@ -22,6 +22,9 @@ import time
 import unittest
 import xml.etree.ElementTree
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from modbus_crc import framed  # noqa: E402
+
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
 LOG = str(SOURCE / "tests/recordings/plant.log")
@@ -847,6 +850,23 @@ class Verbs(Case):
                     self.assertEqual(done.stdout, "")
                     self.assertIn(f"s7200: error: --fault, column {column}: {message}", done.stderr)
                     self.assertIn(f"\n  {spec}\n  {' ' * (column - 1)}{caret}\n", done.stderr)
+
+    def test_a_slave_that_misbehaves_in_whole_frames(self):
+        ask = ["send", SLAVE, "--crc", "--set", "VW20=16#1234", "0103000a0001", "0103000b0002"]
+        answers = lambda *faults: re.findall(r"^answer   ([0-9a-f ]+?|none)(?:   after (.*) ms)?$", s7200(*ask, *(word for fault in faults for word in ("--fault", fault))).stdout, re.M)
+        whole = lambda text: framed(bytes.fromhex(text)).hex(" ")
+        plain = answers()
+        self.assertEqual([frame for frame, _ in plain], [whole("0103021234"), whole("01030400000000")])
+        for fault, first, second in (("answer:exception=6", "018306", "018306"), ("answer:station=7", "0703021234", "07030400000000"),
+                                     ("answer:function=4", "0104021234", "01040400000000"), ("answer:short", "010302", "0103040000"),
+                                     ("answer:stale", "0103021234", "0103021234"), ("answer:exception=4,every=2", "0103021234", "018304")):
+            with self.subTest(fault):
+                self.assertEqual([frame for frame, _ in answers(fault)], [whole(first), whole(second)])
+        self.assertEqual([frame for frame, _ in answers("answer:silent,exchange=1")], ["none", whole("01030400000000")])
+        late = answers("answer:delay=300ms,exchange=1")
+        self.assertAlmostEqual(float(late[0][1]) - float(plain[0][1]), 300, places=2)
+        self.assertEqual(answers("answer:delay=300ms,exchange=1", "answer:exception=6,exchange=1")[0], (whole("018306"), late[0][1]))
+        self.assertEqual([frame for frame, _ in answers("answer:twice,exchange=1")][1], whole("01030400000000"))
 
     def test_help_lists_every_fault(self):
         table = (SOURCE / "serial_sim/faults/README.md").read_text(encoding="utf-8").split("| fault |")[1].split("\n\n")[0]

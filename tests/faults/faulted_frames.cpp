@@ -81,7 +81,8 @@ serial::Length random_bits(Chance& chance, std::uint64_t most) {
 /// Of a kind, at home in a request of so many characters.
 Fault random_fault(Chance& chance, std::size_t characters) {
   Fault fault;
-  fault.kind = static_cast<FaultKind>(below(chance, serial::kFaultKinds));
+  constexpr auto kKindsOfRequests = static_cast<std::uint64_t>(FaultKind::Answer);  // the last kind changes answers only
+  fault.kind = static_cast<FaultKind>(below(chance, kKindsOfRequests));
   fault.seed = chance.draw();
   fault.character = 1 + static_cast<std::uint32_t>(below(chance, characters));
   const std::uint64_t half = below(chance, 8);
@@ -122,6 +123,7 @@ Fault random_fault(Chance& chance, std::size_t characters) {
     case FaultKind::Cut:
       fault.lasts = 1 + static_cast<Time>(below(chance, 30 * kMillisecond));
       break;
+    case FaultKind::Answer:
     case FaultKind::Parity:
     case FaultKind::Framing:
     case FaultKind::Echo:

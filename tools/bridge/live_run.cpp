@@ -7,8 +7,10 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
+#include "tools/bridge/mix_up.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/port_mode.hpp"
 
@@ -132,6 +134,7 @@ class LiveRun::Engine {
     void catch_up() override { engine_.catch_up(); }
     void send(std::span<const serial::HostCharacter> characters) override {
       engine_.busy();
+      tell_mix_up(characters);
       end_.port->send(characters, now());
     }
     std::size_t drop(std::uint64_t sender) override { return end_.port->drop(sender); }
@@ -150,9 +153,21 @@ class LiveRun::Engine {
     const LiveMessages& messages() const override { return engine_.options_.messages; }
 
    private:
+    /// Each once: what is mixed up stays so.
+    void tell_mix_up(std::span<const serial::HostCharacter> characters) {
+      constexpr std::size_t kLooksAtOnly = 512;  // longer than any frame
+      if (characters.size() > kLooksAtOnly || !program_is_up()) return;
+      Bytes bytes;
+      for (const serial::HostCharacter& character : characters) bytes.push_back(character.byte);
+      const State* const state = end_.plc ? &end_.plc->cpu().state() : nullptr;
+      const std::string note = mix_up(bytes, state, end_.plc_port);
+      if (!note.empty() && told_.insert(note).second) messages().note(note);
+    }
+
     Engine& engine_;
     const LiveEnd end_;
     bool gone_ = false;
+    std::set<std::string> told_;
   };
 
   void fail(Line& line) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "serial_sim/modbus/functions.hpp"
@@ -13,6 +14,7 @@
 #include "serial_sim/modbus/line_turns.hpp"
 #include "serial_sim/modbus/rtu_stream.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
+#include "tools/bridge/com_port.hpp"
 #include "tools/bridge/tcp_server.hpp"
 #include "tools/rig/bridge_kinds.hpp"
 
@@ -29,7 +31,7 @@ void put_on_line(LiveLine& line, std::span<const std::uint8_t> bytes, Client sen
   if (!characters.empty()) line.send(characters);
 }
 
-/// What all three have in common: a server, and the line in the PLC's own format.
+/// What all have in common: a server, and the line in the PLC's own format.
 class TcpBridge : public Bridge, protected TcpServer::Protocol {
  public:
   TcpBridge(BridgeKind kind, const ListenAddress& address) : kind_(row_of(kind).word()), address_(address) {}
@@ -125,6 +127,77 @@ class RawBridge final : public TcpBridge {
     return line().host_port().sending() || line().now() - line().last_activity() < kHearsOn;
   }
   bool partial(Client) const override { return false; }
+};
+
+class Rfc2217Bridge final : public TcpBridge {
+ public:
+  Rfc2217Bridge(const ListenAddress& address, const serial::LineSettings& options)
+      : TcpBridge(BridgeKind::Rfc2217, address), options_(options) {}
+
+  SerialFormat receive_format() const override {
+    const auto speaker = ports_.find(speaker_);
+    return speaker == ports_.end() ? line().format() : format_of(speaker->second);
+  }
+
+  void received(std::span<const ReceivedCharacter> characters) override {
+    for (auto& [client, port] : ports_) server().send(client, port.received(characters));
+  }
+  void turn() override { server().turn(); }
+
+ private:
+  static constexpr Time kHearsOn = kSecond;  // after its last word, as of --tcp
+
+  SerialFormat format_of(const ComPort& port) const { return options_.over(port.format()); }
+
+  void came(Client client) override {
+    const auto character = [this, client](std::uint8_t byte) { put(client, {.byte = byte}); };
+    const auto begin_break = [this, client] {
+      ++breaks_;
+      put(client, {.fault = HostCharacter::Fault::Break});
+    };
+    ports_.try_emplace(client, ComPort::Port{.format = [this] { return line().program_format(); },
+                                             .character = character,
+                                             .begin_break = begin_break,
+                                             .purge = [this, client] { purged_ += line().drop(client); }});
+    speaker_ = client;
+  }
+
+  void put(Client client, HostCharacter character) {
+    character.format = format_of(ports_.at(client));
+    character.sender = client;
+    line().send(std::span(&character, 1));
+  }
+
+  void take(Client client, std::span<const std::uint8_t> bytes) override {
+    line().catch_up();
+    speaker_ = client;
+    server().send(client, ports_.at(client).take(bytes));
+  }
+  std::size_t gone(Client client) override {
+    ports_.erase(client);
+    return line().drop(client);
+  }
+  std::string error(Client client) const override {
+    const auto port = ports_.find(client);
+    return port == ports_.end() ? "" : port->second.error();
+  }
+  bool wants_more(Client client) const override { return line().has_room(client); }
+  bool unsent(Client client) const override { return line().waiting(client) != 0; }
+  bool expects_answer(Client) const override {
+    return line().host_port().sending() || line().now() - line().last_activity() < kHearsOn;
+  }
+  bool partial(Client) const override { return false; }
+
+  std::string more_summary() const override {
+    return fmt::format("{}{}", breaks_ ? fmt::format("; {} break{}", breaks_, breaks_ == 1 ? "" : "s") : "",
+                       purged_ ? fmt::format("; {} bytes purged by them", purged_) : "");
+  }
+  nlohmann::ordered_json more_json() const override { return {{"breaks", breaks_}, {"bytes_purged", purged_}}; }
+
+  serial::LineSettings options_;
+  std::map<Client, ComPort> ports_;
+  Client speaker_ = 0;  // in whose format the line is heard
+  std::uint64_t breaks_ = 0, purged_ = 0;
 };
 
 class RtuBridge final : public TcpBridge {
@@ -278,17 +351,21 @@ class GatewayBridge final : public TcpBridge {
  private:
   void take(Client client, std::span<const std::uint8_t> bytes) override {
     line().catch_up();
+    if (modbus::first_request(bytes) != 0) speaks_rtu_.insert(client);
     gateway_.take(client, bytes);
   }
   std::size_t gone(Client client) override {
     const std::size_t dropped = gateway_.waiting(client);
+    speaks_rtu_.erase(client);
     gateway_.forget(client);
     return dropped;
   }
   bool unsent(Client client) const override { return gateway_.unsent(client); }
   std::string error(Client client) const override {
     const std::string error = gateway_.error(client);
-    return error.empty() ? error : "this is not Modbus TCP: " + error;
+    if (error.empty()) return error;
+    return fmt::format("this is not Modbus TCP: {}{}", error,
+                       speaks_rtu_.contains(client) ? "; it is Modbus RTU, for which there is --rtu-over-tcp" : "");
   }
   bool wants_more(Client client) const override { return gateway_.wants_more(client); }
   bool expects_answer(Client client) const override { return gateway_.open(client) != 0; }
@@ -308,11 +385,16 @@ class GatewayBridge final : public TcpBridge {
   }
 
   modbus::Gateway gateway_;
+  std::set<Client> speaks_rtu_;  // by a frame of theirs with a right CRC
 };
 
 }  // namespace
 
 std::unique_ptr<Bridge> make_tcp_bridge(const ListenAddress& address) { return std::make_unique<RawBridge>(address); }
+
+std::unique_ptr<Bridge> make_rfc2217_bridge(const ListenAddress& address, const serial::LineSettings& line) {
+  return std::make_unique<Rfc2217Bridge>(address, line);
+}
 
 std::unique_ptr<Bridge> make_rtu_over_tcp_bridge(const ListenAddress& address, Time timeout) {
   return std::make_unique<RtuBridge>(address, timeout);

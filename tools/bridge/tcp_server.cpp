@@ -203,6 +203,7 @@ class Server final : public TcpServer {
         std::make_shared<Connection>(std::move(socket), to_text({from.address().to_string(), from.port()}));
     const Client client = ++counts_.clients;
     connections_.emplace(client, connection);
+    protocol_.came(client);
     read(client, connection);
   }
 

@@ -43,6 +43,8 @@ class TcpServer {
    public:
     virtual ~Protocol() = default;
 
+    virtual void came(Client) {}
+
     virtual void take(Client client, std::span<const std::uint8_t> bytes) = 0;
 
     /// The client has gone; how many of the bytes for it were not sent.

@@ -150,7 +150,7 @@ serial::HostCall call_from(const Json& json) {
             .characters = {},
             .sender = number_at<std::uint64_t>(json, "sender")};
   for (const Json& c : json.at("characters")) {
-    const int fault = number_of<int>(c.at(1), {0, static_cast<int>(Fault::NoStopBit)});
+    const int fault = number_of<int>(c.at(1), {0, static_cast<int>(Fault::Break)});
     call.characters.push_back({number_of<std::uint8_t>(c.at(0)), format_from(c.at(3)), static_cast<Fault>(fault),
                                number_of<std::uint64_t>(c.at(2))});
   }

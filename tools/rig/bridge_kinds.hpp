@@ -8,7 +8,7 @@
 
 namespace s7200::tools {
 
-enum class BridgeKind : std::uint8_t { Pty, Tcp, RtuOverTcp, ModbusTcp, Device };
+enum class BridgeKind : std::uint8_t { Pty, Tcp, Rfc2217, RtuOverTcp, ModbusTcp, Device };
 
 struct BridgeRow {
   BridgeKind kind;
@@ -24,6 +24,8 @@ inline constexpr std::array kBridges{
     BridgeRow{BridgeKind::Pty, "--pty", "LINK", "a serial port that programs of this computer open as LINK"},
     BridgeRow{BridgeKind::Tcp, "--tcp", kPortPlace,
               "raw bytes over TCP, clients share the line; without ADDRESS for this computer only"},
+    BridgeRow{BridgeKind::Rfc2217, "--rfc2217", kPortPlace,
+              "a serial port over TCP whose rate, parity, data bits and break the client sets"},
     BridgeRow{BridgeKind::RtuOverTcp, "--rtu-over-tcp", kPortPlace, "Modbus RTU frames over TCP; clients take turns"},
     BridgeRow{BridgeKind::ModbusTcp, "--modbus-tcp", kPortPlace, "a gateway from Modbus TCP; unit 0 is broadcast"},
     BridgeRow{BridgeKind::Device, "--device", "DEVICE",

@@ -7,6 +7,7 @@ namespace {
 
 /// What says whose a fault is, as the station beside it does; null if nothing does.
 const serial::GivenParameter* whose(const serial::ParsedFault& fault) {
+  if (fault.fault.kind == serial::FaultKind::Answer) return nullptr;  // its 'station' is in the frame
   const serial::GivenParameter* const of = fault.find("of");
   return of ? of : fault.find("station");
 }

@@ -100,6 +100,7 @@ const std::array kKeys{
 
     bridge_key(BridgeKind::Pty),
     bridge_key(BridgeKind::Tcp),
+    bridge_key(BridgeKind::Rfc2217),
     bridge_key(BridgeKind::RtuOverTcp),
     bridge_key(BridgeKind::ModbusTcp),
     bridge_key(BridgeKind::Device),

@@ -42,6 +42,13 @@ void split(const std::string& text, std::string_view address, SlaveTarget& targe
     throw std::invalid_argument(fmt::format("'{}': ports are 1 to 65535", stl::shortened(text)));
 }
 
+/// `127.0.0.1:5029`, `plc:502`, and no drive of Windows.
+bool is_host_and_port(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon < 2 || text.find('/') != std::string::npos) return false;
+  return parse_decimal<std::uint16_t>(std::string_view(text).substr(colon + 1)).value_or(0) != 0;
+}
+
 }  // namespace
 
 SlaveTarget parse_slave_target(const std::string& text) {
@@ -60,6 +67,9 @@ SlaveTarget parse_slave_target(const std::string& text) {
                                             stl::shortened(text), kTcp, kModbusTcp));
   } else {
     std::error_code error;
+    if (is_host_and_port(text) && !std::filesystem::exists(text, error))
+      throw std::invalid_argument(fmt::format("'{}' is not a file: for a slave over TCP write {}{} (Modbus RTU) or {}{}",
+                                              stl::shortened(text), kTcp, text, kModbusTcp, text));
     const bool device = text.starts_with("/dev/tty") || std::filesystem::is_character_file(text, error);
     target.kind = device                 ? SlaveTarget::Kind::Device
                   : is_system_file(text) ? SlaveTarget::Kind::System

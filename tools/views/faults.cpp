@@ -82,7 +82,10 @@ std::vector<std::string> fault_notes(const Faults& faults, const StationName& st
   for (const Faults::Injected& injected : faults.state().injected) {
     std::string& note = notes.emplace_back(note_of(injected, injected.count, station));
     if (injected.impossible != 0)
-      note += fmt::format(", and {}× the format of the character had no such bit", injected.impossible);
+      note += fmt::format(", and {}× {}", injected.impossible,
+                          injected.fault.kind == serial::FaultKind::Answer
+                              ? "the answer was too short for it, or there was none before, or its length was not known"
+                              : "the format of the character had no such bit");
   }
   return notes;
 }

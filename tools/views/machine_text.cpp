@@ -198,6 +198,11 @@ std::string master_text(const serial::Requester::State& master) {
 
 }  // namespace
 
+std::string control_byte_text(const State& state, std::size_t port) {
+  const std::uint32_t at = kPorts[port].control;
+  return fmt::format("SMB{} = 16#{:02X}: {}", at - image::kSM, state.image[at], control_words(state, port));
+}
+
 std::string moment_text(Time time) {
   const std::string clock = clock_text(time);
   return clock.substr(clock.find_first_not_of(' ')) + " ms";

@@ -33,6 +33,9 @@ std::string registers_text(const Cpu& cpu, const Listing& listing);
 /// The nine levels, top first.
 std::string stack_text(const State& state);
 
+/// `SMB30 = 16#09: Freeport, 9600 baud, 8 data bits, no parity`
+std::string control_byte_text(const State& state, std::size_t port);
+
 /// SMB30 in words, receiver, transmitter, and what the master on the line is doing.
 std::string port_text(const serial::Simulation& simulation);
 

@@ -8,6 +8,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/modbus/rtu_stream.hpp"
 #include "tools/views/broadcast.hpp"
 #include "tools/views/text_frame.hpp"
 
@@ -102,6 +103,14 @@ std::string torn_frame_note(const std::vector<std::string>& frames) {
   if (frames.size() < 2 || std::none_of(frames.begin(), frames.end(), is_byte)) return {};
   return fmt::format("these were {} frames, one for each argument; to send one frame, put it in quotes: '{}'", frames.size(),
                      stl::shortened(fmt::format("{}", fmt::join(frames, " "))));
+}
+
+std::string missing_crc_note(const std::vector<serial::Frame>& frames) {
+  for (const serial::Frame& frame : frames)
+    if (modbus::lacks_crc(serial::bytes_of(frame)))
+      return fmt::format("{} would be a Modbus request, but it lacks its CRC; --crc appends it",
+                         serial::to_hex(serial::bytes_of(frame)));
+  return {};
 }
 
 std::string exchange_text(const serial::Exchange& exchange, Time timeout) {

@@ -23,6 +23,9 @@ std::uint64_t errors_not_listed(const Cpu& cpu);
 /// Empty if they are not.
 std::string torn_frame_note(const std::vector<std::string>& frames);
 
+/// A note for frames without an answer that would be Modbus requests if they had their CRC. Empty if none is such a frame.
+std::string missing_crc_note(const std::vector<serial::Frame>& frames);
+
 /// Request, answer with its latency, and what the answer says.
 std::string exchange_text(const serial::Exchange& exchange, Time timeout);
 

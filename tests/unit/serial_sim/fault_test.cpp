@@ -63,7 +63,15 @@ TEST(Fault, TextIsReadAsTheFaultItWasWrittenOf) {
                            "baud:error=-50%",
                            "cut",
                            "cut:from=1s,for=1h",
-                           "cut:character=3,at=0.5bit,of=answer"}) {
+                           "cut:character=3,at=0.5bit,of=answer",
+                           "answer:delay=300ms",
+                           "answer:delay=12bit,exception=6,every=3",
+                           "answer:station=7,exchange=2",
+                           "answer:function=4,probability=0.5",
+                           "answer:stale",
+                           "answer:delay=1s,twice",
+                           "answer:short,every=2",
+                           "answer:silent"}) {
     const Fault fault = fault_of(text);
     EXPECT_EQ(to_text(fault), text);
     EXPECT_EQ(fault_of(to_text(fault)), fault);
@@ -123,6 +131,14 @@ TEST(Fault, WrongTextIsRefusedWithItsPlace) {
            {"cut:exchange=3,for=200ms", 5, 8, "exchange says where in an exchange, but at no character of it"},
            {"cut:of=answer", 5, 2, "of says where in an exchange, but at no character of it: write character=N too"},
            {"cut:for=soon", 9, 4, "is not a duration"},
+           {"answer", 1, 6, "answer needs one of delay, exception, station, function, stale, twice, short, silent, for example"},
+           {"answer:every=2", 1, 6, "answer needs one of delay"},
+           {"answer:stale=1", 8, 5, "stale has no value: write stale alone"},
+           {"answer:exception", 8, 9, "exception needs a value (1…255): write exception=VALUE"},
+           {"answer:exception=256", 18, 3, "is not a whole number from 1 to 255"},
+           {"answer:station=7,stale", 18, 5, "stale comes after another misbehaviour of the same answer"},
+           {"answer:stale,stale", 14, 5, "stale is given twice"},
+           {"answer:of=answer", 8, 2, "there is no parameter of answer 'of'; there are delay, exception"},
            {"echo:of=request", 6, 2, "there is no parameter of echo 'of'; there are exchange"},
        }) {
     const ParsedFault parsed = parse_fault(wrong.text);

@@ -218,6 +218,17 @@ TEST(Gateway, ALineThatIsNeverQuietIsException0BAndNothingIsSent) {
   EXPECT_EQ(bench.answer(), "00 01 00 00 00 03 01 83 0b");
 }
 
+TEST(Gateway, ReadsOfUnit0GetExceptionAAtOnceBecauseNobodyAnswersABroadcast) {
+  for (const std::uint8_t function : {1, 2, 3, 4, 23}) {
+    Bench bench;
+    bench.gateway.take(1, message(1, 0, {function, 0x00, 0x05, 0x00, 0x01}));
+    bench.step();
+    EXPECT_EQ(bench.answer(), "00 01 00 00 00 03 00 " + to_hex(Bytes{static_cast<std::uint8_t>(function | 0x80)}) + " 0a");
+    EXPECT_TRUE(bench.sent.empty());
+    EXPECT_EQ(bench.gateway.counts().no_path, 1U);
+  }
+}
+
 TEST(Gateway, ABroadcastThatCannotBeSentIsNotAnsweredEither) {
   Bench bench;
   bench.gateway.take(1, message(1, 0, write_register(0, 5)));

@@ -22,6 +22,19 @@ TEST(SlaveTarget, AnAddressHasASchemeAHostAndAPort) {
 
 TEST(SlaveTarget, ModbusTcpHasAPortOfItsOwn) { EXPECT_EQ(parse_slave_target("modbus-tcp://plc").port, "502"); }
 
+TEST(SlaveTarget, AHostWithAPortAndNoSchemeIsToldTheSchemes) {
+  for (const char* text : {"127.0.0.1:5029", "plc.local:502"}) try {
+      parse_slave_target(text);
+      ADD_FAILURE() << text;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("write tcp://") + text), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(std::string("modbus-tcp://") + text), std::string::npos) << error.what();
+    }
+  EXPECT_EQ(parse_slave_target("C:5").kind, Kind::Program) << "a drive";
+  EXPECT_EQ(parse_slave_target("no/such:7").kind, Kind::Program);
+  EXPECT_EQ(parse_slave_target("program.stl:x").kind, Kind::Program);
+}
+
 TEST(SlaveTarget, AnIpv6AddressStandsInBrackets) {
   const SlaveTarget with_port = parse_slave_target("tcp://[fe80::1]:4001");
   EXPECT_EQ(with_port.host, "fe80::1");

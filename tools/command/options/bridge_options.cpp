@@ -28,6 +28,8 @@ std::unique_ptr<Bridge> make_bridge(BridgeKind kind, const std::string& where, c
       return make_pty_bridge(where, line);
     case BridgeKind::Tcp:
       return make_tcp_bridge(*address);
+    case BridgeKind::Rfc2217:
+      return make_rfc2217_bridge(*address, line);
     case BridgeKind::RtuOverTcp:
       return make_rtu_over_tcp_bridge(*address, timeout);
     case BridgeKind::ModbusTcp:

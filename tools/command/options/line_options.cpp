@@ -15,7 +15,7 @@ void add_line_options(CLI::App& app, serial::LineSettings& line, const std::stri
     add_whole_number(
         app, name, [&value](std::uint64_t given) { value = static_cast<Number>(given); }, range, text, otherwise);
   };
-  add_number("--baud", line.baud, {50, 1'000'000}, "baud rate of the other end of the line");
+  add_number("--baud", line.baud, {serial::kSlowestBaud, serial::kFastestBaud}, "baud rate of the other end of the line");
   app.add_option_function<std::string>(
          "--parity",
          [&line](const std::string& given) {

@@ -50,7 +50,7 @@ std::vector<HostTransmission> HostFrames::transmissions() const {
     const bool follows = !all.empty() && one.from == all.back().to && one.format == all.back().format;
     if (!follows) all.push_back({.from = one.from, .format = one.format});
     all.back().frame.push_back({one.byte, one.fault == Fault::WrongParity});
-    all.back().lacks_stop_bit |= one.fault == Fault::NoStopBit;
+    all.back().lacks_stop_bit |= one.fault == Fault::NoStopBit || one.fault == Fault::Break;
     all.back().to = one.to;
   }
   return all;
