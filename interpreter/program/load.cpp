@@ -197,25 +197,6 @@ std::optional<SourceText> read_plain(std::string_view text, const std::string& n
   return SourceText{std::move(*listing), {}, SourceKind::Listing};
 }
 
-}  // namespace
-
-namespace {
-
-bool is_code(const stl::Line& line) {
-  return std::holds_alternative<stl::Statement>(line) || std::holds_alternative<stl::NetworkHead>(line);
-}
-
-/// Only comments, or headings of a table.
-bool is_empty(const stl::ParseResult& parsed) {
-  const stl::Source& source = parsed.source;
-  return std::ranges::none_of(source.lines, is_code) && std::ranges::all_of(source.data, &stl::DataLine::only_comment) &&
-         source.blocks.empty() && source.symbols.empty() && parsed.diagnostics.empty();
-}
-
-}  // namespace
-
-namespace {
-
 bool is_code(const stl::Line& line) {
   return std::holds_alternative<stl::Statement>(line) || std::holds_alternative<stl::NetworkHead>(line);
 }

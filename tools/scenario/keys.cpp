@@ -37,7 +37,6 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "times", kOfOneProgram, "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
     {Where::Scenario, "ppi_baud", kOfOneProgram, "NUMBER", ppi_baud_meaning()},
     {Where::Scenario, "ppi_station", kOfOneProgram, "NUMBER", ppi_station_meaning()},
-    {Where::Scenario, "retain", kOfOneProgram, "RANGES", retain_meaning()},
     {Where::Scenario, "port", kOfOneProgram, "NUMBER", "of a CPU with two ports the one that the line is at, `0` or `1`; `0` if left out"},
     {Where::Scenario, "robust", kOfOneProgram, "SHARE", "`95%`: it must pass with so many of the tables of execution times that `--times-band 200` runs it with, and with the first of them, which is the one in use; not on a slave that is not a program"},
     {Where::Scenario, "line", "", "MAP", "how the master talks, if not as the program has set its port"},
@@ -100,8 +99,8 @@ bool has_word(std::string_view words, std::string_view word) {
 
 std::vector<ScenarioKey> all_keys() {
   std::vector<ScenarioKey> keys(std::begin(kBeforeActions), std::end(kBeforeActions));
-  for (const StepKind& kind : step_kinds()) keys.push_back({Where::Action, kind.key, "", kind.form, kind.meaning});
-  for (const LoopKind& kind : loop_kinds()) keys.push_back({Where::Action, kind.key, "", kind.form, kind.meaning});
+  for (const StepKind& kind : step_kinds()) keys.push_back({Where::OfStep, kind.key, "", kind.form, kind.meaning});
+  for (const LoopKind& kind : loop_kinds()) keys.push_back({Where::OfStep, kind.key, "", kind.form, kind.meaning});
   keys.insert(keys.end(), std::begin(kModifiers), std::end(kModifiers));
   return keys;
 }
@@ -123,7 +122,7 @@ std::string scenario_keys_markdown() {
       {Where::File, "Of a file"},
       {Where::Scenario, "Of a scenario, or of a file for all its scenarios"},
       {Where::Line, "Inside `line:`"},
-      {Where::Action, "A step has one of these"},
+      {Where::OfStep, "A step has one of these"},
       {Where::Modifier, "and may have these beside it"}};
   std::string text;
   for (const auto& [where, heading] : kTables) {

@@ -15,7 +15,7 @@ struct ScenarioKey {
     File,      ///< at the top of a file only
     Scenario,  ///< of a scenario; at the top of a file for all its scenarios
     Line,      ///< inside `line:`
-    Action,    ///< makes a step; the rows are in steps/steps.cpp
+    OfStep,    ///< makes a step; the rows are in steps/steps.cpp
     Modifier,  ///< stands beside an action
   };
   static constexpr std::string_view kOfOneProgram = "program";

@@ -51,7 +51,7 @@ bool StepReader::too_much(const YamlNode& node) {
 /// The key that makes it a step; null after a complaint. One that stands there twice is complained about already. What makes
 /// a step by itself may stand beside another action: power_off beside power_cycle.
 const YamlNode* StepReader::find_action(const YamlNode& node) {
-  const auto makes_a_step = [](const ScenarioKey& key) { return key.where == ScenarioKey::Where::Action; };
+  const auto makes_a_step = [](const ScenarioKey& key) { return key.where == ScenarioKey::Where::OfStep; };
   const std::vector<ScenarioKey>& keys = scenario_keys();
   const YamlNode* action = nullptr;
   for (const YamlNode& key : node.keys) {

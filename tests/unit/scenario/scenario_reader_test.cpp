@@ -31,11 +31,11 @@ Scenario good(const std::string& text) {
 
 std::vector<Step> steps_of(const std::string& steps) { return good("steps:\n" + steps).steps; }
 
-template <class Action>
-Action action_of(const std::string& step) {
+template <class Acting>
+Acting action_of(const std::string& step) {
   const auto steps = steps_of("  - " + step + "\n");
   EXPECT_EQ(steps.size(), 1U);
-  return steps.empty() ? Action{} : dynamic_cast<const Action&>(*steps[0].action);
+  return steps.empty() ? Acting{} : dynamic_cast<const Acting&>(*steps[0].action);
 }
 
 /// As a transcript has it: what drives the plant is written back as it was read.
@@ -263,7 +263,7 @@ TEST(ScenarioReader, EveryActionOfTheTableIsRead) {
                                                          {"repeat", "2\n    steps: [{wait: 1ms}]"},
                                                          {"for", "{x: [1]}\n    steps: [{wait: 1ms}]"}};
   for (const ScenarioKey& key : scenario_keys()) {
-    if (key.where != ScenarioKey::Where::Action) continue;
+    if (key.where != ScenarioKey::Where::OfStep) continue;
     ASSERT_TRUE(examples.contains(key.key)) << key.key;
     const std::string steps = fmt::format("steps:\n  - {}: {}\n", key.key, examples.at(key.key));
     const bool of_a_system = key.key == "power_off" || key.key == "power_on" || key.key == "cut" || key.key == "mend";
