@@ -66,8 +66,9 @@ TEST(FaultedFramesJudge, FindsASlaveThatStaysDeafBehindADisturbedFrame) {
 TEST(FaultedFramesJudge, SeesFaultsOfEveryKindAndEveryClassOfFrame) {
   const Counts counts = run_faulted_frames(load_program(test::source_path("stl_programs/modbus_slave.stl")), 1, 5000).counts;
   for (const serial::FaultKindInfo& kind : serial::fault_kinds())
-    if (kind.kind != serial::FaultKind::Answer)  // which is of no frame that the slave receives
+    if (kind.kind != serial::FaultKind::Answer) {  // which is of no frame that the slave receives
       EXPECT_GT(counts.happened[static_cast<std::size_t>(kind.kind)], 100U) << kind.name;
+    }
   for (const std::uint64_t figure :
        {counts.untouched, counts.with_errors, counts.with_wrong_crc, counts.split, counts.answered})
     EXPECT_GT(figure, 100U);
