@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -19,8 +20,10 @@
 #include "interpreter/program/networks.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/parameters.hpp"
+#include "interpreter/program/routine_ends.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/program/warnings.hpp"
+#include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/symbols.hpp"
 
@@ -143,8 +146,9 @@ class Checker {
   void unknown_instruction(const stl::Statement& statement, const std::string& cause) {
     const std::string shown = stl::shortened(statement.mnemonic);
     const auto [what, hint] = unknown_mnemonic(statement.mnemonic);
-    error(statement.position,
-          what.empty() ? fmt::format("unknown instruction '{}'", shown) : fmt::format("{} is {}", shown, what), hint, cause);
+    if (what.empty()) return error(statement.position, fmt::format("unknown instruction '{}'", shown), hint, cause);
+    // What is said of one mnemonic of another family with the same words is said once.
+    error(statement.position, fmt::format("{} is {}", shown, what), hint, fmt::format("{}: {}", what, hint));
   }
 
   /// `1,5` is two operands; if there is only room for one, it is a real number with a German comma.
@@ -172,7 +176,7 @@ class Checker {
 
   /// The characters of the source at a place.
   std::string written_at(const stl::Position& at) const {
-    return stl::characters_at(source_.text[at.line - 1], at.column, at.length);
+    return stl::plain_characters(stl::characters_at(source_.text[at.line - 1], at.column, at.length));
   }
 
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
@@ -186,6 +190,7 @@ class Checker {
         error(statement.operands[0].position, name->reason, "a listing calls its routines by their numbers");
         return false;
       }
+      if (is_two_statements(statement, taken)) return false;
       const stl::Position at = given > taken ? statement.operands[taken].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(taken), given),
             fmt::format("write {}", syntax(instruction)));
@@ -201,6 +206,20 @@ class Checker {
     }
     if (called && good) return pass_parameters(instruction, statement, *called);
     return good && blocks_fit(instruction, statement) && mode_fits(instruction, statement);
+  }
+
+  /// `LD I0.0 A I0.1`: after its operands, a statement has the mnemonic of another. True after a message.
+  bool is_two_statements(const stl::Statement& statement, std::size_t taken) {
+    const auto is_mnemonic = [](const stl::Operand& operand) {
+      const auto* name = std::get_if<stl::Name>(&operand.value);
+      return name && find_instruction(stl::upper_case(name->text));
+    };
+    const auto begin = statement.operands.begin() + static_cast<std::ptrdiff_t>(std::min(taken, statement.operands.size()));
+    const auto second = std::find_if(begin, statement.operands.end(), is_mnemonic);
+    if (second == statement.operands.end()) return false;
+    error(second->position, "two statements in one line",
+          fmt::format("begin a new line with {}", std::get<stl::Name>(second->value).text));
+    return true;
   }
 
   /// A CALL or ATCH of a name that no block has. True after a message.
@@ -565,29 +584,45 @@ void read_names(stl::ParseResult& parsed) {
   stl::resolve_symbols(parsed);
 }
 
+/// A source as the CPUs 21x take it, and as the CPUs 22x do.
+class ForEachFamily {
+ public:
+  explicit ForEachFamily(stl::ParseResult parsed) : for_21x_(std::move(parsed)) {
+    read_names(for_21x_);
+    for_22x_ = for_21x_;
+    add_missing_ends(for_22x_);
+  }
+
+  bool is_fine_for(const CpuModel& model) const {
+    const stl::ParseResult& read = model.self & kCpu22x ? for_22x_ : for_21x_;
+    return !has_errors(read.diagnostics) && Checker(read.source, {}, model).is_fine();
+  }
+
+ private:
+  stl::ParseResult for_21x_, for_22x_;
+};
+
 }  // namespace
 
 CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
   read_names(parsed);
+  if (model.self & kCpu22x) add_missing_ends(parsed);
   Checker checker(parsed.source, std::move(parsed.diagnostics), model);
   auto program = checker.program(times);
   return {std::move(program), std::move(parsed.source), checker.take_diagnostics()};
 }
 
 std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {
-  read_names(parsed);
+  const ForEachFamily read(std::move(parsed));
   std::vector<const CpuModel*> fine;
-  if (has_errors(parsed.diagnostics)) return fine;
-  for (const CpuModel* model : all_cpus())
-    if (Checker(parsed.source, {}, *model).is_fine()) fine.push_back(model);
+  std::ranges::copy_if(all_cpus(), std::back_inserter(fine),
+                       [&](const CpuModel* model) { return read.is_fine_for(*model); });
   return fine;
 }
 
 const CpuModel* first_cpu_without_errors(stl::ParseResult parsed, std::span<const CpuModel* const> tried) {
-  read_names(parsed);
-  if (has_errors(parsed.diagnostics)) return nullptr;
-  const auto first = std::ranges::find_if(
-      tried, [&](const CpuModel* model) { return Checker(parsed.source, {}, *model).is_fine(); });
+  const ForEachFamily read(std::move(parsed));
+  const auto first = std::ranges::find_if(tried, [&](const CpuModel* model) { return read.is_fine_for(*model); });
   return first == tried.end() ? nullptr : *first;
 }
 

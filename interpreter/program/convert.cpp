@@ -10,6 +10,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/german.hpp"
+#include "interpreter/program/routine_ends.hpp"
 #include "interpreter/stl/block_words.hpp"
 #include "interpreter/stl/german_letters.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -285,7 +286,10 @@ std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation) 
     if (auto* statement = std::get_if<stl::Statement>(&line)) keep_or_leave_out_symbols(*statement, notation);
   for (stl::DataLine& line : source.data)
     if (line.address) line.address->symbol.clear();
-  if (notation == Notation::MicroWin) return blocks_text(source);
+  if (notation == Notation::MicroWin) {
+    add_missing_ends(source);
+    return blocks_text(source);
+  }
   for (stl::Line& line : source.lines) {
     auto* statement = std::get_if<stl::Statement>(&line);
     if (statement && notation == Notation::MicroDos) to_micro_dos(*statement);

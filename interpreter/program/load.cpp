@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <span>
 
 #include "interpreter/base/text.hpp"
@@ -17,6 +18,7 @@
 #include "interpreter/stl/data_block.hpp"
 #include "interpreter/stl/document.hpp"
 #include "interpreter/stl/encoding.hpp"
+#include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/project.hpp"
 #include "interpreter/stl/symbols.hpp"
 
@@ -177,6 +179,7 @@ stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::stri
     case SourceKind::StatusChart: {
       stl::ParseResult chart;
       chart.source.name = name;
+      chart.notes.push_back(fmt::format("{} is a status chart: nothing of it is part of the program", name));
       return chart;
     }
     case SourceKind::Listing:
@@ -185,12 +188,28 @@ stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::stri
   return stl::parse(text, name);
 }
 
-SourceText read_decoded(const stl::DecodedText& decoded, const std::string& name, bool force_document) {
-  if (const auto kind = kind_of(decoded.text, force_document))
-    return {read_as(*kind, decoded.text, name), decoded.encoding, *kind};
-  if (auto listing = stl::read_listing(decoded.text, name, instruction_set()))
-    return {std::move(*listing), decoded.encoding, SourceKind::Listing};
-  return {read_as(SourceKind::Document, decoded.text, name), decoded.encoding, SourceKind::Document};
+/// Returns nothing if the text is neither STL nor anything else that is read.
+std::optional<SourceText> read_plain(std::string_view text, const std::string& name, bool force_document) {
+  if (const auto kind = kind_of(text, force_document)) return SourceText{read_as(*kind, text, name), {}, *kind};
+  auto listing = stl::read_listing(text, name, instruction_set());
+  if (!listing) return SourceText{read_as(SourceKind::Document, text, name), {}, SourceKind::Document};
+  if (!can_be_stl(listing->source.text)) return std::nullopt;
+  return SourceText{std::move(*listing), {}, SourceKind::Listing};
+}
+
+}  // namespace
+
+namespace {
+
+bool is_code(const stl::Line& line) {
+  return std::holds_alternative<stl::Statement>(line) || std::holds_alternative<stl::NetworkHead>(line);
+}
+
+/// Only comments, or headings of a table.
+bool is_empty(const stl::ParseResult& parsed) {
+  const stl::Source& source = parsed.source;
+  return std::ranges::none_of(source.lines, is_code) && std::ranges::all_of(source.data, &stl::DataLine::only_comment) &&
+         source.blocks.empty() && source.symbols.empty() && parsed.diagnostics.empty();
 }
 
 }  // namespace
@@ -198,12 +217,7 @@ SourceText read_decoded(const stl::DecodedText& decoded, const std::string& name
 bool SourceText::is_program() const {
   if (kind == SourceKind::Document) return true;
   if (kind == SourceKind::Listing)  // not if it is all comments, as the data block of a new project is
-    return std::ranges::any_of(parsed.source.lines,
-                               [](const stl::Line& line) {
-                                 return std::holds_alternative<stl::Statement>(line) ||
-                                        std::holds_alternative<stl::NetworkHead>(line);
-                               }) ||
-           !parsed.diagnostics.empty();
+    return std::ranges::any_of(parsed.source.lines, is_code) || !parsed.diagnostics.empty();
   const auto& blocks = parsed.source.blocks;
   return kind == SourceKind::Blocks && std::ranges::find(blocks, stl::Block::Kind::Main, &stl::Block::kind) != blocks.end();
 }
@@ -212,8 +226,15 @@ SourceText join_files(std::vector<SourceText> files) {
   const auto program = std::ranges::find_if(files, &SourceText::is_program);
   if (program != files.end()) std::rotate(files.begin(), program, std::next(program));
   SourceText project = std::move(files.front());
-  for (auto file = std::next(files.begin()); file != files.end(); ++file)
-    if (file->kind != SourceKind::StatusChart) stl::append(project.parsed, std::move(file->parsed));
+  for (auto file = std::next(files.begin()); file != files.end(); ++file) {
+    if (file->kind == SourceKind::StatusChart) {
+      std::ranges::move(file->parsed.notes, std::back_inserter(project.parsed.notes));
+      continue;
+    }
+    if (is_empty(file->parsed))
+      file->parsed.notes.push_back(fmt::format("nothing in {} is part of the program", file->parsed.source.name));
+    stl::append(project.parsed, std::move(file->parsed));
+  }
   return project;
 }
 
@@ -225,15 +246,23 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
       why = "it is a Micro/WIN project; open it in Micro/WIN and export each block (File, Export) as .awl";
     return {};
   }
-  SourceText source = read_decoded(*decoded, name, force_document);
-  if (source.kind != SourceKind::Listing || can_be_stl(source.parsed.source.text)) return source;
-  why = "it is not an STL program: there is no instruction in its first lines";
-  return {};
+  const stl::PlainText plain(decoded->text);
+  auto source = read_plain(plain.text(), name, force_document);
+  if (!source) {
+    why = "it is not an STL program: there is no instruction in its first lines";
+    return {};
+  }
+  plain.restore(source->parsed);
+  source->encoding = decoded->encoding;
+  return source;
 }
 
 CheckResult check_text(std::string_view utf8, const std::string& name, const CpuModel& model, const TimeTable& times) {
-  return check(stl::is_block_export(utf8) ? stl::read_blocks(utf8, name, instruction_set().has) : stl::parse(utf8, name),
-               model, times);
+  const stl::PlainText plain(utf8);
+  const SourceKind kind = stl::is_block_export(plain.text()) ? SourceKind::Blocks : SourceKind::Listing;
+  stl::ParseResult parsed = read_as(kind, plain.text(), name);
+  plain.restore(parsed);
+  return check(std::move(parsed), model, times);
 }
 
 }  // namespace s7200

@@ -9,6 +9,7 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/warnings.hpp"
+#include "interpreter/stl/look_alikes.hpp"
 #include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/printer.hpp"
 
@@ -384,6 +385,8 @@ class Placing {
                    "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
     if (!name.reason.empty()) return error(name.reason);
     const bool constant = upper == "TRUE" || upper == "FALSE" || upper == "ON" || upper == "OFF";
+    if (const auto meant = stl::look_alike_operand(name.text))
+      return error(fmt::format("{} has {}", text(), meant->wrong), fmt::format("write {}", meant->meant), stl::kLookAlikes);
     return error(fmt::format("'{}' is neither an address nor a defined symbol", text()),
                  constant ? "constants such as TRUE are for parameters of CALL"
                           : "give its symbol table too, s7200 check PROGRAM SYMBOLS, or write the address itself",

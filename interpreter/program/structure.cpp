@@ -155,7 +155,11 @@ class StructureCheck {
     entry = i;
   }
 
+  /// On a CPU 22x only of a main program without statements: the others are ended (routine_ends.hpp).
   void missing_end(const stl::Position& at) {
+    if (model_.self & kCpu22x)
+      return error(at, "the main program has no statement",
+                   "a listing begins with the main program: give the file that has it too");
     static constexpr std::string_view kRule[] = {"0083", "0088", "0089"};
     const std::size_t rule = routine_.part == kMain ? 0 : routine_.part == kSubroutine ? 1 : 2;
     error(at,

@@ -10,6 +10,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/blocks.hpp"
+#include "interpreter/stl/headings.hpp"
 
 namespace s7200::stl {
 
@@ -248,6 +249,7 @@ class DocumentReader {
   std::optional<ParseResult> take_parsed(std::string name) {
     if (parsed_.source.text != text_) return std::nullopt;
     parsed_.source.name = std::move(name);
+    put_main_program_first(parsed_);
     return std::move(parsed_);
   }
 
@@ -288,7 +290,7 @@ class DocumentReader {
       return reading;
     }
     std::string_view mnemonic = leading_mnemonic(code);
-    reading.candidate = is_known(upper_case(mnemonic));
+    reading.candidate = is_known(upper_case(mnemonic)) || routine_heading(code);
     if (!reading.candidate) mnemonic = code.substr(0, std::max<std::size_t>(1, code.find_first_of(" \t\f,;")));
     reading.mnemonic = mnemonic;
     reading.debris = is_damaged(line, reading.candidate);
@@ -338,7 +340,7 @@ class DocumentReader {
       if (reading.verdict == Verdict::Comment || (reading.candidate && !drawing)) text += reading.clean;
       text += '\n';
     }
-    parsed_ = parse(text, {});
+    parsed_ = parse_lines(text, {});
     for (const Line& line : parsed_.source.lines) {
       if (const auto* statement = std::get_if<Statement>(&line)) attach(*statement, line);
       if (const auto* head = std::get_if<NetworkHead>(&line)) attach(*head, line);
@@ -355,8 +357,8 @@ class DocumentReader {
     Reading& reading = at(statement.position.line);
     reading.line = &line;
     reading.trouble = look_alike(statement);
-    reading.well_formed =
-        !reading.debris && !reading.trouble && instructions_.has(statement.mnemonic, statement.operands.size());
+    reading.well_formed = !reading.debris && !reading.trouble &&
+                          (is_main_heading(statement) || instructions_.has(statement.mnemonic, statement.operands.size()));
   }
 
   /// `O l0.1`: where the statement is in capitals, a small L at the beginning of an address was an I, or a 1.
@@ -647,7 +649,7 @@ class Completeness {
   void finish() {
     if (where_ != Where::Outside) {
       report(last_, fmt::format("the listing is cut off: {} has no {}", routine_, end_of(where_)),
-             where_ == Where::Main ? kMissingMainEnd : kMissing);
+             where_ == Where::Main ? kMissingMainEnd : kMissing, missing_end());
       return;
     }
     std::string missing;
@@ -668,8 +670,10 @@ class Completeness {
 
   void begin_routine(const Statement& head) {
     if (where_ != Where::Start && where_ != Where::Outside) {
-      report(head.position, fmt::format("{} begins, but {} has no {}: part of the listing is missing", name_of(head),
-                                        routine_, end_of(where_)));
+      report(head.position,
+             fmt::format("{} begins, but {} has no {}: part of the listing is missing", name_of(head), routine_,
+                         end_of(where_)),
+             kMissing, missing_end());
     }
     where_ = head.mnemonic == "SBR" ? Where::Subroutine : Where::Interrupt;
     routine_ = name_of(head);
@@ -712,8 +716,11 @@ class Completeness {
   static constexpr const char* kMissingMainEnd =
       "get the complete document; if it is for a CPU 22x, whose main program needs no end, add MEND";
 
-  void report(Position position, std::string message, const char* hint = kMissing) {
-    diagnostics_.push_back({Severity::Error, position, std::move(message), hint});
+  /// The cause of a message about the end of the routine.
+  std::string missing_end() const { return fmt::format("{}{}", kMissingEnd, routine_); }
+
+  void report(Position position, std::string message, const char* hint = kMissing, std::string cause = {}) {
+    diagnostics_.push_back({Severity::Error, position, std::move(message), hint, std::move(cause)});
   }
 
   Diagnostics& diagnostics_;
@@ -753,6 +760,7 @@ ParseResult read_document(std::string_view text, std::string name, const Instruc
   DocumentReader reader(text, instructions);
   if (!reader.is_document()) reader.take_all_for_listing();
   ParseResult result = reader.result(std::move(name));
+  put_main_program_first(result);
   check_completeness(result);
   sort(result.diagnostics);
   return result;

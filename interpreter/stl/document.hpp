@@ -23,6 +23,10 @@ struct InstructionSet {
   std::function<Advice(std::string_view mnemonic)> advice_on;
 };
 
+/// What the causes of the diagnostics about routines without MEND, RET or RETI begin with. A caller that takes the listing
+/// for that of a CPU 22x, which needs none, leaves these diagnostics out.
+inline constexpr std::string_view kMissingEnd = "missing end of ";
+
 /// Whether `text` (UTF-8) is a document and not a plain STL file: it has ladder drawings, or prose around its STL.
 /// A plain STL file with mistakes is not a document: its mistakes must be reported, not left out.
 bool is_document(std::string_view text, const InstructionSet& instructions);

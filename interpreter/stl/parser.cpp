@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/fusion/include/adapt_struct.hpp>
 #include <boost/optional.hpp>
 #include <boost/range/iterator_range.hpp>
@@ -13,8 +14,11 @@
 #include <system_error>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/block_words.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "interpreter/stl/german_letters.hpp"
+#include "interpreter/stl/headings.hpp"
+#include "interpreter/stl/look_alikes.hpp"
 
 namespace s7200::stl {
 namespace {
@@ -217,7 +221,7 @@ const auto operands = named<struct Operands, std::vector<RawOperand>>("operands"
 // =I is a mnemonic of its own, but =I0.0 assigns to I0.0. After a comparator the first operand may follow directly.
 const auto mnemonic = named<struct Mnemonic, Range>("a mnemonic") =
     raw[(no_case[lit("=i")] >> end_of_word) | lit('=') | (char_("+*/-") >> +letter >> end_of_word) |
-        (letter >> *char_("A-Za-z0-9_") >> -comparator)];
+        (letter >> *char_("A-Za-z0-9_") >> -comparator >> !beyond_ascii)];
 
 const auto statement = named<struct StatementRule, RawStatement>("a statement") = mnemonic >> blanks >> -operands;
 const auto comment = named<struct Comment, Range>("a comment") = lit("//") >> raw[*char_];
@@ -225,37 +229,61 @@ const auto end_of_line = named<struct EndOfLine>("the end of the line") = x3::eo
 const auto line = named<struct LineRule, RawLine>("a line") =
     (blanks >> -statement >> blanks >> -lit(';') >> blanks >> -comment) > end_of_line;
 
+const auto further_operands = named<struct FurtherOperands, std::vector<RawOperand>>("operands") = *(blanks >> lit(',') >>
+                                                                                                     blanks >> operand) >>
+                                                                                                   -(blanks >> lit(','));
 const auto block_line = blanks >> raw[no_case[block_keyword]] >> end_of_word;
 
 }  // namespace grammar
 
-// Columns of places in one line. Places are mostly asked for in order, so the line is counted only once.
-class Columns {
- public:
-  explicit Columns(std::string_view line) : line_(line) {}
+/// A statement as it is read: one line, or several without the comments of all but the last, joined by blanks.
+struct JoinedLines {
+  struct Start {
+    std::size_t offset;  // in `text`
+    std::uint32_t line;
+  };
 
-  std::uint32_t column(Place place) {
-    const auto offset = static_cast<std::size_t>(place - line_.data());
-    if (offset < offset_) {
-      offset_ = 0;
+  std::string_view text;
+  std::string comments{};  // of the lines before the last
+  std::vector<Start> starts;
+};
+
+// Lines and columns of places in a statement. Places are mostly asked for in order, so a line is counted only once.
+class Places {
+ public:
+  explicit Places(const JoinedLines& lines) : lines_(lines), start_(lines.starts.front()), offset_(start_.offset) {}
+
+  Position position(Place place, std::uint32_t length) {
+    const auto offset = static_cast<std::size_t>(place - lines_.text.data());
+    const auto start = std::prev(std::ranges::upper_bound(lines_.starts, offset, {}, &JoinedLines::Start::offset));
+    if (offset < offset_ || start->line != start_.line) {
+      start_ = *start;
+      offset_ = start_.offset;
       column_ = 1;
     }
-    column_ += count_characters(line_.substr(offset_, offset - offset_));
+    column_ += count_characters(lines_.text.substr(offset_, offset - offset_));
     offset_ = offset;
-    return static_cast<std::uint32_t>(column_);
+    return {start_.line, static_cast<std::uint32_t>(column_), length};
   }
 
  private:
-  std::string_view line_;
-  std::size_t offset_ = 0;
+  const JoinedLines& lines_;
+  JoinedLines::Start start_;  // of the line that is counted
+  std::size_t offset_;        // how far, and to which column
   std::size_t column_ = 1;
 };
 
+std::size_t comment_start(std::string_view line) { return std::min(line.find("//"), line.size()); }
+
+/// What stands at the beginning of a text, for `expected …, found …` and `unexpected …`.
 std::string describe(std::string_view rest) {
   if (rest.empty()) return "the end of the line";
   const Character c = first_character(rest);
-  if (c.code >= 0x20 && c.code < 0x7F) return fmt::format("'{}'", rest.front());
-  return fmt::format("the character U+{:04X}", static_cast<std::uint32_t>(c.code));
+  const auto code = static_cast<std::uint32_t>(c.code);
+  if (c.code == kReplacement) return "unreadable character U+FFFD";
+  if (code < 0x20 || code == 0x7F) return fmt::format("control character U+{:04X}", code);
+  const std::string_view written = rest.substr(0, c.bytes);
+  return code < 0x7F ? fmt::format("'{}'", written) : fmt::format("'{}' (U+{:04X})", written, code);
 }
 
 std::string hint_for(const std::string& expected, std::string_view rest) {
@@ -269,6 +297,16 @@ std::string hint_for(const std::string& expected, std::string_view rest) {
   if (expected == "the end of the constant") return "constants are written 65, 16#FF, 2#1010, 1.5 or 'AB'";
   if (expected == "the end of the line") return "operands are separated by commas or blanks; a comment begins with //";
   return {};
+}
+
+bool separates_words(char c) { return is_blank(c) || c == ',' || c == ';'; }
+
+/// The word of a line that a place is in, or ends.
+std::string_view word_at(std::string_view line, std::size_t place) {
+  std::size_t from = place, to = place;
+  while (from > 0 && !separates_words(line[from - 1])) --from;
+  while (to < line.size() && !separates_words(line[to])) ++to;
+  return line.substr(from, to - from);
 }
 
 /// The value of the escape `$letter`, or nothing.
@@ -389,14 +427,18 @@ constexpr const char* kOutOfPlace = "block keyword out of place";
 
 class LineReader {
  public:
-  LineReader(std::string_view text, std::uint32_t number, ParseResult& result)
-      : text_(text), number_(number), columns_(text), result_(result) {}
+  LineReader(const JoinedLines& lines, ParseResult& result)
+      : lines_(lines), text_(lines.text), number_(lines.starts.front().line), places_(lines), result_(result) {}
 
   /// Returns true inside VAR … END_VAR; the message about VAR covers these lines.
   bool read(bool in_declarations) {
     if (const auto keyword = block_keyword()) return read_block_line(*keyword);
-    if (!in_declarations) read_line();
-    return in_declarations;
+    if (in_declarations) return true;
+    if (const auto heading = routine_heading(text_))
+      add_heading(*heading);
+    else
+      read_line();
+    return false;
   }
 
   /// The whole text as one operand.
@@ -432,6 +474,17 @@ class LineReader {
     return name.starts_with("VAR");
   }
 
+  void add_heading(const RoutineName& routine) {
+    const std::size_t slashes = std::min(text_.find("//"), text_.size());
+    const std::string_view code = trim(text_.substr(0, slashes));
+    const Position at = position(Range(code.data(), code.data() + code.size()));
+    const std::string_view head = words(routine.kind).head;
+    Statement heading{std::string(head.empty() ? kMainHeading : head), at, {}, {}};
+    if (!head.empty()) heading.operands.push_back({Integer{routine.number}, at});
+    if (slashes < text_.size()) heading.comment = trim_end(text_.substr(slashes + 2));
+    result_.source.lines.emplace_back(std::move(heading));
+  }
+
   void read_line() {
     RawLine line;
     try {
@@ -440,7 +493,8 @@ class LineReader {
       report_unexpected(failure.where(), failure.which());
       return;
     }
-    const std::string comment(line.comment ? trim_end(view(*line.comment)) : std::string_view{});
+    const std::string comment =
+        lines_.comments + std::string(line.comment ? trim_end(view(*line.comment)) : std::string_view{});
     if (line.statement) {
       add_statement(*line.statement, comment);
     } else if (line.comment) {
@@ -458,11 +512,22 @@ class LineReader {
       if (auto read = operand_of(operand)) statement.operands.push_back(std::move(*read));
     }
     if (statement.operands.size() < raw.operands.size()) return;
+    separate_network_number(statement);
     if (statement.mnemonic == "NETWORK") {
       add_network(statement);
     } else {
       result_.source.lines.emplace_back(std::move(statement));
     }
+  }
+
+  /// `NETWORK1`
+  static void separate_network_number(Statement& statement) {
+    constexpr std::string_view kNetwork = "NETWORK";
+    if (!statement.mnemonic.starts_with(kNetwork) || !statement.operands.empty()) return;
+    const auto number = number_of<std::uint32_t>(std::string_view(statement.mnemonic).substr(kNetwork.size()));
+    if (!number) return;
+    statement.operands.push_back({Integer{*number}, statement.position});
+    statement.mnemonic = kNetwork;
   }
 
   void add_network(const Statement& statement) {
@@ -620,13 +685,56 @@ class LineReader {
   }
 
   void report_unexpected(Place where, std::string expected) {
+    if (report_look_alike(where) || report_second_statement(where)) return;
     const std::string_view rest(where, static_cast<std::size_t>(end() - where));
     const bool at_start = text_.substr(0, text_.size() - rest.size()).find_first_not_of(" \t\f") == std::string_view::npos;
     if (at_start) expected = "a mnemonic";
     const std::string found = describe(rest);
     std::string message = expected == "the end of the line" ? fmt::format("unexpected {}", found)
                                                             : fmt::format("expected {}, found {}", expected, found);
-    report({number_, columns_.column(where), 1}, std::move(message), hint_for(expected, rest));
+    report(places_.position(where, 1), std::move(message), hint_for(expected, rest));
+  }
+
+  /// `IO.0`, `16#O9`: true after a message.
+  bool report_look_alike(Place where) {
+    const std::string_view word = word_at(text_, static_cast<std::size_t>(where - begin()));
+    const bool first = trim(text_).starts_with(word);
+    const auto meant = first ? look_alike_mnemonic(word) : look_alike_operand(word);
+    if (!meant) return false;
+    report(position(Range(word.data(), word.data() + word.size())), fmt::format("{} has {}", shortened(word), meant->wrong),
+           fmt::format("write {}", meant->meant), kLookAlikes);
+    read_as_meant(word, meant->meant);
+    return true;
+  }
+
+  /// The line with another word, so that its other mistakes show in the same run.
+  void read_as_meant(std::string_view word, std::string_view meant) {
+    if (lines_.starts.size() > 1) return;
+    std::string text(text_);
+    text.replace(static_cast<std::size_t>(word.data() - text_.data()), word.size(), meant);
+    LineReader({text, {}, lines_.starts}, result_).read(false);
+  }
+
+  /// `LD I0.0 = Q0.0`, `LD I0.0; A I0.1`, `LD I0.0 AW>= VW0, 5`: true after a message.
+  bool report_second_statement(Place where) {
+    Place start = where;
+    while (start != begin() && !separates_words(start[-1])) --start;
+    const std::string_view before = trim_end(std::string_view(begin(), static_cast<std::size_t>(start - begin())));
+    if (before.empty() || !(is_letter(before.back()) || is_digit(before.back()) || separates_words(before.back())))
+      return false;
+    RawStatement second;
+    Place at = start;
+    try {
+      if (!x3::parse(at, end(), grammar::statement, second)) return false;
+    } catch (const x3::expectation_failure<Place>&) {
+      return false;
+    }
+    const std::string_view mnemonic = view(second.mnemonic);
+    if (before.ends_with(',') && is_letter(mnemonic.front())) return false;  // an operand
+    if (second.operands.empty() && !(before.ends_with(';') && std::ranges::all_of(mnemonic, is_letter))) return false;
+    report(position(second.mnemonic), "two statements in one line",
+           fmt::format("begin a new line with {}", shortened(mnemonic)));
+    return true;
   }
 
   // A line full of wrong operands must not drown the other messages.
@@ -646,31 +754,102 @@ class LineReader {
 
   Position position(const Range& range) {
     const auto length = static_cast<std::uint32_t>(count_characters(view(range)));
-    return {number_, columns_.column(range.begin()), length == 0 ? 1 : length};
+    return places_.position(range.begin(), length == 0 ? 1 : length);
   }
 
   Place begin() const { return text_.data(); }
   Place end() const { return text_.data() + text_.size(); }
 
+  const JoinedLines& lines_;
   std::string_view text_;
-  std::uint32_t number_;
-  Columns columns_;
+  std::uint32_t number_;  // of the first line
+  Places places_;
   ParseResult& result_;
   std::size_t errors_ = 0;
 };
 
+// --- statements in several lines ---
+
+std::string_view code_of(std::string_view line) { return trim(line.substr(0, comment_start(line))); }
+
+/// Whether a line surely goes on in the next one: `CALL Scale, VW0,`
+bool ends_in_comma(std::string_view line) {
+  return line.find(',') != std::string_view::npos && code_of(line).ends_with(',');
+}
+
+/// Whether a line can be the rest of a statement: operands with commas between them. After a comma a lone word may be an
+/// instruction, unless the statement is a CALL; without one, what comes first in the line must be no word.
+bool goes_on(std::string_view line, bool after_comma, bool call) {
+  std::string_view code = code_of(line);
+  if (code.ends_with(';')) code = trim_end(code.substr(0, code.size() - 1));
+  if (code.empty() || routine_heading(code)) return false;
+  if (!after_comma && code.starts_with(',')) code = trim(code.substr(1));
+  const bool lone_word = std::ranges::all_of(code, is_letter);
+  if (after_comma ? lone_word && !call : !call) return false;
+  Place at = code.data();
+  const Place end = code.data() + code.size();
+  RawOperand first;
+  std::vector<RawOperand> others;
+  try {
+    if (!x3::parse(at, end, grammar::operand, first)) return false;
+    x3::parse(at, end, grammar::further_operands, others);
+  } catch (const x3::expectation_failure<Place>&) {
+    return false;
+  }
+  const auto* word = boost::get<RawWord>(&first.get());
+  const bool plain_word = word && word->kind == Kind::Name && is_letter(view(word->text).front());
+  return at == end && (after_comma || !plain_word || code_of(line).starts_with(','));
+}
+
+/// The line after the statement that begins in line `first`.
+std::size_t after_statement(const std::vector<std::string>& lines, std::size_t first) {
+  const bool call = upper_case(trim(lines[first]).substr(0, 5)) == "CALL ";
+  std::size_t after = first + 1;
+  while (after < lines.size()) {
+    const bool comma = ends_in_comma(lines[after - 1]);
+    if (!(comma || call) || !goes_on(lines[after], comma, call)) break;
+    ++after;
+  }
+  return after;
+}
+
+/// The lines [first, after); `joined` has the text of several.
+JoinedLines join(const std::vector<std::string>& lines, std::size_t first, std::size_t after, std::string& joined) {
+  JoinedLines result{lines[first], {}, {{0, static_cast<std::uint32_t>(first + 1)}}};
+  if (after == first + 1) return result;
+  result.starts.clear();
+  for (std::size_t i = first; i < after; ++i) {
+    const std::string_view line = lines[i];
+    const std::size_t comment = i + 1 == after ? line.size() : comment_start(line);
+    result.starts.push_back({joined.size(), static_cast<std::uint32_t>(i + 1)});
+    joined.append(line.substr(0, comment)).push_back(' ');
+    if (comment < line.size()) result.comments += trim_end(line.substr(comment + 2));
+  }
+  result.text = joined;
+  return result;
+}
+
 }  // namespace
 
-ParseResult parse(std::string_view text, std::string name) {
+ParseResult parse_lines(std::string_view text, std::string name) {
   ParseResult result;
   result.source.name = std::move(name);
   result.source.text = split_lines(text);
   result.source.lines.reserve(result.source.text.size());
-  std::uint32_t number = 0;
+  const std::vector<std::string>& lines = result.source.text;
   bool in_declarations = false;
-  for (const std::string& line : result.source.text) {
-    in_declarations = LineReader(line, ++number, result).read(in_declarations);
+  for (std::size_t first = 0; first < lines.size();) {
+    const std::size_t after = after_statement(lines, first);
+    std::string joined;
+    in_declarations = LineReader(join(lines, first, after, joined), result).read(in_declarations);
+    first = after;
   }
+  return result;
+}
+
+ParseResult parse(std::string_view text, std::string name) {
+  ParseResult result = parse_lines(text, std::move(name));
+  put_main_program_first(result);
   return result;
 }
 
@@ -684,7 +863,8 @@ std::optional<std::string> parse_characters(std::string_view text, std::string& 
 
 std::optional<Operand> parse_operand(std::string_view text, std::string& why) {
   ParseResult result;
-  auto operand = LineReader(text, 1, result).read_operand();
+  const JoinedLines line{text, {}, {{0, 1}}};
+  auto operand = LineReader(line, result).read_operand();
   std::erase_if(result.diagnostics, [](const Diagnostic& d) { return d.cause == kGermanAddresses; });
   if (result.diagnostics.empty()) return operand;
   why = result.diagnostics.front().message;

@@ -14,6 +14,7 @@ struct ParseResult {
   Source source;
   Diagnostics diagnostics;
   std::vector<std::uint32_t> left_out{};  ///< lines between the statements of a document that were taken for text
+  std::vector<std::string> notes{};       ///< what is worth knowing of how it was read, each with the name of its file
 };
 
 /// The cause of the diagnostics about German addresses. They are read like the international ones, so a caller that takes

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/headings.hpp"
+#include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200::stl {
@@ -374,7 +376,7 @@ class Resolver {
   }
 
   std::string written_at(const Position& at) const {
-    return at.line == 0 ? "" : characters_at(source_.text[at.line - 1], at.column, at.length);
+    return at.line == 0 ? "" : plain_characters(characters_at(source_.text[at.line - 1], at.column, at.length));
   }
 
   void forget_german(const Position& at) {
@@ -461,6 +463,8 @@ class Resolver {
     if (const Symbol* symbol = number ? nullptr : symbols_.find(written.name))
       if (const auto* of_block = symbol->value ? std::get_if<Name>(&*symbol->value) : nullptr)
         number = block_number(of_block->text);
+    if (!number && source_.blocks.empty())  // blocks have names of their own
+      if (const auto routine = default_routine(written.name)) number = BlockNumber{routine->kind, routine->number};
     if (!number) {
       name.reason = fmt::format("there is no {} {}", kind == Block::Kind::Subroutine ? "subroutine" : "interrupt routine",
                                 shortened(written.name));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace s7200::stl {
 namespace {
 
@@ -179,12 +181,12 @@ TEST(Parser, RefusesWhatDoesNotBelongInAStatement) {
   EXPECT_EQ(error("X 'ABC'").message, "an ASCII constant cannot have 3 characters");
   EXPECT_EQ(error("X 'AB").message, "expected a closing quote, found the end of the line");
   EXPECT_EQ(error("X '$q'").message, "'$' is not allowed in an ASCII constant");
-  EXPECT_EQ(error("X '中'").message, "the character U+4E2D is not allowed in an ASCII constant");
+  EXPECT_EQ(error("X '中'").message, "'中' (U+4E2D) is not allowed in an ASCII constant");
   EXPECT_EQ(error("X 1E99").message, "1E99 does not fit in a 32-bit real");
   EXPECT_EQ(error("X 1E-40").message, "1E-40 does not fit in a 32-bit real");
   EXPECT_EQ(error("X VB4294967296").message, "the number of this address is too large");
   EXPECT_EQ(error("LD I0.0 ! x").message, "unexpected '!'");
-  EXPECT_EQ(error("LD\u00A0I0.0").message, "unexpected the character U+00A0");
+  EXPECT_EQ(error("LD\u00A0I0.0").message, "unexpected '\u00A0' (U+00A0)");
 }
 
 TEST(Parser, IntegersThatDoNotFitInADoubleWordAreErrors) {
@@ -195,7 +197,7 @@ TEST(Parser, IntegersThatDoNotFitInADoubleWordAreErrors) {
 }
 
 TEST(Parser, ReportsEveryErrorOfAFileInOneRun) {
-  const ParseResult result = parse("LD I0.8\nLD I0.0\nMOVW 1,\n65\nMOVW I0.8 I0.9\n= Q0.0", "x");
+  const ParseResult result = parse("LD I0.8\nLD I0.0\nMOVW 1,\n!\nMOVW I0.8 I0.9\n= Q0.0", "x");
   EXPECT_EQ(result.diagnostics.size(), 5U);
   EXPECT_EQ(result.source.lines.size(), 2U);
 }
@@ -309,6 +311,70 @@ TEST(Parser, LettersBeyondAsciiHaveTheirBytesInWindows1252) {
   EXPECT_EQ(parse_characters("F\u00FCll \u20AC", why), "F\xFCll \x80");
   EXPECT_FALSE(parse_characters("\u4E2D", why));
   EXPECT_NE(why.find("U+4E2D"), std::string::npos) << why;
+}
+
+// --- statements in several lines, and several in one ---
+
+TEST(Parser, AStatementGoesOnAfterAComma) {
+  const ParseResult result =
+      parse("CALL Scale, VW0, // in\n     10,\n     #out // end\n  MOVB 1,\n VB99 ;\nALD\n", "test.stl");
+  ASSERT_TRUE(result.diagnostics.empty()) << result.diagnostics.front().message;
+  ASSERT_EQ(result.source.lines.size(), 3U);
+  const auto& call = std::get<Statement>(result.source.lines[0]);
+  ASSERT_EQ(call.operands.size(), 4U);
+  EXPECT_EQ(call.comment, " in end");
+  EXPECT_EQ(call.operands[1].position, (Position{1, 13, 3}));
+  EXPECT_EQ(call.operands[2].position, (Position{2, 6, 2}));
+  EXPECT_EQ(call.operands[3].position, (Position{3, 6, 4}));
+  EXPECT_EQ(std::get<Statement>(result.source.lines[1]).operands[1].position, (Position{5, 2, 4}));
+  EXPECT_EQ(std::get<Statement>(result.source.lines[2]).position, (Position{6, 1, 3}));
+}
+
+TEST(Parser, ACallGoesOnWithoutACommaWhereALineBeginsWithAnOperand) {
+  for (const char* text : {"CALL Scale\n  VW0\n  10\n  #out\nENI\n", "CALL Scale, VW0\n  , 10\n  , Output\nENI\n",
+                           "CALL Scale VW0, 10\n  VW2 ;\nENI\n"}) {
+    const ParseResult result = parse(text, "test.stl");
+    ASSERT_TRUE(result.diagnostics.empty()) << text << result.diagnostics.front().message;
+    ASSERT_EQ(result.source.lines.size(), 2U) << text;
+    EXPECT_EQ(std::get<Statement>(result.source.lines[0]).operands.size(), 4U) << text;
+  }
+}
+
+TEST(Parser, ALoneWordAfterACommaIsAnOperandOnlyOfACall) {
+  const ParseResult call = parse("CALL Scale,\nInput\n", "test.stl");
+  ASSERT_TRUE(call.diagnostics.empty());
+  EXPECT_EQ(std::get<Statement>(call.source.lines[0]).operands.size(), 2U);
+  const ParseResult move = parse("MOVB 1,\nMEND\n", "test.stl");
+  ASSERT_EQ(move.diagnostics.size(), 1U);
+  EXPECT_EQ(move.diagnostics[0].position, (Position{1, 8, 1}));
+  ASSERT_EQ(move.source.lines.size(), 1U);
+}
+
+TEST(Parser, AnErrorInALaterLineOfAStatementIsInThatLine) {
+  const ParseResult result = parse("CALL Scale, VW0,\n  16#10000000000\n", "test.stl");
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_EQ(result.diagnostics[0].position.line, 2U);
+  EXPECT_EQ(result.diagnostics[0].position.column, 3U);
+}
+
+TEST(Parser, TwoStatementsInOneLineAreNamed) {
+  for (const auto& [line, column, hint] : {std::tuple("LD I0.0 = Q0.0", 9U, "begin a new line with ="),
+                                           std::tuple("LD I0.0; = Q0.0", 10U, "begin a new line with ="),
+                                           std::tuple("LD I0.0; ALD", 10U, "begin a new line with ALD"),
+                                           std::tuple("LD I0.0 AW>= VW0, 5", 9U, "begin a new line with AW>="),
+                                           std::tuple("LD I0.0, = Q0.0", 10U, "begin a new line with ="),
+                                           std::tuple("MOVW VW0, VW2 +I VW0, VW2", 15U, "begin a new line with +I")}) {
+    const Diagnostic found = error(line);
+    EXPECT_EQ(found.message, "two statements in one line") << line;
+    EXPECT_EQ(found.position.column, column) << line;
+    EXPECT_EQ(found.hint, hint) << line;
+  }
+}
+
+TEST(Parser, NetworkMayHaveItsNumberWithoutABlank) {
+  const ParseResult result = parse("NETWORK12 // x\n", "test.stl");
+  ASSERT_EQ(result.source.lines.size(), 1U);
+  EXPECT_EQ(std::get<NetworkHead>(result.source.lines[0]).number, 12U);
 }
 
 }  // namespace

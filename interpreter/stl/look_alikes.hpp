@@ -1,0 +1,27 @@
+// Letters that look like other characters: O and l in place of the digits 0 and 1, Cyrillic and Greek letters in place of
+// Latin ones.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace s7200::stl {
+
+/// The cause of all diagnostics about such letters.
+inline constexpr const char* kLookAlikes = "letters that look like others";
+
+/// A word with a letter that looks like what was meant.
+struct LookAlike {
+  std::string wrong;  ///< what is in the word: "the letter O in place of the digit 0"
+  std::string meant;  ///< the word without it
+};
+
+/// `VB1OO`, `IO.0`, `16#O9`, `VВ100` with a Cyrillic В: a word that becomes an address or a constant. Nothing for any other
+/// word, and for one that is right as it is.
+std::optional<LookAlike> look_alike_operand(std::string_view word);
+
+/// `АN` with a Cyrillic А: a word that becomes one of ASCII letters and digits.
+std::optional<LookAlike> look_alike_mnemonic(std::string_view word);
+
+}  // namespace s7200::stl

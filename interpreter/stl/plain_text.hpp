@@ -1,0 +1,50 @@
+// Program text that has been through a web page, a word processor or a book.
+//
+// Read as what they stand for: no-break and other Unicode blanks, full-width signs, typographic quotes, dashes and signs,
+// HTML tags and entities; left out: characters that nobody sees, Markdown fences and what is around them, line numbers,
+// bullets, the > of quoted mail, the % before an address. Comments and quoted text stay as they are.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/stl/parser.hpp"
+
+namespace s7200::stl {
+
+class PlainText {
+ public:
+  /// `original` (UTF-8) must live as long as this.
+  explicit PlainText(std::string_view original);
+
+  /// What the readers read. A line of the original may be several of it.
+  std::string_view text() const { return lines_.empty() ? original_ : text_; }
+
+  /// Puts the lines and places of the original in what was read from text(), and a note of what is different, if statements,
+  /// symbols or values were read from such lines.
+  void restore(ParseResult& read) const;
+
+ private:
+  struct Line {
+    std::uint32_t original = 0;            // line of the original
+    std::vector<std::uint32_t> columns{};  // in it, of each character and of the end; empty: the same
+    std::uint32_t changes = 0;             // what was changed, a bit of each kind
+  };
+
+  Position in_original(const Position& place) const;
+  std::string note(const ParseResult& read) const;
+
+  std::string_view original_;
+  std::string text_;
+  std::vector<std::string> original_lines_;
+  std::vector<Line> lines_;                // of text_; none if nothing is different
+  std::vector<std::uint32_t> left_out_{};  // lines of the original around its program
+  std::uint32_t around_ = 0;               // what its program was cut out of, as a change
+};
+
+/// A few characters of a program, as PlainText reads them.
+std::string plain_characters(std::string_view written);
+
+}  // namespace s7200::stl

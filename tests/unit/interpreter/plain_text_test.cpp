@@ -1,0 +1,199 @@
+// Programs that have been through a web page, a word processor or a book.
+#include "interpreter/stl/plain_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/model/times.hpp"
+#include "interpreter/program/load.hpp"
+#include "interpreter/stl/printer.hpp"
+
+namespace s7200 {
+namespace {
+
+SourceText read(const std::string& text) {
+  std::string why;
+  auto source = read_source(text, "page.txt", why);
+  EXPECT_TRUE(source) << why << "\n" << text;
+  return source ? *source : SourceText{};
+}
+
+CheckResult checked(const std::string& text) {
+  return check(read(text).parsed, *find_cpu("224"), default_times(*find_cpu("224")));
+}
+
+std::string diagnostics(const CheckResult& result) { return stl::render(result.diagnostics, result.source, false); }
+
+/// The program in a text, as the printer writes it.
+std::string program(const std::string& text) { return stl::to_text(read(text).parsed.source); }
+
+/// The only note.
+std::string note(const std::string& text) {
+  const auto notes = read(text).parsed.notes;
+  EXPECT_EQ(notes.size(), 1U) << text;
+  return notes.empty() ? "" : notes.front();
+}
+
+TEST(PlainText, UnicodeBlanksSeparateWords) {
+  for (const char* blank : {"\u00A0", "\u2003", "\u202F", "\u3000", "\u2009"}) {
+    const std::string text = std::string("LD") + blank + "I0.0\n=" + blank + "Q0.0\n";
+    EXPECT_EQ(program(text), program("LD I0.0\n= Q0.0\n")) << blank;
+    EXPECT_EQ(note(text), "page.txt: read as plain text: no-break and other Unicode blanks; the first in line 1");
+  }
+}
+
+TEST(PlainText, FullWidthSignsAreThoseOfAscii) {
+  EXPECT_EQ(program("ＬＤ　Ｉ０．０\n＝　Q0。0\nMOVB 16＃0F，VB０　／／　注释，\nMOVB 1、VB1\n"),
+            program("LD I0.0\n= Q0.0\nMOVB 16#0F, VB0 //　注释，\nMOVB 1, VB1\n"));
+}
+
+TEST(PlainText, TypographicSignsAreThoseOfAscii) {
+  EXPECT_EQ(program("MOVB ‘A’, VB0\nMOVW –5, VW2\nMOVD −1, ×VD4\nLDW≥ VW2, 5\nAW≠ VW4, 1\n= Q0·1\n"),
+            program("MOVB 'A', VB0\nMOVW -5, VW2\nMOVD -1, *VD4\nLDW>= VW2, 5\nAW<> VW4, 1\n= Q0.1\n"));
+  EXPECT_EQ(program("LD “Pump”\n= „Lamp“\n= «Horn»\n"), program("LD \"Pump\"\n= \"Lamp\"\n= \"Horn\"\n"));
+}
+
+TEST(PlainText, CharactersThatNobodySeesAreLeftOut) {
+  EXPECT_EQ(program("\u200BLD I\u200B0.\u00AD0\n= Q0.0\uFEFF\n"), program("LD I0.0\n= Q0.0\n"));
+}
+
+TEST(PlainText, CommentsAndQuotedTextStayAsTheyAre) {
+  const SourceText source = read("LD I0.0 // “a”，b\u00A0c\nMOVB ' ', VB0\n");
+  EXPECT_EQ(std::get<stl::Statement>(source.parsed.source.lines[0]).comment, " “a”，b\u00A0c");
+  EXPECT_TRUE(source.parsed.notes.empty());
+}
+
+TEST(PlainText, OtherQuotesAreAllowedInQuotedText) {
+  EXPECT_EQ(program("LD “it\'s，”\n= Q0．0 // x\n"), program("LD \"it\'s，\"\n= Q0.0 // x\n"));
+  EXPECT_EQ(read("Symbol\tAddress\n\"Pump，1\"\tQ0．0\n").parsed.source.symbols.front().name, "Pump，1");
+}
+
+TEST(PlainText, ErrorsPointAtTheTextAsItIs) {
+  const CheckResult result = checked("LD I0.0\nMOVB　1，VB99999\n");
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_EQ(result.diagnostics[0].position, (stl::Position{2, 8, 7}));
+  EXPECT_NE(diagnostics(result).find("\nMOVB　1，VB99999\n"), std::string::npos) << diagnostics(result);
+}
+
+TEST(PlainText, HtmlIsLeftOutAndItsEntitiesAreRead) {
+  const std::string page =
+      "<html><body>Hello,<br>my program:\n<pre class=\"code\">LD&nbsp;I0.0\nAW&gt;= VW0, 5 <b>// x &lt; 5</b>\n= "
+      "Q0.0</pre>\nThanks\n";
+  EXPECT_EQ(program(page), program("\nLD I0.0\nAW>= VW0, 5 // x < 5\n= Q0.0\n\n"));
+  EXPECT_EQ(note(page),
+            "page.txt: read as plain text: no-break and other Unicode blanks, HTML; the first in line 2; "
+            "left out around the program: lines 1, 5");
+}
+
+TEST(PlainText, TagsThatEndALineDo) {
+  const std::string page = "LD I0.0<br>A I0.1 // x<br/>= Q0.0<br>MOVB 1, VB99999</p>";
+  EXPECT_EQ(program(page), program("LD I0.0\nA I0.1 // x\n= Q0.0\nMOVB 1, VB99999\n"));
+  const CheckResult result = checked(page);
+  ASSERT_EQ(result.diagnostics.size(), 1U) << diagnostics(result);
+  EXPECT_EQ(result.diagnostics[0].position, (stl::Position{1, static_cast<std::uint32_t>(page.find("VB99999") + 1), 7}));
+}
+
+TEST(PlainText, ComparisonsAreNoTags) {
+  EXPECT_TRUE(read("LDW< VW0, VW2\nAB<> VB0, 1\nOD<= VD0, VD4\n= Q0.0\n").parsed.notes.empty());
+  EXPECT_TRUE(read("LD SM0.0 // <b>&lt;</b>\nMOVD &VB0, VD4; // x\n").parsed.notes.empty());
+}
+
+TEST(PlainText, OfMarkdownOnlyTheFencedPartsCount) {
+  const std::string post = "My **program**:\n\n```stl\nLD I0.0\n= Q0.0\n```\nand then\n~~~\nLD I0.1\n= Q0.1\n~~~\n";
+  EXPECT_EQ(program(post), program("\n\n\nLD I0.0\n= Q0.0\n\n\n\nLD I0.1\n= Q0.1\n\n"));
+  EXPECT_EQ(note(post), "page.txt: read as plain text: Markdown; left out around the program: lines 1, 7");
+  EXPECT_EQ(program("`LD I0.0`\n`= Q0.0`\n"), program("LD I0.0\n= Q0.0\n"));
+}
+
+TEST(PlainText, ASingleFenceHasLostTheOther) {
+  EXPECT_EQ(program("LD I0.0\n= Q0.0\n```\n"), program("LD I0.0\n= Q0.0\n\n"));
+}
+
+TEST(PlainText, NothingThatLooksLikeAStatementIsCutOff) {
+  EXPECT_EQ(program("LD I0.0\n= Q0.0\n```\nLD I0.1\n= Q0.1\n```\n"), program("LD I0.0\n= Q0.0\n\nLD I0.1\n= Q0.1\n\n"));
+}
+
+TEST(PlainText, LineNumbersAreLeftOutIfAllLinesHaveThem) {
+  EXPECT_EQ(program("1 LD I0.0\n2 = Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
+  EXPECT_EQ(program("001: LD I0.0\n002: // x\n010: = Q0.0\n"), program("LD I0.0\n// x\n= Q0.0\n"));
+  EXPECT_EQ(program("NETWORK 1\n1. LD I0.0\n2. = Q0.0\nNETWORK 2\n1. LD I0.1\n2. = Q0.1\n"),
+            program("NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\nLD I0.1\n= Q0.1\n"));
+  EXPECT_EQ(note("[1] LD I0.0\n[2] = Q0.0\n"), "page.txt: read as plain text: line numbers; the first in line 1");
+  EXPECT_TRUE(read("LD I0.0\n2 = Q0.0\n").parsed.notes.empty());
+  EXPECT_TRUE(read("VB0 1\n2 // more\n3 // values\n").parsed.notes.empty());
+}
+
+TEST(PlainText, MarginsOfMailAndListsAreLeftOut) {
+  EXPECT_EQ(program("> LD I0.0\n> = Q0.0\n>\n"), program("LD I0.0\n= Q0.0\n\n"));
+  EXPECT_EQ(program("• LD I0.0\n• = Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
+}
+
+TEST(PlainText, APercentSignBeforeAnAddressIsLeftOut) {
+  EXPECT_EQ(program("LD %I0.0\nA %IX0.1\n= %Q0.0\nMOVW %IW2, %VW10\n"),
+            program("LD I0.0\nA IX0.1\n= Q0.0\nMOVW IW2, VW10\n"));
+}
+
+TEST(PlainText, LineEndsOfWordProcessorsEndALine) {
+  EXPECT_EQ(program("LD I0.0\x0B= Q0.0\u2028LD I0.1\n= Q0.1\n"), program("LD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\n"));
+}
+
+TEST(PlainText, SymbolTablesAreReadTheSameWay) {
+  const SourceText table = read("Symbol\tAddress\nPump\tQ0．1\nMotor\t\u00A0M0.0\n");
+  ASSERT_EQ(table.parsed.source.symbols.size(), 2U);
+  EXPECT_EQ(stl::to_text({*table.parsed.source.symbols[0].value, {}}), "Q0.1");
+  EXPECT_EQ(stl::to_text({*table.parsed.source.symbols[1].value, {}}), "M0.0");
+}
+
+TEST(PlainText, APlainTextHasNoNote) {
+  for (const char* text : {"LD I0.0\n= Q0.0\n", "LD I0.0 // 注释，“x”\n= Q0.0\n", "// %I0.0 <br> `x`\nLD I0.0\n"})
+    EXPECT_TRUE(read(text).parsed.notes.empty()) << text;
+}
+
+TEST(PlainText, NoMessageSpeaksOfTheCharacter) {
+  for (const char* text : {"注释 LD SM0.0\nLD SM0.0\n", "LD SM0.0\nMOVB 1\x01, VB0\n", "LD SM0.0\nMOVB 1注, VB0\n"}) {
+    const std::string shown = diagnostics(checked(text));
+    EXPECT_EQ(shown.find("the character"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("U+"), std::string::npos) << shown;
+  }
+}
+
+// --- letters that look like others ---
+
+std::string first_error(const std::string& text) {
+  const CheckResult result = checked(text);
+  if (result.diagnostics.empty()) return {};
+  return result.diagnostics[0].message + "; " + result.diagnostics[0].hint;
+}
+
+TEST(LookAlikes, LettersInPlaceOfDigitsAreNamed) {
+  EXPECT_EQ(first_error("LD IO.0\n= Q0.0\n"), "IO.0 has the letter O in place of the digit 0; write I0.0");
+  EXPECT_EQ(first_error("LD I0.l\n= Q0.0\n"), "I0.l has the letter l in place of the digit 1; write I0.1");
+  EXPECT_EQ(first_error("LD SM0.0\nMOVB 16#O9, VB0\n"), "16#O9 has the letter O in place of the digit 0; write 16#09");
+  EXPECT_EQ(first_error("LD SM0.0\nMOVB 1, VB1OO\n"), "VB1OO has the letter O in place of the digit 0; write VB100");
+  EXPECT_EQ(first_error("LD SM0.0\nTON T3l, 10\n"), "T3l has the letter l in place of the digit 1; write T31");
+}
+
+TEST(LookAlikes, CyrillicAndGreekLettersAreNamed) {
+  EXPECT_EQ(first_error("LD SM0.0\n\u0410N I0.0\n= Q0.0\n"), "\u0410N has the Cyrillic letter \u0410 (U+0410); write AN");
+  EXPECT_EQ(first_error("LD SM0.0\nM\u041EVB 1, VB0\n"), "M\u041EVB has the Cyrillic letter \u041E (U+041E); write MOVB");
+  EXPECT_EQ(first_error("LD SM0.0\nMOVB 1, V\u03920\n"), "V\u03920 has the Greek letter \u0392 (U+0392); write VB0");
+}
+
+TEST(LookAlikes, AllOfThemHaveOneCause) {
+  const CheckResult result = checked("LD IO.0\nA I0.l\n= QO.0\nLD SM0.0\nMOVB 1, VB1O\n");
+  EXPECT_EQ(result.diagnostics.size(), 4U) << diagnostics(result);
+  EXPECT_EQ(stl::count_causes(result.diagnostics), 1U) << diagnostics(result);
+}
+
+TEST(LookAlikes, SymbolsMayLookAsTheyLike) {
+  std::string why;
+  std::vector<SourceText> files{read("LD SM0.0\nMOVB 1, VB1O\nMOVB 2, Т1\n"), read("Symbol\tAddress\nVB1O\tVB5\nТ1\tVB6\n")};
+  const CpuModel& model = *find_cpu("224");
+  const CheckResult result = check(join_files(std::move(files)).parsed, model, default_times(model));
+  EXPECT_TRUE(result.program) << diagnostics(result);
+}
+
+}  // namespace
+}  // namespace s7200
