@@ -18,6 +18,9 @@ struct Row {
 
 constexpr std::string_view kGerman = "a German mnemonic";
 constexpr std::string_view kStep7 = "a mnemonic of STEP 7 for the S7-300 and S7-400";
+constexpr std::string_view kSmart = "an instruction of the S7-200 SMART";
+constexpr std::string_view kAsCpu226 =
+    "a program for the SMART runs here as CPU 226 as far as it goes; what GET and PUT do there, NETR and NETW do on a 226";
 constexpr std::string_view kEnds = "the main program ends with MEND, a subroutine with RET, an interrupt routine with RETI";
 
 // clang-format off
@@ -41,6 +44,10 @@ constexpr Row kRows[] = {
     {"BEB",  kStep7,  "write CRET in a subroutine, CRETI in an interrupt routine, END in the main program"},
     {"BE",   kStep7,  kEnds},
     {"BEA",  kStep7,  kEnds},
+    {"GET",  kSmart,  kAsCpu226},
+    {"PUT",  kSmart,  kAsCpu226},
+    {"GIP",  kSmart,  kAsCpu226},
+    {"SIP",  kSmart,  kAsCpu226},
 };
 // clang-format on
 
