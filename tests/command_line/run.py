@@ -912,6 +912,24 @@ class Verbs(Case):
     def test_only_check_warns(self):
         self.assertEqual(self.ends(FINE, "run", self.program(self.WARNED), "--scans", "1").stderr, "")
 
+    def test_check_and_run_say_how_a_text_from_elsewhere_was_read(self):
+        path = self.program("1  LD\u00A0\u00A0SM0.0\n2  MOVB 16＃2A， VB0\n")
+        note = f"note: {path}: read as plain text: no-break and other Unicode blanks, full-width signs, line numbers; the first in line 1\n"
+        done = self.ends(FINE, "check", "--cpu", "224", path)
+        self.assertIn("fine, 3 instructions for CPU 224", done.stdout)
+        self.assertEqual(done.stderr.count(note), 1)
+        (result,) = self.json(FINE, "check", "--cpu", "224", path, "--json")["files"]
+        self.assertEqual(f"note: {result['notes'][0]}\n", note)
+        self.assertIn(note, self.ends(FINE, "run", path, "--cpu", "224", "--scans", "1").stderr)
+
+    def test_a_listing_for_a_cpu_22x_runs_without_ends_and_with_default_names(self):
+        path = self.program("MAIN\nNetwork 1\nLD SM0.1\nMOVB 50, SMB34\nATCH INT_0, 10\nCALL SBR_0\nENI\n"
+                            "SBR_0\nNetwork 1\nLD SM0.0\nMOVW 7, VW2\nINT_0\nNetwork 1\nLD SM0.0\nINCW VW0\n")
+        done = self.ends(FINE, "run", path, "--cpu", "224", "--for", "1s", "--dump", "VW0:2")
+        self.assertRegex(done.stdout, r"(?m)^VW0 +16#001[34] +(19|20)$")
+        self.assertRegex(done.stdout, r"(?m)^VW2 +16#0007 +7$")
+        self.assertIn("the main program has no MEND", self.ends(FAILED, "check", "--cpu", "214", path).stderr)
+
     def test_a_cause_is_said_once_with_how_often_and_where_else(self):
         path = self.program("LD SM0.0\n" + "".join(f"MOVB 1, VB{n}\nCALL {n % 64}\n" for n in range(1024, 1124)) + "MEND\n" +
                             "".join(f"SBR {n}\nRET\n" for n in range(64)))

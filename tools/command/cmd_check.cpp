@@ -60,7 +60,7 @@ int run_check(const CheckOptions& options) {
       files.push_back(check_json(path, text, result, *model, others));
     } else {
       print_diagnostics(result.diagnostics, result.source);
-      print_note_if_any(left_out_note(text));
+      print_notes(reading_notes(text));
       print_note_if_any(dropped_networks_note(result, others));
       fmt::print("{}", check_summary(text, result, *model, others));
       std::fflush(stdout);  // it stays, if the next file is interrupted

@@ -24,7 +24,7 @@ int run_convert(const ConvertOptions& options) {
   auto source = read_project(options.program.path, options.program.parts);
   if (!source) return kUnusable;
   if (!repair(*source, options.program.repairs)) return kUnusable;
-  print_note_if_any(left_out_note(*source));
+  print_notes(reading_notes(*source));
   if (!is_right_for_any_cpu(*source)) return print_error("nothing was written"), kCheckFailed;
   const Notation notation = *notation_named(options.notation);
   const auto text = convert(source->parsed, notation);

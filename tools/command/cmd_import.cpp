@@ -58,7 +58,7 @@ int run_import(const ImportOptions& options) {
     print_diagnostics(text->parsed.diagnostics, text->parsed.source);
   if (has_errors(text->parsed.diagnostics)) return print_error("nothing was written"), kCheckFailed;
   if (!repair(*text, options.repairs)) return kUnusable;
-  print_note_if_any(left_out_note(*text));
+  print_notes(reading_notes(*text));
   stl::resolve_symbols(text->parsed);  // a listing without blocks knows no routine by its name
   const std::string stl = stl::to_text(text->parsed.source);
   if (options.output.empty() || options.output == "-") {

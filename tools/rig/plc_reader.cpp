@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "interpreter/base/joined.hpp"
@@ -112,7 +114,12 @@ class PlcReader {
       }
       files.push_back(*text);
     }
-    return join_files(std::move(files));
+    SourceText project = join_files(std::move(files));
+    for (const std::string& note : project.parsed.notes)
+      if (told_.insert(note).second)
+        reading_.file.file.diagnostics.push_back(
+            {.severity = stl::Severity::Warning, .position = program->position, .message = note});
+    return project;
   }
 
   const SourceText* text_of(const std::string& path, std::string& why) {
@@ -272,6 +279,7 @@ class PlcReader {
   SystemNames& names_ = reading_.names;
   YamlValues& values_ = reading_.values;
   std::map<std::string, SourceText> texts_{};  // by path
+  std::set<std::string> told_{};               // notes on them; copies of a PLC share its files
 };
 
 }  // namespace

@@ -144,6 +144,7 @@ nlohmann::ordered_json check_json(const std::string& path, const SourceText& tex
           {"encoding", text.encoding},
           {"instructions", result.program ? result.program->ops.size() : 0},
           {"left_out", text.parsed.left_out},
+          {"notes", text.parsed.notes},
           {"diagnostics", to_json(result.diagnostics, result.source)}};
 }
 

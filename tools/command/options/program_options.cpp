@@ -172,7 +172,7 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, const CpuMo
                                                     int& exit_code) const {
   exit_code = kUnusable;
   if (!repair(text, repairs)) return nullptr;
-  print_note_if_any(left_out_note(text));
+  print_notes(reading_notes(text));
   CheckResult result = check(text.parsed, model, table);
   std::erase_if(result.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
   print_diagnostics(result.diagnostics, result.source);
@@ -213,8 +213,6 @@ std::optional<SourceText> read_project(const std::string& path, const std::vecto
   const auto add = [&files](const std::string& file) {
     auto text = read_program_text(file);
     if (!text) return false;
-    if (text->kind == SourceKind::StatusChart)
-      print_note(fmt::format("{} is a status chart: nothing of it is part of the program", text->parsed.source.name));
     files.push_back(std::move(*text));
     return true;
   };
@@ -245,14 +243,16 @@ std::vector<ProgramFiles> read_programs(const std::vector<std::string>& paths, i
   return programs;
 }
 
-std::string left_out_note(const SourceText& text) {
+std::vector<std::string> reading_notes(const SourceText& text) {
+  std::vector<std::string> notes = text.parsed.notes;
   constexpr std::size_t kShown = 20;
   const std::vector<std::uint32_t>& lines = text.parsed.left_out;
-  if (lines.empty()) return {};
+  if (lines.empty()) return notes;
   const auto shown = std::span(lines).first(std::min(kShown, lines.size()));
-  return fmt::format("{}: {} of its listing left out as text: {}{}", text.parsed.source.name,
-                     lines.size() == 1 ? "1 line" : fmt::format("{} lines", lines.size()), fmt::join(shown, ", "),
-                     lines.size() > kShown ? ", …" : "");
+  notes.push_back(fmt::format("{}: {} of its listing left out as text: {}{}", text.parsed.source.name,
+                              lines.size() == 1 ? "1 line" : fmt::format("{} lines", lines.size()), fmt::join(shown, ", "),
+                              lines.size() > kShown ? ", …" : ""));
+  return notes;
 }
 
 void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::SourceLines& source) {

@@ -98,8 +98,9 @@ struct ProgramFiles {
 /// parts are checked by themselves. What cannot be read makes `exit_code` kUnusable, after a message.
 std::vector<ProgramFiles> read_programs(const std::vector<std::string>& paths, int& exit_code);
 
-/// Which lines of the listing of a document were left out as text; empty if none were.
-std::string left_out_note(const SourceText& text);
+/// What is worth knowing of how a program was read: its notes, and which lines of the listing of a document were left out as
+/// text.
+std::vector<std::string> reading_notes(const SourceText& text);
 
 /// Prints diagnostics on stderr, in colour where wanted: each cause once.
 void print_diagnostics(const stl::Diagnostics& diagnostics, const stl::SourceLines& source);
