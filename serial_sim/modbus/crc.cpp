@@ -3,11 +3,9 @@
 namespace s7200::modbus {
 
 std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
-  std::uint16_t crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) {
-    crc = static_cast<std::uint16_t>(crc >> 8 ^ kCrcTable[(crc ^ byte) & 0xFF]);
-  }
-  return crc;
+  Crc crc;
+  for (const std::uint8_t byte : bytes) crc.take(byte);
+  return crc.value();
 }
 
 void add_crc(Bytes& bytes) {
