@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cstdlib>
 #include <deque>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -699,6 +700,24 @@ void read_names(stl::ParseResult& parsed) {
   stl::resolve_symbols(parsed);
 }
 
+/// A source as the CPUs 21x take it, and as the CPUs 22x do.
+class ForEachFamily {
+ public:
+  explicit ForEachFamily(stl::ParseResult parsed) : for_21x_(std::move(parsed)) {
+    read_names(for_21x_);
+    for_22x_ = for_21x_;
+    add_missing_ends(for_22x_);
+  }
+
+  bool is_fine_for(const CpuModel& model) const {
+    const stl::ParseResult& read = model.self & kCpu22x ? for_22x_ : for_21x_;
+    return !has_errors(read.diagnostics) && Checker(read.source, {}, model).is_fine();
+  }
+
+ private:
+  stl::ParseResult for_21x_, for_22x_;
+};
+
 }  // namespace
 
 CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
@@ -710,22 +729,16 @@ CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTabl
 }
 
 std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {
-  read_names(parsed);
-  stl::ParseResult for_22x = parsed;
-  add_missing_ends(for_22x);
+  const ForEachFamily read(std::move(parsed));
   std::vector<const CpuModel*> fine;
-  for (const CpuModel* model : all_cpus()) {
-    const stl::ParseResult& read = model->self & kCpu22x ? for_22x : parsed;
-    if (!has_errors(read.diagnostics) && Checker(read.source, {}, *model).is_fine()) fine.push_back(model);
-  }
+  std::ranges::copy_if(all_cpus(), std::back_inserter(fine),
+                       [&](const CpuModel* model) { return read.is_fine_for(*model); });
   return fine;
 }
 
 const CpuModel* first_cpu_without_errors(stl::ParseResult parsed, std::span<const CpuModel* const> tried) {
-  read_names(parsed);
-  if (has_errors(parsed.diagnostics)) return nullptr;
-  const auto first = std::ranges::find_if(
-      tried, [&](const CpuModel* model) { return Checker(parsed.source, {}, *model).is_fine(); });
+  const ForEachFamily read(std::move(parsed));
+  const auto first = std::ranges::find_if(tried, [&](const CpuModel* model) { return read.is_fine_for(*model); });
   return first == tried.end() ? nullptr : *first;
 }
 

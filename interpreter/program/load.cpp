@@ -14,6 +14,7 @@
 #include <span>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/dialect.hpp"
 #include "interpreter/stl/blocks.hpp"
 #include "interpreter/stl/data_block.hpp"
 #include "interpreter/stl/document.hpp"
@@ -188,8 +189,19 @@ stl::ParseResult read_as(SourceKind kind, std::string_view text, const std::stri
   return stl::parse(text, name);
 }
 
+/// A text in another dialect, of which nothing else is said.
+stl::ParseResult foreign(stl::Diagnostic dialect, std::string_view text, const std::string& name) {
+  stl::ParseResult result;
+  result.source.name = name;
+  result.source.text = stl::split_lines(text);
+  result.diagnostics.push_back(std::move(dialect));
+  return result;
+}
+
 /// Returns nothing if the text is neither STL nor anything else that is read.
 std::optional<SourceText> read_plain(std::string_view text, const std::string& name, bool force_document) {
+  if (auto dialect = other_dialect(text))
+    return SourceText{foreign(*std::move(dialect), text, name), {}, SourceKind::Listing};
   if (const auto kind = kind_of(text, force_document)) return SourceText{read_as(*kind, text, name), {}, *kind};
   auto listing = stl::read_listing(text, name, instruction_set());
   if (!listing) return SourceText{read_as(SourceKind::Document, text, name), {}, SourceKind::Document};

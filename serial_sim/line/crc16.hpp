@@ -19,11 +19,23 @@ inline constexpr std::array<std::uint16_t, 256> kCrcTable = [] {
   return table;
 }();
 
+/// The CRC of a stream, byte by byte.
+class Crc {
+ public:
+  void take(std::uint8_t byte) { value_ = static_cast<std::uint16_t>(value_ >> 8 ^ kCrcTable[(value_ ^ byte) & 0xFF]); }
+  std::uint16_t value() const { return value_; }
+  /// Whether the last two bytes were the CRC of those before: it leaves nothing.
+  bool is_at_its_end() const { return value_ == 0; }
+
+ private:
+  std::uint16_t value_ = 0xFFFF;
+};
+
 /// Of all bytes in front of it; it is sent low byte first.
 inline std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
-  std::uint16_t crc = 0xFFFF;
-  for (const std::uint8_t byte : bytes) crc = static_cast<std::uint16_t>(crc >> 8 ^ kCrcTable[(crc ^ byte) & 0xFF]);
-  return crc;
+  Crc crc;
+  for (const std::uint8_t byte : bytes) crc.take(byte);
+  return crc.value();
 }
 
 }  // namespace s7200::serial

@@ -9,6 +9,7 @@
 
 namespace s7200::modbus {
 
+using serial::Crc;
 using serial::crc16;
 
 /// Appends the CRC of `bytes`, low byte first.

@@ -23,7 +23,7 @@ Bytes to_bytes(const TcpMessage& message) {
   return bytes;
 }
 
-std::uint32_t exchange_of(const TcpMessage& message) { return std::uint32_t{message.transaction} << 8 | message.unit; }
+std::uint32_t exchange_of(const TcpMessage& message) { return message.transaction * kUnitsOfATransaction + message.unit; }
 
 TcpMessage exception_to(const TcpMessage& request, GatewayException code) {
   const auto function = static_cast<std::uint8_t>(request.pdu[0] | 0x80);

@@ -27,6 +27,7 @@ Bytes to_bytes(const TcpMessage& message);
 
 /// Transaction and unit: a request and its answer have the same.
 std::uint32_t exchange_of(const TcpMessage& message);
+constexpr std::uint32_t kUnitsOfATransaction = 256;  ///< exchanges that follow each other
 
 /// The answer to `request` with an exception.
 TcpMessage exception_to(const TcpMessage& request, GatewayException code);

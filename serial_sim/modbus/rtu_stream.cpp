@@ -64,4 +64,30 @@ bool lacks_crc(std::span<const std::uint8_t> bytes) {
          length(bytes) == bytes.size() + kCrc;
 }
 
+std::size_t length_of_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> stream) {
+  constexpr std::size_t kException = 5, kStatus = 5, kWritten = 8, kByteCount = 2, kAroundCounted = 5;
+  const FunctionRow* const row = request.size() < kShortest ? nullptr : find_function(request[1]);
+  if (row == nullptr || (!stream.empty() && stream[0] != request[0])) return 0;
+  if (stream.size() < 2) return stream.size() + 1;
+  if (stream[1] == (request[1] | kExceptionFlag)) return kException;
+  if (stream[1] != request[1]) return 0;
+  switch (row->shape) {
+    case Shape::ReadBits:
+    case Shape::ReadRegisters:
+    case Shape::SlaveId:
+    case Shape::ReadFile:
+      return stream.size() > kByteCount ? stream[kByteCount] + kAroundCounted : stream.size() + 1;
+    case Shape::WriteOne:
+    case Shape::WriteBits:
+    case Shape::WriteRegisters:
+      return kWritten;
+    case Shape::Status:
+      return kStatus;
+    case Shape::WriteFile:
+    case Shape::Diagnostics:
+      return request.size();
+  }
+  return 0;
+}
+
 }  // namespace s7200::modbus

@@ -23,4 +23,9 @@ Extent extent_of_request(std::span<const std::uint8_t> stream);
 /// Whether it is a whole request of Modbus RTU but for its CRC.
 bool lacks_crc(std::span<const std::uint8_t> bytes);
 
+/// How many bytes the answer to a request has, with its CRC, by what the stream begins with: one more than there are as
+/// long as that cannot be told. 0 if the stream does not begin with an answer to the request, or its function does not say
+/// how long one is.
+std::size_t length_of_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> stream);
+
 }  // namespace s7200::modbus

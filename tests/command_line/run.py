@@ -477,6 +477,35 @@ class Verbs(Case):
         self.assertEqual(done.stdout.count("- send:"), 1)
         self.assertIn("expect: 01 03 02 12 34 b5 33\n", done.stdout)
 
+    def test_pieces_and_echoes_of_a_recording_are_said_and_played_as_whole_answers(self):
+        log = self.folder / "two_wires.log"
+        log.write_text("10:00:00.000 TX 01 03 00 0a 00 02 e4 09\n10:00:00.040 RX 01 03 00 0a 00 02 e4 09 01 03\n"
+                       "10:00:00.056 RX 04 12 34 56 78 81 07\n", encoding="utf-8")
+        for verb in ("decode", "import-capture"):
+            done = self.ends(FINE, verb, log)
+            self.assertEqual(done.stderr, "s7200: note: line 2: an answer in 2 pieces: joined, as only the whole is right\n"
+                             "s7200: note: line 2: the echo of a request: an adapter for two wires hears what it sends; that is not an answer\n")
+        self.assertIn("expect: 01 03 04 12 34 56 78 81 07", done.stdout)
+        frames = self.json(FINE, "decode", log, "--json")
+        self.assertEqual([frame["kind"] for frame in frames["frames"]], ["request", "echo", "answer"])
+        self.assertEqual((frames["summary"]["answered"], frames["summary"]["echoes"], frames["summary"]["strays"]), (1, 1, 0))
+
+    def test_a_decoding_that_is_interrupted_ends_its_json(self):
+        log = self.folder / "long.log"
+        log.write_text("".join(f"{i}.000 TX 01 03 00 00 00 01 84 0A\n{i}.040 RX 01 03 02 12 34 B5 33\n" for i in range(100_000)), encoding="utf-8")
+        process = subprocess.Popen([S7200, "decode", log, "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, bufsize=0)
+        self.addCleanup(process.kill)
+        beginning = process.stdout.read(1)
+        process.send_signal(signal.SIGINT)
+        rest, error = process.communicate(timeout=120)
+        self.assertEqual((process.returncode, error), (FAILED, b"s7200: note: interrupted\n"))
+        results = json.loads(beginning + rest)
+        self.assertLess(len(results["frames"]), 200_000)
+        self.assertGreater(results["summary"]["requests"], 0)
+
+    def test_a_program_is_no_recording(self):
+        self.assertIn("it is a program in STL, not a recording", self.ends(UNUSABLE, "decode", SLAVE).stderr)
+
     def test_the_help_of_decode_names_every_form_of_recording(self):
         said = " ".join(self.ends(FINE, "decode", "--help").stdout.split())
         for part in ("a recording (forms: s7200 decode --help);", "the decoder list that DSView exports", "pcap of a serial line, as --capture writes it (link types 147 to 162)", "or of Modbus TCP", "CSV with a frame or a character in each row",
@@ -931,6 +960,24 @@ class Verbs(Case):
 
     def test_only_check_warns(self):
         self.assertEqual(self.ends(FINE, "run", self.program(self.WARNED), "--scans", "1").stderr, "")
+
+    def test_check_and_run_say_how_a_text_from_elsewhere_was_read(self):
+        path = self.program("1  LD\u00A0\u00A0SM0.0\n2  MOVB 16＃2A， VB0\n")
+        note = f"note: {path}: read as plain text: no-break and other Unicode blanks, full-width signs, line numbers; the first in line 1\n"
+        done = self.ends(FINE, "check", "--cpu", "224", path)
+        self.assertIn("fine, 3 instructions for CPU 224", done.stdout)
+        self.assertEqual(done.stderr.count(note), 1)
+        (result,) = self.json(FINE, "check", "--cpu", "224", path, "--json")["files"]
+        self.assertEqual(f"note: {result['notes'][0]}\n", note)
+        self.assertIn(note, self.ends(FINE, "run", path, "--cpu", "224", "--scans", "1").stderr)
+
+    def test_a_listing_for_a_cpu_22x_runs_without_ends_and_with_default_names(self):
+        path = self.program("MAIN\nNetwork 1\nLD SM0.1\nMOVB 50, SMB34\nATCH INT_0, 10\nCALL SBR_0\nENI\n"
+                            "SBR_0\nNetwork 1\nLD SM0.0\nMOVW 7, VW2\nINT_0\nNetwork 1\nLD SM0.0\nINCW VW0\n")
+        done = self.ends(FINE, "run", path, "--cpu", "224", "--for", "1s", "--dump", "VW0:2")
+        self.assertRegex(done.stdout, r"(?m)^VW0 +16#001[34] +(19|20)$")
+        self.assertRegex(done.stdout, r"(?m)^VW2 +16#0007 +7$")
+        self.assertIn("the main program has no MEND", self.ends(FAILED, "check", "--cpu", "214", path).stderr)
 
     def test_a_cause_is_said_once_with_how_often_and_where_else(self):
         path = self.program("LD SM0.0\n" + "".join(f"MOVB 1, VB{n}\nCALL {n % 64}\n" for n in range(1024, 1124)) + "MEND\n" +

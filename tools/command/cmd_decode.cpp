@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <stdexcept>
+#include <vector>
 
 #include "interpreter/base/joined.hpp"
 #include "tools/command/commands.hpp"
@@ -52,19 +53,34 @@ int run_live(const DecodeOptions& options, const SlaveTarget& target) {
   return kCheckFailed;
 }
 
-int run_decode(const DecodeOptions& options) {
-  if (const auto target = options.recording.live()) return run_live(options, *target);
-  const auto read = read_conversation(options.recording);
+/// As it is read: the recording may be long.
+int run_file(const DecodeOptions& options) {
+  const auto read = read_file(options.recording);
   if (!read) return kUnusable;
-  if (options.json) {
-    auto results = head_of(options, read->recording.form, read->line);
-    add_decoded(results, read->frames);
-    fmt::print("{}", lines_of(results));
-  } else {
-    fmt::print("{}", decoded_text(read->frames, colour_wanted(stdout)));
-    if (read->line) fmt::print("{}; --baud and --parity say otherwise\n", read->silences_text());
-  }
-  return kFine;
+  StreamedResults results(head_of(options, read->recording.form, read->line), "frames");
+  DecodedSummary summary;
+  const bool colour = !options.json && colour_wanted(stdout);
+  const auto answered =
+      colour ? answered_requests(read->recording, options.recording.spoken(), read->stamps) : std::vector<bool>{};
+  std::size_t number = 0;
+  if (!options.json) fmt::print("{}", decoded_heading(colour));
+  tell_frames(*read, options.recording, [&](const ReadFrame& frame) {
+    summary.add(frame);
+    const bool is_open = frame.direction == Direction::Request && !frame.needs_no_answer;
+    const bool unanswered = is_open && number < answered.size() && !answered[number];
+    ++number;
+    fmt::print("{}", options.json ? results.entry(decoded_json(frame)) : decoded_text(frame, unanswered, colour));
+  });
+  fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
+  if (!options.json && read->line) fmt::print("{}; --baud and --parity say otherwise\n", read->silences_text());
+  if (!options.recording.was_cut_short()) return kFine;
+  print_interruption();
+  return kCheckFailed;
+}
+
+int run_decode(const DecodeOptions& options) {
+  const auto target = options.recording.live();
+  return target ? run_live(options, *target) : run_file(options);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/westinghouse/block_message.hpp"
 #include "serial_sim/westinghouse/hppc_message.hpp"
 #include "serial_sim/westinghouse/loader_session.hpp"
@@ -68,11 +69,15 @@ RecordedFrame part_of(const RecordedFrame& frame, std::size_t begin, std::size_t
   return part;
 }
 
+bool may_be_divided(const RecordedFrame& before, const RecordedFrame& after) {
+  return before.direction == after.direction && before.stream == after.stream;
+}
+
 /// So that a log may have divided a frame there: programs are told late of what has come, and in pieces. In a capture no
 /// frame ends with less than a character of silence.
 bool follows_closely(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps) {
   const auto between = silence(before, after, stamps);
-  return before.direction == after.direction && before.stream == after.stream && between &&
+  return may_be_divided(before, after) && between &&
          (stamps.exact ? *between < stamps.character && !overlap(before, after, stamps) : *between <= kCharacterGap);
 }
 
@@ -83,27 +88,36 @@ void append(RecordedFrame& frame, const RecordedFrame& row) {
   frame.more_was_lost = row.more_was_lost;
 }
 
-std::size_t count_right(std::span<const ReadFrame> frames) {
-  return static_cast<std::size_t>(std::ranges::count_if(frames, &ReadFrame::right));
+template <typename Tell>
+void read_all(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps, DirectionsTaken taken,
+              Tell tell) {
+  Conversation reading(protocol, stamps, taken);
+  for (std::span<const RecordedFrame> rows = recording.frames; !rows.empty();)
+    for (ReadFrame& read : reading.take(rows))
+      if (!tell(read)) return;
 }
 
-std::size_t count_fitting(std::span<const ReadFrame> frames) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      frames, [](const ReadFrame& each) { return each.right && each.direction != Direction::Unknown; }));
+struct Fitting {
+  std::size_t fitting = 0;  ///< frames that are right, and a request, an answer to one, or its echo
+  std::size_t right = 0;
+  std::size_t frames = 0;
+};
+Fitting fitting(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps,
+                DirectionsTaken taken = DirectionsTaken::AsSaid) {
+  Fitting found;
+  read_all(recording, protocol, stamps, taken, [&](const ReadFrame& each) {
+    found.fitting += each.right && (each.echo || each.direction != Direction::Unknown) ? 1U : 0U;
+    found.right += each.right ? 1U : 0U;
+    ++found.frames;
+    return true;
+  });
+  return found;
 }
 
-/// Frames that are right, and a request or an answer to one.
-std::size_t fitting(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
-  return count_fitting(conversation(recording, protocol, stamps));
-}
-
-std::size_t percent_right(std::span<const ReadFrame> frames) {
-  return frames.empty() ? 0 : 100 * count_right(frames) / frames.size();
-}
-
-Direction other_way_round(Direction direction) {
-  if (direction == Direction::Unknown) return direction;
-  return direction == Direction::Request ? Direction::Answer : Direction::Request;
+Direction taken_as(Direction said, DirectionsTaken taken) {
+  if (said == Direction::Unknown || taken == DirectionsTaken::AsSaid) return said;
+  if (taken == DirectionsTaken::Open) return Direction::Unknown;
+  return said == Direction::Request ? Direction::Answer : Direction::Request;
 }
 
 }  // namespace
@@ -130,8 +144,11 @@ Conversation::Stream& Conversation::stream_of(const RecordedFrame& frame) {
 }
 
 const Conversation::OpenRequest* Conversation::Stream::request_of(const RecordedFrame& frame) const {
-  const auto found = open.find(frame.exchange);
-  return found == open.end() ? nullptr : &found->second;
+  if (const auto found = open.find(frame.exchange); found != open.end()) return &found->second;
+  const std::uint32_t first_unit = frame.exchange - frame.exchange % modbus::kUnitsOfATransaction;
+  const auto other_unit = frame.direction == Direction::Answer ? open.lower_bound(first_unit) : open.end();
+  const bool same = other_unit != open.end() && other_unit->first < first_unit + modbus::kUnitsOfATransaction;
+  return same ? &other_unit->second : nullptr;
 }
 
 ReadFrame Conversation::what_it_says(Stream& stream, const RecordedFrame& frame) const {
@@ -146,9 +163,45 @@ ReadFrame Conversation::what_it_says(Stream& stream, const RecordedFrame& frame)
   return read;
 }
 
-ReadFrame Conversation::read(Stream& stream, RecordedFrame frame) {
+/// Whether the request that is open comes once more before its answer. If an answer may be the same, only a recording with
+/// an echo elsewhere tells. Where no direction is said, a time does: the master repeats its request later than it hears
+/// itself.
+bool Conversation::is_echo(const Stream& stream, const RecordedFrame& frame) const {
+  const OpenRequest* const open = stream.request_of(frame);
+  if (open == nullptr || open->echoed || frame.direction == Direction::Request || frame.bytes != open->frame.bytes)
+    return false;
+  if (frame.stream != 0 || stream.reader->messages_share_frames()) return false;
+  if (stream.reader->may_be_echoed(frame) && !hears_itself_) return false;
+  if (frame.direction == Direction::Answer || frame.place == open->frame.place) return true;
+  const auto waited = silence(open->frame, frame, stamps_);
+  return !stamps_.exact && waited && *waited <= stamps_.timeout;
+}
+
+/// Whether what is left of a frame is the echo of a request with the answer to it.
+bool Conversation::begins_with_echo(const Stream& stream, const RecordedFrame& frame, std::size_t begin,
+                                    const RecordedFrame& open) const {
+  const Data rest = Data(frame.bytes).subspan(begin), asked = open.bytes;
+  const bool heard_again = rest.size() > asked.size() && std::equal(asked.begin(), asked.end(), rest.begin());
+  if (!heard_again || frame.stream != 0 || frame.direction == Direction::Request || stream.reader->messages_share_frames())
+    return false;
+  const bool says_nothing = frame.direction == Direction::Unknown, same_row = frame.place == open.place;
+  if (says_nothing && !same_row && silence(open, frame, stamps_).value_or(0) > stamps_.timeout) return false;
+  if (says_nothing && stream.reader->may_be_echoed(open) && (same_row || rest.size() != 2 * asked.size())) return false;
+  return stream.reader->first_message(rest.subspan(asked.size()), &open) > 0;
+}
+
+Conversation::Message Conversation::first_message(const Stream& stream, const RecordedFrame& frame, std::size_t begin,
+                                                  const RecordedFrame* open) const {
+  if (open != nullptr && begins_with_echo(stream, frame, begin, *open)) return {open->bytes.size(), true};
+  return {stream.reader->first_message(Data(frame.bytes).subspan(begin), open), false};
+}
+
+ReadFrame Conversation::read(Stream& stream, RecordedFrame frame, bool echo) {
+  echo = echo || is_echo(stream, frame);
   const bool inside = stamps_.exact && last_ && overlap(*last_, frame, stamps_);
-  ReadFrame read = inside ? ReadFrame{.text = "begins inside the frame before"} : what_it_says(stream, frame);
+  ReadFrame read = inside ? ReadFrame{.text = "begins inside the frame before"}
+                   : echo ? ReadFrame{.right = true, .text = "the echo of the request", .echo = true}
+                          : what_it_says(stream, frame);
   if (!frame.damaged.empty()) {
     read.right = false;
     const bool all = frame.damaged.size() == frame.bytes.size();
@@ -156,14 +209,17 @@ ReadFrame Conversation::read(Stream& stream, RecordedFrame frame) {
                             read.text.empty() ? "" : "; ", read.text);
   }
   if (last_) read.silence = known_silence(*last_, frame, stamps_);
-  const OpenRequest* open = stream.request_of(frame);
-  if (read.direction == Direction::Answer && open != nullptr) {
+  const OpenRequest* const open = stream.request_of(frame);
+  if (echo) {
+    stream.open.at(frame.exchange).echoed = true;
+    hears_itself_ = true;
+  } else if (read.direction == Direction::Answer && open != nullptr) {
     read.other = open->number;
     read.latency = known_silence(open->frame, frame, stamps_);
-    stream.open.erase(frame.exchange);
+    stream.open.erase(open->frame.exchange);
   } else if (read.direction == Direction::Request) {
     stream.open.erase(frame.exchange);
-    if (!read.needs_no_answer) stream.open.emplace(frame.exchange, OpenRequest{frame, count_});
+    if (!read.needs_no_answer) stream.open.emplace(frame.exchange, OpenRequest{.frame = frame, .number = count_});
   }
   ++count_;
   if (!inside || end_of(frame, stamps_) > end_of(*last_, stamps_)) last_ = frame;
@@ -177,10 +233,9 @@ std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) {
   std::size_t begin = 0;
   while (begin < frame.bytes.size()) {
     const OpenRequest* open = stream.request_of(frame);
-    const Data rest = Data(frame.bytes).subspan(begin);
-    const std::size_t length = stream.reader->first_message(rest, open != nullptr ? &open->frame : nullptr);
+    const auto [length, echo] = first_message(stream, frame, begin, open != nullptr ? &open->frame : nullptr);
     if (length == 0) break;
-    all.push_back(read(stream, part_of(frame, begin, begin + length, stamps_)));
+    all.push_back(read(stream, part_of(frame, begin, begin + length, stamps_), echo));
     begin += length;
   }
   if (begin > 0) frame = part_of(frame, begin, frame.bytes.size(), stamps_);
@@ -192,10 +247,12 @@ bool Conversation::is_several(Stream& stream, const RecordedFrame& frame) const 
   const bool said_so = stamps_.exact || !frame.damaged.empty();
   std::optional<RecordedFrame> open = waiting != nullptr ? std::optional(waiting->frame) : std::nullopt;
   if (said_so || stream.reader->read(frame, open ? &*open : nullptr).right) return false;
-  for (std::size_t begin = 0, length = 0; begin < frame.bytes.size(); begin += length) {
-    length = stream.reader->first_message(Data(frame.bytes).subspan(begin), open ? &*open : nullptr);
+  for (std::size_t end = 0; end < frame.bytes.size();) {
+    const auto [length, echo] = first_message(stream, frame, end, open ? &*open : nullptr);
+    const std::size_t begin = std::exchange(end, end + length);
     if (length == 0) return false;
-    const RecordedFrame message = part_of(frame, begin, begin + length, stamps_);
+    if (echo) continue;
+    const RecordedFrame message = part_of(frame, begin, end, stamps_);
     const ReadFrame read = stream.reader->read(message, open ? &*open : nullptr);
     if (!read.right) return false;
     open = read.direction == Direction::Request && !read.needs_no_answer ? std::optional(message) : std::nullopt;
@@ -207,39 +264,100 @@ std::vector<ReadFrame> Conversation::add(RecordedFrame frame) {
   std::vector<ReadFrame> all;
   Stream& stream = stream_of(frame);
   const bool has_characters = frame.direction == Direction::Unknown && !frame.times.empty();
-  if (has_characters || stream.reader->messages_share_frames() || is_several(stream, frame)) all = take_complete(frame);
-  if (!frame.bytes.empty()) all.push_back(read(stream, std::move(frame)));
+  const bool may_be_several = !is_echo(stream, frame);
+  if (may_be_several && (has_characters || stream.reader->messages_share_frames() || is_several(stream, frame)))
+    all = take_complete(frame);
+  if (!frame.bytes.empty()) all.push_back(read(stream, std::move(frame), false));
   return all;
 }
 
-RecordedFrame Conversation::take_frame(std::span<const RecordedFrame>& rows) {
-  RecordedFrame first = rows.front();
-  rows = rows.subspan(1);
-  Stream& stream = stream_of(first);
-  if (stream.reader->messages_share_frames() || rows.empty() || !follows_closely(first, rows.front(), stamps_)) return first;
-  const OpenRequest* const open = stream.request_of(first);
-  const auto is_right = [&](const RecordedFrame& frame) {
-    return stream.reader->read(frame, open != nullptr ? &open->frame : nullptr).right;
-  };
-  constexpr std::size_t kMostRows = 8;
-  RecordedFrame whole = first;
-  for (std::size_t count = 0; !is_right(whole); ++count) {
-    const RecordedFrame& before = count == 0 ? first : rows[count - 1];
-    if (count == std::min(rows.size(), kMostRows) || !follows_closely(before, rows[count], stamps_)) return first;
-    append(whole, rows[count]);
-    if (is_right(whole)) return rows = rows.subspan(count + 1), whole;
+Conversation::Rest Conversation::rest_after_messages(const Stream& stream, const RecordedFrame& frame) const {
+  const OpenRequest* const waiting = stream.request_of(frame);
+  Rest rest{.open = waiting != nullptr ? std::optional(waiting->frame) : std::nullopt};
+  while (rest.begin < frame.bytes.size()) {
+    const auto [length, echo] = first_message(stream, frame, rest.begin, rest.open ? &*rest.open : nullptr);
+    if (length == 0) break;
+    const std::size_t begin = std::exchange(rest.begin, rest.begin + length);
+    if (echo || rest.begin == frame.bytes.size()) continue;
+    const Data message = Data(frame.bytes).subspan(begin, length);
+    const bool again =
+        rest.open && std::ranges::equal(message, rest.open->bytes) && !stream.reader->may_be_echoed(*rest.open);
+    if (again) continue;
+    rest.open = rest.open ? std::nullopt : std::optional(part_of(frame, begin, rest.begin, stamps_));
   }
-  return first;
+  return rest;
+}
+
+bool Conversation::announces_more(const Stream& stream, const RecordedFrame& frame, const Rest& rest) const {
+  const Data bytes = Data(frame.bytes).subspan(rest.begin);
+  const RecordedFrame* const open = rest.open ? &*rest.open : nullptr;
+  const bool begins_echo = open != nullptr && frame.direction != Direction::Request && bytes.size() < open->bytes.size() &&
+                           std::equal(bytes.begin(), bytes.end(), open->bytes.begin());
+  return begins_echo || stream.reader->announces_more(bytes, frame.direction, open);
+}
+
+std::size_t Conversation::announced_rows(const Stream& stream, RecordedFrame whole,
+                                         std::span<const RecordedFrame> rows) const {
+  constexpr std::size_t kMostRows = 32;
+  if (stamps_.exact && stream.request_of(whole) == nullptr) return 1;
+  for (std::size_t count = 1; count <= std::min(rows.size(), kMostRows); ++count) {
+    const Rest rest = rest_after_messages(stream, whole);
+    if (rest.begin == whole.bytes.size()) return count;
+    if (count == rows.size() || !announces_more(stream, whole, rest) || !may_be_divided(rows[count - 1], rows[count]) ||
+        (stamps_.exact && overlap(rows[count - 1], rows[count], stamps_)))
+      return 1;
+    append(whole, rows[count]);
+  }
+  return 1;
+}
+
+std::size_t Conversation::close_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const {
+  constexpr std::size_t kMostRows = 9;
+  const OpenRequest* const open = stream.request_of(whole);
+  for (std::size_t count = 1; count <= std::min(rows.size(), kMostRows); ++count) {
+    if (stream.reader->read(whole, open != nullptr ? &open->frame : nullptr).right) return count;
+    if (count == rows.size() || !follows_closely(rows[count - 1], rows[count], stamps_)) return 1;
+    append(whole, rows[count]);
+  }
+  return 1;
+}
+
+std::vector<ReadFrame> Conversation::take(std::span<const RecordedFrame>& rows) {
+  RecordedFrame frame = rows.front();
+  frame.direction = taken_as(frame.direction, taken_);
+  const Stream& stream = stream_of(frame);
+  const bool may_go_on = rows.size() > 1 && may_be_divided(rows[0], rows[1]) && !stream.reader->messages_share_frames();
+  std::size_t count = may_go_on ? announced_rows(stream, frame, rows) : 1;
+  if (count == 1 && may_go_on && follows_closely(rows[0], rows[1], stamps_)) count = close_rows(stream, frame, rows);
+  for (const RecordedFrame& row : rows.subspan(1, count - 1)) append(frame, row);
+  rows = rows.subspan(count);
+  std::vector<ReadFrame> all = add(std::move(frame));
+  all.back().pieces = count;
+  return all;
+}
+
+void tell_conversation(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps,
+                       const std::function<bool(ReadFrame&)>& tell) {
+  read_all(recording, protocol, stamps, DirectionsTaken::AsSaid, tell);
+}
+
+std::vector<bool> answered_requests(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
+  std::vector<bool> answered;
+  tell_conversation(recording, protocol, stamps, [&](const ReadFrame& frame) {
+    answered.push_back(false);
+    if (frame.other) answered[*frame.other] = true;
+    return true;
+  });
+  return answered;
 }
 
 std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
-  Conversation reading(protocol, stamps);
   std::vector<ReadFrame> all;
-  for (std::span<const RecordedFrame> rows = recording.frames; !rows.empty();)
-    for (ReadFrame& read : reading.add(reading.take_frame(rows))) {
-      if (read.other) all[*read.other].other = all.size();
-      all.push_back(std::move(read));
-    }
+  tell_conversation(recording, protocol, stamps, [&](ReadFrame& read) {
+    if (read.other) all[*read.other].other = all.size();
+    all.push_back(std::move(read));
+    return true;
+  });
   return all;
 }
 
@@ -249,27 +367,47 @@ void settle_directions(LineRecording& recording, const RecordedProtocol& protoco
   };
   const bool requests = has(Direction::Request), answers = has(Direction::Answer), both = requests && answers;
   if (!recording.is_log || (!requests && !answers)) return;
-  const std::size_t as_said = fitting(recording, protocol, stamps);
-  if (as_said == recording.frames.size()) return;
-  LineRecording otherwise = recording;
-  for (RecordedFrame& frame : otherwise.frames)
-    frame.direction = both ? other_way_round(frame.direction) : Direction::Unknown;
-  if (fitting(otherwise, protocol, stamps) <= as_said) return;
-  recording.frames = std::move(otherwise.frames);
+  const Fitting as_said = fitting(recording, protocol, stamps);
+  if (as_said.fitting == as_said.frames) return;
+  const DirectionsTaken taken = both ? DirectionsTaken::TheOtherWayRound : DirectionsTaken::Open;
+  if (fitting(recording, protocol, stamps, taken).fitting <= as_said.fitting) return;
+  for (RecordedFrame& frame : recording.frames) frame.direction = taken_as(frame.direction, taken);
   recording.notes.emplace_back(
       both ? "what the file marks as sent are the answers, and what it marks as received the requests"
            : "the file marks all frames alike: what they say tells requests and answers apart");
 }
 
+void ConversationNotes::add(const ReadFrame& frame) {
+  const std::string_view kind = frame.direction == Direction::Request  ? "a request"
+                                : frame.direction == Direction::Answer ? "an answer"
+                                                                       : "a frame";
+  if (frame.pieces > 1 && in_pieces_.count++ == 0)
+    in_pieces_.first = fmt::format("{}: {} in {} pieces", frame.frame.place, kind, frame.pieces);
+  if (frame.echo && echoes_.count++ == 0) echoes_.first = fmt::format("{}: the echo of a request", frame.frame.place);
+}
+
+std::vector<std::string> ConversationNotes::list() const {
+  std::vector<std::string> notes;
+  const auto add = [&](const Frames& frames, std::string_view why) {
+    const std::string more = frames.count > 1 ? fmt::format(", and {} more", frames.count - 1) : "";
+    if (frames.count > 0) notes.push_back(fmt::format("{}{}: {}", frames.first, more, why));
+  };
+  add(in_pieces_, "joined, as only the whole is right");
+  add(echoes_, "an adapter for two wires hears what it sends; that is not an answer");
+  return notes;
+}
+
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
-                                          std::span<const ReadFrame> in_chosen, const Stamps& stamps) {
+                                          const RightFrames& in_chosen, const Stamps& stamps) {
   constexpr std::size_t kHardlyAny = 10, kHalf = 50;
-  if (percent_right(in_chosen) > kHardlyAny) return nullptr;
+  if (in_chosen.percent() > kHardlyAny) return nullptr;
   const RecordedProtocol& best = *std::ranges::max_element(kProtocols, {}, [&](const RecordedProtocol& each) {
-    const auto frames = conversation(recording, each, stamps);
-    return std::pair(count_fitting(frames), count_right(frames));
+    const Fitting found = fitting(recording, each, stamps);
+    return std::pair(found.fitting, found.right);
   });
-  return best.name != chosen.name && percent_right(conversation(recording, best, stamps)) >= kHalf ? &best : nullptr;
+  RightFrames in_best;
+  tell_conversation(recording, best, stamps, [&](const ReadFrame& frame) { return in_best.add(frame), true; });
+  return best.name != chosen.name && in_best.percent() >= kHalf ? &best : nullptr;
 }
 
 }  // namespace s7200::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -23,6 +24,8 @@ struct ReadFrame {
   std::optional<std::uint8_t> station{};  ///< of a request: who is asked
   bool needs_no_answer = false;           ///< of a request: to all stations, a token, or the last word of a session
   bool puts_off = false;                  ///< of an answer: there is none yet, and the master is to ask again
+  bool echo = false;                      ///< the request once more, as an adapter for two wires hears itself
+  std::size_t pieces = 1;                 ///< rows or packets of the recording that it was put together from
   std::optional<std::size_t> other{};     ///< of an answer its request, of a request its answer: number in the conversation
   std::optional<std::size_t> repeats{};   ///< number of the request that this one repeats, or is the late echo of
   std::optional<Time> silence{};          ///< before it, as known_silence() has it
@@ -43,6 +46,12 @@ class FrameReader {
 
   /// How many of the bytes are the first message, by what it says of itself; 0 if it is not all there, or does not say.
   virtual std::size_t first_message(std::span<const std::uint8_t> bytes, const RecordedFrame* open) const = 0;
+
+  /// Whether the bytes begin a message, by what it says of itself, and do not end it.
+  virtual bool announces_more(std::span<const std::uint8_t> bytes, Direction direction, const RecordedFrame* open) const {
+    static_cast<void>(bytes), static_cast<void>(direction), static_cast<void>(open);
+    return false;
+  }
 
   /// Whether a station sends one message after the other without a silence between them, so that a frame may be several.
   virtual bool messages_share_frames() const { return false; }
@@ -74,10 +83,14 @@ struct RecordedProtocol {
 std::span<const RecordedProtocol> recorded_protocols();
 const RecordedProtocol* find_recorded_protocol(std::string_view name);
 
+/// What the directions that a recording says are taken for.
+enum class DirectionsTaken : std::uint8_t { AsSaid, TheOtherWayRound, Open };
+
 /// Frame after frame; an answer goes to the last request that has none, of Modbus TCP to that of its transaction.
 class Conversation {
  public:
-  Conversation(const RecordedProtocol& protocol, const Stamps& stamps) : protocol_(protocol), stamps_(stamps) {}
+  Conversation(const RecordedProtocol& protocol, const Stamps& stamps, DirectionsTaken taken = DirectionsTaken::AsSaid)
+      : protocol_(protocol), stamps_(stamps), taken_(taken) {}
 
   /// What a frame says. One that was put together from characters, and whose direction is not known, may be several messages
   /// that followed each other closely, and so may every frame of some protocols. Of any other but of a capture several are
@@ -87,40 +100,106 @@ class Conversation {
   /// The messages that characters begin with, as far as they are all there; they are taken off the frame.
   std::vector<ReadFrame> take_complete(RecordedFrame& frame);
 
-  /// The first of the rows, which a log may have divided: those after it that follow closely belong to it if only together
-  /// they are right. `rows` is left with the others.
-  RecordedFrame take_frame(std::span<const RecordedFrame>& rows);
+  /// What the first of the rows say, which a log may have divided. Those after the first belong to it as long as it says
+  /// that more of it is to come, if the whole is right; and those that follow closely, if only together they are right.
+  /// `rows` is left with the others.
+  std::vector<ReadFrame> take(std::span<const RecordedFrame>& rows);
 
  private:
   struct OpenRequest {
     RecordedFrame frame;
     std::size_t number;  ///< in the conversation
+    bool echoed = false;
   };
 
   struct Stream {
     std::unique_ptr<FrameReader> reader;
     std::map<std::uint32_t, OpenRequest> open{};  ///< by their RecordedFrame::exchange
 
+    /// An answer of Modbus TCP belongs to its transaction, whichever unit it names.
     const OpenRequest* request_of(const RecordedFrame& frame) const;
   };
 
+  /// The first message of what is left of a frame.
+  struct Message {
+    std::size_t length = 0;  ///< 0: it is not all there, or does not say
+    bool echo = false;
+  };
+
+  /// What is left of a frame after its whole messages, and the request that is open there.
+  struct Rest {
+    std::size_t begin = 0;
+    std::optional<RecordedFrame> open{};
+  };
+
   Stream& stream_of(const RecordedFrame& frame);
+  Message first_message(const Stream& stream, const RecordedFrame& frame, std::size_t begin,
+                        const RecordedFrame* open) const;
+  bool begins_with_echo(const Stream& stream, const RecordedFrame& frame, std::size_t begin,
+                        const RecordedFrame& open) const;
+  bool is_echo(const Stream& stream, const RecordedFrame& frame) const;
   bool is_several(Stream& stream, const RecordedFrame& frame) const;
-  ReadFrame read(Stream& stream, RecordedFrame frame);
+  Rest rest_after_messages(const Stream& stream, const RecordedFrame& frame) const;
+  bool announces_more(const Stream& stream, const RecordedFrame& frame, const Rest& rest) const;
+  /// How many of the rows are one frame, the first of which is `whole`: by what they say, and because they follow closely.
+  std::size_t announced_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
+  std::size_t close_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
+  ReadFrame read(Stream& stream, RecordedFrame frame, bool echo);
   /// As an answer to the request that is open, or as a request.
   ReadFrame what_it_says(Stream& stream, const RecordedFrame& frame) const;
 
   const RecordedProtocol& protocol_;
   Stamps stamps_;
+  DirectionsTaken taken_;
   std::map<std::uint32_t, Stream> streams_;  // by connection
+  bool hears_itself_ = false;                // whoever records: an echo was no answer
   std::optional<RecordedFrame> last_;
   std::size_t count_ = 0;
 };
 
-/// The protocol that most of a recording can be read in, and half of it at least, if hardly anything can be in `chosen`, as
-/// `in_chosen` was read; null if there is none.
+/// How many frames are right.
+class RightFrames {
+ public:
+  RightFrames() = default;
+  explicit RightFrames(std::span<const ReadFrame> frames) {
+    for (const ReadFrame& frame : frames) add(frame);
+  }
+  void add(const ReadFrame& frame) {
+    right_ += frame.right ? 1U : 0U;
+    ++all_;
+  }
+  std::size_t percent() const { return all_ == 0 ? 0 : 100 * right_ / all_; }
+
+ private:
+  std::size_t right_ = 0, all_ = 0;
+};
+
+/// What is to be said of frames that came in pieces, and of echoes.
+class ConversationNotes {
+ public:
+  void add(const ReadFrame& frame);
+  std::vector<std::string> list() const;
+
+ private:
+  struct Frames {
+    std::string first{};  ///< `line 2: an answer in 2 pieces`
+    std::size_t count = 0;
+  };
+  Frames in_pieces_{}, echoes_{};
+};
+
+/// The protocol that most of a recording can be read in, and half of it at least, if hardly anything can be in `chosen`;
+/// null if there is none.
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
-                                          std::span<const ReadFrame> in_chosen, const Stamps& stamps);
+                                          const RightFrames& in_chosen, const Stamps& stamps);
+
+/// Tells the frames of a whole recording, one after the other, as long as `tell` returns true. An answer has the number of
+/// its request; requests are told without that of their answer.
+void tell_conversation(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps,
+                       const std::function<bool(ReadFrame&)>& tell);
+
+/// Which frames of a recording are requests that got an answer, by their number.
+std::vector<bool> answered_requests(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps);
 
 /// A whole recording, each request with its answer.
 std::vector<ReadFrame> conversation(const LineRecording& recording, const RecordedProtocol& protocol,

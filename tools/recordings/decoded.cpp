@@ -13,9 +13,9 @@ namespace {
 
 constexpr const char *kDim = "2", *kYellow = "33";
 
-std::string_view name_of(Direction direction) {
-  static constexpr std::string_view kNames[] = {"?", "request", "answer"};
-  return kNames[static_cast<std::size_t>(direction)];
+std::string_view kind_of(const ReadFrame& frame, std::string_view unknown) {
+  if (frame.echo) return "echo";
+  return frame.direction == Direction::Request ? "request" : frame.direction == Direction::Answer ? "answer" : unknown;
 }
 
 std::string painted(const std::string& text, const char* paint, bool colour) {
@@ -32,7 +32,8 @@ nlohmann::ordered_json microseconds(std::optional<Time> time) {
 void DecodedSummary::add(const ReadFrame& frame) {
   requests_ += frame.direction == Direction::Request ? 1U : 0U;
   need_no_answer_ += frame.needs_no_answer ? 1U : 0U;
-  strays_ += frame.direction == Direction::Unknown && frame.right ? 1U : 0U;
+  echoes_ += frame.echo ? 1U : 0U;
+  strays_ += frame.direction == Direction::Unknown && frame.right && !frame.echo ? 1U : 0U;
   wrong_ += frame.right ? 0U : 1U;
   if (frame.direction != Direction::Answer || !frame.other || !frame.right) return;
   ++answered_;
@@ -45,8 +46,9 @@ std::string DecodedSummary::text() const {
   const std::string times =
       shortest_ ? fmt::format(" after {} to {}", format_duration(*shortest_), format_duration(*longest_)) : "";
   const std::string none = need_no_answer_ == 0 ? "" : fmt::format(", {} need no answer", need_no_answer_);
-  return fmt::format("requests: {}, answered: {}{}{}; wrong frames: {}, frames of no request: {}\n", requests_, answered_,
-                     times, none, wrong_, strays_);
+  const std::string echoes = echoes_ == 0 ? "" : fmt::format(", echoes: {}", echoes_);
+  return fmt::format("requests: {}, answered: {}{}{}; wrong frames: {}, frames of no request: {}{}\n", requests_, answered_,
+                     times, none, wrong_, strays_, echoes);
 }
 
 nlohmann::ordered_json DecodedSummary::json() const {
@@ -55,6 +57,7 @@ nlohmann::ordered_json DecodedSummary::json() const {
           {"need_no_answer", need_no_answer_},
           {"wrong", wrong_},
           {"strays", strays_},
+          {"echoes", echoes_},
           {"shortest_latency_us", microseconds(shortest_)},
           {"longest_latency_us", microseconds(longest_)}};
 }
@@ -67,9 +70,9 @@ std::string decoded_text(const ReadFrame& read, bool unanswered, bool colour) {
   const RecordedFrame& frame = read.frame;
   const std::string line = fmt::format(
       "{:>12}  {:>10}  {:<7}  {}{}", frame.at ? fmt::format("{:.3f}", static_cast<double>(*frame.at) / kMillisecond) : "",
-      read.silence ? format_duration(*read.silence) : "", name_of(read.direction), serial::to_hex(frame.bytes),
+      read.silence ? format_duration(*read.silence) : "", kind_of(read, "?"), serial::to_hex(frame.bytes),
       read.text.empty() ? "" : fmt::format("\n{:>33}{}", "", read.text));
-  const bool trouble = !read.right || unanswered || read.direction == Direction::Unknown;
+  const bool trouble = !read.right || unanswered || (read.direction == Direction::Unknown && !read.echo);
   return (trouble ? painted(line, kYellow, colour) : line) + '\n';
 }
 
@@ -77,7 +80,7 @@ nlohmann::ordered_json decoded_json(const ReadFrame& read) {
   return {{"place", read.frame.place},
           {"at_us", microseconds(read.frame.at)},
           {"silence_us", microseconds(read.silence)},
-          {"kind", read.direction == Direction::Unknown ? "stray" : name_of(read.direction)},
+          {"kind", kind_of(read, "stray")},
           {"bytes", plain_hex(read.frame.bytes)},
           {"right", read.right},
           {"text", read.text},

@@ -19,7 +19,7 @@ class DecodedSummary {
   nlohmann::ordered_json json() const;
 
  private:
-  std::size_t requests_ = 0, answered_ = 0, need_no_answer_ = 0, wrong_ = 0, strays_ = 0;
+  std::size_t requests_ = 0, answered_ = 0, need_no_answer_ = 0, wrong_ = 0, strays_ = 0, echoes_ = 0;
   std::optional<Time> shortest_{}, longest_{};
 };
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
@@ -13,10 +14,54 @@ namespace {
 
 constexpr Time kDay = 86'400 * kSecond, kFarthest = 36'525 * kDay;
 
+/// Takes parts off the beginning of a text, no further than a head goes.
+class Scan {
+ public:
+  explicit Scan(std::string_view text) : text_(text.substr(0, kLongestHead)) {}
+
+  std::size_t at() const { return at_; }
+  void go_back_to(std::size_t at) { at_ = at; }
+  char next() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  /// The character itself, or 0 if it is none of those.
+  char take(std::string_view any) {
+    const char c = next();
+    if (c == '\0' || any.find(c) == std::string_view::npos) return '\0';
+    ++at_;
+    return c;
+  }
+  bool take_word(std::string_view word) {
+    const bool found = text_.substr(at_).starts_with(word);
+    at_ += found ? word.size() : 0;
+    return found;
+  }
+  void skip(std::string_view any) {
+    while (take(any) != '\0') continue;
+  }
+  std::string_view take_digits(std::size_t most) {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && at_ - begin < most && stl::is_digit(text_[at_])) ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+  std::string_view since(std::size_t begin) const { return text_.substr(begin, at_ - begin); }
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+constexpr std::string_view kBlank = " \t\n\v\f\r", kBeforeTime = " \t\n\v\f\r[(", kAfterTime = " \t\n\v\f\r]):,;|";
+
+Time number_of(std::string_view digits) {
+  Time number = 0;
+  for (const char digit : digits) number = 10 * number + (digit - '0');
+  return number;
+}
+
 /// `5` of a fraction is 500 ms.
-Time fraction(std::string digits) {
-  digits.resize(9, '0');
-  return std::stoll(digits);
+Time fraction(std::string_view digits) {
+  Time time = number_of(digits);
+  for (std::size_t i = digits.size(); i < 9; ++i) time *= 10;
+  return time;
 }
 
 std::optional<std::int32_t> day_number(int year, unsigned month, unsigned day) {
@@ -42,93 +87,172 @@ ReadDate date_of(const std::string& text) {
   return {of(year, b, a), of(year, a, b)};
 }
 
-std::optional<LeadingTime> time_of_day(std::string_view text) {
-  static const std::regex kPattern(
-      R"([\s\[\(]*(?:(\d{4}[-/]\d\d[-/]\d\d|\d\d?[./]\d\d?[./]\d{2,4})[T ])?(\d{1,2}):(\d\d):(\d\d)(?:[.,:](\d{1,9}))?(?:\s?([AP])M)?[\s\]\):,;|]*)");
-  TextMatch match;
-  if (!begins_with(text, match, kPattern)) return {};
-  const auto number = [&](int i) { return std::stoll(match.str(static_cast<std::size_t>(i))); };
-  const Time written = number(2), hour = !match[6].matched ? written : written % 12 + (match.str(6) == "P" ? 12 : 0);
-  const Time time = ((hour * 60 + number(3)) * 60 + number(4)) * kSecond + (match[5].matched ? fraction(match.str(5)) : 0);
-  return LeadingTime{.time = time,
-                     .length = static_cast<std::size_t>(match.length()),
-                     .of_day = true,
-                     .date = match[1].matched ? date_of(match.str(1)) : ReadDate{}};
+/// A date before a time: `2026-11-22 `, `22.11.2026T`.
+std::optional<ReadDate> take_date(Scan& scan) {
+  const std::size_t begin = scan.at();
+  const std::size_t first = scan.take_digits(4).size();
+  const bool year_first = first == 4;
+  const bool fits = (year_first || first == 1 || first == 2) && scan.take(year_first ? "-/" : "./") != '\0';
+  const std::size_t second = fits ? scan.take_digits(2).size() : 0;
+  const bool goes_on = (second == 2 || (second == 1 && !year_first)) && scan.take(year_first ? "-/" : "./") != '\0';
+  const std::size_t third = goes_on ? scan.take_digits(year_first ? 2 : 4).size() : 0;
+  const std::string date(scan.since(begin));
+  if (third >= 2 && scan.take("T ") != '\0') return date_of(date);
+  scan.go_back_to(begin);
+  return {};
 }
 
+/// `12:34:56.789`, `1:02:03 PM`, with a date before it or without.
+std::optional<LeadingTime> time_of_day(std::string_view text) {
+  Scan scan(text);
+  scan.skip(kBeforeTime);
+  const auto date = take_date(scan);
+  const std::string_view hours = scan.take_digits(2);
+  if (hours.empty() || scan.take(":") == '\0') return {};
+  const std::string_view minutes = scan.take_digits(2);
+  if (minutes.size() != 2 || scan.take(":") == '\0') return {};
+  const std::string_view seconds = scan.take_digits(2);
+  if (seconds.size() != 2) return {};
+  std::size_t end = scan.at();
+  std::string_view part;
+  if (scan.take(".,:") != '\0') part = scan.take_digits(9);
+  if (part.empty())
+    scan.go_back_to(end);
+  else
+    end = scan.at();
+  scan.take(kBlank);
+  const char half = scan.take("AP");
+  const bool of_half_a_day = half != '\0' && scan.take("M") != '\0';
+  if (!of_half_a_day) scan.go_back_to(end);
+  scan.skip(kAfterTime);
+  const Time written = number_of(hours), hour = !of_half_a_day ? written : written % 12 + (half == 'P' ? 12 : 0);
+  const Time time = ((hour * 60 + number_of(minutes)) * 60 + number_of(seconds)) * kSecond + fraction(part);
+  return LeadingTime{.time = time, .length = scan.at(), .of_day = true, .date = date.value_or(ReadDate{})};
+}
+
+struct TimeUnit {
+  std::string_view word;
+  Time time;
+};
+constexpr std::array kTimeUnits{TimeUnit{"ms", kMillisecond}, TimeUnit{"us", kMicrosecond}, TimeUnit{"s", kSecond}};
+
+bool goes_on_as_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.'; }
+
+/// The unit after a number, if no word begins with it; null: there is none.
+const TimeUnit* take_unit(Scan& scan) {
+  const std::size_t begin = scan.at();
+  scan.skip(kBlank);
+  for (const TimeUnit& unit : kTimeUnits) {
+    const std::size_t before = scan.at();
+    if (scan.take_word(unit.word) && !goes_on_as_word(scan.next())) return &unit;
+    scan.go_back_to(before);
+  }
+  scan.go_back_to(begin);
+  return nullptr;
+}
+
+/// `01,03,00` are bytes: a time of a row has one comma with digits on both sides.
+bool is_list_of_bytes(std::string_view whole, std::string_view part, std::string_view after) {
+  return whole.size() == 2 && part.size() == 2 && after.size() > 2 && after[0] == ',' &&
+         std::isxdigit(static_cast<unsigned char>(after[1])) != 0 &&
+         std::isxdigit(static_cast<unsigned char>(after[2])) != 0;
+}
+
+/// `0.123456`, `-12.3 ms`, `+7us`
 std::optional<LeadingTime> time_since(std::string_view text) {
-  static const std::regex kPattern(
-      R"([\s\[\(+]*(-?)(\d{1,10})(?:[.,](\d{1,9}))?\s*(s|ms|us)?(?![0-9A-Za-z.])[\s\]\):,;|]*)");
-  TextMatch match;
-  if (!begins_with(text, match, kPattern) || !(match[3].matched || match[4].matched)) return {};
-  const Time unit = match.str(4) == "ms" ? kMillisecond : match.str(4) == "us" ? kMicrosecond : kSecond;
-  const Time part = match[3].matched ? fraction(match.str(3)) / (kSecond / unit) : 0;
-  const Time whole = std::stoll(match.str(2));
-  if (whole >= kFurthestTime / unit) return {};
-  const Time time = whole * unit + part;
-  return LeadingTime{.time = match.length(1) == 0 ? time : -time, .length = static_cast<std::size_t>(match.length())};
+  Scan scan(text);
+  scan.skip(" \t\n\v\f\r[(+");
+  const bool below_zero = scan.take("-") != '\0';
+  const std::string_view whole = scan.take_digits(10);
+  if (whole.empty()) return {};
+  const std::size_t end = scan.at();
+  const char point = scan.take(".,");
+  const std::string_view part = point != '\0' ? scan.take_digits(9) : "";
+  if (part.empty()) scan.go_back_to(end);
+  if (point == ',' && is_list_of_bytes(whole, part, text.substr(scan.at()))) return {};
+  const TimeUnit* const unit = take_unit(scan);
+  if (unit == nullptr && (part.empty() || goes_on_as_word(scan.next()))) return {};
+  scan.skip(kAfterTime);
+  const Time of_unit = unit == nullptr ? kSecond : unit->time, number = number_of(whole);
+  if (number >= kFurthestTime / of_unit) return {};
+  const Time time = number * of_unit + fraction(part) / (kSecond / of_unit);
+  return LeadingTime{.time = below_zero ? -time : time, .length = scan.at()};
 }
 
 /// What stands between blanks, or the part of it that has bytes.
 struct Word {
   std::string_view text;
   std::size_t begin = 0;
-  Bytes bytes{};  ///< none: it is something else
+  std::size_t first_byte = 0, bytes = 0;  ///< of those of its line; none: it is something else
+  enum class Number : std::uint8_t { No, Yes, Perhaps } number = Number::No;  ///< one that is no byte
 };
 using Words = std::span<const Word>;
 
-bool is_digit(char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; }
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+struct LineWords {
+  std::vector<Word> words{};
+  Bytes bytes{};  ///< of all of them, one after the other
+};
 
-std::vector<Word> words_of(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  std::vector<Word> words;
-  for (std::size_t begin = text.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
-    words.push_back({.text = text.substr(begin, end - begin), .begin = begin});
-    begin = text.find_first_not_of(kBlanks, end);
-  }
-  return words;
-}
+bool is_hex_digit(char c) { return stl::is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
+bool is_letter(char c) { return stl::is_letter(c); }
+bool is_decimal(std::string_view text) { return !text.empty() && std::ranges::all_of(text, stl::is_digit); }
+bool is_marked(std::string_view text) { return text.starts_with("0x") || text.starts_with("0X"); }
 
-/// `2026-11-22`. Few words are long enough to be searched for one.
+constexpr std::string_view kWordBlanks = " \t\r";
+
+/// `2026-11-22`
 bool has_date(std::string_view word) {
-  constexpr std::size_t kDateLength = 10;
-  static const std::regex kDate(R"((19|20)\d\d-[01]\d-[0-3]\d)");
-  return word.size() >= kDateLength && std::regex_search(word.begin(), word.end(), kDate);
+  constexpr std::string_view kForm = "dddd-dd-dd";
+  const auto is_date = [&](std::string_view text) {
+    const auto fits = [](char c, char form) { return form == 'd' ? stl::is_digit(c) : c == form; };
+    return std::ranges::equal(text, kForm, fits) && (text.starts_with("19") || text.starts_with("20")) && text[5] <= '1' &&
+           text[8] <= '3';
+  };
+  for (std::size_t dash = word.find('-'); dash != std::string_view::npos; dash = word.find('-', dash + 1))
+    if (dash >= 4 && is_date(word.substr(dash - 4, kForm.size()))) return true;
+  return false;
 }
 
-/// `01`, `0103`, `0x1`, `01-03`, `[01][03]`, `0x01,`; a date is none.
-std::optional<Bytes> bytes_of_word(std::string_view word) {
+std::uint8_t value_of(char digit) {
+  return static_cast<std::uint8_t>(stl::is_digit(digit) ? digit - '0' : (digit | 0x20) - 'a' + 10);
+}
+
+/// Appends the bytes of `01`, `0103`, `0x1`, `01-03`, `[01][03]`, `0x01,`. False, and nothing is appended, for anything
+/// else; a date is no byte.
+bool append_bytes(Bytes& bytes, std::string_view word) {
   constexpr std::string_view kOpening = "[<(\"", kBetween = ",;-[]<>()\"";
-  if (has_date(word)) return {};
-  Bytes bytes;
+  const std::size_t before = bytes.size();
   std::size_t at = std::min(word.find_first_not_of(kOpening), word.size());
   while (at < word.size()) {
-    const bool marked = word.substr(at, 2) == "0x" || word.substr(at, 2) == "0X";
+    const bool marked = is_marked(word.substr(at));
     const std::size_t begin = at + (marked ? 2 : 0);
-    for (at = begin; at < word.size() && is_digit(word[at]);) ++at;
+    for (at = begin; at < word.size() && is_hex_digit(word[at]);) ++at;
     const std::size_t digits = at - begin;
-    if (digits == 0 || (digits % 2 != 0 && !(marked && digits == 1))) return {};
-    for (std::size_t i = begin; i < at; i += 2)
-      bytes.push_back(
-          static_cast<std::uint8_t>(std::stoi(std::string(word.substr(i, std::min<std::size_t>(2, at - i))), nullptr, 16)));
     const std::size_t next = std::min(word.find_first_not_of(kBetween, at), word.size());
-    if (next == at && at < word.size()) return {};
+    if (digits == 0 || (digits % 2 != 0 && !(marked && digits == 1)) || (next == at && at < word.size())) {
+      bytes.resize(before);
+      return false;
+    }
+    if (digits == 1) bytes.push_back(value_of(word[begin]));
+    for (std::size_t i = begin; i + 1 < at; i += 2)
+      bytes.push_back(static_cast<std::uint8_t>(value_of(word[i]) << 4 | value_of(word[i + 1])));
     at = next;
   }
-  return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
+  if (has_date(word)) bytes.resize(before);
+  return bytes.size() > before;
 }
 
 /// A comment stands after `;`, `//` or `#` after a blank, or after a `;` that closes the bytes. Where `;` divides the
 /// bytes, there is one after the first.
 std::string_view without_comment(std::string_view line) {
-  if (line.find_first_of(";/#") == std::string_view::npos) return line;
-  static const std::regex kMark(R"(\s(;|//|#))"), kClosing(R"([0-9A-Fa-f]\s(0x)?[0-9A-Fa-f]{1,4};(\s|$))");
+  constexpr std::string_view kMarks = ";/#", kBlanks = " \t\n\v\f\r";
+  if (line.find_first_of(kMarks) == std::string_view::npos) return line;
+  const auto is_blank = [&](std::size_t at) { return at < line.size() && kBlanks.find(line[at]) != std::string_view::npos; };
+  for (std::size_t at = line.find_first_of(kMarks); at != std::string_view::npos; at = line.find_first_of(kMarks, at + 1))
+    if (at > 0 && is_blank(at - 1) && (line[at] != '/' || line.substr(at).starts_with("//"))) line = line.substr(0, at - 1);
+  static const std::regex kClosing(R"([0-9A-Fa-f]\s(0x)?[0-9A-Fa-f]{1,4};(\s|$))");
   TextMatch match;
-  if (std::regex_search(line.begin(), line.end(), match, kMark))
-    line = line.substr(0, static_cast<std::size_t>(match.position()));
-  if (std::regex_search(line.begin(), line.end(), match, kClosing))
+  if (line.find(';') != std::string_view::npos && std::regex_search(line.begin(), line.end(), match, kClosing))
     line = line.substr(0, static_cast<std::size_t>(match.position() + match.length()) - 1);
   return line;
 }
@@ -136,48 +260,141 @@ std::string_view without_comment(std::string_view line) {
 /// `feed` and `added` after pairs of digits are words of a language.
 bool is_of_a_language(std::string_view word) { return word.size() > 2 && std::ranges::all_of(word, is_letter); }
 
-/// `Tx:01` is `01` after its name; `len=09` is none.
+/// `plc:5020`, `plc.local:502`: the number of a TCP port has no 0 in front, and a name with a dot is that of a host.
+bool is_port_of_host(std::string_view name, std::string_view number) {
+  if (name.back() != ':' || !is_decimal(number) || direction_of(name) != Direction::Unknown) return false;
+  const bool four_digits = number.size() == 4 && number.front() != '0';
+  return four_digits || (number.size() <= 5 && name.find('.') != std::string_view::npos);
+}
+
+/// `Tx:01` is `01` after its name; `len=09` and `plc:5020` are none.
 std::size_t length_of_name(std::string_view word) {
   const std::size_t end = word.find_last_of(":;>,])-|");
   if (end == std::string_view::npos || end + 1 == word.size()) return 0;
   const std::string_view name = word.substr(0, end + 1);
-  const bool named = std::ranges::any_of(name, [](char c) { return is_letter(c) && !is_digit(c); });
-  return named && name.find('=') == std::string_view::npos ? name.size() : 0;
+  const bool named = std::ranges::any_of(name, [](char c) { return is_letter(c) && !is_hex_digit(c); });
+  return named && name.find('=') == std::string_view::npos && !is_port_of_host(name, word.substr(end + 1)) ? name.size() : 0;
 }
 
-std::vector<Word> words_of_bytes_and_others(std::string_view line) {
-  std::vector<Word> words;
-  bool in_pairs = false;
-  for (Word word : words_of(line)) {
-    auto bytes = in_pairs && is_of_a_language(word.text) ? std::nullopt : bytes_of_word(word.text);
-    if (const std::size_t name = bytes ? 0 : length_of_name(word.text); name > 0)
-      if ((bytes = bytes_of_word(word.text.substr(name)))) {
-        words.push_back({.text = word.text.substr(0, name), .begin = word.begin});
-        word = {.text = word.text.substr(name), .begin = word.begin + name};
-      }
-    in_pairs = bytes && bytes->size() == 1;
-    if (bytes) word.bytes = std::move(*bytes);
-    words.push_back(std::move(word));
+/// Words beside a number that say what it is.
+struct NumberName {
+  std::string_view word;
+  bool with_colon;  ///< `length: 12` is a length; `line: 12` is what was on a line
+};
+constexpr std::array kBeforeNumbers{NumberName{"LENGTH", true}, NumberName{"LEN", true},      NumberName{"SIZE", true},
+                                    NumberName{"COUNT", true},  NumberName{"PORT", true},     NumberName{"BAUD", true},
+                                    NumberName{"RATE", true},   NumberName{"BAUDRATE", true}, NumberName{"TIMEOUT", true},
+                                    NumberName{"NUMBER", true}, NumberName{"NO", false},      NumberName{"NR", false},
+                                    NumberName{"LINE", false},  NumberName{"PACKET", false},  NumberName{"SEQ", false},
+                                    NumberName{"ID", false},    NumberName{"NETWORK", true}};
+constexpr std::array<std::string_view, 10> kAfterNumbers{"BYTE",    "BYTES", "CHARS",   "CHARACTERS", "OCTETS",
+                                                         "SECONDS", "BAUD",  "RETRIES", "REGISTERS",  "COILS"};
+
+bool is_name_of_number(std::string_view word) {
+  const bool colon = word.ends_with(':');
+  const std::string name = stl::upper_case(word.substr(0, word.size() - (colon ? 1 : 0)));
+  const auto row = std::ranges::find(kBeforeNumbers, name, &NumberName::word);
+  return row != kBeforeNumbers.end() && (row->with_colon || !colon);
+}
+
+bool is_counted(std::string_view word) {
+  const std::size_t end = word.find_last_not_of(":)],;");
+  return end != std::string_view::npos &&
+         std::ranges::find(kAfterNumbers, stl::upper_case(word.substr(0, end + 1))) != kAfterNumbers.end();
+}
+
+/// The text in brackets: `(0X12)`. Empty: it has none.
+std::string_view in_brackets(std::string_view word) {
+  const bool bracketed =
+      word.size() > 2 && ((word.front() == '(' && word.back() == ')') || (word.front() == '[' && word.back() == ']'));
+  return bracketed ? word.substr(1, word.size() - 2) : "";
+}
+
+/// Whether two words are a byte in decimal and in hex: `18 (0X12)`, `0x12 (18)`.
+bool say_the_same(std::string_view decimal, std::string_view hex) {
+  const auto byte = parse_decimal<std::uint8_t>(decimal);
+  const auto value = is_marked(hex) && hex.size() <= 4 ? parse_integer("16#" + std::string(hex.substr(2))) : std::nullopt;
+  return byte && value && *value == *byte;
+}
+
+/// Whether a number names how many bytes follow it, in decimal or in hex.
+bool counts_bytes_after(Words words, std::string_view digits) {
+  std::size_t bytes = 0;
+  for (const Word& word : words) {
+    if (word.bytes == 0) break;
+    bytes += word.bytes;
   }
-  return words;
+  const auto decimal = parse_decimal<std::size_t>(digits);
+  const auto hex = parse_integer("16#" + std::string(digits.substr(is_marked(digits) ? 2 : 0)));
+  return decimal == bytes || (hex && *hex == static_cast<std::int64_t>(bytes));
+}
+
+/// Numbers that are no bytes, as words beside them say: `length 12`, `12 bytes`, `18 (0X12)`. One with bytes after it may be
+/// the first of them.
+void take_numbers_out(std::vector<Word>& words) {
+  constexpr std::string_view kAround = "()[],;:";
+  const auto is_number = [](Word& word) {
+    word.bytes = 0;
+    word.number = Word::Number::Yes;
+  };
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string_view text = words[i].text, inner = in_brackets(text);
+    if (i > 0 && is_decimal(inner) && say_the_same(inner, words[i - 1].text)) is_number(words[i]);
+    if (i > 0 && is_marked(inner) && say_the_same(words[i - 1].text, inner)) is_number(words[i - 1]);
+    const std::size_t begin = std::min(text.find_first_not_of(kAround), text.size());
+    const std::string_view digits = text.substr(begin, text.find_last_not_of(kAround) + 1 - begin);
+    if (words[i].bytes == 0 || !(is_decimal(digits) || is_marked(digits))) continue;
+    const bool named = i > 0 && is_name_of_number(words[i - 1].text);
+    const bool after_bytes = i > 0 && words[i - 1].bytes > 0 && begin == 0;
+    const bool counted = !after_bytes && i + 1 < words.size() && is_counted(words[i + 1].text);
+    const bool before_bytes = i + 1 < words.size() && words[i + 1].bytes > 0;
+    if (named && before_bytes && !counts_bytes_after(Words(words).subspan(i + 1), digits))
+      words[i].number = Word::Number::Perhaps;
+    else if (named || counted)
+      is_number(words[i]);
+  }
+}
+
+LineWords words_of_line(std::string_view line) {
+  LineWords found;
+  std::vector<Word>& words = found.words;
+  bool in_pairs = false, has_others = false;
+  for (std::size_t begin = line.find_first_not_of(kWordBlanks); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kWordBlanks, begin), line.size());
+    Word word{.text = line.substr(begin, end - begin), .begin = begin, .first_byte = found.bytes.size()};
+    begin = line.find_first_not_of(kWordBlanks, end);
+    bool any = !(in_pairs && is_of_a_language(word.text)) && append_bytes(found.bytes, word.text);
+    if (const std::size_t name = any ? 0 : length_of_name(word.text); name > 0)
+      if ((any = append_bytes(found.bytes, word.text.substr(name)))) {
+        words.push_back({.text = word.text.substr(0, name), .begin = word.begin});
+        word.text.remove_prefix(name);
+        word.begin += name;
+      }
+    word.bytes = any ? found.bytes.size() - word.first_byte : 0;
+    in_pairs = word.bytes == 1;
+    has_others = has_others || !any || word.text.front() == '(' || word.text.front() == '[';
+    words.push_back(word);
+  }
+  if (has_others) take_numbers_out(words);
+  return found;
 }
 
 bool names_a_direction(const Word& word) { return direction_of(word.text) != Direction::Unknown; }
 
 /// `1`, `3G`, `??`, `123` beside bytes: one of them may be damaged.
 bool may_be_a_damaged_byte(const Word& word) {
-  if (names_a_direction(word)) return false;
+  if (word.number == Word::Number::Yes || names_a_direction(word)) return false;
   const auto is_sign = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '?' || c == '*'; };
   return (word.text.size() <= 2 && std::ranges::any_of(word.text, is_sign) && std::ranges::all_of(word.text, is_sign)) ||
          word.text.find_first_of("?*") != std::string_view::npos ||
-         (std::ranges::all_of(word.text, is_digit) && !is_of_a_language(word.text));
+         (std::ranges::all_of(word.text, is_hex_digit) && !is_of_a_language(word.text));
 }
 
 /// `:010300C80002`, of Modbus ASCII: it ends with digits that may be bytes. A clock, a decimal and `len=09` do not.
 bool ends_with_digits(const Word& word) {
   const std::size_t end = word.text.find_last_not_of("0123456789ABCDEFabcdef");
   if (end == std::string_view::npos || end + 1 == word.text.size()) return false;
-  static const std::regex kNoByte(R"(\d:\d\d|\d[.,]\d{1,9}$|=)");
+  static const std::regex kNoByte(R"(\d:\d\d|\]:\d|\d[.,]\d{1,9}$|=)");
   return std::ispunct(static_cast<unsigned char>(word.text[end])) != 0 &&
          !std::regex_search(word.text.begin(), word.text.end(), kNoByte);
 }
@@ -190,23 +407,78 @@ bool has_both_cases(Words run) {
   return any("ABCDEF") && any("abcdef");
 }
 
+bool has_mark(const Word& word) {
+  return is_marked(word.text.substr(std::min(word.text.find_first_not_of("[<(\""), word.text.size())));
+}
+
+/// A word of the bytes that may be something else; null if there is none. A number before pairs of digits counts lines or
+/// seconds; and no tool writes `0x` before some bytes only.
+const Word* what_is_no_byte(Words run) {
+  const auto perhaps = std::ranges::find(run, Word::Number::Perhaps, &Word::number);
+  if (perhaps != run.end()) return &*perhaps;
+  const auto other_mark =
+      std::ranges::find_if(run, [&](const Word& word) { return has_mark(word) != has_mark(run.front()); });
+  if (other_mark != run.end()) return &*other_mark;
+  const bool before_pairs = run.size() > 2 && run.front().bytes > 1 &&
+                            std::ranges::all_of(run.subspan(1), [](const Word& word) { return word.bytes == 1; });
+  return before_pairs ? &run.front() : nullptr;
+}
+
 /// Of what stands before the bytes and after them; null if all is well. Bytes before them may be a number or a date in
 /// front of the direction.
 const Word* what_is_doubtful(Words before, Words run, Words after) {
   if (!before.empty() && (may_be_a_damaged_byte(before.back()) || ends_with_digits(before.back()))) return &before.back();
-  const auto other = std::ranges::find_if(before, [](const Word& word) { return !word.bytes.empty(); });
+  const auto other = std::ranges::find_if(before, [](const Word& word) { return word.bytes > 0; });
   if (other != before.end()) {
     const bool after_direction = std::any_of(before.begin(), other, names_a_direction);
     const bool named = names_a_direction(before.back()) ||
                        std::string_view(":>-)]|").find(before.back().text.back()) != std::string_view::npos;
     if (after_direction || !named)
-      return &*std::find_if(other, before.end(), [](const Word& word) { return word.bytes.empty(); });
+      return &*std::find_if(other, before.end(), [](const Word& word) { return word.bytes == 0; });
   }
-  if (after.empty()) return nullptr;
+  if (const Word* const no_byte = what_is_no_byte(run)) return no_byte;
+  if (after.empty() || after.front().number == Word::Number::Yes) return nullptr;
   if (has_both_cases(run)) return &run.back();
   const std::string_view next = after.front().text;
   const bool is_comment = next.front() == '(' || (next.size() > 2 && std::all_of(next.begin(), next.begin() + 3, is_letter));
-  return is_comment && (run.size() > 1 || run.front().bytes.size() > 1) ? nullptr : &after.front();
+  return is_comment && (run.size() > 1 || run.front().bytes > 1) ? nullptr : &after.front();
+}
+
+/// `|....4...|` of hexdump -C.
+std::string_view without_bars(std::string_view text) {
+  const bool barred = text.size() > 2 && text.front() == '|' && text.back() == '|';
+  return barred ? text.substr(1, text.size() - 2) : text;
+}
+
+/// What is not ASCII as one sign, whatever it takes in UTF-8.
+std::string in_single_bytes(std::string_view text) {
+  if (stl::is_ascii(text)) return std::string(text);
+  std::string single;
+  for (const char c : text)
+    if ((c & 0xC0) != 0x80 || single.empty()) single += (c & 0x80) != 0 ? '.' : c;
+  return single;
+}
+
+/// `slave 10`, `waiting for 50`: a number at the end of words, not a byte.
+bool is_number_of_a_sentence(Words before, Words run) {
+  if (run.size() != 1 || before.empty() || !is_decimal(run.front().text)) return false;
+  const std::string_view word = before.back().text;
+  const std::string capitals = stl::upper_case(word);
+  const bool names_a_station = capitals == "SLAVE" || capitals == "MASTER";
+  const bool says_nothing = !names_a_direction(before.back()) && std::ranges::all_of(word, is_letter);
+  return names_a_station || (says_nothing && word.size() > 1);
+}
+
+/// The last run of bytes among the words that end at `end`.
+struct Run {
+  Words before, words;
+};
+std::optional<Run> last_run(Words words) {
+  const auto has_bytes = [](const Word& word) { return word.bytes > 0; };
+  const auto last = std::find_if(words.rbegin(), words.rend(), has_bytes).base();
+  if (last == words.begin()) return {};
+  const auto first = std::find_if_not(std::reverse_iterator(last), words.rend(), has_bytes).base();
+  return Run{{words.begin(), first}, {first, last}};
 }
 
 struct Unit {
@@ -252,49 +524,79 @@ Direction direction_of_brackets(std::string_view bytes) {
 }
 
 Direction direction_of(std::string_view text) {
-  static constexpr std::array kRequests{"TX", "SENT", "SEND", "WRITE", "WRITTEN", "REQUEST", "QUERY", "MASTER", "->", ">"};
-  static constexpr std::array kAnswers{"RX", "RECV", "RECEIVED", "READ", "RESPONSE", "ANSWER", "REPLY", "SLAVE", "<-", "<"};
-  const std::string words = stl::upper_case(text);
-  const auto has = [&](const char* word) {
-    const std::string wanted = word;
-    for (std::size_t at = words.find(wanted); at != std::string::npos; at = words.find(wanted, at + 1)) {
-      const auto is_letter = [&](std::size_t i) {
-        return i < words.size() && std::isalpha(static_cast<unsigned char>(words[i]));
-      };
-      const bool alone = !is_letter(at - 1) && !is_letter(at + wanted.size());
-      if (alone || !std::isalpha(static_cast<unsigned char>(wanted[0]))) return true;
-    }
-    return false;
-  };
-  const bool request = std::ranges::any_of(kRequests, has), answer = std::ranges::any_of(kAnswers, has);
+  static constexpr std::array<std::string_view, 8> kRequests{"TX",      "SENT",    "SEND",  "WRITE",
+                                                             "WRITTEN", "REQUEST", "QUERY", "MASTER"};
+  static constexpr std::array<std::string_view, 8> kAnswers{"RX",       "RECV",   "RECEIVED", "READ",
+                                                            "RESPONSE", "ANSWER", "REPLY",    "SLAVE"};
+  constexpr std::size_t kShortest = 2, kLongest = 8;
+  bool request = text.find('>') != std::string_view::npos, answer = text.find('<') != std::string_view::npos;
+  for (std::size_t end = 0; end < text.size();) {
+    const auto begin = std::find_if(text.begin() + static_cast<std::ptrdiff_t>(end), text.end(), is_letter);
+    const auto after = std::find_if_not(begin, text.end(), is_letter);
+    end = static_cast<std::size_t>(after - text.begin());
+    const auto length = static_cast<std::size_t>(after - begin);
+    if (length < kShortest || length > kLongest) continue;
+    const std::string word = stl::upper_case({begin, after});
+    request = request || std::ranges::find(kRequests, word) != kRequests.end();
+    answer = answer || std::ranges::find(kAnswers, word) != kAnswers.end();
+  }
   if (request == answer) return Direction::Unknown;
   return request ? Direction::Request : Direction::Answer;
 }
 
 std::optional<Bytes> bytes_of_text(std::string_view text) {
   Bytes bytes;
-  for (const Word& word : words_of(text)) {
-    const auto some = bytes_of_word(word.text);
-    if (!some) return {};
-    bytes.insert(bytes.end(), some->begin(), some->end());
+  for (std::size_t begin = text.find_first_not_of(kWordBlanks); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(kWordBlanks, begin), text.size());
+    if (!append_bytes(bytes, text.substr(begin, end - begin))) return {};
+    begin = text.find_first_not_of(kWordBlanks, end);
   }
   return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
 }
 
 std::optional<BytesInLine> bytes_in_line(std::string_view line) {
-  const std::vector<Word> words = words_of_bytes_and_others(without_comment(line));
-  const auto has_bytes = [](const Word& word) { return !word.bytes.empty(); };
-  const auto last = std::find_if(words.rbegin(), words.rend(), has_bytes).base();
-  if (last == words.begin()) return {};
-  const auto first = std::find_if_not(std::reverse_iterator(last), words.rend(), has_bytes).base();
-  BytesInLine found{.begin = first->begin, .end = (last - 1)->begin + (last - 1)->text.size()};
-  if (const Word* const doubtful = what_is_doubtful({words.begin(), first}, {first, last}, {last, words.end()})) {
+  const LineWords all = words_of_line(without_comment(line));
+  const auto run = last_run(all.words);
+  if (!run || is_number_of_a_sentence(run->before, run->words)) return {};
+  const Word &first = run->words.front(), &last = run->words.back();
+  BytesInLine found{.begin = first.begin, .end = last.begin + last.text.size()};
+  const Words after = Words(all.words).subspan(run->before.size() + run->words.size());
+  if (const Word* const doubtful = what_is_doubtful(run->before, run->words, after)) {
     found.not_understood = doubtful->text;
     return found;
   }
-  for (auto word = first; word != last; ++word)
-    found.bytes.insert(found.bytes.end(), word->bytes.begin(), word->bytes.end());
+  const auto bytes = all.bytes.begin();
+  found.bytes.assign(bytes + static_cast<std::ptrdiff_t>(first.first_byte),
+                     bytes + static_cast<std::ptrdiff_t>(last.first_byte + last.bytes));
   return found;
+}
+
+/// Without the characters that some tools put beside the hex: after two blanks or more, after one in a full row. The first
+/// of them may be blanks.
+std::string_view without_characters(std::string_view line) {
+  constexpr std::size_t kFullRow = 16, kShortestFullRow = 2 * kFullRow, kLongest = 1000;
+  const bool may_have = line.find("  ") != std::string_view::npos || line.size() > kShortestFullRow;
+  if (!may_have || line.size() > kLongest) return line;
+  const LineWords all = words_of_line(without_comment(line));
+  constexpr std::size_t kBars = 2;
+  const bool ascii = stl::is_ascii(line);
+  std::size_t count = 0;  // of the words before the gap
+  for (std::size_t gap = line.find(' '); gap != std::string_view::npos; gap = line.find(' ', gap + 1)) {
+    const std::size_t last = line.find_first_not_of(' ', gap);
+    if (last == std::string_view::npos) return line;
+    const auto ends = [](const Word& word) { return word.begin + word.text.size(); };
+    while (count < all.words.size() && ends(all.words[count]) <= gap) ++count;
+    if ((last - gap == 1 && gap < kShortestFullRow) || count == 0 || ends(all.words[count - 1]) != gap) continue;
+    const std::size_t most = all.words[count - 1].first_byte + all.words[count - 1].bytes;
+    if (ascii && line.size() - last > most + kBars) continue;
+    const auto run = last_run(Words(all.words).first(count));
+    if (!run || run->words.end() != Words(all.words).begin() + static_cast<std::ptrdiff_t>(count)) continue;
+    const Word &first = run->words.front(), &final = run->words.back();
+    const auto bytes = std::span(all.bytes).subspan(first.first_byte, final.first_byte + final.bytes - first.first_byte);
+    for (std::size_t column = gap + (bytes.size() < kFullRow ? 2 : 1); column <= last; ++column)
+      if (is_column_of_characters(in_single_bytes(without_bars(line.substr(column))), bytes)) return line.substr(0, gap);
+  }
+  return line;
 }
 
 bool is_column_of_characters(std::string_view text, std::span<const std::uint8_t> bytes) {

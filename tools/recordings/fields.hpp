@@ -64,6 +64,9 @@ struct BytesInLine {
 /// Nothing if there is no byte in it.
 std::optional<BytesInLine> bytes_in_line(std::string_view line);
 
+/// The line without the characters that some tools put beside the hex: after two blanks or more, after one in a full row.
+std::string_view without_characters(std::string_view line);
+
 /// Whether a text shows the bytes as characters, as tools do beside the hex: those that cannot be printed as a sign.
 /// Blanks at its end may be missing.
 bool is_column_of_characters(std::string_view text, std::span<const std::uint8_t> bytes);

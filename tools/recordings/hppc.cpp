@@ -78,13 +78,13 @@ class HppcReader final : public FrameReader {
     switch (static_cast<HppcOpcode>(bytes[kOpcode])) {
       case HppcOpcode::Read:
         if (layout_.read_request == ReadRequest::Number && operands.size() == 1)
-          return fmt::format("read {} from 16#00000 on", plural(operands[0], "byte"));
+          return fmt::format("read {} from 16#00000 on", counted(operands[0], "byte"));
         if (layout_.read_request == ReadRequest::AddressAndNumber && operands.size() == kAddress + 1)
-          return fmt::format("read {} from 16#{:05X} on", plural(operands[kAddress], "byte"), address());
+          return fmt::format("read {} from 16#{:05X} on", counted(operands[kAddress], "byte"), address());
         break;
       case HppcOpcode::Write:
         if (operands.size() > kAddress)
-          return fmt::format("write {} from 16#{:05X} on: {}", plural(operands.size() - kAddress - 1, "byte"), address(),
+          return fmt::format("write {} from 16#{:05X} on: {}", counted(operands.size() - kAddress - 1, "byte"), address(),
                              to_hex(operands.subspan(kAddress + 1)));
         break;
       case HppcOpcode::BitWrite:
@@ -96,7 +96,7 @@ class HppcReader final : public FrameReader {
         }
         break;
       case HppcOpcode::Parameters:
-        if (operands.size() == 1) return fmt::format("parameter table, {}", plural(operands[0], "byte"));
+        if (operands.size() == 1) return fmt::format("parameter table, {}", counted(operands[0], "byte"));
         break;
       case HppcOpcode::Monitor:
         if (const auto monitored = monitored_by(operands)) {
@@ -122,7 +122,7 @@ class HppcReader final : public FrameReader {
     if (opcode == westinghouse::HppcOpcode::Parameters && operands.size() >= kAddress)
       return westinghouse::hppc_parameters_text(operands);
     if (opcode == westinghouse::HppcOpcode::Read && !operands.empty() && operands.size() == 1U + operands[0])
-      return fmt::format("{}{}{}", plural(operands[0], "byte"), operands[0] == 0 ? "" : ": ", to_hex(operands.subspan(1)));
+      return fmt::format("{}{}{}", counted(operands[0], "byte"), operands[0] == 0 ? "" : ": ", to_hex(operands.subspan(1)));
     if (const auto monitored = monitored_by(operands_of(request)); monitored && opcode == westinghouse::HppcOpcode::Monitor)
       if (std::string text = monitored_text(*monitored, operands); !text.empty()) return text;
     return operands.empty() ? "done" : to_hex(operands);

@@ -1,7 +1,12 @@
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "interpreter/base/ppi_frame.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/answer.hpp"
+#include "serial_sim/modbus/functions.hpp"
+#include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/modbus/rtu_stream.hpp"
 #include "tools/recordings/readers.hpp"
@@ -33,10 +38,10 @@ std::string bits_text(Data bytes, std::size_t count) {
 std::string reference_text(const modbus::Reference& reference) {
   const bool file = reference.type == modbus::kFileReference;
   std::string text =
-      file ? fmt::format("file {}, record {}, {}", reference.file, reference.record, plural(reference.count, "register"))
+      file ? fmt::format("file {}, record {}, {}", reference.file, reference.record, counted(reference.count, "register"))
       : reference.type == modbus::kExtendedMemoryReference
           ? fmt::format("extended memory {:04X}:{:04X}, {}", reference.file, reference.record,
-                        plural(reference.count, "byte"))
+                        counted(reference.count, "byte"))
           : fmt::format("kind 16#{:02X}, {:04X}:{:04X}, {} of them", reference.type, reference.file, reference.record,
                         reference.count);
   if (!reference.data.empty()) text += ": " + (file ? words_text(reference.data) : serial::to_hex(reference.data));
@@ -73,11 +78,15 @@ std::string carried_text(const modbus::FunctionRow& row, Data data) {
   }
 }
 
+/// Modbus TCP knows no broadcast: its unit 0 is an address like any other.
+bool is_to_all(const RecordedFrame& frame) { return frame.stream == 0 && frame.bytes[0] == modbus::kBroadcast; }
+
 /// `station 1, read holding registers 40001, 10 of them`
-std::string modbus_request_text(Data frame) {
+std::string modbus_request_text(const RecordedFrame& recorded) {
+  const Data frame = recorded.bytes;
   const std::uint8_t station = frame[0], function = frame[1];
   const modbus::FunctionRow* row = modbus::find_function(function);
-  std::string text = station == modbus::kBroadcast ? "all stations" : fmt::format("station {}", station);
+  std::string text = is_to_all(recorded) ? "all stations" : fmt::format("station {}", station);
   if (row == nullptr) return text + fmt::format(", function {}", function);
   text += fmt::format(", {}", row->name);
   const std::string carried = carried_text(*row, frame.subspan(2, frame.size() - kShortestRtu));
@@ -103,16 +112,65 @@ bool has_length_of_request(Data bytes) {
           modbus::extent_of_request(bytes.first(bytes.size() - 1)) == modbus::Extent::Part);
 }
 
+Bytes with_crc(Data bytes) {
+  Bytes frame(bytes.begin(), bytes.end());
+  modbus::add_crc(frame);
+  return frame;
+}
+
+bool is_modbus_tcp(Data bytes) {
+  modbus::MbapReader reader;
+  reader.take(bytes);
+  const bool any = reader.next().has_value();
+  while (reader.next()) continue;
+  return any && reader.error().empty() && reader.pending() == 0;
+}
+
+bool is_ppi(Data bytes) {
+  const auto length = bytes.size() > 1 ? ppi::frame_length(bytes) : std::nullopt;
+  return length == bytes.size() && (ppi::token_of(bytes) || ppi::body_of(bytes));
+}
+
+bool is_modbus_ascii(Data bytes) {
+  constexpr std::size_t kShortest = 9;  // a colon, station, function, check, CR LF
+  return bytes.size() >= kShortest && bytes.front() == ':' && bytes[bytes.size() - 2] == '\r' && bytes.back() == '\n';
+}
+
+bool has_crc_turned_round(Data bytes) {
+  Bytes turned(bytes.begin(), bytes.end());
+  if (turned.size() >= kShortestRtu) std::swap(turned[turned.size() - 2], turned.back());
+  return modbus::crc_ok(turned);
+}
+
+/// What a frame whose CRC is wrong is, where that shows; else empty.
+std::string what_it_is_instead(Data bytes, const RecordedFrame* open) {
+  if (is_ppi(bytes)) return "a frame of PPI, not of Modbus RTU";
+  if (is_modbus_tcp(bytes)) return "a message of Modbus TCP, not of Modbus RTU: it has a head and no CRC";
+  if (is_modbus_ascii(bytes)) return "a frame of Modbus ASCII, not of Modbus RTU";
+  const Bytes completed = with_crc(bytes);
+  if (open != nullptr && fits(modbus::check_answer(open->bytes, completed))) return "an answer without its CRC";
+  if (bytes.size() >= 2 && modbus::find_function(bytes[1]) != nullptr && has_length_of_request(completed) &&
+      modbus::extent_of_request(completed) == modbus::Extent::Whole)
+    return "a request without its CRC";
+  if (has_crc_turned_round(bytes)) return "its CRC has the high byte first: Modbus RTU sends the low byte first";
+  return {};
+}
+
+std::string no_message(Data bytes, const RecordedFrame* open) {
+  const std::string instead = what_it_is_instead(bytes, open);
+  return instead.empty() ? "wrong CRC, or not a whole frame" : instead;
+}
+
 ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   const Data bytes(frame.bytes);
   ReadFrame read;
   if (open != nullptr && frame.direction != Direction::Request) {
     const modbus::Answer answer = modbus::check_answer(open->bytes, bytes);
-    const bool fits = answer.verdict == modbus::Verdict::Right || answer.verdict == modbus::Verdict::Exception;
-    if (fits || frame.direction == Direction::Answer) {
+    if (fits(answer) || frame.direction == Direction::Answer) {
       read.direction = Direction::Answer;
-      read.right = fits;
-      read.text = modbus::describe(open->bytes, bytes, modbus::Numbering::Notation);
+      read.right = fits(answer);
+      if (!fits(answer) && !modbus::crc_ok(bytes)) read.text = what_it_is_instead(bytes, open);
+      if (read.text.empty()) read.text = modbus::describe(open->bytes, bytes, modbus::Numbering::Notation);
       return read;
     }
   }
@@ -120,39 +178,45 @@ ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   const bool whole = crc && has_length_of_request(bytes);
   if (frame.direction == Direction::Answer || (frame.direction == Direction::Unknown && !whole)) {
     read.right = crc;
-    read.text = !crc ? "wrong CRC, or not a whole frame" : "an answer without its request";
+    read.text = !crc ? no_message(bytes, open) : "an answer without its request";
     return read;
   }
   read.direction = Direction::Request;
   read.station = bytes[0];
-  read.needs_no_answer = crc && bytes[0] == modbus::kBroadcast;
+  read.needs_no_answer = crc && is_to_all(frame);
   read.right = whole;
-  read.text = !crc    ? "wrong CRC, or not a whole frame"
-              : whole ? modbus_request_text(bytes)
+  read.text = !crc    ? no_message(bytes, open)
+              : whole ? modbus_request_text(frame)
                       : "no request: it does not have the length of its function";
   return read;
 }
 
 /// Only what the function says of its length counts: part of a long frame may have a right CRC by chance.
 std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
-  const auto answers = [&](std::size_t length) {
-    const modbus::Verdict verdict = modbus::check_answer(open->bytes, bytes.first(length)).verdict;
-    return verdict == modbus::Verdict::Right || verdict == modbus::Verdict::Exception;
-  };
   constexpr std::size_t kLongest = 2 * modbus::kLongestRtuFrame;  // PLCs with limits of their own
-  for (std::size_t length = kShortestRtu; length <= std::min(bytes.size(), kLongest); ++length) {
-    if (open != nullptr && answers(length)) return length;
+  modbus::Crc crc;
+  for (std::size_t length = 1; length <= std::min(bytes.size(), kLongest); ++length) {
+    crc.take(bytes[length - 1]);
+    if (length < kShortestRtu || !crc.is_at_its_end()) continue;
     const Data first = bytes.first(length);
-    if (modbus::extent_of_request(first) == modbus::Extent::Whole && has_length_of_request(first) && modbus::crc_ok(first))
-      return length;
+    if (open != nullptr && fits(modbus::check_answer(open->bytes, first))) return length;
+    if (modbus::extent_of_request(first) == modbus::Extent::Whole && has_length_of_request(first)) return length;
   }
   return 0;
 }
 
+/// The messages of Modbus say how long they are.
+class ModbusReader final : public PlainReader<read_modbus, first_modbus_message> {
+ public:
+  bool announces_more(Data bytes, Direction direction, const RecordedFrame* open) const override {
+    const bool begins_answer =
+        direction != Direction::Request && open != nullptr && bytes.size() < modbus::length_of_answer(open->bytes, bytes);
+    return begins_answer || (direction != Direction::Answer && modbus::extent_of_request(bytes) == modbus::Extent::Part);
+  }
+};
+
 }  // namespace
 
-std::unique_ptr<FrameReader> modbus_reader(const ChosenWords&) {
-  return std::make_unique<PlainReader<read_modbus, first_modbus_message>>();
-}
+std::unique_ptr<FrameReader> modbus_reader(const ChosenWords&) { return std::make_unique<ModbusReader>(); }
 
 }  // namespace s7200::tools

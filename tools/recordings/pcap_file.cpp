@@ -93,8 +93,27 @@ struct Stream {
   std::optional<std::uint32_t> next{};  ///< sequence number
   modbus::MbapReader reader{};
   std::uint32_t connection = 0;
-  bool lost = false;
+  bool out_of_step = false;  ///< where the next message begins is not known
 };
+
+/// Where the messages begin that a segment ends with, after something was lost: their heads lead from one to the next, up to
+/// the end of the segment. Only the first byte may begin a message that goes on in the next segment.
+std::optional<std::size_t> first_message_in(Data data) {
+  constexpr std::size_t kHead = 6;
+  const auto after_message = [&](std::size_t begin) {
+    if (begin + kHead > data.size() || load16(&data[begin + 2]) != 0) return std::size_t{0};
+    const std::size_t length = load16(&data[begin + 4]);
+    return length >= 2 && length <= 1 + modbus::kLongestPdu ? begin + kHead + length : std::size_t{0};
+  };
+  if (after_message(0) > data.size()) return 0;
+  for (std::size_t begin = 0; begin + kHead < data.size(); ++begin) {
+    std::size_t end = begin;
+    do end = after_message(end);
+    while (end != 0 && end < data.size());
+    if (end == data.size()) return begin;
+  }
+  return {};
+}
 
 class Reader {
  public:
@@ -123,6 +142,11 @@ class Reader {
     if (!serial_.finish(recording_, why)) return {};
     note_left_out(others_, fmt::format("not of TCP port {}", choices_.tcp_port));
     note_left_out(broken_, "of TCP in fragments or cut off");
+    for (const auto& [reason, losses] : losses_) {
+      const std::string more = losses.count == 1 ? "" : fmt::format(", and {} more", losses.count - 1);
+      recording_.notes.push_back(
+          fmt::format("{}{}: {}; reading goes on with the next message that begins a segment", losses.first, more, reason));
+    }
     count_from_first(recording_);
     return std::move(recording_);
   }
@@ -144,16 +168,24 @@ class Reader {
     if (segment.begins) {
       stream.next = segment.sequence + 1;
       stream.reader = {};
-      stream.lost = false;
+      stream.out_of_step = false;
       return;
     }
-    if (segment.data.empty() || stream.lost) return;
+    if (segment.data.empty()) return;
     const auto ahead = static_cast<std::int32_t>(segment.sequence - stream.next.value_or(segment.sequence));
-    if (ahead > 0) return lose(segment, place, "segments before it are missing");
-    const auto sent_again = static_cast<std::size_t>(-std::int64_t{ahead});
+    if (ahead > 0) lose(stream, place, "segments before it are missing");
+    const auto sent_again = static_cast<std::size_t>(std::max<std::int64_t>(0, -std::int64_t{ahead}));
     if (sent_again >= segment.data.size()) return;
     stream.next = segment.sequence + static_cast<std::uint32_t>(segment.data.size());
-    stream.reader.take(segment.data.subspan(sent_again));
+    Data data = segment.data.subspan(sent_again);
+    if (stream.out_of_step) {
+      const auto begin = first_message_in(data);
+      if (!begin) return;
+      data = data.subspan(*begin);
+      stream.reader = {};
+      stream.out_of_step = false;
+    }
+    stream.reader.take(data);
     while (const auto message = stream.reader.next())
       add({.at = at,
            .direction = asks ? Direction::Request : Direction::Answer,
@@ -161,7 +193,7 @@ class Reader {
            .place = place,
            .stream = stream.connection,
            .exchange = modbus::exchange_of(*message)});
-    if (!stream.reader.error().empty()) lose(segment, place, stream.reader.error());
+    if (!stream.reader.error().empty()) lose(stream, place, stream.reader.error());
   }
 
   void note_left_out(std::size_t packets, std::string_view kind) {
@@ -170,20 +202,26 @@ class Reader {
                                             : fmt::format("{} packets {} were left out", packets, kind));
   }
 
-  /// Both directions: a request without its answer would seem not to have been answered.
-  void lose(const Segment& segment, const std::string& place, std::string_view why) {
-    for (const auto& ends : {std::pair(segment.from, segment.to), std::pair(segment.to, segment.from)})
-      streams_[ends].lost = true;
-    const auto last = last_.find(streams_[{segment.from, segment.to}].connection);
+  /// Up to the next segment that a message begins in. The last frame of the connection may have lost its answer.
+  void lose(Stream& stream, const std::string& place, const std::string& why) {
+    stream.out_of_step = true;
+    const auto last = last_.find(stream.connection);
     if (last != last_.end()) recording_.frames[last->second].more_was_lost = true;
-    recording_.notes.push_back(fmt::format("{}: the rest of this connection was left out: {}", place, why));
+    Losses& losses = losses_[why];
+    if (losses.count++ == 0) losses.first = place;
   }
+
+  struct Losses {
+    std::string first{};
+    std::size_t count = 0;
+  };
 
   const ReadingChoices& choices_;
   LineRecording recording_;
   SerialLinks serial_;
   std::map<std::pair<Bytes, Bytes>, Stream> streams_;
   std::map<std::uint32_t, std::size_t> last_;  // frame of each connection
+  std::map<std::string, Losses> losses_;       // by their reason
   std::uint32_t connections_ = 0;
   std::size_t others_ = 0, broken_ = 0;
 };

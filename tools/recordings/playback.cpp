@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 
 #include "interpreter/base/ppi_frame.hpp"
 #include "serial_sim/line/frame.hpp"
+#include "serial_sim/modbus/functions.hpp"
 #include "tools/scenario/text.hpp"
 #include "tools/scenario/transcript_writer.hpp"
 
@@ -21,7 +23,7 @@ class Omissions {
     for (const ReadFrame& frame : frames) {
       if (frame.frame.stream == 0) continue;
       Connection& connection = connections_[frame.frame.stream];
-      connection.more_was_lost |= frame.frame.more_was_lost;
+      if (frame.frame.more_was_lost) connection.last_before_loss = &frame;
       if (frame.direction == Direction::Unknown) connection.last_stray = &frame;
     }
   }
@@ -36,6 +38,8 @@ class Omissions {
       named.insert(rest);
       return "more characters follow it without a silence: " + serial::to_hex(rest->frame.bytes);
     }
+    if (request.frame.stream != 0 && request.station == modbus::kBroadcast)
+      return "unit 0 of Modbus TCP is a device; on a serial line it is all stations, and none answers";
     if (request.other) {
       const ReadFrame& answer = frames_[*request.other];
       if (answer.latency > kLongestSpan)
@@ -49,11 +53,11 @@ class Omissions {
 
  private:
   struct Connection {
-    bool more_was_lost = false;
+    const ReadFrame* last_before_loss = nullptr;
     const ReadFrame* last_stray = nullptr;
   };
 
-  static constexpr const char* kCutOff = "the recording is cut off after it";
+  static constexpr const char* kLost = "what came after it is missing from the recording";
 
   static std::string may_be_its_answer(const ReadFrame& stray, Named& named) {
     named.insert(&stray);
@@ -69,7 +73,7 @@ class Omissions {
   }
 
   std::string why_on_a_line(const ReadFrame& request, Named& named) const {
-    if (request.frame.more_was_lost) return kCutOff;
+    if (request.frame.more_was_lost) return kLost;
     const ReadFrame* next = &request + 1;
     if (next == frames_.data() + frames_.size()) return {};
     if (next->repeats) return fmt::format("the same after it ({}) may be its late echo", next->frame.place);
@@ -79,7 +83,7 @@ class Omissions {
   /// There answers come in any order, and late.
   std::string why_over_tcp(const ReadFrame& request, Named& named) const {
     const Connection& connection = connections_.at(request.frame.stream);
-    if (connection.more_was_lost) return kCutOff;
+    if (connection.last_before_loss >= &request) return kLost;
     if (connection.last_stray != nullptr && connection.last_stray > &request)
       return may_be_its_answer(*connection.last_stray, named);
     const auto listened = silence(request.frame, frames_.back().frame, stamps_);
@@ -91,6 +95,21 @@ class Omissions {
   const Stamps& stamps_;
   std::map<std::uint32_t, Connection> connections_;
 };
+
+/// Who plays a scenario hears no echo.
+std::vector<ReadFrame> without_echoes(std::span<const ReadFrame> frames) {
+  std::vector<std::size_t> number;  // of each frame, without those before it that are left out
+  std::size_t kept = 0;
+  for (const ReadFrame& frame : frames) number.push_back(frame.echo ? kept : kept++);
+  std::vector<ReadFrame> without;
+  for (const ReadFrame& frame : frames) {
+    if (frame.echo) continue;
+    ReadFrame& added = without.emplace_back(frame);
+    if (added.other) added.other = number[*added.other];
+    if (added.repeats) added.repeats = number[*added.repeats];
+  }
+  return without;
+}
 
 /// Whether a request waited for its answer together with others, as on Modbus TCP. `answered`: the last answer to any
 /// request before it.
@@ -294,7 +313,8 @@ std::string how_to_run(const RecordedProtocol& protocol, const PlaybackChoices& 
       protocol.of_other_makes ? fmt::format(", such as westinghouse:MODEL with --protocol {}", protocol.name) : "");
 }
 
-Playback playback(const std::vector<ReadFrame>& frames, const Stamps& stamps, const PlaybackChoices& choices) {
+Playback playback(const std::vector<ReadFrame>& heard, const Stamps& stamps, const PlaybackChoices& choices) {
+  const std::vector<ReadFrame> frames = without_echoes(heard);
   Steps steps(frames, stamps, choices);
   for (std::size_t number = 0; number < frames.size(); ++number) steps.add(number);
   return steps.finish();

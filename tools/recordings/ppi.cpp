@@ -296,6 +296,10 @@ class PpiReader final : public FrameReader {
     return length && *length <= bytes.size() ? *length : 0;
   }
 
+  bool announces_more(Data bytes, Direction, const RecordedFrame*) const override {
+    return !bytes.empty() && ppi::frame_length(bytes).value_or(bytes.size() + 1) > bytes.size();
+  }
+
  private:
   /// The last request of a master to a station, which waits to be fetched.
   struct Job {

@@ -1,22 +1,14 @@
 // The protocols of our own programs, and PPI, in recordings.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 
+#include "interpreter/base/counted.hpp"
 #include "serial_sim/peers/answer.hpp"
 #include "tools/recordings/conversation.hpp"
 
 namespace s7200::tools {
-
-/// `1 byte`, `2 bytes`
-inline std::string plural(std::size_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
 
 inline bool fits(const serial::Answer& answer) {
   return answer.verdict == serial::Verdict::Right || answer.verdict == serial::Verdict::Exception;
@@ -31,11 +23,12 @@ std::unique_ptr<FrameReader> text_reader(const ChosenWords& chosen);
 /// Of a protocol whose frames say all by themselves: it keeps nothing from frame to frame.
 template <ReadFrame (*Read)(const RecordedFrame& frame, const RecordedFrame* open),
           std::size_t (*First)(std::span<const std::uint8_t> bytes, const RecordedFrame* open)>
-class PlainReader final : public FrameReader {
+class PlainReader : public FrameReader {
  public:
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override { return Read(frame, open); }
   bool may_be_echoed(const RecordedFrame& frame) const override {
-    return Read(frame, &frame).direction == Direction::Answer;
+    const RecordedFrame unsaid{.bytes = frame.bytes};
+    return Read(unsaid, &unsaid).direction == Direction::Answer;
   }
   std::size_t first_message(std::span<const std::uint8_t> bytes, const RecordedFrame* open) const override {
     return First(bytes, open);

@@ -7,8 +7,10 @@
 
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -71,6 +73,26 @@ std::string_view in_utf8(std::string_view file, std::string& decoded) {
   return decoded = std::move(text->text);
 }
 
+/// A mnemonic with an operand, or one that cannot be hex; or the heading of a network or a block.
+bool is_statement(const std::vector<std::string>& words) {
+  const std::string first = stl::upper_case(words.front());
+  if (words.size() <= 2 && (first == "NETWORK" || first.ends_with("_BLOCK"))) return true;
+  const bool may_be_hex = first.find_first_not_of("0123456789ABCDEF") == std::string::npos;
+  const bool has_operand = words.size() > 1 && std::ranges::any_of(words[1], stl::is_digit);
+  return find_instruction(first) != nullptr && (words.size() == 1 ? !may_be_hex : has_operand);
+}
+
+/// Whether most of its lines are statements.
+bool is_stl_program(std::string_view bytes) {
+  std::size_t statements = 0, others = 0;
+  for (const std::string_view line : Lines(beginning_of(bytes))) {
+    const std::vector<std::string> words = stl::split_words(line);
+    if (words.empty() || words.front().starts_with("//")) continue;
+    (is_statement(words) ? statements : others) += 1;
+  }
+  return statements > others;
+}
+
 }  // namespace
 
 std::span<const RecordingForm> recording_forms() { return kForms; }
@@ -83,6 +105,10 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
     why = fmt::format("it has none of the forms {}", stl::joined(kForms, &RecordingForm::name));
+    return {};
+  }
+  if (form->looks_like == is_text && is_stl_program(bytes)) {
+    why = "it is a program in STL, not a recording; s7200 check reads it, s7200 run runs it";
     return {};
   }
   auto recording = form->read(bytes, choices, why);

@@ -15,6 +15,7 @@ namespace {
 Direction direction_of_heading(std::string_view text) {
   static const std::regex kArrow(R"(\w\s*(-+>|<-+)\s*\w)");
   const std::string_view head = text.substr(0, kLongestHead);
+  if (head.find("->") == std::string_view::npos && head.find("<-") == std::string_view::npos) return direction_of(head);
   return std::regex_search(head.begin(), head.end(), kArrow) ? Direction::Unknown : direction_of(head);
 }
 
@@ -22,6 +23,7 @@ Direction direction_of_heading(std::string_view text) {
 std::size_t length_of_counter(std::string_view line) {
   static const std::regex kCounter(R"(\s*[TR]x:\d+-)");
   TextMatch match;
+  if (line.substr(0, kLongestHead).find("x:") == std::string_view::npos) return 0;
   return begins_with(line, match, kCounter) ? static_cast<std::size_t>(match.length()) : 0;
 }
 
@@ -34,6 +36,7 @@ struct LeadingDirection {
 LeadingDirection leading_direction(std::string_view line) {
   static const std::regex kPattern(R"((?:\[\w+\]>([TR]x) )?[<>] )");
   TextMatch match;
+  if (line.empty() || std::string_view("[<>").find(line.front()) == std::string_view::npos) return {};
   if (!begins_with(line, match, kPattern)) return {};
   const auto length = static_cast<std::size_t>(match.length());
   if (!leading_time(line.substr(length))) return {};
@@ -42,41 +45,11 @@ LeadingDirection leading_direction(std::string_view line) {
 
 bool has_clock(std::string_view text) {
   static const std::regex kClock(R"(\d:\d\d\b)");
+  if (text.find(':') == std::string_view::npos) return false;
   return std::regex_search(text.begin(), text.end(), kClock);
 }
 
-constexpr std::size_t kFullRow = 16, kShortestFullRow = 2 * kFullRow, kLongestWithCharacters = 1000;
-
-/// `|....4...|` of hexdump -C.
-std::string_view without_bars(std::string_view text) {
-  const bool barred = text.size() > 2 && text.front() == '|' && text.back() == '|';
-  return barred ? text.substr(1, text.size() - 2) : text;
-}
-
-/// What is not ASCII as one sign, whatever it takes in UTF-8.
-std::string in_single_bytes(std::string_view text) {
-  std::string single;
-  for (const char c : text)
-    if ((c & 0xC0) != 0x80 || single.empty()) single += (c & 0x80) != 0 ? '.' : c;
-  return single;
-}
-
-/// Without the characters that some tools put beside the hex: after two blanks or more, after one in a full row. The first
-/// of them may be blanks.
-std::string_view without_characters(std::string_view line) {
-  if (line.size() > kLongestWithCharacters) return line;
-  for (std::size_t gap = line.find(' '); gap != std::string_view::npos; gap = line.find(' ', gap + 1)) {
-    const std::size_t last = line.find_first_not_of(' ', gap);
-    if (last == std::string_view::npos) return line;
-    if (last - gap == 1 && gap < kShortestFullRow) continue;
-    const auto bytes = bytes_in_line(line.substr(0, gap));
-    if (!bytes || bytes->end != gap) continue;
-    for (std::size_t column = gap + (bytes->bytes.size() < kFullRow ? 2 : 1); column <= last; ++column)
-      if (is_column_of_characters(in_single_bytes(without_bars(line.substr(column))), bytes->bytes))
-        return line.substr(0, gap);
-  }
-  return line;
-}
+constexpr std::size_t kFullRow = 16;
 
 struct RecordedCharacter {
   Direction direction;
@@ -87,7 +60,8 @@ struct RecordedCharacter {
 std::optional<RecordedCharacter> character_of_interceptty(std::string_view line) {
   static const std::regex kCharacter(R"(([<>])\s+0x([0-9A-Fa-f]{2})(\s+\(.*\))?\s*$)");
   TextMatch match;
-  if (line.size() > kLongestHead || !begins_with(line, match, kCharacter)) return {};
+  const bool may_be = !line.empty() && (line.front() == '<' || line.front() == '>') && line.size() <= kLongestHead;
+  if (!may_be || !begins_with(line, match, kCharacter)) return {};
   return RecordedCharacter{match.str(1) == ">" ? Direction::Request : Direction::Answer,
                            static_cast<std::uint8_t>(std::stoul(match.str(2), nullptr, 16))};
 }
@@ -160,10 +134,10 @@ class LogReader {
 
   /// `0010  ` before a row: how many bytes of the frame stand above it.
   std::size_t length_of_offset(std::string_view line) const {
+    if (!heading_ && !goes_on_ && !is_dump(line)) return 0;
     static const std::regex kOffset(R"(\s{0,9}([0-9A-Fa-f]{8}|[0-9A-Fa-f]{4})(:\s|\s\s))");
     TextMatch match;
     if (!begins_with(line, match, kOffset)) return 0;
-    if (!heading_ && !goes_on_ && !is_dump(line)) return 0;
     return std::stoul(match.str(1), nullptr, 16) == bytes_above() ? static_cast<std::size_t>(match.length()) : 0;
   }
 
@@ -173,6 +147,8 @@ class LogReader {
   static bool is_dump(std::string_view line) {
     static const std::regex kDump(R"([0-9A-Fa-f]{8}\s\s+[0-9A-Fa-f]{2}(\s|$))");
     TextMatch match;
+    constexpr std::size_t kDigits = 8, kShortest = 12;
+    if (line.size() < kShortest || (line[kDigits] != ' ' && line[kDigits] != '\t')) return false;
     return begins_with(line, match, kDump);
   }
 

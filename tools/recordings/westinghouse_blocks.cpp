@@ -91,7 +91,7 @@ class BlockReader final : public FrameReader {
     using westinghouse::Opcode;
     constexpr std::size_t kAddress = 1, kCount = 3;
     const unsigned address = load16_low_first(&bytes[kAddress]);
-    const std::string count = plural(bytes[kCount] + 1U, "byte");
+    const std::string count = counted(bytes[kCount] + 1U, "byte");
     switch (static_cast<Opcode>(bytes[0])) {
       case Opcode::BitWrite:
         if (westinghouse::is_retest(bytes)) return "retest";

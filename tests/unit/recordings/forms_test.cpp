@@ -773,7 +773,8 @@ TEST(TextLines, ARecordingOfTextIsRecognised) {
   for (const char* log :
        {"0.000 TX 4D 45 41 53 3F 0D 0A\n0.050 RX 31 2E 35 0D 0A\n", "0.000 4D 45 41 53 3F 0D 0A\n0.050 31 2E 35 0D 0A\n"}) {
     const LineRecording recording = recording_of(log);
-    const RecordedProtocol* const likelier = likelier_protocol(recording, modbus, conversation(recording, modbus), {});
+    const RecordedProtocol* const likelier =
+        likelier_protocol(recording, modbus, RightFrames(conversation(recording, modbus)), {});
     ASSERT_NE(likelier, nullptr) << log;
     EXPECT_EQ(likelier->name, "text");
   }

@@ -778,14 +778,41 @@ TEST(Recordings, WhatIsLeftOutOfACaptureIsCountedByItsReason) {
                                                        "2 packets of TCP in fragments or cut off were left out"}));
 }
 
-TEST(Recordings, AConnectionWithSegmentsMissingIsLeftOutFromThereOn) {
+constexpr const char* kLostSegment =
+    "packet 2: segments before it are missing; reading goes on with the next message that begins a segment";
+
+TEST(Recordings, ALostSegmentCostsTheMessagesInItAndNotTheConnection) {
   const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
   const auto length = static_cast<std::uint32_t>(request.size());
-  const LineRecording recording =
-      recording_of(ethernet_pcap({segment(true, 100, request), segment(true, 100 + 2 * length, request)}));
-  EXPECT_EQ(recording.frames.size(), 1U);
-  EXPECT_EQ(recording.notes,
-            std::vector<std::string>{"packet 2: the rest of this connection was left out: segments before it are missing"});
+  const LineRecording recording = recording_of(ethernet_pcap(
+      {segment(true, 100, request), segment(true, 100 + 2 * length, request), segment(true, 100 + 3 * length, request)}));
+  EXPECT_EQ(recording.frames.size(), 3U);
+  EXPECT_TRUE(recording.frames[0].more_was_lost);
+  EXPECT_FALSE(recording.frames[1].more_was_lost);
+  EXPECT_EQ(recording.notes, std::vector<std::string>{kLostSegment});
+}
+
+TEST(Recordings, AfterALostSegmentReadingGoesOnWhereMessagesBegin) {
+  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
+  const auto length = static_cast<std::uint32_t>(request.size());
+  Bytes tail(request.begin() + 5, request.end());
+  const auto missing = static_cast<std::uint32_t>(tail.size());
+  tail.insert(tail.end(), request.begin(), request.end());
+  const LineRecording within = recording_of(ethernet_pcap(
+      {segment(true, 100, request), segment(true, 200, tail), segment(true, 200 + missing + length, request)}));
+  EXPECT_EQ(within.frames.size(), 3U) << "the rest of a message, and a whole one";
+  const Bytes begin(request.begin(), request.begin() + 8), rest(request.begin() + 8, request.end());
+  EXPECT_EQ(recording_of(ethernet_pcap({segment(true, 100, request), segment(true, 200, begin), segment(true, 208, rest)}))
+                .frames.size(),
+            2U)
+      << "a message that goes on in the next segment";
+  const Bytes noise{0x12, 0x34, 0x56, 0x78, 0x9A, 0xBC, 0xDE};
+  const LineRecording broken =
+      recording_of(ethernet_pcap({segment(true, 100, request), segment(true, 112, noise), segment(true, 119, request)}));
+  EXPECT_EQ(broken.frames.size(), 2U);
+  EXPECT_EQ(broken.notes,
+            std::vector<std::string>{
+                "packet 2: protocol 22136 instead of 0; reading goes on with the next message that begins a segment"});
 }
 
 TEST(Recordings, WhatIsNoRecordingIsRefused) {
@@ -1045,22 +1072,10 @@ TEST(Conversation, AnAnswerThatACutOffFileHasLostIsNotExpectedToBeSilence) {
   const std::string whole = file.str();
   EXPECT_TRUE(playback(read(recording_of(whole)), {}, {}).notes.empty());
   const Playback cut = playback(read(recording_of(whole.substr(0, whole.size() - 1))), {}, {});
-  EXPECT_EQ(cut.notes, std::vector<std::string>{"packet 3: left out: the recording is cut off after it"});
+  EXPECT_EQ(cut.notes, std::vector<std::string>{"packet 3: left out: what came after it is missing from the recording"});
   EXPECT_EQ(cut.scenario.find("silence"), std::string::npos);
-  EXPECT_NE(cut.scenario.find("      # packet 3: left out: the recording is cut off after it\n"), std::string::npos);
-}
-
-TEST(Conversation, RequestsOfAConnectionWhoseAnswersAreMissingAreNotExpectedToBeSilence) {
-  const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
-  const Bytes answer = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 2, 0x12, 0x34}});
-  const auto asked = static_cast<std::uint32_t>(request.size()), answered = static_cast<std::uint32_t>(answer.size());
-  const Playback left = playback(
-      read(recording_of(
-          ethernet_pcap({segment(true, 100, request), segment(false, 500, answer), segment(true, 100 + asked, request),
-                         segment(false, 500 + 2 * answered, answer), segment(true, 100 + 2 * asked, request)}))),
-      {}, {});
-  EXPECT_EQ(left.notes, std::vector<std::string>{"packet 3: left out: the recording is cut off after it"});
-  EXPECT_EQ(left.scenario.find("silence"), std::string::npos);
+  EXPECT_NE(cut.scenario.find("      # packet 3: left out: what came after it is missing from the recording\n"),
+            std::string::npos);
 }
 
 /// A request, an answer and their order on Modbus TCP.
@@ -1081,6 +1096,23 @@ struct TcpTalk {
     sequence += static_cast<std::uint32_t>(bytes.size());
   }
 };
+
+TEST(Conversation, RequestsOfAConnectionWhoseAnswersAreMissingAreNotExpectedToBeSilence) {
+  TcpTalk talk;
+  for (const std::uint16_t transaction : std::initializer_list<std::uint16_t>{7, 8, 9}) {
+    talk.ask(transaction, 10);
+    talk.answer(transaction, 11);
+  }
+  talk.packets.erase(talk.packets.begin() + 3);  // the answer to the second request
+  const auto frames = read(recording_of(ethernet_pcap(talk.packets)));
+  ASSERT_EQ(frames.size(), 5U);
+  EXPECT_EQ(frames[0].other, 1U);
+  EXPECT_EQ(frames[2].other, std::nullopt);
+  EXPECT_EQ(frames[3].other, 4U) << "the connection goes on";
+  const Playback left = playback(frames, {}, {});
+  EXPECT_EQ(left.notes, std::vector<std::string>{"packet 3: left out: what came after it is missing from the recording"});
+  EXPECT_EQ(left.scenario.find("silence"), std::string::npos);
+}
 
 TEST(Conversation, AnswersOfModbusTcpGoToTheRequestsOfTheirTransactions) {
   TcpTalk talk;
@@ -1349,7 +1381,7 @@ TEST(Conversation, AFrameThatALogHasInSeveralRowsIsOne) {
   EXPECT_EQ(said("0.030 RX 01 03 04\n0.0335 RX 12 34 56 78 81 07\n"), one);
   EXPECT_EQ(said("0.030 RX 01 03 04\n0.030 RX 12 34 56 78 81 07\n"), one) << "noted at once";
   EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 RX 12 34\n0.036 RX 56 78 81 07\n"), one);
-  EXPECT_EQ(said("0.030 RX 01 03 04\n0.040 RX 12 34 56 78 81 07\n").size(), 3U) << "after a silence";
+  EXPECT_EQ(said("0.030 RX 01 03 04\n0.240 RX 12 34 56 78 81 07\n"), one) << "it says that more is to come";
   EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 RX 12 34 56 78 81 08\n").size(), 3U) << "a wrong CRC";
   EXPECT_EQ(said("0.030 RX 01 03 04\n0.034 TX 12 34 56 78 81 07\n").size(), 3U) << "of the other";
 }
@@ -1371,7 +1403,8 @@ TEST(Conversation, ARecordingThatLooksLikeAnotherProtocolIsSeen) {
   const LineRecording modbus = recording_of("TX 01 03 00 00 00 01 84 0A\nRX 01 03 02 12 34 B5 33\n");
   const auto likelier = [](const LineRecording& recording, std::string_view chosen) {
     const RecordedProtocol& protocol = *find_recorded_protocol(chosen);
-    const RecordedProtocol* other = likelier_protocol(recording, protocol, conversation(recording, protocol), {});
+    const RightFrames right(conversation(recording, protocol));
+    const RecordedProtocol* other = likelier_protocol(recording, protocol, right, {});
     return other == nullptr ? "" : std::string(other->name);
   };
   EXPECT_EQ(likelier(ppi, "modbus"), "ppi");

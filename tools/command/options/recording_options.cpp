@@ -113,7 +113,7 @@ std::optional<SlaveTarget> RecordingOptions::live() const {
                   stl::shortened(file)));
 }
 
-bool RecordingOptions::was_cut_short() const { return duration != kNever && interrupted(); }
+bool RecordingOptions::was_cut_short() const { return (duration != kNever || !live()) && interrupted(); }
 
 RecordedProtocol RecordingOptions::spoken() const {
   RecordedProtocol spoken = *find_recorded_protocol(protocol);
@@ -160,22 +160,11 @@ bool listen(LineListener& line, const RecordingOptions& options, const std::func
   }
 }
 
-std::optional<ReadRecording> read_conversation(const RecordingOptions& options) {
+std::optional<ReadRecording> read_file(const RecordingOptions& options) {
   ReadRecording read;
-  if (const auto target = options.live()) {
-    const auto line = open_line(options, *target);
-    if (!line) return {};
-    read.name = line->name();
-    read.stamps = options.complete(line->stamps());
-    const auto keep = [&](ReadFrame frame) {
-      if (frame.other) read.frames[*frame.other].other = read.frames.size();
-      read.frames.push_back(std::move(frame));
-    };
-    if (!listen(*line, options, keep)) return {};
-    return read;
-  }
   const auto bytes = read_input(options.file, read.name);
   if (!bytes) return {};
+  catch_interruption();
   std::string why;
   ReadingChoices choices = options.reading;
   choices.line = options.line;
@@ -197,9 +186,39 @@ std::optional<ReadRecording> read_conversation(const RecordingOptions& options) 
         fmt::format("most frames begin before the one before can be over at {} baud: name the rate of the line with "
                     "--baud, or silences are wrong",
                     format.baud));
-  read.frames = conversation(read.recording, options.spoken(), read.stamps);
-  if (const RecordedProtocol* other = likelier_protocol(read.recording, options.spoken(), read.frames, read.stamps))
+  return read;
+}
+
+void tell_frames(const ReadRecording& read, const RecordingOptions& options, const std::function<void(ReadFrame&)>& tell) {
+  ConversationNotes notes;
+  RightFrames right;
+  const RecordedProtocol spoken = options.spoken();
+  tell_conversation(read.recording, spoken, read.stamps, [&](ReadFrame& frame) {
+    notes.add(frame);
+    right.add(frame);
+    tell(frame);
+    return !interrupted();
+  });
+  print_notes(notes.list());
+  if (interrupted()) return;
+  if (const RecordedProtocol* other = likelier_protocol(read.recording, spoken, right, read.stamps))
     print_note(fmt::format("hardly a frame is right; it looks like {0}: --protocol {0}", other->name));
+}
+
+std::optional<ReadRecording> read_conversation(const RecordingOptions& options) {
+  const auto target = options.live();
+  auto read = target ? std::optional(ReadRecording{}) : read_file(options);
+  if (!read) return {};
+  const auto keep = [&](ReadFrame&& frame) {
+    if (frame.other) read->frames[*frame.other].other = read->frames.size();
+    read->frames.push_back(std::move(frame));
+  };
+  if (!target) return tell_frames(*read, options, [&](ReadFrame& frame) { keep(std::move(frame)); }), read;
+  const auto line = open_line(options, *target);
+  if (!line) return {};
+  read->name = line->name();
+  read->stamps = options.complete(line->stamps());
+  if (!listen(*line, options, keep)) return {};
   return read;
 }
 

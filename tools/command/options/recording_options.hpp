@@ -56,7 +56,7 @@ struct RecordingOptions {
 /// A recording with what it says.
 struct ReadRecording {
   LineRecording recording;
-  std::vector<ReadFrame> frames;  ///< of the recording, or heard live
+  std::vector<ReadFrame> frames{};  ///< of the recording, or heard live
   Stamps stamps;
   std::string name;                    ///< what messages call the file
   std::optional<SerialFormat> line{};  ///< that the silences of a file are those of, if they are those of a serial line
@@ -79,7 +79,14 @@ inline constexpr std::string_view kEndOfListening =
     "Exit code 1 if --for was interrupted before its end; without it a line is listened to until Ctrl-C or SIGTERM, and\n"
     "that is 0.\n";
 
-/// Nothing after a message. Notes are printed.
+/// A file without its frames, which tell_frames() has. Nothing after a message. Notes are printed. Interruptions are noted
+/// from here on.
+std::optional<ReadRecording> read_file(const RecordingOptions& options);
+
+/// Tells each frame of a file, as long as there is no interruption, then prints notes on all of them.
+void tell_frames(const ReadRecording& read, const RecordingOptions& options, const std::function<void(ReadFrame&)>& tell);
+
+/// With all frames, of a file or of a line. Nothing after a message. Notes are printed.
 std::optional<ReadRecording> read_conversation(const RecordingOptions& options);
 
 }  // namespace s7200::tools

@@ -1,0 +1,16 @@
+// Programs in another language, or for another family of controllers, that are taken for STL of the S7-200.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "interpreter/base/diagnostic.hpp"
+
+namespace s7200 {
+
+/// One message at the first line that shows it, if a text (UTF-8, plain) is STL of STEP 7 for the S7-300 and S7-400, IL or
+/// ST of IEC 61131-3 (SCL), or a program of Mitsubishi or Omron. Nothing for STL of the S7-200, also with some words of the
+/// others in it, which have messages of their own. Looks at the first 300 lines of code.
+std::optional<stl::Diagnostic> other_dialect(std::string_view text);
+
+}  // namespace s7200

@@ -1,0 +1,252 @@
+// What the rows of a log are together: frames in pieces, echoes, numbers that are no bytes, transactions of Modbus TCP.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tools/recordings/decoded.hpp"
+#include "tools/recordings/playback.hpp"
+
+namespace s7200::tools {
+namespace {
+
+const std::string kAsked = "station 1, read holding registers 40011, 2 of them", kSaid = "2 registers: 16#1234 16#5678";
+
+LineRecording recording_of(const std::string& bytes) {
+  std::string why;
+  auto recording = read_recording(bytes, {}, why);
+  EXPECT_TRUE(recording) << why << '\n' << bytes;
+  return recording.value_or(LineRecording{});
+}
+
+std::string refusal_of(const std::string& bytes) {
+  std::string why;
+  EXPECT_FALSE(read_recording(bytes, {}, why)) << bytes;
+  return why;
+}
+
+std::vector<ReadFrame> read(const std::string& bytes, const Stamps& stamps = {.character = 1'145'833},
+                            std::string_view protocol = "modbus") {
+  return conversation(recording_of(bytes), *find_recorded_protocol(protocol), stamps);
+}
+
+std::vector<std::string> texts(const std::vector<ReadFrame>& frames) {
+  std::vector<std::string> said;
+  for (const ReadFrame& frame : frames) said.push_back(frame.text);
+  return said;
+}
+
+std::vector<std::string> notes(const std::vector<ReadFrame>& frames) {
+  ConversationNotes notes;
+  for (const ReadFrame& frame : frames) notes.add(frame);
+  return notes.list();
+}
+
+std::string summary(const std::vector<ReadFrame>& frames) {
+  DecodedSummary summary;
+  for (const ReadFrame& frame : frames) summary.add(frame);
+  return summary.text();
+}
+
+// --- frames in pieces ---
+
+TEST(RowsOfALog, AnAnswerInSeveralRowsIsOneWhateverLiesBetweenThem) {
+  for (const char* const log :
+       {"10:00:00.000 TX 01 03 00 0a 00 02 e4 09\n10:00:00.030 RX 01 03 04\n10:00:00.046 RX 12 34 56 78 81 07\n",
+        "10:00:00.000 01 03 00 0a 00 02 e4 09\n10:00:00.030 01 03 04 12\n10:00:00.046 34 56 78 81 07\n",
+        "TX 01 03 00 0a 00 02 e4 09\nRX 01\nRX 03 04 12 34 56\nRX 78\nRX 81 07\n",
+        "01 03 00 0a 00 02 e4 09\n01 03 04 12 34 56 78 81\n07\n"}) {
+    const auto frames = read(log);
+    EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid})) << log;
+    ASSERT_EQ(notes(frames).size(), 1U) << log;
+    EXPECT_TRUE(notes(frames)[0].starts_with("line 2: an answer in ")) << notes(frames)[0];
+  }
+}
+
+TEST(RowsOfALog, ARequestInSeveralRowsIsOne) {
+  const auto frames = read("0.000 RX 01 03 00 0a\n0.016 RX 00 02 e4 09\n0.050 TX 01 03 04 12 34 56 78 81 07\n");
+  const auto turned = read("0.000 TX 01 03 00 0a\n0.016 TX 00 02 e4 09\n0.050 RX 01 03 04 12 34 56 78 81 07\n");
+  EXPECT_EQ(texts(turned), (std::vector{kAsked, kSaid}));
+  EXPECT_EQ(notes(turned), std::vector<std::string>{"line 1: a request in 2 pieces: joined, as only the whole is right"});
+  EXPECT_EQ(frames.size(), 3U) << "directions are not settled here";
+}
+
+TEST(RowsOfALog, PiecesThatAreTheEndOfOneMessageAndTheBeginOfTheNextAreToldApart) {
+  const auto frames = read("01 03 00 0a 00 02 e4 09 01 03\n04 12 34 56 78 81 07 01 03 00 0a\n00 02 e4 09\n");
+  EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid, kAsked}));
+}
+
+TEST(RowsOfALog, RowsAreJoinedOnlyIfTheWholeIsRight) {
+  const std::string asked = "0.000 TX 01 03 00 0a 00 02 e4 09\n";
+  for (const char* const rows :
+       {"0.030 RX 01 03 04\n0.046 RX 12 34 56 78 81 08\n", "0.030 RX 01 03 04\n0.046 TX 12 34 56 78 81 07\n",
+        "0.030 RX 01 03 02\n0.046 RX 12 34 56 78 81 07\n", "0.030 RX 01 03 04\n0.046 RX 12 34\n"}) {
+    const auto frames = read(asked + rows);
+    EXPECT_EQ(frames.size(), 3U) << rows;
+    EXPECT_EQ(notes(frames), std::vector<std::string>{}) << rows;
+  }
+}
+
+TEST(RowsOfALog, AnAnswerOfPpiInSeveralRowsIsOne) {
+  const auto frames = read("0.000 TX 10 02 00 49 4B 16\n0.030 RX 10 00 02\n0.046 RX 00 02 16\n", {}, "ppi");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].other, 0U);
+}
+
+TEST(RowsOfALog, AScenarioOfAnAnswerInPiecesExpectsTheWhole) {
+  const Playback played =
+      playback(read("0.000 TX 01 03 00 0a 00 02 e4 09\n0.030 RX 01 03 04\n0.046 RX 12 34 56 78 81 07\n"), {}, {});
+  EXPECT_NE(played.scenario.find("expect: 01 03 04 12 34 56 78 81 07"), std::string::npos) << played.scenario;
+}
+
+// --- echoes ---
+
+TEST(RowsOfALog, AnEchoInTheRowOfTheAnswerIsNamedAndIsNoAnswer) {
+  const std::string request = "01 03 00 0a 00 02 e4 09", answer = "01 03 04 12 34 56 78 81 07";
+  for (const auto& [sent, received] : {std::pair{"TX ", "RX "}, {"", ""}}) {
+    std::string log;
+    for (const int second : {0, 1})
+      log += fmt::format("10:00:0{0}.000 {1}{3}\n10:00:0{0}.040 {2}{3} {4}\n", second, sent, received, request, answer);
+    const auto frames = read(log);
+    EXPECT_EQ(texts(frames), (std::vector<std::string>{kAsked, "the echo of the request", kSaid, kAsked,
+                                                       "the echo of the request", kSaid}));
+    EXPECT_EQ(summary(frames),
+              "requests: 2, answered: 2 after 40 ms to 40 ms; wrong frames: 0, frames of no request: 0, echoes: 2\n");
+    EXPECT_EQ(notes(frames), std::vector<std::string>{"line 2: the echo of a request, and 1 more: an adapter for two wires "
+                                                      "hears what it sends; that is not an answer"});
+    const Playback played = playback(frames, {}, {});
+    EXPECT_EQ(played.notes, std::vector<std::string>{});
+    EXPECT_NE(played.scenario.find("expect: " + answer), std::string::npos) << played.scenario;
+  }
+}
+
+TEST(RowsOfALog, AnEchoMayHaveARowOfItsOwnOrShareItWithTheBeginOfTheAnswer) {
+  for (const char* const rows : {"0.010 RX 01 03 00 0a 00 02 e4 09\n0.040 RX 01 03 04 12 34 56 78 81 07\n",
+                                 "0.010 RX 01 03 00 0a 00 02 e4 09 01 03\n0.040 RX 04 12 34 56 78 81 07\n",
+                                 "0.010 RX 01 03 00 0a\n0.020 RX 00 02 e4 09 01 03 04 12 34 56 78 81 07\n"}) {
+    const auto frames = read(std::string("0.000 TX 01 03 00 0a 00 02 e4 09\n") + rows);
+    EXPECT_EQ(texts(frames), (std::vector<std::string>{kAsked, "the echo of the request", kSaid})) << rows;
+  }
+}
+
+TEST(RowsOfALog, TheEchoOfAWriteIsKnownWhereARecordingHasEchoes) {
+  const std::string echoed =
+      "0.000 TX 01 03 00 0a 00 02 e4 09\n0.010 RX 01 03 00 0a 00 02 e4 09\n"
+      "0.040 RX 01 03 04 12 34 56 78 81 07\n";
+  const std::string write = "1.000 TX 01 06 00 00 00 01 48 0A\n1.010 RX 01 06 00 00 00 01 48 0A\n";
+  const auto kinds = [](const std::string& log) {
+    std::string of_each;
+    for (const ReadFrame& frame : read(log))
+      of_each += frame.echo                              ? 'e'
+                 : frame.direction == Direction::Request ? '>'
+                 : frame.direction == Direction::Answer  ? '<'
+                                                         : '?';
+    return of_each;
+  };
+  EXPECT_EQ(kinds(write), "><") << "an answer is the same";
+  EXPECT_EQ(kinds(echoed + write), ">e<>e");
+  EXPECT_EQ(kinds(echoed + write + "1.040 RX 01 06 00 00 00 01 48 0A\n"), ">e<>e<");
+}
+
+TEST(RowsOfALog, ARequestThatTheMasterSendsOnceMoreIsNoEcho) {
+  const auto frames = read(
+      "0.000 TX 01 03 00 0a 00 02 e4 09\n0.500 TX 01 03 00 0a 00 02 e4 09\n"
+      "0.540 RX 01 03 04 12 34 56 78 81 07\n");
+  EXPECT_EQ(texts(frames), (std::vector{kAsked, kAsked, kSaid}));
+  const auto unmarked = read("0.000 01 03 00 0a 00 02 e4 09\n0.500 01 03 00 0a 00 02 e4 09 01 03 04 12 34 56 78 81 07\n");
+  EXPECT_EQ(texts(unmarked), (std::vector{kAsked, kAsked, kSaid})) << "later than its time-out";
+}
+
+// --- Modbus TCP ---
+
+TEST(ModbusTcpInALog, UnitZeroIsAnAddressLikeAnyOther) {
+  const auto frames = read(
+      "10:00:00.000 TX 00 01 00 00 00 06 00 03 00 0a 00 01\n"
+      "10:00:00.020 RX 00 01 00 00 00 05 00 03 02 12 34\n",
+      {});
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{"station 0, read holding registers 40011, 1 of them", "1 register: 16#1234"}));
+  EXPECT_FALSE(frames[0].needs_no_answer);
+  EXPECT_EQ(
+      playback(frames, {}, {}).notes,
+      std::vector<std::string>{"line 1: left out: unit 0 of Modbus TCP is a device; on a serial line it is all stations, "
+                               "and none answers"});
+  EXPECT_EQ(read("TX 00 06 00 00 00 01 49 DB\n")[0].text, "all stations, write register 40001 = 16#0001") << "on a line";
+}
+
+TEST(ModbusTcpInALog, AnAnswerBelongsToItsTransactionWhateverUnitItNames) {
+  const auto frames = read(
+      "0.000 TX 00 01 00 00 00 06 01 03 00 0a 00 01\n0.001 TX 00 02 00 00 00 06 02 03 00 0a 00 01\n"
+      "0.020 RX 00 02 00 00 00 05 FF 03 02 00 02\n0.021 RX 00 01 00 00 00 05 01 03 02 00 01\n",
+      {});
+  ASSERT_EQ(frames.size(), 4U);
+  EXPECT_EQ(frames[2].other, 1U);
+  EXPECT_EQ(frames[2].text, "answer of station 255, not 2");
+  EXPECT_EQ(frames[3].other, 0U);
+}
+
+// --- numbers that are no bytes ---
+
+TEST(NumbersInALog, AByteInDecimalWithItsHexBesideItIsOneByte) {
+  for (const char* const log : {"[10:00:00.025][V][modbus:042]: Modbus received Byte  18 (0X12)\n"
+                                "[10:00:00.026][V][modbus:042]: Modbus received Byte  52 (0X34)\n",
+                                "0.025 RX 0x12 (18)\n0.026 RX 0x34 (52)\n", "0.025 18 [0x12]\n0.026 52 [0x34]\n"}) {
+    const LineRecording recording = recording_of(log);
+    ASSERT_EQ(recording.frames.size(), 1U) << log;
+    EXPECT_EQ(recording.frames[0].bytes, (Bytes{0x12, 0x34})) << log;
+    EXPECT_EQ(recording.frames[0].times.size(), 2U) << "one a row";
+  }
+  EXPECT_EQ(recording_of("0.025 received Byte  1 (0X1)\n").frames[0].bytes, (Bytes{0x01})) << "one digit";
+  EXPECT_EQ(refusal_of("0.025 RX 18 (0x45)\n"),
+            "no frame in it; line 1: left out: '(0x45)' beside its bytes is not understood");
+}
+
+TEST(NumbersInALog, NumbersThatWordsNameAreNoBytes) {
+  for (const char* const line :
+       {"length 12", "port 5020", "connected to plc7:5020", "tcp://plc.local:80", "Polling slave 10", "10:00:00.000 len: 08",
+        "127.0.0.1:5020", "baud 9600", "waiting for 50", "read 12 bytes", "sent (12 bytes)"})
+    EXPECT_TRUE(refusal_of(line).starts_with("no frame in it")) << line;
+  for (const char* const line :
+       {"0.0 TX length 08 01 03 00 0a 00 02 e4 09", "0.0 TX 08 bytes 01 03 00 0a 00 02 e4 09",
+        "0.0 plc7:5020 TX 01 03 00 0a 00 02 e4 09", "0.0 TX 01 03 00 0a 00 02 e4 09 (08 bytes)",
+        "0.0 127.0.0.1:5020 > 01 03 00 0a 00 02 e4 09", "0.0 TX (08 bytes): 01 03 00 0a 00 02 e4 09",
+        "0.0 COM3:01 03 00 0a 00 02 e4 09", "0.0 [::1]:5020 01 03 00 0a 00 02 e4 09"}) {
+    const LineRecording recording = recording_of(line);
+    ASSERT_EQ(recording.frames.size(), 1U) << line;
+    EXPECT_EQ(recording.frames[0].bytes, (Bytes{0x01, 0x03, 0x00, 0x0A, 0x00, 0x02, 0xE4, 0x09})) << line;
+  }
+}
+
+TEST(NumbersInALog, ANumberThatMayBeAByteOrNotIsNamed) {
+  using Case = std::pair<const char*, const char*>;
+  for (const auto& [line, what] :
+       {Case{"1700000000 01 03 00 0a 00 02 e4 09", "1700000000"}, Case{"000123 01 03 00 0a", "000123"},
+        Case{"length 12 01 03 00 0a 00 02 e4 09", "12"}, Case{"packet 12 01 03 00 0a 00 02 e4 09", "12"},
+        Case{"0000 01 03 00 0a", "0000"}, Case{"0x01 03 00 0a", "03"}})
+    EXPECT_EQ(refusal_of(line),
+              fmt::format("no frame in it; line 1: left out: '{}' beside its bytes is not understood", what));
+  EXPECT_EQ(recording_of("01,03,00,0a,00,02,e4,09\n").frames[0].bytes.size(), 8U) << "no time";
+}
+
+TEST(NumbersInALog, AProgramInStlIsNoRecording) {
+  const std::string refusal = "it is a program in STL, not a recording; s7200 check reads it, s7200 run runs it";
+  EXPECT_EQ(refusal_of("NETWORK 1\nLD SM0.0\n= M0.0\nMEND\n"), refusal);
+  EXPECT_EQ(refusal_of("ORGANIZATION_BLOCK MAIN:OB1\nNetwork 10 // one\nLD SM0.1\nMOVB 16#09, SMB30\nED\nCALL 10\n"),
+            refusal);
+  EXPECT_EQ(recording_of("ED\n0A 0B\n").frames.size(), 2U) << "bytes, though mnemonics are spelt the same";
+}
+
+// --- what wrong frames are ---
+
+TEST(WrongFrames, AFrameOfAnotherKindIsNamed) {
+  const auto said = [](const std::string& log) { return texts(read(log)).back(); };
+  EXPECT_EQ(said("TX 01 03 00 0a 00 02\n"), "a request without its CRC");
+  EXPECT_EQ(said("TX 01 03 00 0a 00 02 e4 09\nRX 01 03 04 12 34 56 78\n"), "an answer without its CRC");
+  EXPECT_EQ(said("TX 01 03 00 0a 00 02 09 e4\n"), "its CRC has the high byte first: Modbus RTU sends the low byte first");
+  EXPECT_EQ(said("TX 01 03 00 0a 00 02 e4 09\nRX 10 00 02 00 02 16\n"), "a frame of PPI, not of Modbus RTU");
+  EXPECT_EQ(said("TX 01 03 00 0a 00 02 e4 09\nTX 00 01 00 00 00 06 01 03 00 0a 00 02\n"),
+            "a message of Modbus TCP, not of Modbus RTU: it has a head and no CRC");
+  EXPECT_EQ(said("TX 3a 30 31 30 33 46 43 0d 0a\n"), "a frame of Modbus ASCII, not of Modbus RTU");
+  EXPECT_EQ(said("TX 01 03 00 0a 00 02 e4 08\n"), "wrong CRC, or not a whole frame");
+}
+
+}  // namespace
+}  // namespace s7200::tools
