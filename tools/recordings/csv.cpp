@@ -85,6 +85,16 @@ Columns columns_of(std::string_view line) {
   return columns;
 }
 
+/// `2026-11-27T10:00:00.123Z`, `…+02:00` of Logic 2: all of a table has the same zone.
+std::string_view without_zone(std::string_view time) {
+  constexpr std::size_t kZone = 6, kSign = 0, kColon = 3;
+  if (time.find('T') == std::string_view::npos) return time;
+  if (time.ends_with('Z')) return time.substr(0, time.size() - 1);
+  const std::string_view zone = time.substr(time.size() - std::min(kZone, time.size()));
+  const bool has_zone = zone.size() == kZone && (zone[kSign] == '+' || zone[kSign] == '-') && zone[kColon] == ':';
+  return has_zone ? time.substr(0, time.size() - kZone) : time;
+}
+
 /// A number in the column's unit, or a time as in a text. Where commas divide the columns, one in a number may stand for
 /// thousands, and is not read.
 std::optional<LeadingTime> time_of(const std::string& field, const Columns& columns) {
@@ -96,8 +106,9 @@ std::optional<LeadingTime> time_of(const std::string& field, const Columns& colu
     if (!readable || !(std::abs(time) < static_cast<long double>(kFurthestTime))) return {};
     return LeadingTime{.time = std::llround(time)};
   }
-  const auto time = leading_time(field);
-  return time && time->length == field.size() ? time : std::nullopt;
+  const std::string_view local = without_zone(field);
+  const auto time = leading_time(local);
+  return time && time->length == local.size() ? time : std::nullopt;
 }
 
 /// What a column of errors holds where there is none.

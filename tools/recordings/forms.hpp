@@ -61,6 +61,10 @@ std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, con
 bool looks_like_esphome(std::string_view bytes);
 std::optional<LineRecording> read_esphome(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
+/// By what its component `modbus` writes.
+bool looks_like_esphome_modbus(std::string_view bytes);
+std::optional<LineRecording> read_esphome_modbus(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
 /// By a line with an address and a length before a dump.
 bool looks_like_emodbus(std::string_view bytes);
 std::optional<LineRecording> read_emodbus(std::string_view bytes, const ReadingChoices& choices, std::string& why);

@@ -21,6 +21,8 @@ constexpr std::array kNames{
     Name{"time", Means::Time},
     Name{"timestamp", Means::Time},
     Name{"ts", Means::Time},
+    Name{"t", Means::Time},
+    Name{"at", Means::Time},
     Name{"datetime", Means::Time},
     Name{"date", Means::Time},
     Name{"@timestamp", Means::Time},

@@ -24,11 +24,11 @@ std::optional<std::uint8_t> byte_in_base(std::string_view digits, int base) {
   return error == std::errc{} && stopped == end && !digits.empty() ? std::optional(byte) : std::nullopt;
 }
 
-/// `18 (0X12)`, `'18' (0x12)`, `\r (0x0D)`: the same character twice. Logic and ESPHome write so.
+/// `18 (0X12)`, `'18' (0x12)`, `1 (0X1)`, `\r (0x0D)`: the same character twice. Logic and ESPHome write so.
 std::optional<Bytes> with_hex(std::string_view cell) {
-  constexpr std::size_t kLength = 6;  // (0x12)
-  if (cell.size() <= kLength || !cell.ends_with(')')) return {};
-  const std::string hex = stl::upper_case(cell.substr(cell.size() - kLength, kLength - 1));
+  const std::size_t bracket = cell.rfind('(');
+  if (bracket == std::string_view::npos || bracket == 0 || !cell.ends_with(')')) return {};
+  const std::string hex = stl::upper_case(cell.substr(bracket, cell.size() - bracket - 1));
   return hex.starts_with("(0X") ? one(byte_in_base(std::string_view(hex).substr(3), 16)) : std::nullopt;
 }
 

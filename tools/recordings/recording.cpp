@@ -34,6 +34,8 @@ constexpr std::array kForms{
     RecordingForm{"tcpdump", "what tcpdump -x or -X prints of Modbus TCP", false, looks_like_tcpdump, read_tcpdump},
     RecordingForm{"strace", "what strace prints of a program's reads and writes", true, looks_like_strace, read_strace},
     RecordingForm{"ESPHome", "what ESPHome logs with uart: debug:", true, looks_like_esphome, read_esphome},
+    RecordingForm{"ESPHome modbus", "what ESPHome's component modbus logs: Modbus write, Modbus received Byte", true,
+                  looks_like_esphome_modbus, read_esphome_modbus},
     RecordingForm{"eModbus", "what eModbus logs, with its dumps", true, looks_like_emodbus, read_emodbus},
     RecordingForm{"Tasmota", "a log of Tasmota with SerialSend5 and SerialReceived", true, looks_like_tasmota, read_tasmota},
     RecordingForm{"JSON", "JSON, an object with bytes in each line: time, direction, data", true, looks_like_json_lines,

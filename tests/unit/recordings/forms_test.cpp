@@ -190,6 +190,18 @@ TEST(Forms, ADamagedCharacterOfLogicHasItsErrorBesideItOrInAColumn) {
   EXPECT_EQ(two.frames[0].damaged, std::vector<std::size_t>{1});
 }
 
+TEST(Forms, SaleaeLogic2MayWriteDates) {
+  for (const char* const zone : {"Z", "+02:00", ""}) {
+    const LineRecording dates = recording_of(
+        fmt::format("name,type,start_time,duration,\"data\"\n\"TX\",\"data\",2026-11-27T10:00:00.001000000{0},0.001,0x01\n"
+                    "\"RX\",\"data\",2026-11-27T10:00:00.026000000{0},0.001,0x03\n",
+                    zone));
+    ASSERT_EQ(dates.frames.size(), 2U) << zone;
+    EXPECT_EQ(dates.frames[0].direction, Direction::Request);
+    EXPECT_EQ(dates.frames[1].at, 25 * ms);
+  }
+}
+
 TEST(Forms, SaleaeLogic2WritesCharactersAsTheyAre) {
   const LineRecording text = recording_of(
       "name,type,start_time,duration,\"data\"\n\"Async Serial\",\"data\",0.001,0.001,\"O\"\n"
@@ -262,6 +274,16 @@ TEST(Forms, EsphomeLogsBytesInAnyOfItsNotations) {
     EXPECT_EQ(recording.notes, std::vector<std::string>{"line 1: left out: no bytes in it"});
   }
   EXPECT_EQ(refusal_of("[D][uart_debug:114]: >>> 01:03:zz\n"), "line 1: 'zz' is not bytes in hex");
+}
+
+TEST(Forms, EsphomesModbusLogsWhatItWritesAndEachByteThatItReceives) {
+  std::string log = "[10:00:00.000][V][modbus:199]: Modbus write: 01.03.00.0A.00.02.E4.09 (8)\n";
+  int at = 25;
+  for (const std::uint8_t byte : kAnswer)
+    log += fmt::format("[10:00:00.{:03}][VV][modbus:042]: Modbus received Byte  {} (0X{:X})\n", at++, byte, byte);
+  expect_the_conversation(recording_of(log), "ESPHome modbus", 25 * ms);
+  EXPECT_EQ(recording_of(log + "[10:00:00.300][VV][modbus:042]: Modbus received Byte  1\n").notes,
+            std::vector<std::string>{"line 11: left out: '1' is not understood"});
 }
 
 TEST(Forms, EmodbusLogsALengthAndADump) {
