@@ -64,10 +64,9 @@ ClockTime now(const Core& core) {
   return advanced(core.s.clock, (core.s.time - core.s.clock_set_at) / core.by_own_clock(kSecond));
 }
 
-Time next_second(const Core& core) {
-  const Time begin = core.s.clock_set_at, second = core.by_own_clock(kSecond);
-  return begin + ((core.s.time - begin) / second + 1) * second;
-}
+Time fraction(const Core& core) { return (core.s.time - core.s.clock_set_at) % core.by_own_clock(kSecond); }
+
+Time next_second(const Core& core) { return core.s.time - fraction(core) + core.by_own_clock(kSecond); }
 
 Bcd bcd_now(const Core& core) {
   const ClockTime t = now(core);
@@ -103,7 +102,10 @@ void write(Core& core, std::uint32_t buffer) {
 
 /// The clock has run on while power was off.
 void power_up(Core& core, const RetentiveMemory* memory) {
-  if (memory && !memory->ram_lost) set(core, advanced(memory->clock, memory->power_off / core.by_own_clock(kSecond)));
+  if (!memory || memory->ram_lost) return;
+  const Time passed = memory->clock_fraction + memory->power_off, second = core.by_own_clock(kSecond);
+  core.s.clock = advanced(memory->clock, passed / second);
+  core.s.clock_set_at = core.s.time - passed % second;
 }
 
 }  // namespace s7200::clock

@@ -28,6 +28,8 @@ bool set_bcd(Core& core, const Bcd& to);
 
 void set(Core& core, const ClockTime& to);
 ClockTime now(const Core& core);
+/// How much of its second has passed.
+Time fraction(const Core& core);
 /// When it changes.
 Time next_second(const Core& core);
 

@@ -104,6 +104,12 @@ class Core {
     return reach_[code].base + offset;
   }
 
+  /// Whether an operand that a pointer has led to may be used so. SMB0 to SMB29 are read-only; analog values are words at
+  /// even addresses, AI is only read and AQ only written (facts 1.1).
+  static bool may_be_reached(std::uint32_t at, std::uint32_t width, Role role);
+  /// From SM to AQ: where a pointer leads only on late CPUs 22x, except to S.
+  static bool is_beyond_memory(std::uint32_t at) { return at - image::kSM < image::kT - image::kSM; }
+
   /// Whether `count` bytes from `at` are in one area of this CPU.
   bool in_area(std::uint32_t at, std::uint32_t count) const;
 

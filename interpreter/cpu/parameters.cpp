@@ -42,10 +42,11 @@ void write(Core& core, const Operand& to, Width width, std::uint32_t value) {
 }
 
 /// The caller's operand itself; nothing after error 0006.
-std::optional<Operand> direct(Core& core, Operand operand) {
+std::optional<Operand> direct(Core& core, const Parameter& parameter) {
+  Operand operand = parameter.actual;
   if (!operand.pointer) return operand;
   const auto place = core.resolve(load32(&core.s.image[operand.at]), operand.width);
-  if (!place) {
+  if (!place || (Core::is_beyond_memory(*place) && !Core::may_be_reached(*place, operand.width, parameter.role))) {
     core.run_error(RunError::IndirectAddress);
     return {};
   }
@@ -71,7 +72,7 @@ void hand_back(Core& core, const Op& call, const Values& values) {
   for (const Parameter& parameter : parameters_of(core, call)) {
     const std::uint32_t value = values[i++];
     if (parameter.role == Role::In) continue;
-    const auto to = direct(core, parameter.actual);
+    const auto to = direct(core, parameter);
     if (!to) continue;
     write(core, *to, parameter.width, value);
     port_control |= is_special_memory(*to);
@@ -87,7 +88,7 @@ void run_with_parameters(Core& core, const Op& op) {
   for (const Parameter& parameter : parameters::parameters_of(core, op)) {
     const std::size_t at = i++;
     if (parameter.role == Role::Out) continue;
-    const auto from = parameters::direct(core, parameter.actual);
+    const auto from = parameters::direct(core, parameter);
     if (!from) return;
     values[at] = parameters::read(core, *from, parameter.width);
   }

@@ -16,6 +16,7 @@ void up(Core& core, bool run, const RetentiveMemory* memory, Time at) {
   for (const Op& op : core.program().ops)
     if (op.instruction->hidden == Hidden::RisingMemory) core.put_bit(op[2].at, op[2].bit, true);
   core.s.image[sm::kIdentification] = core.model().identification;
+  for (const std::uint32_t module : sm::kModuleIdentity) core.s.image[module] = sm::kNoModule;
   core.s.station = core.program().system_block.ppi_stations;
   units::power_up(core, memory);
   core.put_mask(sm::kScanStatus, sm::kModeSwitchRun, run);
@@ -23,9 +24,19 @@ void up(Core& core, bool run, const RetentiveMemory* memory, Time at) {
   scan::begin(core);
 }
 
+/// What is saved to EEPROM when power goes off: MB0 to MB13, as far as they are retentive (facts 1.6).
+static RetentiveRange saved_at_power_off(const RetentiveRange& range) {
+  constexpr std::uint32_t kSavedBytes = 14;
+  const bool saved = range.area == Area::M && range.first < kSavedBytes;
+  return {range.area, range.first, saved ? std::min(range.count, kSavedBytes - range.first) : 0};
+}
+
 RetentiveMemory retentive_memory(const Core& core) {
-  RetentiveMemory memory{.eeprom = core.s.eeprom, .clock = clock::now(core), .forcing = core.s.forcing};
-  for (const RetentiveRange& range : core.model().retentive)
+  RetentiveMemory memory{.eeprom = core.s.eeprom,
+                         .clock = clock::now(core),
+                         .clock_fraction = clock::fraction(core),
+                         .forcing = core.s.forcing};
+  for (const RetentiveRange& range : core.program().retentive())
     std::copy_n(core.s.image.begin() + range.at(), range.bytes(), memory.image.begin() + range.at());
   return memory;
 }
@@ -33,9 +44,10 @@ RetentiveMemory retentive_memory(const Core& core) {
 void recall_ranges(Core& core, const RetentiveMemory* memory) {
   if (!memory) return;
   core.put_mask(sm::kScanStatus, sm::kRetentiveLost, memory->ram_lost);
-  if (memory->ram_lost) return;
-  for (const RetentiveRange& range : core.model().retentive)
+  for (const RetentiveRange& each : core.program().retentive()) {
+    const RetentiveRange range = memory->ram_lost ? saved_at_power_off(each) : each;
     std::copy_n(memory->image.begin() + range.at(), range.bytes(), core.s.image.begin() + range.at());
+  }
 }
 
 }  // namespace s7200::power

@@ -1,8 +1,9 @@
 // Power-up, and what survives power off (facts 1.6).
 //
-// RAM intact: the model's retentive ranges keep their values, V memory that is not retentive is loaded from the EEPROM, all
-// else is 0, and the clock has run on. RAM lost: V memory is loaded from the EEPROM, all else is 0, SM0.2 is 1 during the
-// first scan, and the clock starts again from its beginning.
+// RAM intact: the retentive ranges, those of the system block or else of the CPU, keep their values, V memory that is not
+// retentive is loaded from the EEPROM, all else is 0, and the clock has run on. RAM lost: V memory is loaded from the EEPROM,
+// and so are MB0 to MB13 if they are retentive; all else is 0, SM0.2 is 1 during the first scan, and the clock starts again
+// from its beginning.
 #pragma once
 
 #include "interpreter/cpu/core.hpp"

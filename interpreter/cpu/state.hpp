@@ -335,6 +335,7 @@ struct RetentiveMemory {
   std::array<std::uint8_t, image::kSize> image{};  ///< only the retentive ranges count
   std::array<std::uint8_t, 10240> eeprom{};        ///< permanent V memory
   ClockTime clock{};                               ///< when power went off
+  Time clock_fraction = 0;                         ///< by how much of a second the clock was further then
   Time power_off = 0;                              ///< how long power was off
   bool ram_lost = false;                           ///< power was off too long: image and clock are lost
   Forcing forcing{};                               ///< in the EEPROM too

@@ -75,9 +75,9 @@ inline constexpr OperandRule
     kFinal       = named("FINAL", kInInt),
     kPresetInt   = named("PV", kInInt);
 
-// What TON, TONR and CTU count up to: they count from 0.
+// How far timers and counters count. With 0 and below there is nothing to count.
 inline constexpr OperandRule
-    kPresetTime{.name = "PT", .width = Width::Word, .areas = kReadWord, .constant = true, .pointer = true, .sign = Sign::Signed, .min = 1, .max = 32767},
+    kPresetTime{.name = "PT", .width = Width::Word, .areas = kReadWord, .constant = true, .pointer = true, .sign = Sign::Signed, .max = 32767, .usual_from = 1},
     kPresetValue = named("PV", kPresetTime);
 
 // --- counts and places: bytes that are read ---

@@ -364,9 +364,9 @@ constexpr Instruction kPeripherals[] = {
 
 // Known by name, so that a program that uses them is told so.
 constexpr Instruction kNotModelled[] = {
-    {.mnemonic = "SSCPY", .cpus = kCpu22x,         .meaning = "copy a part of a string"},
-    {.mnemonic = "TODRX", .cpus = kCpu22xRelease2, .meaning = "read the clock and its daylight saving"},
-    {.mnemonic = "TODWX", .cpus = kCpu22xRelease2, .meaning = "set the clock and its daylight saving"},
+    {.mnemonic = "SSCPY", .cpus = kCpu22x,         .meaning = "copy a part of a string",                .not_modelled = "instructions have three operands here; BMB copies the characters, MOVB writes the length before them"},
+    {.mnemonic = "TODRX", .cpus = kCpu22xRelease2, .meaning = "read the clock and its daylight saving", .not_modelled = "the clock has no daylight saving here; TODR reads the same first 8 bytes"},
+    {.mnemonic = "TODWX", .cpus = kCpu22xRelease2, .meaning = "set the clock and its daylight saving",  .not_modelled = "the clock has no daylight saving here; TODW sets the clock from the same first 8 bytes"},
 };
 
 // clang-format on
@@ -418,9 +418,9 @@ constexpr bool mnemonics_are_unique() {
 
 constexpr bool has_a_body_and_a_meaning(const Instruction& row) { return row.modelled() && !row.meaning.empty(); }
 
-/// Only a name, and the CPUs that have it.
+/// Only a name, the CPUs that have it, and why nothing executes it.
 constexpr bool is_known_by_name(const Instruction& row) {
-  return !row.modelled() && row.rules().empty() && row.rung == Rung{};
+  return !row.modelled() && !row.not_modelled.empty() && row.rules().empty() && row.rung == Rung{};
 }
 
 constexpr bool operands_have_names(const Instruction& row) {

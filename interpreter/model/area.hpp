@@ -61,7 +61,7 @@ struct AreaInfo {
   std::uint32_t base;     ///< of the values, in the image
   std::uint32_t bits;     ///< of the bits: equal to `base`, or elsewhere for T and C; kNoBits: no bit access
   std::uint32_t element;  ///< bytes of a numbered element (T, C, HC, AC); 0: byte-addressed
-  std::optional<std::uint8_t> pointer_code;  ///< top byte of a pointer to it
+  std::optional<std::uint8_t> pointer_code;  ///< top byte of a pointer to it, on CPUs where one reaches it
   std::string_view meaning;
 
   std::uint32_t step() const { return element == 0 ? 1 : element; }  ///< bytes from one number to the next

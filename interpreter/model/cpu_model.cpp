@@ -91,6 +91,11 @@ const InterruptEvent* find_event(std::int64_t number) {
   return &all_events()[static_cast<std::size_t>(number)];
 }
 
+std::optional<std::uint8_t> CpuModel::pointer_code(Area area) const {
+  const bool reached = (self & kCpu22xRelease2) != 0 || (area != Area::SM && area != Area::AI && area != Area::AQ);
+  return reached && size_of(area) != 0 ? info(area).pointer_code : std::nullopt;
+}
+
 TimerBase timer_base(std::uint32_t number) {
   if (number >= 128) return {100 * kMillisecond, false};
   const std::uint32_t n = number % 64;  // T64–T127 repeat T0–T63
@@ -100,39 +105,43 @@ TimerBase timer_base(std::uint32_t number) {
 
 // Facts 4.3–4.5, 2.1 and 10.5.
 const std::vector<SpecialMemory>& special_memory() {
+  using enum SpecialUse;
+  constexpr std::string_view kNoExpansion = "no expansion module is simulated",
+                             kNoModule = "no intelligent module is simulated";
+  constexpr std::string_view kNoLinear = "a profile of several segments is: SM67.5, SM77.5";
   static const std::vector<SpecialMemory> kTable{
-      {0, 0, true, "scan status: always 1, first scan, clocks, mode switch"},
-      {1, 1, true, "result of the last instruction: zero, overflow, negative, division by zero …"},
-      {2, 2, true, "Freeport: character received"},
-      {3, 3, true, "Freeport: parity error"},
-      {4, 4, true, "interrupt queue overflow, run-time error, interrupts enabled, transmitter idle"},
-      {5, 5, true, "I/O errors (none are simulated)"},
-      {6, 6, true, "CPU identification"},
-      {7, 7, true, "reserved"},
-      {8, 21, false, "identity and errors of expansion modules"},
-      {22, 27, true, "last, shortest and longest scan time"},
-      {28, 28, true, "analog potentiometer 0"},
-      {29, 29, true, "analog potentiometer 1", kTwoPotentiometers},
-      {30, 30, true, "Freeport: port control"},
-      {31, 33, true, "saving a V value to EEPROM"},
-      {34, 35, true, "timed interrupts: interval in ms"},
-      {36, 45, true, "high-speed counter HSC0"},
-      {46, 65, true, "high-speed counters HSC1 and HSC2", kHasCounters12},
-      {66, 85, true, "pulse outputs"},
-      {86, 94, true, "receive message, port 0", kFrom215},
-      {95, 97, false, "reserved"},
-      {98, 99, false, "parity errors on the I/O bus"},
-      {100, 129, false, "reserved"},
-      {130, 130, true, "Freeport: control of port 1", kTwoPorts},
-      {131, 135, false, "reserved"},
-      {136, 165, true, "high-speed counters HSC3 to HSC5", kCpu22x},
-      {166, 169, true, "pulse output 0: profile", kCpu22x},
-      {170, 175, false, "pulse output 0: linear profile", kCpu22x},
-      {176, 179, true, "pulse output 1: profile", kCpu22x},
-      {180, 185, false, "pulse output 1: linear profile", kCpu22x},
-      {186, 194, true, "receive message, port 1", kTwoPorts},
-      {195, 199, false, "reserved"},
-      {200, 549, false, "intelligent modules"},
+      {0, 0, Modelled, "scan status: always 1, first scan, clocks, mode switch"},
+      {1, 1, Modelled, "result of the last instruction: zero, overflow, negative, division by zero …"},
+      {2, 2, Modelled, "Freeport: character received"},
+      {3, 3, Modelled, "Freeport: parity error"},
+      {4, 4, Modelled, "interrupt queue overflow, run-time error, interrupts enabled, transmitter idle"},
+      {5, 5, Modelled, "I/O errors (none are simulated)"},
+      {6, 6, Modelled, "CPU identification"},
+      {7, 7, Plain, "reserved"},
+      {8, 21, Still, "identity and errors of expansion modules", kEveryCpu, kNoExpansion},
+      {22, 27, Modelled, "last, shortest and longest scan time"},
+      {28, 28, Modelled, "analog potentiometer 0"},
+      {29, 29, Modelled, "analog potentiometer 1", kTwoPotentiometers},
+      {30, 30, Modelled, "Freeport: port control"},
+      {31, 33, Modelled, "saving a V value to EEPROM"},
+      {34, 35, Modelled, "timed interrupts: interval in ms"},
+      {36, 45, Modelled, "high-speed counter HSC0"},
+      {46, 65, Modelled, "high-speed counters HSC1 and HSC2", kHasCounters12},
+      {66, 85, Modelled, "pulse outputs"},
+      {86, 94, Modelled, "receive message, port 0", kFrom215},
+      {95, 97, Plain, "reserved"},
+      {98, 99, Modelled, "parity errors on the I/O bus (none are simulated)"},
+      {100, 129, Plain, "reserved"},
+      {130, 130, Modelled, "Freeport: control of port 1", kTwoPorts},
+      {131, 135, Plain, "reserved"},
+      {136, 165, Modelled, "high-speed counters HSC3 to HSC5", kCpu22x},
+      {166, 169, Modelled, "pulse output 0: profile", kCpu22x},
+      {170, 175, Refused, "pulse output 0: linear profile", kCpu22xRelease2, kNoLinear},
+      {176, 179, Modelled, "pulse output 1: profile", kCpu22x},
+      {180, 185, Refused, "pulse output 1: linear profile", kCpu22xRelease2, kNoLinear},
+      {186, 194, Modelled, "receive message, port 1", kTwoPorts},
+      {195, 199, Plain, "reserved"},
+      {200, 549, Still, "intelligent modules", kEveryCpu, kNoModule},
   };
   return kTable;
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +67,7 @@ struct RetentiveRange {
 
   std::uint32_t at() const { return info(area).base + first * info(area).step(); }  ///< in the image
   std::uint32_t bytes() const { return count * info(area).step(); }
+  auto operator<=>(const RetentiveRange&) const = default;
 };
 
 /// What OUT holds after +I, -I, +D, -D or DIV if the result does not fit.
@@ -110,6 +113,9 @@ struct CpuModel {
   std::string_view release = "0100";  ///< the four digits that PPI tells
 
   std::uint32_t size_of(Area area) const { return size[static_cast<std::size_t>(area)]; }
+
+  /// Top byte of a pointer to an area; nothing if no pointer of this CPU reaches it.
+  std::optional<std::uint8_t> pointer_code(Area area) const;
 };
 
 /// Time base and kind of a timer, by its number (facts 1.1); the same on all CPUs.
@@ -119,14 +125,23 @@ struct TimerBase {
 };
 TimerBase timer_base(std::uint32_t number);
 
-/// The bytes of special memory that a program may use, on which CPUs, and whether the simulator does what they say.
+/// What a program finds in bytes of special memory.
+enum class SpecialUse : std::uint8_t {
+  Modelled,  ///< what the manual says
+  Plain,     ///< memory that the CPU makes no use of
+  Still,     ///< what they have at power-up: nothing that would change them is simulated
+  Refused,   ///< nothing: the CPU would do something that is not modelled
+};
+
+/// Bytes of special memory. On a CPU that has them but not what they are for, they are plain memory.
 struct SpecialMemory {
   std::uint16_t first, last;  ///< SMB numbers
-  bool modelled;
+  SpecialUse use;
   std::string_view meaning;
   CpuSet cpus = kEveryCpu;
+  std::string_view why{};  ///< of those that are still or refused: what is not simulated
 
-  bool usable_on(const CpuModel& model) const { return modelled && (cpus & model.self) != 0; }
+  SpecialUse on(const CpuModel& model) const { return cpus & model.self ? use : SpecialUse::Plain; }
 };
 const std::vector<SpecialMemory>& special_memory();
 

@@ -2,6 +2,7 @@
 // `s7200 instructions` and the tests of the table read it; the grammar does not.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -62,12 +63,14 @@ struct OperandRule {
   Sign sign = Sign::Either;
   std::int64_t min = std::numeric_limits<std::int64_t>::min();  ///< of a constant, within its width
   std::int64_t max = std::numeric_limits<std::int64_t>::max();
-  bool not_zero = false;      ///< a constant between min and max, but not 0
+  std::int64_t usual_from = std::numeric_limits<std::int64_t>::min();  ///< a constant below it runs, but is probably a slip
+  bool not_zero = false;                                               ///< a constant between min and max, but not 0
   bool count = false;         ///< this operand says how far the counted operands reach
   std::uint8_t counted = 0;   ///< how many counted things fit in an element; 0: the operand is not counted
   std::uint8_t elements = 1;  ///< of an operand that is not counted: the fewest it takes
   TimerKind timer = TimerKind::Any;
 
+  std::int64_t usual_min() const { return std::max(min, usual_from); }
   bool takes(std::int64_t value) const { return value >= min && value <= max && !(not_zero && value == 0); }
   /// Elements from the address, if the operand that counts says `n`.
   std::int64_t reach(std::int64_t n) const { return counted == 0 ? elements : (n + counted - 1) / counted; }
@@ -206,7 +209,8 @@ struct Instruction {
   Hidden hidden = Hidden::None;
   Effect effect = Effect::None;
   Bodies body{};
-  std::string_view meaning{};  ///< one line
+  std::string_view meaning{};       ///< one line
+  std::string_view not_modelled{};  ///< of one without a body: why, and what to write instead
 
   constexpr bool modelled() const { return body.usual != nullptr; }
 

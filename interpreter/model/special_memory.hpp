@@ -58,6 +58,13 @@ enum InterruptStatus : std::uint8_t {
 };
 
 inline constexpr std::uint32_t kIdentification = byte(6);
+/// Of expansion modules 0 to 6: bits M t t A i i Q Q (facts 10.5).
+/// Not documented, modelled so: no module tells its identity: M is 1, all else 0.
+/// [Choices.NoExpansionModuleTellsItsIdentity]
+inline constexpr std::array<std::uint32_t, 7> kModuleIdentity{byte(8),  byte(10), byte(12), byte(14),
+                                                              byte(16), byte(18), byte(20)};
+enum ModuleIdentity : std::uint8_t { kNoModule = 0x80 };  ///< M: no module is there
+
 inline constexpr std::uint32_t kLastScan = byte(22), kShortestScan = byte(24), kLongestScan = byte(26);  ///< words, in ms
 inline constexpr std::array<std::uint32_t, 2> kPotentiometer{byte(28), byte(29)};
 

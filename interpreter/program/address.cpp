@@ -121,8 +121,8 @@ std::optional<std::uint32_t> parse_pointer(std::string_view text, const AddressS
   const auto target = parse_range(text.substr(1), space, why);
   if (!target) return {};
   const auto pointer =
-      target->count == 1 && !target->real ? pointer_to(target->area, target->width, target->number) : std::nullopt;
-  if (!pointer) why = fmt::format("'{}': {}", stl::shortened(text), kPointerTargets);
+      target->count == 1 && !target->real ? pointer_to(space.model, target->area, target->width, target->number) : std::nullopt;
+  if (!pointer) why = fmt::format("'{}': {}", stl::shortened(text), pointer_targets_text(space.model));
   return pointer;
 }
 

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
+#include <deque>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
@@ -16,9 +18,11 @@
 #include "interpreter/program/chains.hpp"
 #include "interpreter/program/data_block.hpp"
 #include "interpreter/program/german.hpp"
+#include "interpreter/program/lint_ops.hpp"
 #include "interpreter/program/networks.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/parameters.hpp"
+#include "interpreter/program/special_memory_use.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -34,6 +38,8 @@ class Checker {
       : source_(source), diagnostics_(std::move(diagnostics)), model_(model) {
     for (const stl::Block& block : source_.blocks)
       if (block.kind == stl::Block::Kind::Subroutine) subroutine_blocks_.emplace(block.number, &block);
+    for (const stl::Diagnostic& diagnostic : diagnostics_)
+      if (diagnostic.severity == stl::Severity::Error) unread_lines_.insert(diagnostic.position.line);
   }
 
   /// Null if there are errors.
@@ -41,11 +47,11 @@ class Checker {
     for (const stl::Line& line : source_.lines) read(line);
     const ProgramStructure structure = check_whole();
     std::shared_ptr<const Program> program;
-    if (!has_errors(diagnostics_)) {
-      program = decode(structure, times);
-      for (const WarningInfo& warning : all_warnings())
-        if (warning.find) warning.find(*program, diagnostics_);
-    }
+    if (!has_errors(diagnostics_)) program = decode(structure, times);
+    if (program)
+      find_warnings(*program);
+    else if (const auto known = what_is_known(structure))
+      find_warnings(*known);
     tell_undefined_symbols_apart();
     stl::sort(diagnostics_);
     return program;
@@ -70,6 +76,11 @@ class Checker {
     diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
 
+  void find_warnings(const Program& program) {
+    for (const WarningInfo& warning : all_warnings())
+      if (warning.find) warning.find(program, diagnostics_);
+  }
+
   /// With a symbol table each undefined name has a cause of its own; without one they all have the same.
   void tell_undefined_symbols_apart() {
     if (source_.symbols.empty()) return;
@@ -89,18 +100,40 @@ class Checker {
   }
 
   void read(const stl::Line& line) {
-    if (std::holds_alternative<stl::NetworkHead>(line)) begins_network_ = true;
+    if (const auto* head = std::get_if<stl::NetworkHead>(&line)) {
+      add_unread_lines(head->position.line);
+      begins_network_ = true;
+    }
     const auto* statement = std::get_if<stl::Statement>(&line);
     if (!statement) return;
-    if (const Instruction* instruction = known_instruction(*statement)) {
-      placed_.emplace_back();
-      const bool good = place_operands(*instruction, *statement);
-      statements_.push_back({statement, instruction, good, begins_network_});
-      count_words(statements_.back());
-    } else {
-      unknown_mnemonics_ = true;
-    }
+    add_unread_lines(statement->position.line);
+    const Instruction* instruction = known_instruction(*statement);
+    if (!instruction) return add_unread(*statement);
+    placed_.emplace_back();
+    const bool good = place_operands(*instruction, *statement);
+    if (!good) mark_unread_operands(*instruction);
+    statements_.push_back({statement, instruction, good, begins_network_});
+    count_words(statements_.back());
     begins_network_ = false;
+  }
+
+  /// A statement without a known instruction: it may be anything.
+  void add_unread(const stl::Statement& statement) {
+    placed_.emplace_back();
+    statements_.push_back({&statement, &lint::unread_instruction(), false, std::exchange(begins_network_, false)});
+  }
+
+  /// What the parser could not read above a line of the source.
+  void add_unread_lines(std::uint32_t above) {
+    const auto end = unread_lines_.lower_bound(above);
+    for (auto line = unread_lines_.begin(); line != end; ++line)
+      add_unread(unread_.emplace_back(stl::Statement{{}, {*line, 1, 1}, {}, {}}));
+    unread_lines_.erase(unread_lines_.begin(), end);
+  }
+
+  void mark_unread_operands(const Instruction& instruction) {
+    for (std::size_t i = 0; i < instruction.rules().size(); ++i)
+      if (PlacedOperand& operand = placed_.back()[i]; !operand.read) operand.operand.at = kUnread;
   }
 
   /// What can be said only when all statements are there.
@@ -109,14 +142,25 @@ class Checker {
     if (lacks_main_program())
       error(source_.blocks.front().position, "there is no main program (ORGANIZATION_BLOCK)",
             "give the file that has it too");
-    const bool all_known = !has_errors(diagnostics_);
     ProgramStructure structure;
+    const std::size_t before = diagnostics_.size();
     if (!lacks_main_program()) structure = check_structure(statements_, model_, diagnostics_);
-    if (all_known || !unknown_mnemonics_) check_logic_stack(statements_, diagnostics_);
+    note_broken_structure(before);
+    check_logic_stack(statements_, diagnostics_);
     check_size();
     data_ = place_data(source_, model_, diagnostics_);
     check_timer_kinds();
     return structure;
+  }
+
+  static std::pair<std::uint32_t, std::uint32_t> place_of(const stl::Position& at) { return {at.line, at.column}; }
+
+  /// The errors from `first` on are those of the structure.
+  void note_broken_structure(std::size_t first) {
+    for (std::size_t i = first; i < diagnostics_.size(); ++i) {
+      const stl::Diagnostic& diagnostic = diagnostics_[i];
+      if (diagnostic.severity == stl::Severity::Error) misplaced_.insert(place_of(diagnostic.position));
+    }
   }
 
   const Instruction* known_instruction(const stl::Statement& statement) {
@@ -133,8 +177,7 @@ class Checker {
       return nullptr;
     }
     if (!instruction->modelled()) {
-      error(statement.position, fmt::format("{} is not modelled yet", mnemonic), "`s7200 instructions` lists those that are",
-            cause);
+      error(statement.position, fmt::format("{} is not modelled", mnemonic), std::string(instruction->not_modelled), cause);
       return nullptr;
     }
     return instruction;
@@ -197,6 +240,7 @@ class Checker {
       const auto operand =
           place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
       if (operand) placed[i] = *operand;
+      placed[i].read = operand.has_value();
       good = good && operand;
     }
     if (called && good) return pass_parameters(instruction, statement, *called);
@@ -240,9 +284,13 @@ class Checker {
     const auto count = rule == rules.end() ? 0 : placed[static_cast<std::size_t>(rule - rules.begin())].constant;
     bool good = true;
     for (std::size_t i = 0; i < rules.size(); ++i) {
-      if (!placed[i].area || (rules[i].counted != 0 && !count)) continue;
-      const std::int64_t elements = rules[i].reach(std::abs(count.value_or(0)));
-      good &= block_fits(rules[i], placed[i], elements, statement.operands[i]);
+      if (!placed[i].area) continue;
+      const bool known = rules[i].counted == 0 || count.has_value();
+      const std::int64_t elements = known ? rules[i].reach(std::abs(count.value_or(0))) : 1;
+      if (!block_fits(rules[i], placed[i], elements, statement.operands[i]))
+        good = false;
+      else if (*placed[i].area == Area::SM)
+        warn_of_special_memory(model_, special_bytes(rules[i], placed[i], elements), rules[i], statement, i, diagnostics_);
     }
     return good;
   }
@@ -256,28 +304,25 @@ class Checker {
             fmt::format("{} memory is {}", area.name, range_text(model_, *placed.area, rule.width)));
       return false;
     }
-    if (*placed.area != Area::SM) return true;
+    const SpecialMemory* refused =
+        *placed.area == Area::SM ? refused_special_memory(model_, special_bytes(rule, placed, elements)) : nullptr;
+    if (!refused) return true;
+    error(written.position,
+          fmt::format("{} reach {} ({}), which are not modelled", block(), bytes_text(*refused), refused->meaning),
+          std::string(refused->why));
+    return false;
+  }
+
+  static SpecialBytes special_bytes(const OperandRule& rule, const PlacedOperand& placed, std::int64_t elements) {
     const std::int64_t bytes =
         rule.width == Width::Bit ? (placed.operand.bit + elements + 7) / 8 : elements * bytes_of(rule.width);
-    const SpecialMemory* missing =
-        missing_special_memory(model_, placed.operand.at - area.base, static_cast<std::uint32_t>(bytes));
-    if (!missing) return true;
-    const std::string why =
-        missing->modelled ? fmt::format("CPU {} does not have", model_.name) : std::string("are not modelled yet");
-    error(written.position, fmt::format("{} reach {} ({}), which {}", block(), bytes_text(*missing), missing->meaning, why));
-    return false;
+    return {placed.operand.at - image::kSM, static_cast<std::uint32_t>(bytes)};
   }
 
   bool mode_fits(const Instruction& instruction, const stl::Statement& statement) {
     if (instruction.structure != Structure::DefineCounter) return true;
     const auto& placed = placed_.back();
     const auto counter = static_cast<std::size_t>(*placed[0].constant);
-    if (*placed[1].constant == 12) {  // facts 10.4: of HSC0 and HSC3 on late CPUs 22x
-      const bool known = (model_.self & kCpu22x) != 0 && (counter == 0 || counter == 3);
-      error(statement.operands[1].position,
-            known ? "mode 12 of a high-speed counter is not modelled yet" : "MODE of HDEF must be 0 to 11, not 12");
-      return false;
-    }
     const CounterModes modes = model_.counter_modes[counter];
     if (modes >> *placed[1].constant & 1) return true;
     error(statement.operands[1].position, fmt::format("HSC{} has no mode {}", counter, *placed[1].constant),
@@ -365,18 +410,69 @@ class Checker {
     }
   }
 
+  // --- what is known of a program with errors ---
+
+  static bool is_end(Structure structure) {
+    return structure == Structure::MainEnd || structure == Structure::SubroutineEnd || structure == Structure::InterruptEnd;
+  }
+
+  /// Whether the routines of a program are known from their heads to their ends.
+  bool routines_are_known() const {
+    if (statements_.empty() || lacks_main_program() || !is_end(statements_.back().instruction->structure)) return false;
+    return std::ranges::none_of(statements_, [&](const CheckedStatement& s) {
+      const Structure structure = s.instruction->structure;
+      const bool bounds =
+          is_end(structure) || structure == Structure::SubroutineHead || structure == Structure::InterruptHead;
+      return bounds && (!s.operands_good || misplaced_.contains(place_of(s.statement->position)));
+    });
+  }
+
+  /// Whether nothing is known of a statement: not even where it leads to.
+  bool is_unread(const CheckedStatement& s) const {
+    const Structure structure = s.instruction->structure;
+    const bool leads_elsewhere = structure == Structure::Jump || structure == Structure::Call;
+    return s.instruction == &lint::unread_instruction() || (leads_elsewhere && !s.operands_good) ||
+           misplaced_.contains(place_of(s.statement->position));
+  }
+
+  /// The program in which to look for warnings although it has errors; null if too little of it is known.
+  std::shared_ptr<const Program> what_is_known(const ProgramStructure& structure) {
+    if (!routines_are_known()) return nullptr;
+    auto program = program_of(structure);
+    for (std::uint32_t i = 0; i < statements_.size(); ++i) {
+      Op op;
+      op.instruction = &lint::unread_instruction();
+      program->ops.push_back(is_unread(statements_[i]) ? op : decode(i, structure));
+    }
+    program->constants = constants_.bytes();
+    return program;
+  }
+
   // --- decoding ---
 
-  std::shared_ptr<const Program> decode(const ProgramStructure& structure, const TimeTable& times) {
+  /// A program with all but its ops.
+  std::shared_ptr<Program> program_of(const ProgramStructure& structure) const {
     auto program = std::make_shared<Program>();
     program->model = &model_;
-    program->times = times;
-    program->source = source_;
     program->subroutine = structure.subroutine;
     program->interrupt = structure.interrupt;
+    for (const CheckedStatement& s : statements_) {
+      program->statements.push_back(*s.statement);
+      note_pointers(*s.statement, *program);
+    }
+    for (const AreaInfo& area : all_areas())
+      if (const auto code = model_.pointer_code(area.area))
+        program->reach[*code] = {area.base, model_.size_of(area.area) * std::max(1u, area.element)};
+    return program;
+  }
+
+  std::shared_ptr<const Program> decode(const ProgramStructure& structure, const TimeTable& times) {
+    auto program = program_of(structure);
+    program->times = times;
+    program->source = source_;
     for (std::uint32_t i = 0; i < statements_.size(); ++i) {
-      program->statements.push_back(*statements_[i].statement);
-      program->ops.push_back(decode(i, structure, times));
+      program->ops.push_back(decode(i, structure));
+      set_cost(program->ops.back(), operands_of(i, structure), times);
       if (const auto found = parameters_.find(i); found != parameters_.end())
         add_parameters(program->ops.back(), found->second, *program);
       note_timer(program->ops.back(), *program);
@@ -388,9 +484,6 @@ class Checker {
     std::sort(program->reals.begin(), program->reals.end());
     program->constants = constants_.bytes();
     program->data = std::move(data_);
-    for (const AreaInfo& area : all_areas())
-      if (area.pointer_code)
-        program->reach[*area.pointer_code] = {area.base, model_.size_of(area.area) * std::max(1u, area.element)};
     program->looks = looks_of(*program);
     program->no_power_flow = times[SystemTime::NoPowerFlow];
     program->interrupt_entry = times[SystemTime::InterruptEntry];
@@ -412,10 +505,15 @@ class Checker {
         program.reals.push_back(parameter.actual.at);
   }
 
-  Op decode(std::uint32_t i, const ProgramStructure& structure, const TimeTable& times) {
+  /// NEXT works on the operands of its FOR.
+  const std::array<PlacedOperand, 3>& operands_of(std::uint32_t i, const ProgramStructure& structure) const {
+    return placed_[statements_[i].instruction->structure == Structure::Next ? structure.head[i] : i];
+  }
+
+  /// Without what it costs.
+  Op decode(std::uint32_t i, const ProgramStructure& structure) {
     const Instruction& instruction = *statements_[i].instruction;
-    const bool is_next = instruction.structure == Structure::Next;
-    const auto& placed = placed_[is_next ? structure.head[i] : i];  // NEXT works on the operands of its FOR
+    const auto& placed = operands_of(i, structure);
     Op op;
     op.instruction = &instruction;
     op.power_mask = instruction.rung.needs_power_flow;
@@ -437,7 +535,6 @@ class Checker {
     }
     add_hidden_operand(op, placed_[structure.head[i]]);
     op.body = body_of(op, written);
-    set_cost(op, placed, times);
     return op;
   }
 
@@ -482,6 +579,13 @@ class Checker {
                    : base == 10 * kMillisecond ? program.timers_10ms
                                                : program.timers_100ms;
     if (std::find(timers.begin(), timers.end(), number) == timers.end()) timers.push_back(number);
+  }
+
+  /// `&SB0`
+  static void note_pointers(const stl::Statement& statement, Program& program) {
+    for (const stl::Operand& operand : statement.operands)
+      if (const auto* to = std::get_if<stl::AddressOf>(&operand.value))
+        if (const auto area = area_named(to->target.area)) program.pointed_at |= set_of(*area);
   }
 
   /// Double words that are real numbers.
@@ -555,8 +659,10 @@ class Checker {
   std::size_t words_ = 0;                             // of statements_, at least
   const stl::Statement* beyond_ = nullptr;            // the first that does not fit in the CPU's program memory
   std::uint32_t edges_ = 0;
-  bool begins_network_ = false;  // the next statement
-  bool unknown_mnemonics_ = false;
+  bool begins_network_ = false;                                  // the next statement
+  std::set<std::uint32_t> unread_lines_;                         // of errors of the parser, below the line that is read
+  std::deque<stl::Statement> unread_;                            // in their places among statements_
+  std::set<std::pair<std::uint32_t, std::uint32_t>> misplaced_;  // lines and columns where the structure has errors
 };
 
 /// What the CPU has no part in.

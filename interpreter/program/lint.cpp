@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,19 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/model/ports.hpp"
+#include "interpreter/program/lint_ops.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/warnings.hpp"
-#include "interpreter/stl/printer.hpp"
 
 namespace s7200 {
 namespace {
 
-const stl::Position& place(const Program& program, std::uint32_t op) { return program.statement(op).position; }
-std::uint32_t line(const Program& program, std::uint32_t op) { return place(program, op).line; }
-std::string written(const Program& program, std::uint32_t op, std::size_t operand) {
-  return stl::to_text(program.statement(op).operands[operand]);
-}
+using namespace lint;
 
 // --- the paths through the program ---
 
@@ -260,64 +254,6 @@ struct Earlier {
   }
 };
 
-// --- which memory an instruction uses ---
-
-/// Bits of the image, numbered from its start.
-struct Bits {
-  std::uint64_t first = 0, count = 1;
-  bool overlap(const Bits& other) const { return first < other.first + other.count && other.first < first + count; }
-};
-
-constexpr std::int64_t kMostElements = 255;
-
-/// The value of the count operand if it is a constant, otherwise the largest possible.
-std::int64_t count_of(const Program& program, const Op& op) {
-  const auto rules = op.instruction->rules();
-  const auto rule = std::ranges::find_if(rules, &OperandRule::count);
-  if (rule == rules.end()) return 1;
-  const Operand& count = op[static_cast<std::size_t>(rule - rules.begin())];
-  if (count.pointer || count.at < image::kConstants) return kMostElements;
-  const std::uint8_t value = program.constants[count.at - image::kConstants];
-  return rule->sign == Sign::Signed ? std::abs(static_cast<std::int8_t>(value)) : value;
-}
-
-Bits bits_of(const Program& program, const Op& op, std::size_t operand) {
-  const OperandRule& rule = op.instruction->operand[operand];
-  const auto reach = static_cast<std::uint64_t>(rule.reach(count_of(program, op)));
-  if (rule.width == Width::Bit) return {op[operand].at * 8u + op[operand].bit, reach};
-  return {op[operand].at * 8u, reach * 8 * bytes_of(rule.width)};
-}
-
-bool pointers_reach(const Program& program, const Bits& bits) {
-  return std::ranges::any_of(program.reach, [&](const Reach& reach) {
-    return bits.overlap({reach.base * 8u, reach.size * 8u});
-  });
-}
-
-/// Whether any operand, or any written one, may overlap these bits.
-bool touches(const Program& program, const Op& op, const Bits& bits, bool only_written) {
-  for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
-    const OperandRule& rule = op.instruction->operand[i];
-    if (rule.kind != OperandKind::Memory || (only_written && rule.role == Role::In)) continue;
-    if (op[i].pointer ? pointers_reach(program, bits) : bits.overlap(bits_of(program, op, i))) return true;
-  }
-  return false;
-}
-
-std::vector<std::uint32_t> ops_with(const Program& program, Effect effect) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < program.ops.size(); ++i)
-    if (program.ops[i].instruction->effect == effect) found.push_back(i);
-  return found;
-}
-
-std::vector<std::uint32_t> attachments(const Program& program) {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < program.ops.size(); ++i)
-    if (program.ops[i].instruction->structure == Structure::Attach) found.push_back(i);
-  return found;
-}
-
 // --- coils ---
 
 constexpr Bits kOutputBits{image::kQ * 8u, image::kPointBytes * 8u};
@@ -350,10 +286,14 @@ class Uses {
 
   void note(std::uint32_t i) {
     const Op& op = program_.ops[i];
-    if (op.instruction->structure == Structure::Call) calls_.push_back({i, {}});
+    if (op.instruction->structure == Structure::Call || is_unread(op)) calls_.push_back({i, {}});
     if (op.instruction->effect == Effect::Coil) return;
     for (std::size_t k = 0; k < op.instruction->rules().size(); ++k) {
       if (op.instruction->operand[k].kind != OperandKind::Memory) continue;
+      if (op[k].unread()) {
+        calls_.push_back({i, {}});
+        continue;
+      }
       if (op[k].pointer) {
         pointers_.push_back({i, {}});
         continue;
@@ -392,7 +332,7 @@ void find_executed_twice(const Program& program, Area area, Warning warning, std
   std::map<std::uint32_t, Earlier> executed;
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
     const Op& op = program.ops[i];
-    if (!counts(op)) continue;
+    if (!counts(op) || op[0].unread()) continue;
     Earlier& earlier = executed[op[2].at];
     auto other = earlier.before(flow, i);
     if (!other) other = earlier.beside(flow, i);
@@ -421,20 +361,11 @@ std::set<std::uint64_t> loaded_steps(const Program& program) {
     for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
       const OperandRule& rule = op.instruction->operand[i];
       if (rule.kind != OperandKind::Memory || rule.role == Role::Out || op[i].pointer) continue;
-      const Bits bits = bits_of(program, op, i);
+      const Bits bits = op[i].unread() ? kStepBits : bits_of(program, op, i);
       if (!bits.overlap(kStepBits)) continue;
       for (std::uint64_t bit = bits.first; bit < bits.first + bits.count; ++bit) loaded.insert(bit);
     }
   return loaded;
-}
-
-/// `&SB0`: a program that goes through S memory with a pointer may read all of it.
-bool points_at_steps(const Program& program) {
-  for (const stl::Statement& statement : program.statements)
-    for (const stl::Operand& operand : statement.operands)
-      if (const auto* address = std::get_if<stl::AddressOf>(&operand.value); address && address->target.area == "S")
-        return true;
-  return false;
 }
 
 }  // namespace
@@ -445,6 +376,7 @@ void find_double_coils(const Program& program, stl::Diagnostics& diagnostics) {
   const std::vector<Stretch> interrupts = flow.interrupts();
   std::map<std::uint64_t, Earlier> coils;
   for (const std::uint32_t coil : ops_with(program, Effect::Coil)) {
+    if (program.ops[coil][0].unread()) continue;
     const Bits bit = bits_of(program, program.ops[coil], 0);
     const bool output = bit.overlap(kOutputBits);
     Earlier& earlier = coils[bit.first];
@@ -475,7 +407,7 @@ void find_double_counters(const Program& program, stl::Diagnostics& diagnostics)
 void find_double_loops(const Program& program, stl::Diagnostics& diagnostics) {
   std::map<std::uint32_t, std::uint32_t> first;  // by loop
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
-    if (program.ops[i].instruction->hidden != Hidden::LoopMemory) continue;
+    if (program.ops[i].instruction->hidden != Hidden::LoopMemory || program.ops[i][1].unread()) continue;
     const std::uint32_t loop = program.ops[i][1].at;
     const auto [found, added] = first.emplace(loop, i);
     if (!added)
@@ -487,136 +419,17 @@ void find_double_loops(const Program& program, stl::Diagnostics& diagnostics) {
 }
 
 void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics) {
-  if (!ops_with(program, Effect::EnablesInterrupts).empty()) return;
-  for (const std::uint32_t attach : attachments(program))
+  if (!ops_with(program, Effect::EnablesInterrupts).empty() || has_unread(program)) return;
+  for (const std::uint32_t attach : attachments(program)) {
+    if (program.ops[attach][0].unread()) continue;
     diagnostics.push_back(warn(Warning::NoEni, place(program, attach),
                                fmt::format("INT {} is never executed: the program has no ENI", program.ops[attach][0].at),
                                "execute ENI once, after ATCH", "no ENI"));
-}
-
-namespace {
-
-/// Whether the next instruction follows, whatever happens.
-bool goes_straight_on(const Instruction& instruction) {
-  switch (instruction.structure) {
-    case Structure::None:
-    case Structure::Attach:
-    case Structure::DefineCounter:
-    case Structure::Compare:
-      return instruction.effect != Effect::ConditionalEnd;
-    default:
-      return false;
   }
-}
-
-/// Whether an instruction may write the control byte of a port.
-bool sets_up_port(const Program& program, const Op& op, const PortInfo& port) {
-  return touches(program, op, {port.control * 8u, 8}, true);
-}
-
-/// XMT and RCV.
-bool uses_port(const Op& op) {
-  return op.instruction->effect == Effect::Transmits || op.instruction->effect == Effect::Receives;
-}
-
-std::string control_text(const PortInfo& port) { return fmt::format("SMB{}", port.control - image::kSM); }
-
-/// "XMT sends nothing"
-std::string in_vain(const Op& op) {
-  return fmt::format("{} {} nothing", op.instruction->mnemonic,
-                     op.instruction->effect == Effect::Transmits ? "sends" : "receives");
-}
-
-/// XMT or RCV that the first scan surely executes before anything can have written the control byte of its port: in the main
-/// program down to the first jump or call, in rungs that begin with SM0.0 or SM0.1.
-void find_early_use(const Program& program, std::size_t number, stl::Diagnostics& diagnostics) {
-  const PortInfo& port = kPorts[number];
-  bool on = false;
-  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
-    const Op& op = program.ops[i];
-    const Instruction& instruction = *op.instruction;
-    if (sets_up_port(program, op, port)) return;
-    if (on && uses_port(op) && op[1].at == number)
-      diagnostics.push_back(
-          warn(Warning::NoFreeport, place(program, i),
-               fmt::format("{} in the first scan: {}, which puts the port in Freeport mode, is written after it",
-                           in_vain(op), control_text(port)),
-               fmt::format("write {} first", control_text(port)), "no Freeport yet"));
-    if (!goes_straight_on(instruction)) return;
-    if (instruction.effect == Effect::LoadsBit)
-      on = op[0].at == image::kSM && op[0].bit <= 1;
-    else
-      on = on && (instruction.rung.needs_power_flow || instruction.effect == Effect::Coil);
-  }
-}
-
-bool is_event_of(const PortInfo& port, std::uint8_t event) {
-  return event == port.received || event == port.sent || event == port.received_message;
-}
-
-void find_missing_freeport(const Program& program, std::size_t number, stl::Diagnostics& diagnostics) {
-  const PortInfo& port = kPorts[number];
-  if (std::ranges::any_of(program.ops, [&](const Op& op) { return sets_up_port(program, op, port); }))
-    return find_early_use(program, number, diagnostics);
-  const auto add = [&](std::uint32_t op, const std::string& what) {
-    diagnostics.push_back(
-        warn(Warning::NoFreeport, place(program, op),
-             fmt::format("{}: no instruction writes {} to put the port in Freeport mode", what, control_text(port)),
-             fmt::format("MOVB 16#09, {} in the first scan selects Freeport mode with 9600 baud, 8 data bits and no parity",
-                         control_text(port)),
-             "no Freeport"));
-  };
-  for (const Effect effect : {Effect::Transmits, Effect::Receives})
-    for (const std::uint32_t i : ops_with(program, effect))
-      if (program.ops[i][1].at == number) add(i, in_vain(program.ops[i]));
-  for (const std::uint32_t attach : attachments(program)) {
-    const std::uint32_t event = program.ops[attach][1].at;
-    if (is_event_of(port, static_cast<std::uint8_t>(event))) add(attach, fmt::format("event {} never occurs", event));
-  }
-}
-
-/// Whether an instruction may put a port in another mode than PPI, of which a master answers too.
-bool may_leave_ppi(const Program& program, const Op& op, const PortInfo& port) {
-  if (!sets_up_port(program, op, port)) return false;
-  const bool moves_into_it = op.instruction->effect == Effect::CopiesByte && op[1].at == port.control;
-  const bool is_constant = moves_into_it && op[0].at >= image::kConstants;
-  return !is_constant || (program.constants[op[0].at - image::kConstants] & sm::kProtocol) == sm::kFreeport;
-}
-
-}  // namespace
-
-bool keeps_ppi_station(const Program& program, std::uint8_t port) {
-  return std::ranges::none_of(program.ops, [&](const Op& op) {
-    const bool sets_station = op.instruction->effect == Effect::SetsStation && op[1].at == port;
-    return sets_station || may_leave_ppi(program, op, kPorts[port]);
-  });
-}
-
-std::optional<std::uint8_t> ppi_station_set(const Program& program, std::uint8_t port) {
-  std::optional<std::uint8_t> station;
-  for (const Op& op : program.ops) {
-    if (may_leave_ppi(program, op, kPorts[port])) return {};
-    if (op.instruction->effect != Effect::SetsStation || op[1].at != port) continue;
-    if (op[0].at < image::kConstants) return {};
-    const std::uint8_t constant = program.constants[op[0].at - image::kConstants];
-    if (station && *station != constant) return {};
-    station = constant;
-  }
-  return station;
-}
-
-bool is_ppi_master(const Program& program, std::uint8_t port) {
-  return std::ranges::any_of(program.ops, [&](const Op& op) {
-    return (op.instruction->mnemonic == "NETR" || op.instruction->mnemonic == "NETW") && op[1].at == port;
-  });
-}
-
-void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics) {
-  for (std::size_t port = 0; port < program.model->ports; ++port) find_missing_freeport(program, port, diagnostics);
 }
 
 void find_unused_steps(const Program& program, stl::Diagnostics& diagnostics) {
-  if (points_at_steps(program)) return;
+  if (contains(program.pointed_at, Area::S) || has_unread(program)) return;  // it may read all of it
   std::optional<std::set<std::uint64_t>> loaded;
   for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
     const Op& op = program.ops[i];

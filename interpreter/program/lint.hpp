@@ -1,4 +1,5 @@
-// Warnings that need the whole program, which must be free of errors. Each function finds one warning of warnings.hpp.
+// Warnings that need the whole program. If it has errors, what they are in is unread (lint_ops.hpp). Each function finds one
+// warning of warnings.hpp.
 //
 // A wrong warning is worse than none. So two coils, or two executions of a timer, are reported only if no pass through the
 // program does one without the other; not if JMP, CRET, END, FOR or a conditional CALL may leave one out.
@@ -26,6 +27,16 @@ void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics);
 
 /// SMB30 is 0 when the CPU enters RUN: the port speaks PPI.
 void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics);
+
+/// SMB2 and SM3.0 are written just before the routine of event 8 or 25 starts, and by nothing else (facts 2.3).
+void find_missing_receive_event(const Program& program, stl::Diagnostics& diagnostics);
+
+/// RCV receives one message each time it is executed.
+void find_receive_once(const Program& program, stl::Diagnostics& diagnostics);
+
+/// XMT and RCV of a port exclude each other: error 0009 or 000B (facts 2.4). Only what is certain: in one pass, or while an
+/// RCV waits that is always started again.
+void find_busy_port(const Program& program, stl::Diagnostics& diagnostics);
 
 /// Whether a port answers in PPI mode, at the station of the system block, all the time: no instruction may put it in
 /// another mode or, with SPA, at another station.

@@ -68,9 +68,10 @@ class Finder {
     seen_.set(timer);
   }
 
-  /// No pointer reaches special memory; every one reaches the values of timers. SMB0 is never written by a program.
+  /// Every pointer reaches the values of timers, and on late CPUs 22x special memory. SMB0 is never written by a program.
   void operand(const Operand& operand, Role role, bool is_bit, bool is_block) {
     if (operand.pointer) {
+      looks_.clock_bits |= program_.model->pointer_code(Area::SM).has_value();
       looks_.every_tick.set();
       return;
     }

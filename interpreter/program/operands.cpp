@@ -8,6 +8,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/special_memory_use.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -182,6 +183,7 @@ class Placing {
     const std::int64_t meant = decimal ? constant.value : read;
     if (!rule_.takes(meant)) return out_of_range(meant);
     if (meant != read) warn_of_other_sign(read);
+    if (read < rule_.usual_from) warn_of_preset(read);
     PlacedOperand placed = pooled(static_cast<std::uint32_t>(constant.value));
     placed.constant = read;
     return placed;
@@ -202,7 +204,7 @@ class Placing {
     if (meant == 0 && rule_.not_zero)
       return error(fmt::format("{} cannot be 0 (count error 0092)", of_instruction()),
                    fmt::format("it must be {} to -1 or 1 to {}", rule_.min, rule_.max));
-    return error(fmt::format("{} must be {} to {}, not {}", of_instruction(), rule_.min, rule_.max, text()));
+    return error(fmt::format("{} must be {} to {}, not {}", of_instruction(), rule_.usual_min(), rule_.max, text()));
   }
 
   void warn_of_other_sign(std::int64_t read) {
@@ -213,6 +215,12 @@ class Placing {
                     name_of(rule_.width), text(), read),
         fmt::format("write {} if that is what you mean; {} {} is {} to {}", read, is_signed ? "a signed" : "an unsigned",
                     name_of(rule_.width), is_signed ? lowest() : 0, is_signed ? -lowest() - 1 : highest())));
+  }
+
+  void warn_of_preset(std::int64_t read) {
+    diagnostics_.push_back(warn(Warning::Preset, written_.position,
+                                fmt::format("{} is {}: there is nothing to count", of_instruction(), read),
+                                fmt::format("a preset is {} to {}", rule_.usual_min(), rule_.max)));
   }
 
   Result real(const stl::Real& constant) {
@@ -308,14 +316,10 @@ class Placing {
             fmt::format("only the CPU writes SM0.0 to SM{}.7", kReadOnlySpecialMemory - 1));
       return false;
     }
-    const SpecialMemory* missing = missing_special_memory(model_, address.number, width());
-    if (!missing) return true;
-    if (missing->modelled)
-      error(fmt::format("CPU {} has no {} ({})", model_.name, bytes_text(*missing), missing->meaning),
-            fmt::format("it needs {}", to_text(missing->cpus)), bytes_text(*missing));
-    else
-      error(fmt::format("{} ({}) are not modelled yet", bytes_text(*missing), missing->meaning), {},
-            fmt::format("SMB{}", missing->first));
+    const SpecialMemory* refused = refused_special_memory(model_, {address.number, width()});
+    if (!refused) return true;
+    error(fmt::format("{} ({}) are not modelled", bytes_text(*refused), refused->meaning), std::string(refused->why),
+          bytes_text(*refused));
     return false;
   }
 
@@ -335,10 +339,10 @@ class Placing {
     const auto area = known_area(operand.target, Width::Byte);
     if (!area) return {};
     const auto width = width_of(operand.target, *area);
-    const auto pointer = pointer_to(*area, width.value_or(Width::Double), operand.target.number);
+    const auto pointer = pointer_to(model_, *area, width.value_or(Width::Double), operand.target.number);
     if (!pointer)
       return error(fmt::format("a pointer cannot point to {}", stl::to_text({operand.target, {}})),
-                   std::string(kPointerTargets));
+                   pointer_targets_text(model_));
     if (!in_range(operand.target, *area, *width)) return {};
     return pooled(*pointer);
   }
@@ -437,10 +441,17 @@ std::string_view name_of(Width width) {
   return {};
 }
 
-std::optional<std::uint32_t> pointer_to(Area area, Width width, std::uint32_t number) {
-  const auto code = info(area).pointer_code;
+std::optional<std::uint32_t> pointer_to(const CpuModel& model, Area area, Width width, std::uint32_t number) {
+  const auto code = model.pointer_code(area);
   if (!code || width == Width::Bit) return {};
   return std::uint32_t{*code} << 24 | std::max(1u, info(area).element) * number;
+}
+
+std::string pointer_targets_text(const CpuModel& model) {
+  return model.pointer_code(Area::SM)
+             ? "a pointer can point to bytes of I, Q, M, V, S or SM, to words of AI or AQ, or to the current value of a T "
+               "or C"
+             : "a pointer can point to bytes of I, Q, M, V or S, or to the current value of a T or C";
 }
 
 std::optional<Width> width_of(const stl::Address& address, Area area) {
@@ -476,18 +487,6 @@ std::string address_text(Area area, Width width, std::uint32_t number, std::uint
 std::string byte_text(std::uint32_t place) {
   const AreaInfo& area = area_at(place);
   return address_text(area.area, Width::Byte, place - area.base, 0);
-}
-
-const SpecialMemory* missing_special_memory(const CpuModel& model, std::uint32_t first, std::uint32_t bytes) {
-  const auto found = std::ranges::find_if(special_memory(), [&](const SpecialMemory& entry) {
-    return !entry.usable_on(model) && first + bytes > entry.first && first <= entry.last;
-  });
-  return found == special_memory().end() ? nullptr : &*found;
-}
-
-std::string bytes_text(const SpecialMemory& memory) {
-  if (memory.first == memory.last) return fmt::format("SMB{}", memory.first);
-  return fmt::format("SMB{} to SMB{}", memory.first, memory.last);
 }
 
 std::string range_text(const CpuModel& model, Area area, Width width) {

@@ -34,6 +34,7 @@ struct PlacedOperand {
   Operand operand;
   std::optional<Area> area;              ///< of a direct address
   std::optional<std::int64_t> constant;  ///< the value of a constant as the instruction reads it, or a plain number
+  bool read = true;                      ///< false: it has an error
 };
 
 /// The cause of the diagnostics about names that nothing defines: often a symbol table that was not given.
@@ -54,22 +55,16 @@ std::optional<Width> width_of(const stl::Address& address, Area area);
 std::string_view name_of(Width width);
 
 /// What a pointer to an address holds; nothing of an area or a bit that none can point to.
-std::optional<std::uint32_t> pointer_to(Area area, Width width, std::uint32_t number);
-inline constexpr std::string_view kPointerTargets =
-    "a pointer can point to bytes of I, Q, M, V or S, or to the current value of a T or C";
+std::optional<std::uint32_t> pointer_to(const CpuModel& model, Area area, Width width, std::uint32_t number);
+
+/// `a pointer can point to bytes of I, Q, M, V or S, or …`: what pointer_to() takes.
+std::string pointer_targets_text(const CpuModel& model);
 
 /// `VB100`, `T33`, `M31.7`: the text of an address.
 std::string address_text(Area area, Width width, std::uint32_t number, std::uint8_t bit);
 
 /// `VB100`: the byte at a place in the image.
 std::string byte_text(std::uint32_t place);
-
-/// The first part of special memory that a CPU does not have, or that is not modelled, among `bytes` from SMB`first`; null
-/// if there is none.
-const SpecialMemory* missing_special_memory(const CpuModel& model, std::uint32_t first, std::uint32_t bytes);
-
-/// `SMB8 to SMB21`
-std::string bytes_text(const SpecialMemory& memory);
 
 /// `VB0 to VB4095`: what there is of an area on a CPU.
 std::string range_text(const CpuModel& model, Area area, Width width);

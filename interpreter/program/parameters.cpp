@@ -8,6 +8,7 @@
 #include <string>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/special_memory_use.hpp"
 #include "interpreter/stl/block_words.hpp"
 
 namespace s7200 {
@@ -122,6 +123,9 @@ std::optional<std::vector<Parameter>> place_parameters(const Instruction& call, 
     const auto placed =
         place_operand(call, rule, as_meant(statement.operands[i + 1], variable.type), model, constants, diagnostics);
     good = good && placed;
+    if (placed && placed->area == Area::SM)
+      warn_of_special_memory(model, {placed->operand.at - image::kSM, bytes_of(rule.width)}, rule, statement, i + 1,
+                             diagnostics);
     if (placed)
       parameters.push_back({placed->operand, place_of(variable.address, rule.width), rule.width, rule.role, rule.real});
   }

@@ -15,6 +15,9 @@
 
 namespace s7200 {
 
+/// The place of an operand with an error. It is met only by the search for warnings in a program that has errors.
+inline constexpr std::uint32_t kUnread = image::kSize;
+
 /// Where an operand is in the image.
 struct Operand {
   std::uint32_t at = 0;     ///< for a number that is part of the instruction (label, event …): the number itself
@@ -22,6 +25,7 @@ struct Operand {
   bool pointer = false;     ///< `at` holds the pointer (a double word), not the value
   std::uint16_t width = 1;  ///< bytes
 
+  bool unread() const { return at == kUnread; }
   bool operator==(const Operand&) const = default;
 };
 
@@ -124,6 +128,7 @@ struct Program {
   bool uses_timers = false;
   Looks looks{};
   bool uses_local_memory = false;
+  Areas pointed_at = 0;                 ///< areas of the addresses that it makes pointers of, with &
   std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
   std::vector<std::uint32_t> reals;     ///< double words that some instruction uses as a real: places in the image, sorted
 
@@ -134,6 +139,11 @@ struct Program {
   std::array<Time, kWriteOutputs + 1> scan_phase{};  ///< by ScanPart
 
   const stl::Statement& statement(std::uint32_t op) const { return statements[op]; }
+
+  /// What survives power off: as the system block says, or as the CPU is delivered.
+  const std::vector<RetentiveRange>& retentive() const {
+    return system_block.retentive ? *system_block.retentive : model->retentive;
+  }
 
   /// Whether some instruction uses the double word at this place of the image as a real number.
   bool is_real(std::uint32_t at) const { return std::binary_search(reals.begin(), reals.end(), at); }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "interpreter/program/lint_ops.hpp"
 #include "interpreter/program/warnings.hpp"
 
 namespace s7200 {
@@ -74,6 +75,7 @@ class StructureCheck {
 
   void visit(std::uint32_t i) {
     const CheckedStatement& s = statements_[i];
+    if (s.instruction == &lint::unread_instruction()) return may_be_anything();
     switch (s.instruction->structure) {
       case Structure::SubroutineHead:
         return begin_routine(i, kSubroutine, subroutines_);
@@ -92,13 +94,19 @@ class StructureCheck {
     note(i, s);
   }
 
+  /// A statement that could not be read may jump to any label, and call or attach any routine.
+  void may_be_anything() { all_jumps_known_ = all_calls_known_ = all_attachments_known_ = false; }
+
   /// What a statement is for the structure of its routine.
   void note(std::uint32_t i, const CheckedStatement& s) {
     switch (s.instruction->structure) {
       case Structure::Label:
         return label(i);
       case Structure::Jump:
-        if (s.operands_good) jumps_.push_back({i, routine_});
+        if (s.operands_good)
+          jumps_.push_back({i, routine_});
+        else
+          all_jumps_known_ = false;
         return;
       case Structure::Call:
         if (s.operands_good)
@@ -241,7 +249,7 @@ class StructureCheck {
       result_.target[jump.statement] = found->second.statement;
     }
     for (const auto& [number, place] : labels_)
-      if (!used.contains(number))
+      if (all_jumps_known_ && !used.contains(number))
         warning(Warning::UnusedLabel, position(place.statement), fmt::format("label {} is never used", number));
   }
 
@@ -336,11 +344,25 @@ class StructureCheck {
     std::set<std::uint32_t> called;
     for (const auto& [routine, numbers] : called_) called.insert(numbers.begin(), numbers.end());
     for (const auto& [number, i] : subroutines_)
-      if (all_calls_known_ && !called.contains(number))
+      if (all_calls_known_ && !called.contains(number) && !is_empty(i))
         warning(Warning::UnusedRoutine, position(i), fmt::format("SBR {} is never called", number));
     for (const auto& [number, i] : interrupts_)
-      if (all_attachments_known_ && !attached_.contains(number))
+      if (all_attachments_known_ && !attached_.contains(number) && !is_empty(i))
         warning(Warning::UnusedRoutine, position(i), fmt::format("INT {} is never attached to an event", number));
+  }
+
+  /// Whether a routine has no instruction, as SBR_0 and INT_0 of every new project of Micro/WIN.
+  bool is_empty(std::uint32_t head) const {
+    if (head + 1 == statements_.size()) return true;
+    switch (statements_[head + 1].instruction->structure) {
+      case Structure::SubroutineHead:
+      case Structure::InterruptHead:
+      case Structure::SubroutineEnd:
+      case Structure::InterruptEnd:
+        return true;
+      default:
+        return false;
+    }
   }
 
   void warn_of_recursion() {
@@ -376,7 +398,7 @@ class StructureCheck {
   std::vector<Place> jumps_, calls_, attachments_;
   std::map<Routine, std::set<std::uint32_t>> called_;
   std::set<std::uint32_t> attached_;
-  bool all_calls_known_ = true, all_attachments_known_ = true;
+  bool all_jumps_known_ = true, all_calls_known_ = true, all_attachments_known_ = true;
 };
 
 /// The depth of the logic stack within a network, and how much of it the current rung has put there.
@@ -387,6 +409,8 @@ class StackCheck {
   void visit(const CheckedStatement& s) {
     const Instruction& instruction = *s.instruction;
     const bool load = instruction.rung.stack.needs == 0 && instruction.rung.stack.change == 1;
+    if (&instruction == &lint::unread_instruction()) return give_up(s.begins_network);
+    if (!known_ && !knows_again(s, load)) return;
     if (s.begins_network) depth_ = 0;
     if (s.begins_network || (load && after_output_)) begin_rung();
     if (leaves_one(instruction)) {
@@ -411,6 +435,25 @@ class StackCheck {
   }
 
  private:
+  /// What a statement that could not be read does to the stack, nobody knows.
+  void give_up(bool at_network) {
+    if (at_network) begin_rung();
+    known_ = false;
+    after_output_ = false;
+    rung_ = 0;
+    last_ = nullptr;
+  }
+
+  /// The next network, or the next rung: what the one before has left is not known there.
+  bool knows_again(const CheckedStatement& s, bool load) {
+    const bool rung = load && after_output_;
+    after_output_ = s.instruction->rung.writes_output;
+    if (!s.begins_network && !rung && !leaves_one(*s.instruction)) return false;
+    known_ = after_output_ = true;
+    depth_ = LevelsOfStack;
+    return true;
+  }
+
   /// SBR, INT, LBL, NEXT and LSCR leave a value on top of the stack for what follows: no LD is needed.
   static bool leaves_one(const Instruction& instruction) {
     switch (instruction.structure) {
@@ -464,6 +507,7 @@ class StackCheck {
   int rung_ = 0;   // values that the rung has put there or used
   bool after_output_ = true;
   bool reported_ = false;  // one report for each rung
+  bool known_ = true;      // what is on the stack
 };
 
 }  // namespace

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/address.hpp"
 #include "interpreter/program/program.hpp"
 
 namespace s7200 {
@@ -54,6 +57,24 @@ std::optional<std::array<Each, kPorts.size()>> parse_ports(std::string_view text
   return second ? std::optional(std::array{*first, *second}) : std::nullopt;
 }
 
+bool contains(const RetentiveRange& whole, const RetentiveRange& part) {
+  return whole.area == part.area && part.first >= whole.first && part.first + part.count <= whole.first + whole.count;
+}
+
+/// `VB0:100`, `T0:32`
+std::optional<RetentiveRange> parse_retentive_range(std::string_view text, const CpuModel& model, std::string& why) {
+  const auto place = parse_range(text, model, why);
+  if (!place) return {};
+  const bool numbered = info(place->area).element != 0;
+  const RetentiveRange range{place->area, place->number, numbered ? place->count : place->bytes()};
+  const auto possible = retainable(model);
+  const bool fits = std::ranges::any_of(possible, [&](const RetentiveRange& whole) { return contains(whole, range); });
+  if (fits && place->width != Width::Bit) return range;
+  why = fmt::format("'{}' cannot be retentive; bytes of V and M, timers of TONR (T0 to T31, T64 to T95) and counters can",
+                    stl::shortened(text));
+  return {};
+}
+
 template <class Each>
 std::string ports_text(const std::array<Each, kPorts.size()>& ports) {
   return ports[0] == ports[1] ? fmt::format("{}", ports[0]) : fmt::format("{},{}", ports[0], ports[1]);
@@ -82,6 +103,36 @@ std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuMo
 std::string to_text(const PpiRates& rates) { return ports_text(rates); }
 
 std::string to_text(const PpiStations& stations) { return ports_text(stations); }
+
+std::vector<RetentiveRange> retainable(const CpuModel& model) {
+  std::vector<RetentiveRange> ranges{{Area::V, 0, model.size_of(Area::V)}, {Area::M, 0, model.size_of(Area::M)}};
+  for (const RetentiveRange& timers : {RetentiveRange{Area::T, 0, 32}, RetentiveRange{Area::T, 64, 32}})
+    if (timers.first < model.size_of(Area::T)) ranges.push_back(timers);
+  ranges.push_back({Area::C, 0, model.size_of(Area::C)});
+  return ranges;
+}
+
+std::optional<std::vector<RetentiveRange>> parse_retentive(std::string_view text, const CpuModel& model, std::string& why) {
+  std::vector<RetentiveRange> ranges;
+  if (stl::upper_case(stl::trim(text)) == "NONE") return ranges;
+  for (std::size_t from = 0, comma = 0; comma != std::string_view::npos; from = comma + 1) {
+    comma = text.find(',', from);
+    const auto range = parse_retentive_range(stl::trim(text.substr(from, comma - from)), model, why);
+    if (!range) return {};
+    ranges.push_back(*range);
+  }
+  if (ranges.size() <= kMostRetentiveRanges) return ranges;
+  why = fmt::format("{} ranges; a system block has {} at most", ranges.size(), kMostRetentiveRanges);
+  return {};
+}
+
+std::string to_text(const std::vector<RetentiveRange>& ranges) {
+  std::string text;
+  for (const RetentiveRange& range : ranges)
+    text += fmt::format("{}{}{}{}:{}", text.empty() ? "" : ",", info(range.area).name, info(range.area).element ? "" : "B",
+                        range.first, range.count);
+  return text.empty() ? "none" : text;
+}
 
 std::shared_ptr<const Program> with_system_block(const Program& program, const SystemBlock& block) {
   const auto same = std::make_shared<Program>(program);

@@ -1,4 +1,5 @@
-// The part of a project's system block that is modelled: ports in PPI mode. It is downloaded with the program.
+// The parts of a project's system block that are modelled: ports in PPI mode, and what survives power off. It is downloaded
+// with the program.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/ports.hpp"
@@ -26,6 +28,7 @@ using PpiStations = std::array<std::uint8_t, kPorts.size()>;
 struct SystemBlock {
   PpiRates ppi_rates{9600, 9600};
   PpiStations ppi_stations{2, 2};
+  std::optional<std::vector<RetentiveRange>> retentive{};  ///< nothing: those of the CPU
   auto operator<=>(const SystemBlock&) const = default;
 };
 
@@ -37,6 +40,18 @@ std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& m
 
 /// The same of stations, 1 to 126: `3`; `3,4` for port 0 and port 1.
 std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model, std::string& why);
+
+/// The most ranges of memory that a system block makes retentive.
+inline constexpr std::size_t kMostRetentiveRanges = 6;
+
+/// The memory that a system block of this CPU can make retentive: V, M, the timers of TONR, and the counters.
+std::vector<RetentiveRange> retainable(const CpuModel& model);
+
+/// `VB0:100,MB0:14,T0:32,C5`: up to six ranges of V, M, T or C, or `none`. Returns nothing and sets `why` for anything else.
+std::optional<std::vector<RetentiveRange>> parse_retentive(std::string_view text, const CpuModel& model, std::string& why);
+
+/// As they are parsed.
+std::string to_text(const std::vector<RetentiveRange>& ranges);
 
 /// As they are parsed: one for both ports if they are the same.
 std::string to_text(const PpiRates& rates);

@@ -18,10 +18,15 @@ enum class Warning : std::uint8_t {
   LogicStack,
   NoEni,
   NoFreeport,
+  NoReceiveEvent,
   OtherSign,
+  PortBusy,
+  Preset,
+  ReceiveOnce,
   Recursion,
   UnusedLabel,
   UnusedRoutine,
+  UnusedSpecialMemory,
   UnusedStep,
 };
 
@@ -29,7 +34,7 @@ struct WarningInfo {
   Warning warning;
   std::string_view name;     ///< the name that switches it off
   std::string_view meaning;  ///< one line
-  /// Finds all of these in a program without errors; null if they are found while operands and structure are checked.
+  /// Finds all of these in a program; null if they are found while operands and structure are checked.
   void (*find)(const Program& program, stl::Diagnostics& diagnostics) = nullptr;
 };
 

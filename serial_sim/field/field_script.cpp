@@ -10,6 +10,7 @@
 #include "interpreter/model/special_memory.hpp"
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/operands.hpp"
+#include "interpreter/program/special_memory_use.hpp"
 
 namespace s7200::serial {
 namespace {
@@ -89,7 +90,7 @@ class Reader {
 
   /// What the field can drive; a message for anything else.
   bool drivable(const MemoryRange& range, std::string_view address) {
-    const std::size_t potentiometers = missing_special_memory(model_, sm::kPotentiometer[1] - image::kSM, 1) ? 1 : 2;
+    const std::size_t potentiometers = is_modelled_special_memory(model_, sm::kPotentiometer[1] - image::kSM) ? 2 : 1;
     const bool potentiometer =
         range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < potentiometers;
     const bool analog = range.area == Area::AI && range.number % 2 == 0;

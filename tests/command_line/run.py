@@ -2940,6 +2940,36 @@ class Files(Case):
         self.assertIn("--ram-lost excludes --power-off", run("--power-off", "1h", "--ram-lost", code=UNUSABLE))
         self.ends(UNUSABLE, "run", clock, "--scans", 1, "--power-off", "1h")
 
+    def test_a_word_over_a_byte_of_special_memory_runs_with_a_warning(self):
+        program = self.program("LD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#A0, SMB87\nMOVB 13, SMB89\nMOVW 20, SMW94\nLDB<> SMB86, 0\nRCV VB100, 0\nMEND\n")
+        done = self.ends(FINE, "check", program, "--cpu", "224")
+        self.assertIn(":5:10: warning: SMB94 is a byte: this writes 0 into it [unused-sm]\n", done.stdout)
+        self.assertIn("hint: write MOVB 20, SMB94\n", done.stdout)
+        self.assertNotIn("warning", self.ends(FINE, "check", program, "--cpu", "224", "--no-warn", "unused-sm").stdout)
+        self.assertIn("SMB94 00 14", self.ends(FINE, "run", program, "--cpu", "224", "--scans", "1", "--dump", "SMB94:2").stdout)
+
+    def test_what_survives_power_off_is_set_as_in_the_system_block(self):
+        counts = self.program("LD SM0.1\nINCB VB0\nINCB MB0\nINCB MB20\nLD SM0.0\nMEND\n")
+
+        def after_two_runs(*options):
+            memory = self.folder / f"memory{len(options)}{options[-1:]}.json"
+            for _ in range(2):
+                done = self.ends(FINE, "run", counts, "--cpu", "224", "--scans", "1", "--memory", memory, "--json", "--dump", "VB0", "--dump", "MB0", "--dump", "MB20", *options)
+            return [each["values"][0] for each in json.loads(done.stdout)["memory"]]
+
+        self.assertEqual(after_two_runs(), [2, 1, 2], "as a CPU 224 is delivered")
+        self.assertEqual(after_two_runs("--retain", "MB0:14,C0:5"), [1, 2, 1])
+        self.assertEqual(after_two_runs("--retain", "none"), [1, 1, 1])
+        self.assertIn("--retain: 'T33' cannot be retentive", self.ends(UNUSABLE, "run", counts, "--scans", "1", "--retain", "T33").stderr)
+        scenario = self.program(f"program: {counts}\ncpu: 224\nretain: \"MB0:14\"\nsteps:\n  - power_cycle: memory kept\n  - memory: {{VB0: 1, MB0: 2, MB20: 1}}\n", "retain.yaml")
+        self.ends(FINE, "test", scenario)
+        transcript = self.folder / "transcript.yaml"
+        self.ends(FINE, "test", scenario, "--record", transcript)
+        self.assertIn('retain: "MB0:14"', transcript.read_text(encoding="utf-8"))
+        system = self.program(f"plcs: {{a: {{program: {counts}, cpu: 224, retain: \"QB0\"}}}}\nlines: {{l: {{stations: [a]}}}}\n", "system.yaml")
+        self.assertIn("'QB0' cannot be retentive", self.ends(UNUSABLE, "run", system, "--for", "1ms").stderr)
+        self.assertIn("--retain is about one PLC", self.ends(UNUSABLE, "run", system, "--retain", "VB0").stderr)
+
     def test_standard_output_is_for_one_thing(self):
         path = self.program(Json.ECHO)
         for arguments in (["--trace", "-", "--json"], ["--output", "-", "--json"], ["--trace", "-", "--output", "-"]):

@@ -366,7 +366,7 @@ std::uint32_t Generator::pointer() {
     case 6:
       return to(0x08, v_end - 6 + below(8));
     case 7:
-      return to(static_cast<std::uint32_t>(below(12)), below(64));
+      return to(static_cast<std::uint32_t>(below(9)), below(64));
     case 8:
       return to(0x08, kTables[below(2)] + 2 * below(2));
     default:

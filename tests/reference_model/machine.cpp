@@ -98,6 +98,7 @@ void Machine::power_up() {
   memory.SM[0] = 0b1011'1011;  // always 1, first scan, RUN from power-up, both clocks high, mode switch in RUN
   memory.SM[4] = 0b0110'0000;  // transmitters idle
   memory.SM[6] = kind.identification;
+  for (std::size_t module = 0; module < 7; ++module) memory.SM[8 + 2 * module] = 0x80;  // not there
   memory.SM[66] = memory.SM[76] = 0x80;  // pulse outputs idle
   watchdog_ = kind.watchdog;
 }

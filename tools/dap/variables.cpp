@@ -11,6 +11,7 @@
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/model/special_bits.hpp"
+#include "interpreter/program/special_memory_use.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/dap/addresses.hpp"
@@ -94,10 +95,7 @@ std::vector<Variable> bytes_of(const Cpu& cpu, Area area) {
   const CpuModel& model = *cpu.program().model;
   std::vector<Variable> bytes;
   for (std::uint32_t i = 0; i < model.size_of(area); ++i) {
-    const bool usable = area != Area::SM || std::ranges::any_of(special_memory(), [&](const SpecialMemory& row) {
-                          return i >= row.first && i <= row.last && row.usable_on(model);
-                        });
-    if (usable) bytes.push_back(byte_of(cpu, area, i));
+    if (area != Area::SM || is_modelled_special_memory(model, i)) bytes.push_back(byte_of(cpu, area, i));
   }
   return bytes;
 }

@@ -204,6 +204,7 @@ std::string digest_of(const Program& program) {
   for (const Time time : program.scan_phase) digest.add(time);
   for (const std::uint32_t baud : program.system_block.ppi_rates) digest.add(baud);
   for (const std::uint8_t station : program.system_block.ppi_stations) digest.add(station);
+  if (program.system_block.retentive) digest.add(std::string_view(to_text(*program.system_block.retentive)));
   return digest.text();
 }
 

@@ -31,9 +31,10 @@ struct Kept {
   std::uint8_t* bytes;
 };
 
+/// What a system block can make retentive: what it does not is 0 in the memory.
 std::vector<Kept> kept_in_ram(RetentiveMemory& memory, const CpuModel& model) {
   std::vector<Kept> kept;
-  for (const RetentiveRange& range : model.retentive) kept.push_back({range, memory.image.data() + range.at()});
+  for (const RetentiveRange& range : retainable(model)) kept.push_back({range, memory.image.data() + range.at()});
   return kept;
 }
 
@@ -45,6 +46,8 @@ constexpr std::pair<const char*, std::uint8_t ClockTime::*> kClockFields[] = {
     {"year", &ClockTime::year},      {"month", &ClockTime::month},   {"day", &ClockTime::day},
     {"hour", &ClockTime::hour},      {"minute", &ClockTime::minute}, {"second", &ClockTime::second},
     {"weekday", &ClockTime::weekday}};
+constexpr const char* kClockFraction = "nanosecond";
+constexpr Time kLongestClockFraction = 2 * kSecond;  // of a second that a slow clock counts
 
 std::string name_of(const RetentiveRange& range, std::uint32_t byte) {
   const bool numbered = info(range.area).element != 0;
@@ -92,8 +95,9 @@ std::string take_rows(const Json& rows, const std::vector<Kept>& kept, const Cpu
 }
 
 /// What TODW takes: it does not check dates, and what a program has set comes back.
-void take_clock(const Json& json, ClockTime& clock) {
-  for (const auto& [name, field] : kClockFields) clock.*field = number_at<std::uint8_t>(json, name, {0, 99});
+void take_clock(const Json& json, RetentiveMemory& memory) {
+  for (const auto& [name, field] : kClockFields) memory.clock.*field = number_at<std::uint8_t>(json, name, {0, 99});
+  memory.clock_fraction = number_at<Time>(json, kClockFraction, {0, kLongestClockFraction}, 0);
 }
 
 /// `{"I0.0": 1, "VW10": 5}`
@@ -119,7 +123,7 @@ std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memor
     return fmt::format("it is not the memory of a CPU (no \"format\": \"{}\")", kFormat);
   if (const std::string cpu = text_at(json, "cpu"); cpu != model.name)
     return fmt::format("it is the memory of a CPU {}, not of a CPU {}", stl::shortened(cpu), model.name);
-  taken(required_map(json, "clock"), "clock", [&](const Json& clock) { take_clock(clock, memory.clock); });
+  taken(required_map(json, "clock"), "clock", [&](const Json& clock) { take_clock(clock, memory); });
   if (std::string why = take_rows(required_map(json, "ram"), kept_in_ram(memory, model), model); !why.empty()) return why;
   if (std::string why = take_rows(required_map(json, "eeprom"), kept_in_eeprom(memory, model), model); !why.empty())
     return why;
@@ -132,6 +136,7 @@ std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model)
   RetentiveMemory copy = memory;
   Json json{{"format", kFormat}, {"cpu", model.name}};
   for (const auto& [name, field] : kClockFields) json["clock"][name] = memory.clock.*field;
+  json["clock"][kClockFraction] = memory.clock_fraction;
   json["ram"] = rows_of(kept_in_ram(copy, model));
   json["eeprom"] = rows_of(kept_in_eeprom(copy, model));
   for (const Assignment& forced : forcing::listed(memory.forcing)) json["forced"][forced.place.name_of(0)] = forced.value;

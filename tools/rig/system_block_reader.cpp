@@ -36,9 +36,19 @@ std::string_view ppi_station_meaning() {
   return kMeaning;
 }
 
+std::string_view retain_meaning() {
+  return "memory that survives power off, as the system block sets it: up to six ranges of V, M, T0–T31, T64–T95 and C, as "
+         "`VB0:100,MB0:14,T0:32,C0:5`, or `none`; if left out those that the CPU is delivered with";
+}
+
 void read_system_block(const YamlNode& map, const CpuModel& model, SystemBlock& block, YamlValues& values) {
   read_ports(map, "ppi_baud", model, block.ppi_rates, values, parse_ppi_rates);
   read_ports(map, "ppi_station", model, block.ppi_stations, values, parse_ppi_stations);
+  const auto retain = values.optional_text(map, "retain");
+  if (!retain) return;
+  std::string why;
+  block.retentive = parse_retentive(*retain, model, why);
+  if (!block.retentive) values.wrong(*map.find("retain"), why);
 }
 
 }  // namespace s7200::tools

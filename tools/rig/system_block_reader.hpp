@@ -1,4 +1,4 @@
-// How the system block of a PLC sets its ports, as YAML: keys of system files and of scenarios.
+// How the system block of a PLC sets its ports and its retentive memory, as YAML: keys of system files and of scenarios.
 #pragma once
 
 #include "interpreter/program/system_block.hpp"
@@ -9,8 +9,9 @@ namespace s7200::tools {
 /// What its keys mean, for the tables of keys.
 std::string_view ppi_baud_meaning();
 std::string_view ppi_station_meaning();
+std::string_view retain_meaning();
 
-/// `ppi_baud` and `ppi_station`: what is there goes into `block`. Complains about what the CPU does not have.
+/// `ppi_baud`, `ppi_station` and `retain`: what is there goes into `block`. Complains about what the CPU does not have.
 void read_system_block(const YamlNode& map, const CpuModel& model, SystemBlock& block, YamlValues& values);
 
 }  // namespace s7200::tools

@@ -75,9 +75,9 @@ std::string sample(const OperandRule& rule, std::size_t i) {
 std::string constant_text(const OperandRule& rule) {
   if (rule.real) return "real constant";
   if (rule.text) return "constant in double quotes";
-  if (rule.min == std::numeric_limits<std::int64_t>::min())
+  if (rule.usual_min() == std::numeric_limits<std::int64_t>::min())
     return rule.sign == Sign::Either ? "constant" : rule.sign == Sign::Signed ? "signed constant" : "unsigned constant";
-  return fmt::format("constant {}…{}{}", rule.min, rule.max, rule.not_zero ? " but 0" : "");
+  return fmt::format("constant {}…{}{}", rule.usual_min(), rule.max, rule.not_zero ? " but 0" : "");
 }
 
 std::string ranges_text(const OperandRule& rule, const CpuModel& model) {
@@ -239,7 +239,8 @@ std::string explain(const Instruction& instruction, const TimeTable& times) {
   std::string text = fmt::format("{}\n", syntax(instruction));
   if (!instruction.meaning.empty()) text += fmt::format("  {}\n", instruction.meaning);
   if (!instruction.modelled())
-    return text + fmt::format("  not modelled; the real instruction needs {}\n", to_text(instruction.cpus));
+    return text + fmt::format("  not modelled: {}; the real instruction needs {}\n", instruction.not_modelled,
+                              to_text(instruction.cpus));
   for (const OperandRule& rule : instruction.rules()) {
     text += fmt::format("  {:<11} {}{}\n", rule.name, operand_text(rule), rule.role == Role::In ? "" : "   (written)");
     if (rule.kind != OperandKind::Memory) continue;

@@ -92,7 +92,8 @@ TEST(Choices, NextFollowsThePointersOfItsForAgain) {
 
 TEST(Choices, ABadPointerIsReportedBeforeABadCountOrRange) {
   // N = 0 and a destination beyond V memory would be 0092 and 0091; the pointer of the source is bad too.
-  for (const char* box : {"BMB *VD20, VB100, VB30", "BMB *VD20, VB4095, VB31", "SHRB M0.0, V100.0, *VD20", "ATH *VD20, VB4095, VB31"}) {
+  for (const char* box :
+       {"BMB *VD20, VB100, VB30", "BMB *VD20, VB4095, VB31", "SHRB M0.0, V100.0, *VD20", "ATH *VD20, VB4095, VB31"}) {
     Plc plc(fmt::format("LD SM0.1\n{}\nMEND\n", box));
     plc.set("VD20", 0x03000000);
     plc.set("VB31", 9);
@@ -127,6 +128,15 @@ TEST(Choices, PointerCodesOfTheAreas) {
   const std::uint32_t expected[] = {0x00000001, 0x01000002, 0x02000003, 0x04000004, 0x0700000A, 0x0600000C, 0x08000064};
   for (std::uint32_t i = 0; i < std::size(expected); ++i)
     EXPECT_EQ(static_cast<std::uint32_t>(plc.value(fmt::format("VD{}", 4 * i))), expected[i]);
+}
+
+TEST(Choices, NoExpansionModuleTellsItsIdentity) {
+  Plc plc("LD SM0.0\nBMB SMB8, VB0, 14\nMEND\n", cpu224());
+  plc.run_scans(1);
+  for (int module = 0; module < 7; ++module) {
+    EXPECT_EQ(plc.value(fmt::format("VB{}", 2 * module)), 0x80) << "not there";
+    EXPECT_EQ(plc.value(fmt::format("VB{}", 2 * module + 1)), 0) << "no error";
+  }
 }
 
 TEST(Choices, All64InputAndOutputPointsExist) {

@@ -28,6 +28,23 @@ TEST(Clock, RollsOverSecondsMinutesHoursDaysMonthsYears) {
   EXPECT_EQ(after({26, 12, 31, 23, 59, 59, 5}), (ClockTime{27, 1, 1, 0, 0, 0, 6}));
 }
 
+TEST(Clock, APowerCycleKeepsTheFractionOfTheSecond) {
+  Plc before("LD SM0.0\nMEND\n");
+  before.cpu.set_clock({26, 11, 21, 10, 0, 0, 7});
+  before.run_until(1700 * ms);
+  RetentiveMemory memory = before.cpu.retentive_memory();
+  EXPECT_EQ(memory.clock, (ClockTime{26, 11, 21, 10, 0, 1, 7}));
+  EXPECT_EQ(memory.clock_fraction, before.cpu.time() - kSecond);
+  memory.power_off = 2500 * ms;
+  Plc after("LD SM0.0\nMEND\n", &memory);
+  EXPECT_EQ(after.cpu.clock(), (ClockTime{26, 11, 21, 10, 0, 4, 7})) << "1.7 s + 2.5 s";
+  const Time rest = 5 * kSecond - before.cpu.time() - 2500 * ms;
+  after.run_until(rest - 2 * ms);
+  EXPECT_EQ(after.cpu.clock().second, 4);
+  after.run_until(rest + 2 * ms);
+  EXPECT_EQ(after.cpu.clock().second, 5);
+}
+
 TEST(Clock, LeapYearsAndTheCentury) {
   EXPECT_EQ(after({24, 2, 28, 23, 59, 59, 4}), (ClockTime{24, 2, 29, 0, 0, 0, 5}));
   EXPECT_EQ(after({24, 2, 29, 23, 59, 59, 5}), (ClockTime{24, 3, 1, 0, 0, 0, 6}));

@@ -12,7 +12,7 @@ namespace {
 bool is_modelled(std::uint32_t at) {
   const std::uint32_t number = at - image::kSM;
   return std::any_of(special_memory().begin(), special_memory().end(), [&](const SpecialMemory& range) {
-    return range.modelled && number >= range.first && number <= range.last;
+    return range.use == SpecialUse::Modelled && number >= range.first && number <= range.last;
   });
 }
 

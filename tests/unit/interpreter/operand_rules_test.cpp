@@ -41,8 +41,11 @@ TEST(OperandRules, PresetsOfTimersAndUpCountersAre1To32767) {
   for (const std::string instruction : {"TON T37", "TONR T5", "CTU C1"}) {
     const std::string name =
         instruction.starts_with("CTU") ? "PV of CTU" : "PT of " + instruction.substr(0, instruction.find(' '));
-    for (const char* wrong : {"0", "-1", "32768", "40000", "65535", "16#8000", "2#1000000000000000"})
+    for (const char* wrong : {"32768", "40000", "65535"})
       EXPECT_EQ(verdict(instruction + ", " + wrong), fmt::format("{} must be 1 to 32767, not {}", name, wrong));
+    for (const auto& [low, read] : {std::pair{"0", 0}, std::pair{"-1", -1}, std::pair{"16#8000", -32768}})
+      EXPECT_EQ(verdict(instruction + ", " + low),
+                fmt::format("{} is {}: there is nothing to count | a preset is 1 to 32767 [preset]", name, read));
     for (const char* right : {"1", "32767", "16#7FFF", "VW0", "*VD0", "C2"})
       EXPECT_EQ(verdict(instruction + ", " + right), "fine") << instruction << ", " << right;
   }
@@ -182,9 +185,11 @@ TEST(OperandRules, EachInstructionWithCountedOperandsHasOneCount) {
 }
 
 TEST(OperandRules, ABlockMayNotReachSpecialMemoryThatIsNotModelled) {
-  EXPECT_EQ(verdict("BMB SMB0, VB0, 8"), "fine");
-  EXPECT_EQ(verdict("BMB SMB0, VB0, 9"),
-            "9 bytes from SMB0 reach SMB8 to SMB21 (identity and errors of expansion modules), which are not modelled yet");
+  EXPECT_EQ(verdict("BMB SMB166, VB0, 4", cpu224()), "fine");
+  EXPECT_EQ(
+      verdict("BMB SMB166, VB0, 5", cpu224()),
+      "5 bytes from SMB166 reach SMB170 to SMB175 (pulse output 0: linear profile), which are not modelled | a profile of "
+      "several segments is: SM67.5, SM77.5");
 }
 
 // --- addresses ---
@@ -220,20 +225,26 @@ TEST(OperandRules, HighSpeedCounter0HasOnlyMode0) {
   EXPECT_EQ(verdict("HDEF 0, 0"), "fine");
   EXPECT_EQ(verdict("HDEF 0, 1"), "HSC0 has no mode 1 | HSC0 has only mode 0");
   EXPECT_EQ(verdict("HDEF 2, 11"), "fine");
-  EXPECT_EQ(verdict("HDEF 2, 12"), "MODE of HDEF must be 0 to 11, not 12");
+  EXPECT_EQ(verdict("HDEF 2, 12"), "HSC2 has no mode 12 | HSC2 has the modes 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11");
+  EXPECT_EQ(verdict("HDEF 2, 13"), "MODE of HDEF must be 0 to 12, not 13");
 }
 
 // Facts 10.4.
 TEST(OperandRules, Cpus22xHaveMoreCountersAndModes) {
   const std::string modes = "has the modes 0, 1, 3, 4, 6, 7, 9, 10";
   for (const int counter : {0, 4}) {
-    EXPECT_EQ(verdict(fmt::format("HDEF {}, 10", counter), cpu224()), "fine");
-    EXPECT_EQ(verdict(fmt::format("HDEF {}, 2", counter), cpu224()),
+    EXPECT_EQ(verdict(fmt::format("HDEF {}, 10", counter), cpu224r1()), "fine");
+    EXPECT_EQ(verdict(fmt::format("HDEF {}, 2", counter), cpu224r1()),
               fmt::format("HSC{0} has no mode 2 | HSC{0} {1}", counter, modes));
   }
+  EXPECT_EQ(verdict("HDEF 0, 12", cpu224()), "fine");
+  EXPECT_EQ(verdict("HDEF 3, 12", cpu224()), "fine");
+  EXPECT_EQ(verdict("HDEF 4, 12", cpu224()), "HSC4 has no mode 12 | HSC4 " + modes);
+  EXPECT_EQ(verdict("HDEF 0, 12", cpu224r1()), "HSC0 has no mode 12 | HSC0 " + modes);
   EXPECT_EQ(verdict("HDEF 1, 11", cpu224()), "fine");
   EXPECT_EQ(verdict("HDEF 5, 0", cpu221()), "fine");
-  EXPECT_EQ(verdict("HDEF 3, 1", cpu224()), "HSC3 has no mode 1 | HSC3 has only mode 0");
+  EXPECT_EQ(verdict("HDEF 3, 1", cpu224()), "HSC3 has no mode 1 | HSC3 has the modes 0, 12");
+  EXPECT_EQ(verdict("HDEF 3, 1", cpu224r1()), "HSC3 has no mode 1 | HSC3 has only mode 0");
   EXPECT_EQ(verdict("HSC 6", cpu224()),
             "high-speed counter 6 does not exist on CPU 224 | high-speed counters are numbered 0 to 5");
   EXPECT_EQ(verdict("HSC 1", cpu222()), "CPU 222 has no high-speed counter 1 | it has HSC0, HSC3, HSC4 and HSC5");
@@ -242,17 +253,12 @@ TEST(OperandRules, Cpus22xHaveMoreCountersAndModes) {
   EXPECT_EQ(verdict("HSC 3"), "high-speed counter 3 does not exist on CPU 214 | high-speed counters are numbered 0 to 2");
 }
 
-TEST(OperandRules, SpecialMemoryThatOnlyOtherCpusHaveNamesThem) {
-  EXPECT_EQ(verdict("MOVB SMB136, VB0", cpu215()),
-            "CPU 215 has no SMB136 to SMB165 (high-speed counters HSC3 to HSC5) | it needs CPU 22x");
-  EXPECT_EQ(verdict("MOVB SMB136, VB0", cpu221()), "fine");
-  EXPECT_EQ(verdict("MOVB SMB29, VB0", cpu221()),
-            "CPU 221 has no SMB29 (analog potentiometer 1) | it needs CPU 212, 214, 215, 216, 224, 224XP, 226, 224r1, 226r1 "
-            "or 226XM");
-  EXPECT_EQ(verdict("MOVB SMB28, VB0", cpu221()), "fine");
-  EXPECT_EQ(verdict("MOVB SMB47, VB0", cpu222()).substr(0, 32), "CPU 222 has no SMB46 to SMB65 (h");
-  EXPECT_EQ(verdict("MOVB SMB200, VB0", cpu224()), "SMB200 to SMB549 (intelligent modules) are not modelled yet");
-  EXPECT_EQ(verdict("MOVB SMB170, VB0", cpu224()), "SMB170 to SMB175 (pulse output 0: linear profile) are not modelled yet");
+TEST(OperandRules, SpecialMemoryOfLinearProfilesIsRefusedWhereItExists) {
+  const std::string refused =
+      "SMB170 to SMB175 (pulse output 0: linear profile) are not modelled | a profile of several segments is: SM67.5, "
+      "SM77.5";
+  EXPECT_EQ(verdict("MOVB SMB170, VB0", cpu224()), refused);
+  EXPECT_EQ(verdict("MOVD 1, SMD172", cpu224()), refused);
 }
 
 // --- reals ---

@@ -1,6 +1,7 @@
 // Warnings: each appears where it should, and not in a program that is right.
 #include "interpreter/program/warnings.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -165,6 +166,200 @@ TEST(UnusedStep, IsNotABitThatASegmentAContactAByteOrAPointerMayLoad) {
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nMOVB SB0, QB0\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD SM0.1\nS S0.0, 1\nMOVD &SB0, AC1\nMOVB *AC1, QB0\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD SM0.1\nR S0.0, 128\nMEND\n"), "") << "resetting all of them is usual";
+}
+
+// --- empty routines ---
+
+TEST(UnusedRoutine, IsNotOneWithoutAnInstruction) {
+  const std::string main = "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD I0.0\n= Q0.0\nEND_ORGANIZATION_BLOCK\n";
+  const auto project = [&](std::string_view instruction) {
+    return main + fmt::format(
+                      "SUBROUTINE_BLOCK SBR_0:SBR0\nBEGIN\nNetwork 1 // Network Title\n{0}END_SUBROUTINE_BLOCK\n"
+                      "INTERRUPT_BLOCK INT_0:INT0\nBEGIN\nNetwork 1\n// Network Comment\n{0}END_INTERRUPT_BLOCK\n",
+                      instruction);
+  };
+  EXPECT_EQ(warnings_of(project(""), cpu224()), "") << "as in every new project";
+  EXPECT_EQ(warnings_of(project("NOP 0\n"), cpu224()), "7 unused-routine\n12 unused-routine\n");
+  EXPECT_EQ(warnings_of("LD I0.0\n= Q0.0\nMEND\nSBR 3\nRET\nINT 2\nRETI\n"), "") << "whatever its number";
+}
+
+// --- special memory ---
+
+std::string told(std::string_view statements, const CpuModel& model = cpu224()) {
+  const std::string text = fmt::format("LD SM0.0\n{}\nMEND\n", statements);
+  std::string all;
+  for (const stl::Diagnostic& d : check_text(text, "test", model, default_times(model)).diagnostics)
+    all += d.message + (d.hint.empty() ? "" : " | " + d.hint) + "\n";
+  return all;
+}
+
+TEST(UnusedSpecialMemory, IsAWordOverAByteThatIsUsedAndOthersThatAreNot) {
+  EXPECT_EQ(told("MOVW 100, SMW94"), "SMB94 is a byte: this writes 0 into it | write MOVB 100, SMB94\n");
+  EXPECT_EQ(told("MOVW 16#6400, SMW194", cpu226()),
+            "SMB194 is a byte: this writes 100 into it | write SMB194 with a byte instruction such as MOVB\n");
+  EXPECT_EQ(
+      told("MOVW VW0, SMW94"),
+      "SMB94 is a byte: this writes the high byte of what it writes into it | write SMB94 with a byte instruction such "
+      "as MOVB\n");
+  EXPECT_EQ(told("MOVD 5, SMD94"), "SMB94 is a byte: this writes 0 into it | write MOVB 5, SMB94\n");
+  EXPECT_EQ(
+      told("MOVD 16#01020304, SMD92"),
+      "SMB92 to SMB94 are all that is used here: this writes 1, 2, 3 into them | write each with an instruction of its "
+      "own width\n");
+  EXPECT_EQ(told("MOVW 16#E041, SMW87"), "") << "two bytes that are used";
+  EXPECT_EQ(told("MOVB 100, SMB94"), "");
+}
+
+TEST(UnusedSpecialMemory, IsReservedOrOfWhatTheCpuDoesNotHave) {
+  const std::string memory = " | it is memory like V and M, as far as the manual says; check the address\n";
+  EXPECT_EQ(told("MOVB 1, SMB96"), "CPU 224 makes no use of SMB95 to SMB97 (reserved)" + memory);
+  EXPECT_EQ(told("MOVB SMB186, VB0"), "CPU 224 makes no use of SMB186 to SMB194 (receive message, port 1)" + memory);
+  EXPECT_EQ(told("MOVB SMB186, VB0", cpu226()), "");
+  EXPECT_EQ(told("MOVB SMB136, VB0", cpu215()),
+            "CPU 215 makes no use of SMB136 to SMB165 (high-speed counters HSC3 to HSC5)" + memory);
+  EXPECT_EQ(told("MOVB SMB29, VB0", cpu221()), "CPU 221 makes no use of SMB29 (analog potentiometer 1)" + memory);
+  EXPECT_EQ(told("S SM100.0, 3"), "CPU 224 makes no use of SMB100 to SMB129 (reserved)" + memory);
+  EXPECT_EQ(told("BMB VB0, SMB90, 6"), "CPU 224 makes no use of SMB95 to SMB97 (reserved)" + memory);
+  EXPECT_EQ(told("MOVD 1, SMD172", cpu224r1()),
+            "CPU 224r1 makes no use of SMB170 to SMB175 (pulse output 0: linear profile)" + memory);
+}
+
+TEST(UnusedSpecialMemory, IsThatOfModulesWhichAreNotSimulated) {
+  EXPECT_EQ(told("MOVB SMB200, VB0"),
+            "no intelligent module is simulated: the CPU leaves SMB200 to SMB549 (intelligent modules) as they are\n");
+  EXPECT_EQ(
+      told("MOVB SMB8, VB0", cpu214()),
+      "no expansion module is simulated: the CPU leaves SMB8 to SMB21 (identity and errors of expansion modules) as they "
+      "are\n");
+  EXPECT_EQ(told("MOVW SMW98, VW0"), "");
+}
+
+// --- presets ---
+
+TEST(Preset, IsAConstantOf0OrBelow) {
+  EXPECT_EQ(warnings_of("LD I0.0\nTON T37, 0\nMEND\n"), "2 preset\n");
+  EXPECT_EQ(
+      warnings_of("LD I0.0\nTOF T38, -5\nLD I0.0\nLD I0.1\nCTU C1, 0\nLD I0.0\nLD I0.1\nCTD C2, 16#FFFF\nMEND\n", cpu224()),
+      "2 preset\n5 preset\n8 preset\n");
+  EXPECT_EQ(warnings_of("LD I0.0\nTON T37, 1\nLD I0.0\nTON T38, VW0\nLD I0.0\nLD I0.1\nLD I0.2\nCTUD C1, -1\nMEND\n"), "");
+}
+
+// --- ports ---
+
+TEST(NoReceiveEvent, IsACharacterThatNothingPutsIntoSmb2) {
+  const std::string freeport = "LD SM0.1\nMOVB 9, SMB30\n";
+  EXPECT_EQ(warnings_of(freeport + "LDB= SMB2, 16#41\nS Q0.0, 1\nMEND\n"), "3 no-receive-event\n");
+  EXPECT_EQ(warnings_of(freeport + "LD SM0.0\nMOVW SMW2, VW0\nA SM3.0\n= Q0.0\nMEND\n", cpu226()),
+            "4 no-receive-event\n5 no-receive-event\n");
+  EXPECT_EQ(warnings_of(freeport + "ATCH 0, 9\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, VB0\nRETI\n"), "8 no-receive-event\n");
+}
+
+TEST(NoReceiveEvent, IsNotOneWhereAnAtchMayAttachIt) {
+  const std::string begin = "LD SM0.1\nMOVB 9, SMB30\nMOVB 9, SMB130\n";
+  EXPECT_EQ(warnings_of(begin + "ATCH 0, 8\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, VB0\nRETI\n", cpu226()), "");
+  EXPECT_EQ(warnings_of(begin + "ATCH 0, 25\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, VB0\nRETI\n", cpu226()), "");
+  EXPECT_EQ(warnings_of("LD SM0.0\nMOVD SMD0, VD0\nBMB SMB0, VB4, 6\nMEND\n"), "") << "whoever copies all of it";
+}
+
+/// Freeport mode and the parameters of RCV.
+constexpr std::string_view kReceives = "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#E0, SMB87\nMOVB 13, SMB89\nMOVB 10, SMB94\n";
+
+std::string receiving(std::string_view rest) { return fmt::format("{}{}", kReceives, rest); }
+
+TEST(ReceiveOnce, IsAnRcvOfTheFirstScanThatNothingExecutesAgain) {
+  EXPECT_EQ(warnings_of(receiving("RCV VB100, 0\nMEND\n"), cpu224()), "6 receive-once\n");
+  EXPECT_EQ(warnings_of(receiving("CALL 0\nMEND\nSBR 0\nLD SM0.0\nRCV VB100, 0\nRET\n"), cpu224()), "10 receive-once\n");
+  EXPECT_EQ(warnings_of(receiving("ATCH 0, 23\nENI\nRCV VB100, 0\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n"), cpu224()),
+            "8 receive-once\n");
+  EXPECT_EQ(warnings_of(receiving("ATCH 0, 9\nENI\nXMT VB0, 0\nMEND\nINT 0\nLD SM0.0\nRCV VB100, 0\nRETI\n"), cpu224()),
+            "12 receive-once\n")
+      << "the one XMT has one end";
+  EXPECT_EQ(warnings_of("LDW>= VW0, 0\nA SM0.1\nLPS\nAN I0.0\nMOVB 9, SMB30\nLPP\nRCV VB100, 0\nMEND\n", cpu224()),
+            "7 receive-once\n");
+}
+
+TEST(ReceiveOnce, IsNotAnRcvThatMayBeExecutedAgain) {
+  for (const char* rest : {"RCV VB100, 0\nLDB<> SMB86, 0\nRCV VB100, 0\nMEND\n",
+                           "ATCH 0, 23\nENI\nRCV VB100, 0\nMEND\nINT 0\nLD SM0.0\nRCV VB100, 0\nRETI\n",
+                           "ATCH 0, 23\nATCH 1, 9\nENI\nRCV VB100, 0\nMEND\nINT 0\nLD SM0.0\nXMT VB200, 0\nRETI\n"
+                           "INT 1\nLD SM0.0\nRCV VB100, 0\nRETI\n",
+                           "LD SM0.1\nO M0.0\nRCV VB100, 0\nMEND\n", "LD I0.0\nEU\nRCV VB100, 0\nMEND\n",
+                           "LD SM0.1\nNOT\nRCV VB100, 0\nMEND\n"})
+    EXPECT_EQ(warnings_of(receiving(rest), cpu224()), "") << rest;
+}
+
+TEST(PortBusy, IsTheSecondOfXmtAndRcvInOnePass) {
+  EXPECT_EQ(warnings_of(receiving("LD I0.0\nEU\nRCV VB100, 0\nXMT VB0, 0\nMEND\n"), cpu224()), "9 port-busy\n");
+  EXPECT_EQ(warnings_of(receiving("LD I0.0\nEU\nXMT VB0, 0\nRCV VB100, 0\nMEND\n"), cpu224()), "9 port-busy\n");
+  EXPECT_EQ(warnings_of(receiving("XMT VB0, 0\nLD SM0.0\nINCW VW0\nXMT VB50, 0\nMEND\n"), cpu224()), "9 port-busy\n")
+      << "both in the first scan";
+}
+
+TEST(PortBusy, IsAnXmtWhileAnRcvAlwaysWaits) {
+  const std::string rearmed = receiving(
+      "ATCH 0, 23\nENI\nRCV VB100, 0\nLD I0.0\nEU\nXMT VB0, 0\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRCV VB100, 0\nRETI\n");
+  EXPECT_EQ(warnings_of(rearmed, cpu224()), "11 port-busy\n");
+}
+
+TEST(PortBusy, IsAnXmtThatInputsAloneStartWhileAnRcvWaits) {
+  EXPECT_EQ(warnings_of(receiving("RCV VB100, 0\nLD I0.0\nA I0.1\nEU\nINCW VW0\nXMT VB0, 0\nMEND\n"), cpu224()),
+            "6 receive-once\n11 port-busy\n");
+  EXPECT_EQ(warnings_of(receiving("RCV VB100, 0\nLD SM0.5\nEU\nXMT VB0, 0\nLDB<> SMB86, 0\nRCV VB100, 0\nMEND\n"), cpu224()),
+            "9 port-busy\n");
+}
+
+TEST(PortBusy, IsNotAnXmtThatMayFindThePortFree) {
+  for (const char* rest :
+       {"LD I0.0\nEU\nXMT VB0, 0\nLD I0.1\nRCV VB100, 0\nMEND\n",
+        "LD I0.0\nMOVB 0, SMB87\nRCV VB100, 0\nXMT VB0, 0\nLDN I0.0\nMOVB 16#E0, SMB87\nRCV VB100, 0\nMEND\n",
+        "LD I0.0\nXMT VB0, 0\nNOT\nRCV VB100, 0\nMEND\n",
+        "RCV VB100, 0\nLD I0.0\nAB<> SMB86, 0\nXMT VB0, 0\nLDB<> SMB86, 0\nRCV VB100, 0\nMEND\n",
+        "RCV VB100, 0\nLDN M0.0\nJMP 1\nLD I0.0\nXMT VB0, 0\nLBL 1\nLD SM0.1\nO I0.7\nRCV VB100, 0\nMEND\n",
+        "RCV VB100, 0\nLDN SM0.7\nMOVB 0, SMB30\nLD I0.0\nXMT VB0, 0\nLD I0.7\nRCV VB100, 0\nMEND\n",
+        "ATCH 0, 23\nENI\nRCV VB100, 0\nLD M0.0\nXMT VB0, 0\nMEND\nINT 0\nLD SM0.0\nS M0.0, 1\nRETI\n"
+        "SBR 0\nLD I0.0\nRCV VB100, 0\nRET\n"})
+    EXPECT_EQ(warnings_of(receiving(rest), cpu224()).find("port-busy"), std::string::npos) << rest;
+}
+
+// --- programs with errors ---
+
+TEST(ProgramWithErrors, AnOperandErrorHidesNoErrorOfTheLogicStack) {
+  EXPECT_EQ(warnings_of("NETWORK 1\nLD I99.0\n= Q0.0\nNETWORK 2\nA I0.1\n= Q0.1\nMEND\n"),
+            "2 error: I99.0 does not exist on CPU 214\n5 error: A needs a value on the logic stack and finds none (compile "
+            "rule 0081)\n");
+}
+
+TEST(ProgramWithErrors, AnUnknownMnemonicHidesThemOnlyInItsOwnNetwork) {
+  EXPECT_EQ(warnings_of("NETWORK 1\nXYZZY I0.0\n= Q0.0\nNETWORK 2\nA I0.1\n= Q0.1\nMEND\n"),
+            "2 error: unknown instruction 'XYZZY'\n5 error: A needs a value on the logic stack and finds none (compile rule "
+            "0081)\n");
+  EXPECT_EQ(warnings_of("NETWORK 1\nLD\nLD !\n= Q0.0\nNETWORK 2\nALD\n= Q0.1\nMEND\n").find("4 error"), std::string::npos);
+}
+
+TEST(ProgramWithErrors, AnOperandErrorHidesNoWarningOfOtherNetworks) {
+  const std::string coils = "NETWORK 2\nLD I0.0\n= Q0.0\nNETWORK 3\nLD I0.1\n= Q0.0\n";
+  const std::string error = "2 error: I99.0 does not exist on CPU 214\n";
+  EXPECT_EQ(warnings_of("NETWORK 1\nLD I99.0\n= Q0.1\n" + coils + "MEND\n"), error + "9 double-coil\n");
+  EXPECT_EQ(warnings_of("NETWORK 1\nLD I99.0\nINCW VW0\nNETWORK 2\nLD SM0.1\nATCH 0, 0\nMEND\nINT 0\nLD SM0.0\nINCW VW2\n"
+                        "RETI\n"),
+            error + "6 no-eni\n");
+  EXPECT_EQ(
+      warnings_of("NETWORK 1\nLD I0.0\nTON T37, 99999\n" + coils + "MEND\n").find("9 double-coil") != std::string::npos,
+      true);
+}
+
+TEST(ProgramWithErrors, WhatCouldNotBeReadMayBeWhatAWarningMisses) {
+  EXPECT_EQ(warnings_of("LD I0.0\nJMPP 3\nLBL 3\nMEND\n").find("unused-label"), std::string::npos) << "a JMP with a slip";
+  EXPECT_EQ(warnings_of("LDS 99\nLD I0.0\nRCV VB0, 0\nMEND\n", cpu224()).find("receive-once"), std::string::npos);
+  EXPECT_EQ(warnings_of("LD SM0.1\nATCH 0, 0\nENII\nMEND\nINT 0\nLD SM0.0\nINCW VW2\nRETI\n").find("no-eni"),
+            std::string::npos)
+      << "an ENI with a slip";
+  EXPECT_EQ(warnings_of("LD I0.0\n= M0.0\nLD M99.0\n= Q0.0\nLD I0.1\n= M0.0\nMEND\n").find("double-coil"), std::string::npos)
+      << "the contact may be that of M0.0";
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB30\nATCH 0, 99\nENI\nLDB= SMB2, 1\n= Q0.0\nMEND\nINT 0\nNOP 0\nRETI\n")
+                .find("no-receive-event"),
+            std::string::npos)
+      << "the event may be 8";
 }
 
 TEST(PpiStations, AreKeptByProgramsThatLeavePortsInPpiMode) {

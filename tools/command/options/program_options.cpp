@@ -89,6 +89,11 @@ void CpuOptions::add_to(CLI::App& app) {
                  fmt::format("PPI station until SPA sets another, 1 to 126; 3,4: port 0 and port 1 [{}]",
                              s7200::to_text(SystemBlock{}.ppi_stations)))
       ->type_name("NUMBER[,NUMBER]");
+  app.add_option(
+         "--retain", retain,
+         "memory that survives power off, as the system block sets it: VB0:100,MB0:14,T0:32,C0:5 or none [those that "
+         "the CPU is delivered with]")
+      ->type_name("RANGES");
   add_repair_option(app, repairs);
   add_no_skip_option(app, every_scan);
 }
@@ -128,7 +133,11 @@ std::optional<SystemBlock> CpuOptions::system_block(const CpuModel& model) const
   if (!rates) return print_error("--ppi-baud: " + why), std::nullopt;
   const auto stations = ppi_station.empty() ? usual.ppi_stations : parse_ppi_stations(ppi_station, model, why);
   if (!stations) return print_error("--ppi-station: " + why), std::nullopt;
-  return SystemBlock{*rates, *stations};
+  SystemBlock block{.ppi_rates = *rates, .ppi_stations = *stations};
+  if (retain.empty()) return block;
+  block.retentive = parse_retentive(retain, model, why);
+  if (!block.retentive) return print_error("--retain: " + why), std::nullopt;
+  return block;
 }
 
 void ProgramOptions::add_to(CLI::App& app) {
