@@ -1,9 +1,9 @@
 // High-speed counters: HDEF, HSC, SMB36–65 and SMB136–165, events 12–18 and 27–33 (facts 3.1, 4.5, 5.2, 10.4).
 //
 // Modes: 0–2 direction by the control byte, 3–5 by an input, 6–8 separate up and down clocks, 9–11 two clocks 90° apart;
-// the second of each group adds an external reset, the third reset and start. In mode 12, on late CPUs 22x, HSC0 counts the
-// pulses of PTO0 and HSC3 those of PTO1, without inputs; the control byte gives the direction (facts 10.4). Inputs and events of each counter:
-// model/counters.hpp. The counters of a CPU and their modes: in its model.
+// the second of each group adds an external reset, the third reset and start. In mode 12, on CPUs 22x of release 2, HSC0
+// counts the pulses of PTO0 and HSC3 those of PTO1, without inputs; the control byte gives the direction (facts 10.4).
+// Inputs and events of each counter: model/counters.hpp. The counters of a CPU and their modes: in its model.
 //
 //   SMB37 …   .0 reset active low  .1 start active low  .2 quadrature counts once a period, otherwise four times
 //                   .3 up  .4 take direction  .5 take new preset  .6 take new current value  .7 enabled

@@ -39,7 +39,7 @@ Levels after(const Op& op, Levels levels) {
   if (mnemonic == "ALD") return with_top(levels >> 1, (levels & 3) != 0);
   if (mnemonic == "OLD") return with_top(levels >> 1, (levels & 3) == 3);
   if (mnemonic == "LPS") return pushed(levels, levels & 1);
-  if (mnemonic == "LDS") return pushed(levels, levels >> op[0].at & 1);
+  if (mnemonic == "LDS") return pushed(levels, !op[0].unread() && (levels >> op[0].at & 1) != 0);
   if (mnemonic == "LRD") return with_top(levels, levels & 2);
   if (mnemonic == "LPP") return levels >> 1;
   if (instruction.effect == Effect::LoadsBit) return pushed(levels, is_of_first_scan(op[0]));

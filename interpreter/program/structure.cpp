@@ -94,8 +94,8 @@ class StructureCheck {
     note(i, s);
   }
 
-  /// A statement that could not be read may call or attach any routine.
-  void may_be_anything() { all_calls_known_ = all_attachments_known_ = false; }
+  /// A statement that could not be read may jump to any label, and call or attach any routine.
+  void may_be_anything() { all_jumps_known_ = all_calls_known_ = all_attachments_known_ = false; }
 
   /// What a statement is for the structure of its routine.
   void note(std::uint32_t i, const CheckedStatement& s) {
@@ -103,7 +103,10 @@ class StructureCheck {
       case Structure::Label:
         return label(i);
       case Structure::Jump:
-        if (s.operands_good) jumps_.push_back({i, routine_});
+        if (s.operands_good)
+          jumps_.push_back({i, routine_});
+        else
+          all_jumps_known_ = false;
         return;
       case Structure::Call:
         if (s.operands_good)
@@ -250,7 +253,7 @@ class StructureCheck {
       result_.target[jump.statement] = found->second.statement;
     }
     for (const auto& [number, place] : labels_)
-      if (!used.contains(number))
+      if (all_jumps_known_ && !used.contains(number))
         warning(Warning::UnusedLabel, position(place.statement), fmt::format("label {} is never used", number));
   }
 
@@ -399,7 +402,7 @@ class StructureCheck {
   std::vector<Place> jumps_, calls_, attachments_;
   std::map<Routine, std::set<std::uint32_t>> called_;
   std::set<std::uint32_t> attached_;
-  bool all_calls_known_ = true, all_attachments_known_ = true;
+  bool all_jumps_known_ = true, all_calls_known_ = true, all_attachments_known_ = true;
 };
 
 /// The depth of the logic stack within a network, and how much of it the current rung has put there.

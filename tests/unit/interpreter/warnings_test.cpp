@@ -349,6 +349,8 @@ TEST(ProgramWithErrors, AnOperandErrorHidesNoWarningOfOtherNetworks) {
 }
 
 TEST(ProgramWithErrors, WhatCouldNotBeReadMayBeWhatAWarningMisses) {
+  EXPECT_EQ(warnings_of("LD I0.0\nJMPP 3\nLBL 3\nMEND\n").find("unused-label"), std::string::npos) << "a JMP with a slip";
+  EXPECT_EQ(warnings_of("LDS 99\nLD I0.0\nRCV VB0, 0\nMEND\n", cpu224()).find("receive-once"), std::string::npos);
   EXPECT_EQ(warnings_of("LD SM0.1\nATCH 0, 0\nENII\nMEND\nINT 0\nLD SM0.0\nINCW VW2\nRETI\n").find("no-eni"),
             std::string::npos)
       << "an ENI with a slip";
