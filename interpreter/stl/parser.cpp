@@ -692,7 +692,9 @@ class LineReader {
     const std::string found = describe(rest);
     std::string message = expected == "the end of the line" ? fmt::format("unexpected {}", found)
                                                             : fmt::format("expected {}, found {}", expected, found);
-    report(places_.position(where, 1), std::move(message), hint_for(expected, rest));
+    const bool numbered = at_start && !rest.empty() && is_digit(rest.front());
+    report(places_.position(where, 1), std::move(message), hint_for(expected, rest),
+           numbered ? "a number at the beginning of the line" : "");
   }
 
   /// `IO.0`, `16#O9`: true after a message.
@@ -731,7 +733,7 @@ class LineReader {
     }
     const std::string_view mnemonic = view(second.mnemonic);
     if (before.ends_with(',') && is_letter(mnemonic.front())) return false;  // an operand
-    if (second.operands.empty() && !(before.ends_with(';') && std::ranges::all_of(mnemonic, is_letter))) return false;
+    if (second.operands.empty() && !(before.ends_with(';') && std::ranges::all_of(mnemonic, is_upper))) return false;
     report(position(second.mnemonic), "two statements in one line",
            fmt::format("begin a new line with {}", shortened(mnemonic)));
     return true;

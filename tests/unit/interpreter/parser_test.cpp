@@ -371,6 +371,14 @@ TEST(Parser, TwoStatementsInOneLineAreNamed) {
   }
 }
 
+TEST(Parser, ACommentAfterASemicolonIsNoStatement) {
+  EXPECT_EQ(error("LD I0.0 ; lamp").message, "unexpected 'l'");
+}
+
+TEST(Parser, NumbersAtTheBeginningOfLinesHaveOneCause) {
+  EXPECT_EQ(count_causes(parse("1\n2\n3\nLD I0.0\n", "test.stl").diagnostics), 1U);
+}
+
 TEST(Parser, NetworkMayHaveItsNumberWithoutABlank) {
   const ParseResult result = parse("NETWORK12 // x\n", "test.stl");
   ASSERT_EQ(result.source.lines.size(), 1U);
