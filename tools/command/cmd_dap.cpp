@@ -110,8 +110,7 @@ void add_dap(CLI::App& app, int& exit_code) {
       ->type_name("FILE")
       ->needs(listen);
   offer(verb->add_option("--allow", options->allowed,
-                         fmt::format("what a launch over --listen may write or open: {} (repeatable)",
-                                     fmt::join(writing_attributes(), ", "))),
+                         "what a launch over --listen may write or open, such as trace,modbus-tcp (repeatable)"),
         writing_attributes())
       ->check(not_a_writing_attribute)
       ->delimiter(',')

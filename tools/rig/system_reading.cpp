@@ -72,6 +72,9 @@ std::vector<Named> entries(const YamlNode& root, std::string_view list, YamlValu
     const YamlNode &key = map->keys[i], &item = map->items[i];
     if (key.text.find_first_of(". \t") != std::string::npos)
       values.wrong(key, fmt::format("'{}' is not a name", stl::shortened(key.text)), "a name has no dot and no blank");
+    else if (stl::printable(key.text) != key.text)
+      values.wrong(key, fmt::format("'{}' is not a name", stl::shortened(key.text)),
+                   "a name has no control characters: it is printed, and written into files");
     else if (!item.is_map())
       values.wrong(item, fmt::format("'{}' is a map, not {}", stl::shortened(key.text), to_text(item)));
     else

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <set>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/scenario/transcript_writer.hpp"
+#include "tools/views/escapes.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
@@ -24,9 +26,10 @@ std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    result +=
+        static_cast<unsigned char>(c) < 0x20 ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c)) : std::string(1, c);
   }
-  return result + '"';
+  return with_escapes(result) + '"';
 }
 
 std::string assignments_text(const std::vector<Assignment>& assignments) {
@@ -150,8 +153,8 @@ void TranscriptWriter::line_settings(const serial::MasterSettings& settings) {
 }
 
 std::string transcript_heading(const Transcript& transcript) {
-  return fmt::format("{} {} by {}. Replayed by s7200 test.\nscenarios:\n", kTranscriptBeginning, transcript.recorded_from,
-                     transcript.by);
+  return fmt::format("{} {} by {}. Replayed by s7200 test.\nscenarios:\n", kTranscriptBeginning,
+                     stl::printable(transcript.recorded_from), transcript.by);
 }
 
 std::string transcript_text(const std::vector<Report>& reports, const Transcript& transcript) {

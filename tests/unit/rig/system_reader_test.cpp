@@ -305,6 +305,32 @@ TEST(SystemFile, ASystemTakesAThousandStations) {
   EXPECT_EQ(too_many->position.line, 1003U) << "b499, the thousand and first";
 }
 
+TEST(SystemFile, ANameThatATerminalWouldObeyIsRefusedWhereverItStands) {
+  for (const std::string name : {"p\\e[31mX\\e]0;owned\\a", "a\\0b", "\\x9b1m", "a\\u202eb", "a\\nb"})
+    for (const std::string map : {"plcs", "peers", "bridges", "lines"}) {
+      const std::string text = fmt::format("{}: {{\"{}\": {{}}}}\n", map, name);
+      const SystemFile file = read(text);
+      const auto is_said = [](const stl::Diagnostic& d) { return d.hint.starts_with("a name has no"); };
+      EXPECT_TRUE(std::ranges::any_of(file.file.diagnostics, is_said)) << text;
+    }
+}
+
+TEST(SystemFile, ANameOfAFileWithNulIsRefused) {
+  const std::string plc = "plcs: {a: {program: ../modbus_slave.stl";
+  for (const std::string& text :
+       {std::string("plcs: {a: {program: \"../modbus_slave.stl\\0.x\"}}\nlines: {l: {stations: [a]}}\n"),
+        plc + ", memory: \"m\\0x\"}}\nlines: {l: {stations: [a]}}\n",
+        plc + ", with: [\"s\\0x\"]}}\nlines: {l: {stations: [a]}}\n",
+        plc + "}}\nlines: {l: {stations: [a], capture: [\"c\\0.pcap\"]}}\n",
+        plc + "}}\nbridges: {b: {pty: \"l\\0x\"}}\nlines: {l: {stations: [a, b]}}\n"}) {
+    const SystemFile file = read(text);
+    const auto is_said = [](const stl::Diagnostic& d) {
+      return d.message.ends_with("has the character NUL in it, which no name can have");
+    };
+    EXPECT_TRUE(std::ranges::any_of(file.file.diagnostics, is_said)) << text;
+  }
+}
+
 TEST(SystemFile, EachBridgeAtPort0GetsAPortOfItsOwn) {
   const SystemFile file = read(
       "plcs: {a: {program: ../modbus_slave.stl}}\n"
