@@ -2660,6 +2660,15 @@ class Files(Case):
         self.assertTrue(done.stdout.startswith("Content-Length: "))
         self.assertIn('"supportsStepBack":true', done.stdout)
 
+    def test_what_the_libraries_say_reaches_nobody(self):
+        for arguments, said in ((("run", SLAVE, "--for"), "--for needs a value: TIME"), (("run",), "PROGRAM is missing"),
+                                (("run", SLAVE, "--for", "1s", "--for", "2s"), "--for stands here 2 times, and takes one value"),
+                                (("run", SLAVE, "--parity", "frob"), "--parity: frob is not one of "),
+                                (("import", SLAVE, "--as", "frob"), "--as"), (("run", SLAVE, "--frob", "7"), "there is no option --frob here"),
+                                (("run", SLAVE, "--trace-events"), "--trace-events requires --trace"),
+                                (("dap", "--listen", "0", "--allow", "frob"), "'frob' is not an attribute that writes or opens something")):
+            self.assertIn(said, self.ends(UNUSABLE, *arguments).stderr)
+
     def test_a_server_of_other_computers_is_refused(self):
         self.assertIn("only this computer itself is served", self.ends(UNUSABLE, "dap", "--listen", "0.0.0.0:0").stderr)
 

@@ -114,7 +114,8 @@ std::string as_written(const std::string& value, const std::string& type, const 
   const bool is_table = type == "TABLE" && std::ranges::find(named_times(), value, &NamedTimes::name) == named_times().end();
   if ((type != "FILE" && type != "LINK" && type != "DEVICE" && !is_table) || is_standard_input(value)) return value;
   const std::string path = dap::path_of(value);
-  return folder.empty() ? path : (fs::absolute(dap::path_of(folder)) / path).lexically_normal().string();
+  std::error_code gone;
+  return folder.empty() ? path : (fs::absolute(dap::path_of(folder), gone) / path).lexically_normal().string();
 }
 
 std::string word_of(const Json& value, std::string_view type) {
@@ -140,7 +141,8 @@ std::vector<std::string> words_of(const Json& value, const std::string& option, 
 
 std::vector<std::string> words_of(const Json& arguments, const CLI::App& app) {
   const std::string folder = text_at(arguments, "cwd", "");
-  if (!folder.empty() && !fs::is_directory(dap::path_of(folder)))
+  std::error_code gone;
+  if (!folder.empty() && !fs::is_directory(dap::path_of(folder), gone))
     throw dap::Refused(fmt::format("launch: cwd: '{}' is not a folder", stl::shortened(folder)));
   std::vector<std::string> words;
   for (const auto& [key, value] : arguments.items()) {

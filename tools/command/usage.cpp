@@ -74,8 +74,6 @@ constexpr ParserWords kParserWords[] = {
     {"Could not convert: ", " = ", "", "{0} does not take '{1}'"},
     {"The value ", " is not an allowed value for ", "", "{1} does not take '{0}'"},
     {"", " not in {", "}", "{0} is not one of {1}"},
-    {"The following argument was not expected: ", "", "", "'{0}' has no place here"},
-    {"The following arguments were not expected: ", "", "", "'{0}' have no place here"},
 };
 
 /// Nothing if the message is not of these words.
@@ -88,6 +86,14 @@ std::optional<std::string> translated(std::string_view text, const ParserWords& 
   const std::string_view rest = text.substr(place + words.between.size());
   if (words.after.empty() && words.ours.find("{1}") == std::string_view::npos && !rest.empty()) return {};
   return fmt::format(fmt::runtime(words.ours), text.substr(0, place), rest);
+}
+
+/// Of words that are left over the option among them, if there is one: what follows it is its value.
+std::string not_expected(std::string_view left_over) {
+  const std::vector<std::string> words = stl::split_words(left_over.substr(left_over.find(": ") + 1));
+  const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("-"); });
+  if (option != words.end()) return fmt::format("there is no option {} here", stl::shortened(*option));
+  return fmt::format("'{}' is one word too many here", stl::shortened(words.empty() ? left_over : words.back()));
 }
 
 bool is_help_word(const std::string& word) { return word == "help" || word == "version"; }
@@ -137,6 +143,7 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
 }
 
 std::string in_our_words(const CLI::Error& error) {
+  if (std::string_view(error.what()).starts_with("The following argument")) return not_expected(error.what());
   for (const ParserWords& words : kParserWords)
     if (auto ours = translated(error.what(), words)) return *std::move(ours);
   return error.what();

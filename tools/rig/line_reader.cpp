@@ -9,6 +9,7 @@
 #include "interpreter/base/numbers.hpp"
 #include "serial_sim/line/line.hpp"
 #include "tools/host/listen_address.hpp"
+#include "tools/yaml/names.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -28,7 +29,7 @@ class LineReader {
                            "write for example {tcp: 5020}");
     const auto row = std::ranges::find(kBridges, map.keys[0].text, &BridgeRow::word);
     if (row == kBridges.end()) return;  // check_keys() has said so
-    BridgePlan plan{bridge.key.text, row->kind, values_.name(map.items[0]).value_or("")};
+    BridgePlan plan{bridge.key.text, row->kind, name_from(map.items[0], values_).value_or("")};
     if (plan.kind == BridgeKind::Pty) plan.where = beside(reading_.path, plan.where);
     if (const std::string place = place_of(plan, map.items[0]); !place.empty()) {
       const auto [known, is_new] = names_.served.emplace(place, bridge.key.position.line);
@@ -49,7 +50,7 @@ class LineReader {
                     "give the line a name of its own: --at and 'on' take either");
     read_settings(map, plan);
     for (const YamlNode* item : items_of(map, "capture", "bus.pcap", values_))
-      if (const auto written = values_.name(*item)) {
+      if (const auto written = name_from(*item, values_)) {
         plan.captures.push_back(beside(reading_.path, *written));
         names_.take_file(*item, plan.captures.back(), values_);
       }

@@ -22,6 +22,7 @@
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/program_cpu.hpp"
 #include "tools/rig/system_block_reader.hpp"
+#include "tools/yaml/names.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -104,7 +105,7 @@ class PlcReader {
     for (const YamlNode* part : items_of(plc.item, "with", "symbols.txt", values_)) nodes.push_back(part);
     std::vector<SourceText> files;
     for (const YamlNode* node : nodes) {
-      const auto written = values_.name(*node);
+      const auto written = name_from(*node, values_);
       if (!written) return {};
       std::string why;
       const SourceText* const text = text_of(beside(reading_.path, *written), why);

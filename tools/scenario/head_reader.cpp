@@ -17,6 +17,7 @@
 #include "tools/rig/system_reader.hpp"
 #include "tools/scenario/keys.hpp"
 #include "tools/scenario/memory_values.hpp"
+#include "tools/yaml/names.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -152,7 +153,7 @@ class HeadReader {
       return values_.wrong(parts, "'with' is a list of files, not " + to_text(parts),
                            "write for example with: [symbols.txt]");
     for (const YamlNode& part : parts.items)
-      if (const auto path = values_.name(part)) with.push_back(beside(scenario_file_, *path));
+      if (const auto path = name_from(part, values_)) with.push_back(beside(scenario_file_, *path));
   }
 
   /// A file that cannot be read is complained about when the program is.

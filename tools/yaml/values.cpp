@@ -4,6 +4,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/program/load.hpp"
+#include "tools/yaml/names.hpp"
 
 namespace s7200::tools {
 
@@ -31,16 +32,16 @@ std::optional<std::string> YamlValues::text(const YamlNode& node) {
   return {};
 }
 
-std::optional<std::string> YamlValues::name(const YamlNode& node) {
-  auto written = text(node);
+std::optional<std::string> name_from(const YamlNode& node, YamlValues& values) {
+  auto written = values.text(node);
   if (!written || written->find('\0') == std::string::npos) return written;
-  wrong(node, fmt::format("'{}' has the character NUL in it, which no name can have", stl::shortened(*written)));
+  values.wrong(node, fmt::format("'{}' has the character NUL in it, which no name can have", stl::shortened(*written)));
   return {};
 }
 
 std::optional<std::string> YamlValues::optional_text(const YamlNode& map, std::string_view key) {
   const YamlNode* node = map.find(key);
-  auto written = node ? name(*node) : std::nullopt;
+  auto written = node ? name_from(*node, *this) : std::nullopt;
   return written && written->empty() ? std::nullopt : written;
 }
 

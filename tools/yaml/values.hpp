@@ -48,9 +48,6 @@ class YamlValues {
   /// A scalar; nothing after a complaint.
   virtual std::optional<std::string> text(const YamlNode& node);
 
-  /// A name of something or of a file, as text(): complains about NUL, at which the name would end for the system.
-  std::optional<std::string> name(const YamlNode& node);
-
   /// The same of a key, if it is there and not empty.
   std::optional<std::string> optional_text(const YamlNode& map, std::string_view key);
 
