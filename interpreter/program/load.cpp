@@ -21,7 +21,7 @@
 #include "interpreter/stl/encoding.hpp"
 #include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/project.hpp"
-#include "interpreter/stl/symbols.hpp"
+#include "interpreter/stl/symbol_table.hpp"
 
 namespace s7200 {
 namespace {
@@ -207,6 +207,21 @@ std::optional<SourceText> read_plain(std::string_view text, const std::string& n
   if (!listing) return SourceText{read_as(SourceKind::Document, text, name), {}, SourceKind::Document};
   if (!can_be_stl(listing->source.text)) return std::nullopt;
   return SourceText{std::move(*listing), {}, SourceKind::Listing};
+}
+
+}  // namespace
+
+namespace {
+
+bool is_code(const stl::Line& line) {
+  return std::holds_alternative<stl::Statement>(line) || std::holds_alternative<stl::NetworkHead>(line);
+}
+
+/// Only comments, or headings of a table.
+bool is_empty(const stl::ParseResult& parsed) {
+  const stl::Source& source = parsed.source;
+  return std::ranges::none_of(source.lines, is_code) && std::ranges::all_of(source.data, &stl::DataLine::only_comment) &&
+         source.blocks.empty() && source.symbols.empty() && parsed.diagnostics.empty();
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <map>
 #include <optional>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "interpreter/stl/headings.hpp"
 #include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/system_symbols.hpp"
 
 namespace s7200::stl {
 
@@ -27,80 +27,6 @@ bool may_be_name(const OperandValue& value, std::string_view written) {
   }
   return std::holds_alternative<Integer>(value) && (written.front() == 'K' || written.front() == 'k');
 }
-
-namespace {
-
-// --- rows and cells ---
-
-struct Cell {
-  std::string text;        // without quotes
-  std::string_view place;  // where it is in the line
-};
-
-/// Tabs if there are any; otherwise what the first row with one of them has.
-char separator_of(std::string_view text) {
-  if (text.find('\t') != std::string_view::npos) return '\t';
-  const std::size_t first = text.find_first_of(",;");
-  return first == std::string_view::npos ? ',' : text[first];
-}
-
-std::string without_doubled_quotes(std::string_view text) {
-  std::string plain;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    plain += text[i];
-    if (text[i] == '"' && text.substr(i + 1).starts_with('"')) ++i;
-  }
-  return plain;
-}
-
-std::vector<Cell> cells_of(std::string_view line, char separator) {
-  std::vector<Cell> cells;
-  while (true) {
-    line.remove_prefix(std::min(line.find_first_not_of(" \r\f"), line.size()));
-    std::size_t end = 0;
-    if (line.starts_with('"')) {
-      for (end = 1; end < line.size() && (line[end] != '"' || line.substr(end).starts_with("\"\"")); ++end)
-        end += line[end] == '"' ? 1U : 0U;
-    }
-    end = std::min(line.find(separator, end), line.size());
-    const std::string_view written = trim_end(line.substr(0, end));
-    std::string text(written);
-    if (written.size() > 1 && written.front() == '"' && written.back() == '"')
-      text = without_doubled_quotes(written.substr(1, written.size() - 2));
-    cells.push_back({std::move(text), written});
-    if (end == line.size()) return cells;
-    line.remove_prefix(end + 1);
-  }
-}
-
-bool is_comment_or_blank(std::string_view line) {
-  line = trim(line);
-  return line.empty() || line.starts_with("//");
-}
-
-/// The first lines that are neither empty nor comments, from which the kind of a file is seen.
-std::vector<std::string_view> first_rows(std::string_view text) {
-  constexpr std::size_t kRows = 100, kLongestRow = 1000;
-  std::vector<std::string_view> rows;
-  while (!text.empty() && rows.size() < kRows) {
-    const std::string_view line = take_line(text);
-    if (!is_comment_or_blank(line) && line.size() <= kLongestRow) rows.push_back(line);
-  }
-  return rows;
-}
-
-// --- what a cell is ---
-
-bool is_name(std::string_view text) {
-  return !text.empty() &&
-         (is_letter(text.front()) || text.front() == '_' || static_cast<unsigned char>(text.front()) >= 0x80);
-}
-
-/// `SBR0`, `INT12`, `OB1`: what a block is called beside its name.
-struct BlockNumber {
-  Block::Kind kind;
-  std::uint32_t number;
-};
 
 std::optional<BlockNumber> block_number(std::string_view text) {
   static constexpr std::array<std::pair<std::string_view, Block::Kind>, 3> kLetters{
@@ -115,141 +41,7 @@ std::optional<BlockNumber> block_number(std::string_view text) {
   return std::nullopt;
 }
 
-constexpr std::size_t kLongestValue = 40;
-
-/// The address or constant in a cell, or the name of a block; nothing for other text.
-std::optional<OperandValue> value_of(std::string_view text, std::string& why) {
-  if (text.empty() || text.size() > kLongestValue) return std::nullopt;
-  if (block_number(text)) return Name{upper_case(text)};
-  const auto operand = parse_operand(text, why);
-  if (!operand || std::holds_alternative<Name>(operand->value)) return std::nullopt;
-  return operand->value;
-}
-
-bool is_address(std::string_view text) {
-  std::string why;
-  const auto value = value_of(text, why);
-  if (!value || may_be_name(*value, text)) return false;
-  return std::holds_alternative<Address>(*value) || std::holds_alternative<Name>(*value);
-}
-
-bool is_heading(const std::string& text, std::span<const std::string_view> words) {
-  const std::string upper = upper_case(text);
-  return std::ranges::find(words, upper) != words.end();
-}
-
-// In the languages of Micro/WIN.
-constexpr std::array<std::string_view, 9> kNameHeadings{"SYMBOL",  "NAME", "SYMBOL NAME", "SYMBOLE", "SÍMBOLO",
-                                                        "SIMBOLO", "符号", "符號",        "名称"};
-constexpr std::array<std::string_view, 10> kAddressHeadings{"ADDRESS",   "ADDR", "ADRESSE",   "DIRECCIÓN", "DIRECCION",
-                                                            "INDIRIZZO", "地址", "DIRECCIóN", "ADRESS",    "OPERAND"};
-
-// --- symbol tables ---
-
-struct Columns {
-  std::size_t name = 0, address = 1;
-};
-
-/// The columns that a row of headings names.
-std::optional<Columns> headings(const std::vector<Cell>& cells) {
-  std::optional<std::size_t> name, address;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!name && is_heading(cells[i].text, kNameHeadings)) name = i;
-    if (!address && is_heading(cells[i].text, kAddressHeadings)) address = i;
-  }
-  if (!name || !address) return std::nullopt;
-  return Columns{*name, *address};
-}
-
-/// Where name and address are in a row without headings: side by side, the name first unless only the first is an address.
-std::optional<Columns> columns_of(const std::vector<Cell>& cells) {
-  std::string why;
-  for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
-    const std::string &left = cells[i].text, &right = cells[i + 1].text;
-    if (is_name(left) && !is_address(left) && value_of(right, why)) return Columns{i, i + 1};
-    if (is_address(left) && is_name(right) && !is_address(right)) return Columns{i + 1, i};
-  }
-  return std::nullopt;
-}
-
-class SymbolTableReader {
- public:
-  SymbolTableReader(std::string_view text, std::string name) : separator_(separator_of(text)) {
-    result_.source.name = std::move(name);
-    result_.source.text = split_lines(text);
-  }
-
-  ParseResult result() {
-    for (const std::string& line : result_.source.text) {
-      ++number_;
-      if (!is_comment_or_blank(line)) read_row(line);
-    }
-    return std::move(result_);
-  }
-
- private:
-  void read_row(std::string_view line) {
-    const std::vector<Cell> cells = cells_of(line, separator_);
-    const auto filled = std::ranges::count_if(cells, [](const Cell& c) { return !c.text.empty(); });
-    if (filled <= 1) return;  // the heading of a table, or a name without an address: unknown if it is used
-    if (const auto found = headings(cells)) {
-      headed_ = found;
-      return;
-    }
-    const auto columns = headed_ && fits(cells, *headed_) ? headed_ : columns_of(cells);
-    if (!columns) return add_without_address(cells, line);
-    add(cells, *columns, line);
-  }
-
-  /// Some tables have more columns than headings: empty ones on the left.
-  static bool fits(const std::vector<Cell>& cells, Columns columns) {
-    const auto text = [&](std::size_t i) { return i < cells.size() ? std::string_view(cells[i].text) : std::string_view(); };
-    return !text(columns.name).empty() || is_address(text(columns.address));
-  }
-
-  void add(const std::vector<Cell>& cells, Columns columns, std::string_view line) {
-    if (std::max(columns.name, columns.address) >= cells.size()) return add_without_address(cells, line);
-    const Cell &name = cells[columns.name], &address = cells[columns.address];
-    if (address.text.empty()) return add_without_address(cells, line);
-    std::string why;
-    auto value = value_of(address.text, why);
-    if (!value)
-      return error(position(address, line), why.empty() ? fmt::format("{} is not an address", shortened(address.text)) : why,
-                   "a row of a symbol table is a name, an address or a constant, and perhaps a comment");
-    if (name.text.empty())
-      return error(position(address, line), fmt::format("{} has no name", shortened(address.text)),
-                   "a row of a symbol table is a name, an address and perhaps a comment");
-    if (const auto other = value_of(name.text, why);
-        other && !std::holds_alternative<Name>(*other) && !may_be_name(*other, name.text))
-      return error(position(name, line), fmt::format("{} is an address or a constant, not a name", shortened(name.text)),
-                   "give the symbol a name of its own: in the program, this would always be the address or the constant");
-    std::string comment;
-    const std::size_t after = std::max(columns.name, columns.address) + 1;
-    for (std::size_t i = after; i < cells.size(); ++i) comment += (comment.empty() ? "" : " ") + cells[i].text;
-    result_.source.symbols.push_back({name.text, std::move(value), position(name, line), std::string(trim(comment))});
-  }
-
-  /// Micro/WIN lets a name have no address as long as nothing uses it.
-  void add_without_address(const std::vector<Cell>& cells, std::string_view line) {
-    const auto name = std::ranges::find_if(cells, [](const Cell& c) { return is_name(c.text); });
-    if (name != cells.end()) result_.source.symbols.push_back({name->text, std::nullopt, position(*name, line), {}});
-  }
-
-  Position position(const Cell& cell, std::string_view line) const {
-    const auto before = static_cast<std::size_t>(cell.place.data() - line.data());
-    return {number_, static_cast<std::uint32_t>(count_characters(line.substr(0, before)) + 1),
-            static_cast<std::uint32_t>(std::max<std::size_t>(1, count_characters(cell.place)))};
-  }
-
-  void error(const Position& at, std::string message, std::string hint) {
-    result_.diagnostics.push_back({Severity::Error, at, std::move(message), std::move(hint)});
-  }
-
-  char separator_;
-  ParseResult result_;
-  std::uint32_t number_ = 0;
-  std::optional<Columns> headed_;
-};
+namespace {
 
 // --- names and what they stand for ---
 
@@ -304,6 +96,16 @@ class Names {
   std::map<std::string, const Thing*, std::less<>> exact_;
   std::map<std::string, const Thing*, std::less<>> similar_;
 };
+
+/// Of those that the programming software has by itself. Null if there is none.
+const Symbol* find_system_symbol(std::string_view name) {
+  static const Names<Symbol> kNames = [] {
+    Names<Symbol> names;
+    for (const Symbol& symbol : system_symbols()) names.add(symbol.name, symbol);
+    return names;
+  }();
+  return kNames.find(name);
+}
 
 class Resolver {
  public:
@@ -372,6 +174,11 @@ class Resolver {
         name->reason = fmt::format("{} is a block, not an address", shortened(symbol->name));
       else
         put(operand, *symbol->value, written.mark);
+    } else if (const Symbol* of_software = find_system_symbol(written.name)) {
+      if (of_software->value)
+        put(operand, *of_software->value, written.mark);
+      else
+        name->reason = fmt::format("{} is a symbol of the S7-200 SMART; the S7-200 has nothing for it", of_software->name);
     }
   }
 
@@ -485,55 +292,14 @@ class Resolver {
   std::vector<Locals> locals_;                                         // of each block
 };
 
-// --- status charts ---
-
-constexpr std::array<std::string_view, 14> kFormats{"SIGNED", "UNSIGNED", "HEXADECIMAL", "HEX",      "BINARY",
-                                                    "BIT",    "BOOL",     "ASCII",       "STRING",   "FLOATING POINT",
-                                                    "FLOAT",  "REAL",     "DECIMAL",     "TIME/DATE"};
-
 }  // namespace
-
-bool is_symbol_table(std::string_view text, const std::function<bool(std::string_view word)>& is_mnemonic) {
-  const char separator = separator_of(text);
-  const auto is_row = [&](const std::vector<Cell>& cells) {
-    if (headings(cells)) return true;
-    const auto columns = columns_of(cells);
-    if (!columns) return false;
-    const Cell& name = cells[columns->name];
-    // `MOVW 65, VW0` is not the symbol "MOVW 65".
-    const bool statement = separator == ',' && name.text.find(' ') != std::string::npos && !name.place.starts_with('"');
-    return !statement && !is_mnemonic(upper_case(name.text));
-  };
-  std::size_t rows = 0, other = 0;
-  for (const std::string_view line : first_rows(text)) {
-    const std::vector<Cell> cells = cells_of(line, separator);
-    if (rows + other == 0 && headings(cells)) return true;
-    ++(is_row(cells) ? rows : other);
-  }
-  return rows > other;
-}
-
-ParseResult read_symbol_table(std::string_view text, std::string name) {
-  return SymbolTableReader(text, std::move(name)).result();
-}
-
-bool is_status_chart(std::string_view text) {
-  const char separator = separator_of(text);
-  std::size_t rows = 0, other = 0;
-  for (const std::string_view line : first_rows(text)) {
-    const std::vector<Cell> cells = cells_of(line, separator);
-    const bool format = std::ranges::any_of(
-        cells, [](const Cell& c) { return std::ranges::find(kFormats, upper_case(c.text)) != kFormats.end(); });
-    ++(format && cells.size() > 1 ? rows : other);
-  }
-  return rows > 0 && rows + 1 >= other;
-}
 
 const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view name) {
   if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
   Names<Symbol> names;
   for (const Symbol& symbol : symbols) names.add(symbol.name, symbol);
-  return names.find(name);
+  const Symbol* found = names.find(name);
+  return found ? found : find_system_symbol(name);
 }
 
 void resolve_symbols(ParseResult& result) { Resolver(result).run(); }

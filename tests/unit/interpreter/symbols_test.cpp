@@ -4,6 +4,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/symbol_table.hpp"
 
 namespace s7200::stl {
 namespace {
@@ -83,6 +84,154 @@ TEST(SymbolTable, IsToldFromListingsAndCharts) {
   EXPECT_FALSE(is_status_chart("LD\tI0.0\n=\tQ0.0\n"));
   EXPECT_EQ(file("Pump\tQ0.0\n", "t").kind, SourceKind::SymbolTable);
   EXPECT_EQ(file("VW0\tUnsigned\t1\nVW2\tSigned\t1\n", "t").kind, SourceKind::StatusChart);
+}
+
+TEST(SymbolTable, IsOneWhenItsHeadingsSaySoWhateverItsCellsHold) {
+  for (const std::string table : {
+           "Symbol\tAddress\tData type\tComment\nButton\tI0.0\tBOOL\tgreen\nLamp\tQ0.0\tBOOL\t\n",
+           "Symbol\tAddress\tComment\nButton\tI0.0\treal\nLamp\tQ0.0\tsigned\n",
+           "Rank\tSymbol\tAddress\tFormat\tRetentive\n1\tButton\tI0.0\tBit\tno\n2\tLamp\tQ0.0\tBit\tno\n",
+           "Symbols of the press\n\nName;Data type;Logical address;Comment\nButton;Bool;%I0.0;x\nLamp;Bool;%Q0.0;y\n",
+       }) {
+    EXPECT_FALSE(is_status_chart(table)) << table;
+    EXPECT_TRUE(is_symbol_table(table, is_mnemonic)) << table;
+    EXPECT_EQ(said("LD Button\n= Lamp\nMEND\n", table), Lines{}) << table;
+  }
+}
+
+TEST(SymbolTable, HasTypesBetweenNameAndAddressOrAfterThem) {
+  EXPECT_EQ(symbols("Button\tBOOL\tI0.0\tgreen\nSpeed\tINT\tVW10\t\n"), (Lines{"Button=I0.0 green", "Speed=VW10"}));
+  EXPECT_EQ(symbols("Button\tI0.0\tBOOL\tgreen\n"), Lines{"Button=I0.0 BOOL green"});
+  EXPECT_EQ(symbols("Real\tVD4\nBit\tV0.0\n"), (Lines{"Real=VD4", "Bit=V0.0"}));
+}
+
+TEST(SymbolTable, ReadsAddressesWithAPercentSignOrAGap) {
+  EXPECT_EQ(symbols("Button\t%I0.0\nLamp\t%QX0.1\nSpeed\t%VW10\nLevel\t%AIW4\n"),
+            (Lines{"Button=I0.0", "Lamp=Q0.1", "Speed=VW10", "Level=AIW4"}));
+  EXPECT_EQ(symbols("\"Button\",\"I      0.0\",\"BOOL\",\"green\"\n\"Count\",\"C 5\",\"\",\"\"\n"),
+            (Lines{"Button=I0.0 BOOL green", "Count=C5"}));
+}
+
+TEST(SymbolTable, HeadingsMayBeInAnyLanguageOfMicroWinWithAndWithoutAccents) {
+  for (const std::string headings :
+       {"Mnémonique\tAdresse\tCommentaire", "MNÉMONIQUE\tADRESSE\tCOMMENTAIRE", "Nom\tOpérande\tType",
+        "Symbole\tAdresse\tType de données", "Símbolo\tDirección\tComentario", "Simbolo\tIndirizzo\tCommento",
+        "Symbol\tAdresse\tKommentar", "符号\t地址\t注释", "Name:\tOperand:\tremark", "Nome\tEndereço\tComentário"}) {
+    const std::string table = headings + "\nButton\tI0.0\tREAL\n";
+    EXPECT_TRUE(is_symbol_table(table, is_mnemonic)) << headings;
+    EXPECT_EQ(symbols(table), Lines{"Button=I0.0 REAL"}) << headings;
+  }
+}
+
+TEST(SymbolTable, MayHaveOnlyBlanksOrBarsBetweenItsColumns) {
+  for (const std::string table : {
+           "Symbol     Address   Comment\nPump 1     Q0.0      big, blue\nStart      I0.1\n",
+           "Symbol Address Data type Comment\n\"Pump 1\" Q0.0 BOOL big\nStart I0.1 BOOL x\n",
+           "Address  Symbol\nQ0.0  \"Pump 1\"  blue\nI 0.1  Start\n",
+           "| Symbol | Address | Comment |\n|---|---|---|\n| Pump 1 | Q0.0 | blue |\n| Start | I0.1 | |\n",
+           "Pump 1   Q0.0   blue\nStart    I0.1   green\n",
+       }) {
+    EXPECT_TRUE(is_symbol_table(table, is_mnemonic)) << table;
+    EXPECT_EQ(said("LD Start\n= \"Pump 1\"\nMEND\n", table), Lines{}) << table;
+  }
+  EXPECT_EQ(symbols("Symbol Address\nBaud 16#49\nLimit 100\n"), (Lines{"Baud=16#49", "Limit=100"}));
+}
+
+TEST(SymbolTable, RowsWithBlanksAloneAreNoTableInAListingOrInOtherText) {
+  EXPECT_FALSE(is_symbol_table("LD I0.0\n= Q0.0\n", is_mnemonic));
+  EXPECT_FALSE(is_symbol_table("FROB I0.0\nFRIB Q0.0\n", is_mnemonic));
+  EXPECT_FALSE(is_symbol_table("Port 22\nTimeout 30\n", is_mnemonic));
+  EXPECT_FALSE(is_symbol_table("The pump is at Q0.0 and\nstarts when the button is pressed,\nwhich is wired to the CPU.\n",
+                               is_mnemonic));
+  EXPECT_FALSE(is_status_chart("a real value\na bit\n"));
+}
+
+TEST(SymbolTable, AnAddressThatIsWrongIsNamedInARowWithBlanksToo) {
+  const ParseResult table = read_symbol_table("Symbol Address\nPump Q0.9\nLamp Q0.0\n", "t");
+  ASSERT_EQ(table.diagnostics.size(), 1U);
+  EXPECT_EQ(table.diagnostics[0].message, "the bits of a byte are 0 to 7");
+  EXPECT_EQ(table.diagnostics[0].position, (Position{2, 6, 4}));
+}
+
+TEST(StatusChart, HasFormatsAndValuesAndNoColumnOfSymbols) {
+  for (const std::string chart : {
+           "Address\tFormat\tCurrent Value\tNew Value\n",
+           "Adresse\tFormat\tValeur actuelle\tNouvelle valeur\nVW0\tSigné\t+5\t\n",
+           "地址\t格式\t当前值\t新值\nI0.0\t位\t2#0\t\n",
+           "VW0\tUnsigned\t1\nPump\tBit\t2#1\n",
+           "VW0   Signed   +5\nVB4   Hexadecimal   16#00\n",
+       }) {
+    EXPECT_TRUE(is_status_chart(chart)) << chart;
+    EXPECT_EQ(file(chart, "t").kind, SourceKind::StatusChart) << chart;
+  }
+}
+
+TEST(Project, AFileOfWhichNothingIsUsedIsNamed) {
+  std::vector<SourceText> files{file("LD I0.0\n= Q0.0\nMEND\n", "p.awl"), file("VW0\tSigned\t+5\n", "chart.txt"),
+                                file("// nothing yet\n", "data.awl"), file("Symbol\tAddress\n", "symbols.txt")};
+  EXPECT_EQ(join_files(std::move(files)).parsed.notes,
+            (Lines{"chart.txt is a status chart: nothing of it is part of the program",
+                   "nothing in data.awl is part of the program", "nothing in symbols.txt is part of the program"}));
+  EXPECT_EQ(join_files({file("VW0\tSigned\t+5\n", "chart.txt")}).parsed.notes.size(), 1U);
+}
+
+/// The addresses of names, with blanks between them.
+std::string addresses(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    const Symbol* symbol = find_symbol({}, name);
+    text += (text.empty() ? "" : " ") + (symbol && symbol->value ? to_text({*symbol->value, {}}) : "?");
+  }
+  return text;
+}
+
+TEST(SystemSymbols, StandForTheSpecialMemoryThatTheirNamesSay) {
+  EXPECT_EQ(addresses({"Always_On", "First_Scan_On", "Retentive_Lost", "RUN_Power_Up", "Clock_60s", "Clock_1s", "Clock_Scan",
+                       "Mode_Switch"}),
+            "SM0.0 SM0.1 SM0.2 SM0.3 SM0.4 SM0.5 SM0.6 SM0.7");
+  EXPECT_EQ(addresses({"Result_0", "Overflow_Illegal", "Neg_Result", "Divide_By_0", "Table_Overflow", "Table_Empty",
+                       "Not_BCD", "Not_Hex"}),
+            "SM1.0 SM1.1 SM1.2 SM1.3 SM1.4 SM1.5 SM1.6 SM1.7");
+  EXPECT_EQ(addresses({"Receive_Char", "Parity_Err", "Comm_Int_Ovr", "RUN_Err", "Int_Enable", "Xmit0_Idle", "Force_On",
+                       "IO_Err", "Too_Many_D_IO", "CPU_ID", "EM2_Err", "Last_Scan", "Maximum_Scan", "Time_1_Intrvl"}),
+            "SMB2 SM3.0 SM4.0 SM4.3 SM4.4 SM4.5 SM4.7 SM5.0 SM5.1 SMB6 SMB13 SMW22 SMW26 SMB35");
+  EXPECT_EQ(said("LD first_scan_on\nMOVB 100, \"Time_0_Intrvl\"\nMOVB Receive_Char, VB0\nMEND\n", ""), Lines{});
+}
+
+TEST(SystemSymbols, OfPortsCountersAndPulseOutputsHaveTheirNumberInTheName) {
+  EXPECT_EQ(addresses({"P0_Config", "P1_Config", "P0_Stat_Rcv", "P1_Ctrl_Rcv", "P0_Start_Char", "P1_End_Char",
+                       "P0_Idle_Time", "P0_Timeout", "P1_Max_Char", "P2_Config"}),
+            "SMB30 SMB130 SMB86 SMB187 SMB88 SMB189 SMW90 SMW92 SMB194 ?");
+  EXPECT_EQ(addresses({"HSC0_Status", "HSC1_Ctrl", "HSC2_CV", "HSC3_PV", "HSC4_Dir", "HSC5_Enable", "HSC6_CV"}),
+            "SMB36 SMB47 SMD58 SMD142 SM147.3 SM157.7 ?");
+  EXPECT_EQ(addresses({"PLS0_Ctrl", "PLS1_Cycle", "PWM0_PW", "PTO1_PC", "PTO0_Status", "PLS1_Idle", "PLS0_Enable",
+                       "PTO1_Seg_Num", "PTO0_Profile_Offset"}),
+            "SMB67 SMW78 SMW70 SMD82 SMB66 SM76.7 SM67.7 SMB176 SMW168");
+}
+
+TEST(SystemSymbols, ANumberAtTheEndIsABitOfTheByte) {
+  EXPECT_EQ(addresses({"P0_Config_0", "P1_Ctrl_Rcv_7", "P0_Stat_Rcv_5", "HSC0_Status_6", "P0_Config_8", "P0_Max_Char_0"}),
+            "SM30.0 SM187.7 SM86.5 SM36.6 ? ?");
+}
+
+TEST(SystemSymbols, CountTheInputsAndOutputsOfTheCpu) {
+  EXPECT_EQ(addresses({"CPU_Input0", "CPU_Input9", "CPU_Output15", "CPU_输入0", "CPU_输出8"}), "I0.0 I1.1 Q1.7 I0.0 Q1.0");
+}
+
+TEST(SystemSymbols, NeverWinAgainstTheUsersNames) {
+  EXPECT_EQ(said("LD Always_On\n= Q0.0\nMEND\n", "Always_On\tI0.0\n"), Lines{});
+  EXPECT_EQ(said("LD Always_On\n= Q0.0\nMEND\n", "Symbol\tAddress\tComment\nAlways_On\t\tto do\n"),
+            Lines{"p.awl:1:4: error: symbol Always_On has no address"});
+  ParseResult parsed = file("LD Always_On\n= Clock_1s:M0.0\nMEND\n", "p.awl").parsed;
+  parsed.source.symbols.push_back({"ALWAYS_ON", Address{"I", Size::Bit, 0, 0}, {}, {}});
+  resolve_symbols(parsed);
+  EXPECT_TRUE(parsed.diagnostics.empty());
+  EXPECT_EQ(std::get<Statement>(parsed.source.lines[0]).operands[0].value, (OperandValue{Address{"I", Size::Bit, 0, 0}}));
+}
+
+TEST(SystemSymbols, ThatOnlyTheSmartHasAreNamed) {
+  EXPECT_EQ(said("LD RTC_Lost\n= Q0.0\nMEND\n", ""),
+            Lines{"p.awl:1:4: error: RTC_Lost is a symbol of the S7-200 SMART; the S7-200 has nothing for it"});
 }
 
 TEST(Symbols, StandForAddressesConstantsAndPointers) {
