@@ -46,18 +46,25 @@ std::size_t least_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
-  if (word.size() < 2 || word.size() > kLongestWord) return {};
-  std::string_view found;
-  std::size_t best = word.size() < 4 ? kMostChanges : kMostChanges + 1;  // this many changes are too many
+std::vector<std::string_view> all_nearest(std::string_view word, std::span<const std::string_view> known,
+                                          std::size_t most_changes) {
+  std::vector<std::string_view> found;
+  if (word.size() < 2 || word.size() > kLongestWord) return found;
+  std::size_t best = std::min(most_changes, kMostChanges);
   for (const std::string_view candidate : known) {
-    if (least_distance(word, candidate) >= best) continue;
+    if (least_distance(word, candidate) > best) continue;
     const std::size_t changes = distance(word, candidate);
-    if (changes >= best) continue;
+    if (changes > best) continue;
+    if (changes < best) found.clear();
     best = changes;
-    found = candidate;
+    found.push_back(candidate);
   }
   return found;
+}
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
+  const auto found = all_nearest(word, known, word.size() < 4 ? 1 : kMostChanges);
+  return found.empty() ? std::string_view() : found.front();
 }
 
 }  // namespace s7200

@@ -1,5 +1,7 @@
-// Mnemonics that the S7-200 does not have, written by people who know its German set or another family of controllers, or
-// mistyped.
+// Mnemonics that the S7-200 does not have, written by people who know its German set, its ladder editor or another family of
+// controllers, or mistyped.
+//
+// A hint says what does the same. It never names an instruction that does something else, however alike the letters are.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -21,53 +23,205 @@ constexpr std::string_view kStep7 = "a mnemonic of STEP 7 for the S7-300 and S7-
 constexpr std::string_view kSmart = "an instruction of the S7-200 SMART";
 constexpr std::string_view kAsCpu226 =
     "a program for the SMART runs here as CPU 226 as far as it goes; what GET and PUT do there, NETR and NETW do on a 226";
+constexpr std::string_view kIec = "a mnemonic of IEC 61131-3";
+constexpr std::string_view kMitsubishi = "a mnemonic of Mitsubishi controllers";
+constexpr std::string_view kOther = "a mnemonic of other controllers";
+constexpr std::string_view kContact = "a contact of the ladder editor";
+constexpr std::string_view kBox = "a box of the ladder editor";
 constexpr std::string_view kEnds = "the main program ends with MEND, a subroutine with RET, an interrupt routine with RETI";
+constexpr std::string_view kMove = "write MOVB, MOVW, MOVD or MOVR, as wide as what it moves";
+constexpr std::string_view kCompare = "write a contact that compares, such as LDW>= IN1, IN2";
 
 // clang-format off
 constexpr Row kRows[] = {
     {"NETZWERK", "a German keyword", "write NETWORK"},
     // German mnemonics that differ from the English ones in more than U for A.
-    {"ZV",   kGerman, "write CTU"},
-    {"ZVR",  kGerman, "write CTUD"},
-    {"ZR",   kGerman, "write CTD"},
-    {"SPA",  kGerman, "write JMP"},
-    {"SPB",  kGerman, "write JMP"},
-    {"L",    kStep7,  "the S7-200 has no accumulator to load: MOVB, MOVW, MOVD and MOVR move a value, MOVW IN, OUT"},
-    {"T",    kStep7,  "the S7-200 moves a value with MOVB, MOVW, MOVD or MOVR: MOVW IN, OUT"},
-    {"FP",   kStep7,  "write EU after the contact"},
-    {"FN",   kStep7,  "write ED after the contact"},
-    {"SE",   kStep7,  "write TON"},
-    {"SS",   kStep7,  "write TONR"},
-    {"SPBN", kStep7,  "write NOT, then JMP"},
-    {"CC",   kStep7,  "write CALL, which needs power flow"},
-    {"UC",   kStep7,  "write CALL after LD SM0.0"},
-    {"BEB",  kStep7,  "write CRET in a subroutine, CRETI in an interrupt routine, END in the main program"},
-    {"BE",   kStep7,  kEnds},
-    {"BEA",  kStep7,  kEnds},
-    {"GET",  kSmart,  kAsCpu226},
-    {"PUT",  kSmart,  kAsCpu226},
-    {"GIP",  kSmart,  kAsCpu226},
-    {"SIP",  kSmart,  kAsCpu226},
+    {"ZV",    kGerman,     "write CTU"},
+    {"ZVR",   kGerman,     "write CTUD"},
+    {"ZR",    kGerman,     "write CTD"},
+    {"SPA",   kGerman,     "write JMP"},
+    {"SPB",   kGerman,     "write JMP"},
+
+    {"L",     kStep7,      "the S7-200 has no accumulator to load: MOVB, MOVW, MOVD and MOVR move a value, MOVW IN, OUT"},
+    {"T",     kStep7,      "the S7-200 moves a value with MOVB, MOVW, MOVD or MOVR: MOVW IN, OUT"},
+    {"X",     kStep7,      "the S7-200 has no XOR of bits: write LD and AN, LDN and A, then OLD"},
+    {"FP",    kStep7,      "write EU after the contact"},
+    {"FN",    kStep7,      "write ED after the contact"},
+    {"SD",    kStep7,      "write TON"},
+    {"SE",    kStep7,      "write TON for the German SE; the English SE is an extended pulse, which the S7-200 does not have"},
+    {"SS",    kStep7,      "write TON after a bit that EU and S set when it starts; TONR counts only while its input is on"},
+    {"SF",    kStep7,      "write TOF"},
+    {"SA",    kStep7,      "write TOF"},
+    {"SPBN",  kStep7,      "write NOT, then JMP"},
+    {"JU",    kStep7,      "write JMP after LD SM0.0"},
+    {"JC",    kStep7,      "write JMP, which needs power flow"},
+    {"JCN",   kStep7,      "write NOT, then JMP"},
+    {"CC",    kStep7,      "write CALL, which needs power flow"},
+    {"UC",    kStep7,      "write CALL after LD SM0.0"},
+    {"BEB",   kStep7,      "write CRET in a subroutine, CRETI in an interrupt routine, END in the main program"},
+    {"BEC",   kStep7,      "write CRET in a subroutine, CRETI in an interrupt routine, END in the main program"},
+    {"BE",    kStep7,      kEnds},
+    {"BEA",   kStep7,      kEnds},
+    {"BEU",   kStep7,      kEnds},
+    {"CLR",   kStep7,      "write LDN SM0.0"},
+
+    {"GET",   kSmart,      kAsCpu226},
+    {"PUT",   kSmart,      kAsCpu226},
+    {"GIP",   kSmart,      kAsCpu226},
+    {"SIP",   kSmart,      kAsCpu226},
+
+    {"AND",   kOther,      "write A"},
+    {"ANDN",  kIec,        "write AN"},
+    {"ANDI",  kOther,      "write AN for a closed contact, AI to read an input at once"},
+    {"OR",    kOther,      "write O"},
+    {"ORN",   kIec,        "write ON"},
+    {"ORI",   kMitsubishi, "write ON for a closed contact, OI to read an input at once"},
+    {"XOR",   kOther,      "the S7-200 has no XOR of bits: write LD and AN, LDN and A, then OLD; of bytes and words XORB, XORW, XORD"},
+    {"ST",    kIec,        "write = for a bit, MOVB, MOVW, MOVD or MOVR for a value"},
+    {"STN",   kIec,        "write NOT, then ="},
+    {"JMPC",  kIec,        "write JMP, which needs power flow"},
+    {"JMPCN", kIec,        "write NOT, then JMP"},
+    {"CAL",   kIec,        "write CALL"},
+    {"CALC",  kIec,        "write CALL, which needs power flow"},
+    {"RETC",  kIec,        "write CRET"},
+    {"ADD",   kOther,      "write +I, +D or +R; it adds to its second operand"},
+    {"SUB",   kOther,      "write -I, -D or -R; it subtracts from its second operand"},
+    {"EQ",    kIec,        kCompare},
+    {"NE",    kIec,        kCompare},
+    {"GE",    kIec,        kCompare},
+    {"GT",    kIec,        kCompare},
+    {"LE",    kIec,        kCompare},
+    {"LT",    kIec,        kCompare},
+
+    {"OUT",   kOther,      "write ="},
+    {"SET",   kOther,      "write S BIT, 1"},
+    {"RST",   kOther,      "write R BIT, 1"},
+    {"INV",   kMitsubishi, "write NOT"},
+    {"ANB",   kMitsubishi, "write ALD"},
+    {"MPS",   kMitsubishi, "write LPS"},
+    {"MRD",   kMitsubishi, "write LRD"},
+    {"MPP",   kMitsubishi, "write LPP"},
+    {"LDP",   kMitsubishi, "write LD, then EU"},
+    {"LDF",   kMitsubishi, "write LD, then ED"},
+    {"ANDP",  kMitsubishi, "write LD, EU, then ALD"},
+    {"ANDF",  kMitsubishi, "write LD, ED, then ALD"},
+    {"ORP",   kMitsubishi, "write LD, EU, then OLD"},
+    {"ORF",   kMitsubishi, "write LD, ED, then OLD"},
+    {"PLF",   kMitsubishi, "write ED, then ="},
+    {"MEP",   kMitsubishi, "write EU"},
+    {"MEF",   kMitsubishi, "write ED"},
+    {"CJ",    kMitsubishi, "write JMP"},
+    {"FEND",  kMitsubishi, "write MEND"},
+    {"SRET",  kMitsubishi, "write RET"},
+    {"IRET",  kMitsubishi, "write RETI"},
+    {"MOV",   kOther,      kMove},
+    {"MOVE",  kOther,      kMove},
+    {"DMOV",  kMitsubishi, "write MOVD"},
+    {"BMOV",  kMitsubishi, "write BMW IN, OUT, N"},
+    {"FMOV",  kMitsubishi, "write FILL IN, OUT, N"},
+    {"CMP",   kMitsubishi, kCompare},
+    {"INC",   kOther,      "write INCB, INCW or INCD, as wide as its operand"},
+    {"DEC",   kOther,      "write DECB, DECW or DECD, as wide as its operand"},
+
+    {"P",        kContact, "write EU after the contacts before it"},
+    {"N",        kContact, "write ED after the contacts before it"},
+    {"SR",       kBox,     "write R BIT, 1 for its reset input, then S BIT, 1 for its set input: the last has priority"},
+    {"RS",       kBox,     "write S BIT, 1 for its set input, then R BIT, 1 for its reset input: the last has priority"},
+    {"CLR_EVNT", kBox,     "its instruction, CEVNT, is not modelled"},
+    {"TBL_FIND", kBox,     "write FND=, FND<>, FND< or FND> SRC, PATRN, INDX, as its CMD is 1, 2, 3 or 4"},
+};
+
+/// A box whose name is not the mnemonic of its instruction.
+struct Box {
+  std::string_view name, mnemonic;
+  /// Moves its first input to OUT before, for an instruction that works on OUT itself; empty if that has inputs of its own.
+  std::string_view move{};
+};
+
+constexpr Box kBoxes[] = {
+    {"ADD_I",     "+I",   "MOVW"}, {"ADD_DI",    "+D",   "MOVD"}, {"ADD_R",     "+R",   "MOVR"},
+    {"SUB_I",     "-I",   "MOVW"}, {"SUB_DI",    "-D",   "MOVD"}, {"SUB_R",     "-R",   "MOVR"},
+    {"MUL_I",     "*I",   "MOVW"}, {"MUL_DI",    "*D",   "MOVD"}, {"MUL_R",     "*R",   "MOVR"},
+    {"DIV_I",     "/I",   "MOVW"}, {"DIV_DI",    "/D",   "MOVD"}, {"DIV_R",     "/R",   "MOVR"},
+    {"INC_B",     "INCB", "MOVB"}, {"INC_W",     "INCW", "MOVW"}, {"INC_DW",    "INCD", "MOVD"},
+    {"DEC_B",     "DECB", "MOVB"}, {"DEC_W",     "DECW", "MOVW"}, {"DEC_DW",    "DECD", "MOVD"},
+    {"WAND_B",    "ANDB", "MOVB"}, {"WAND_W",    "ANDW", "MOVW"}, {"WAND_DW",   "ANDD", "MOVD"},
+    {"WOR_B",     "ORB",  "MOVB"}, {"WOR_W",     "ORW",  "MOVW"}, {"WOR_DW",    "ORD",  "MOVD"},
+    {"WXOR_B",    "XORB", "MOVB"}, {"WXOR_W",    "XORW", "MOVW"}, {"WXOR_DW",   "XORD", "MOVD"},
+    {"INV_B",     "INVB", "MOVB"}, {"INV_W",     "INVW", "MOVW"}, {"INV_DW",    "INVD", "MOVD"},
+    {"SHL_B",     "SLB",  "MOVB"}, {"SHL_W",     "SLW",  "MOVW"}, {"SHL_DW",    "SLD",  "MOVD"},
+    {"SHR_B",     "SRB",  "MOVB"}, {"SHR_W",     "SRW",  "MOVW"}, {"SHR_DW",    "SRD",  "MOVD"},
+    {"ROL_B",     "RLB",  "MOVB"}, {"ROL_W",     "RLW",  "MOVW"}, {"ROL_DW",    "RLD",  "MOVD"},
+    {"ROR_B",     "RRB",  "MOVB"}, {"ROR_W",     "RRW",  "MOVW"}, {"ROR_DW",    "RRD",  "MOVD"},
+    {"BCD_I",     "BCDI", "MOVW"}, {"I_BCD",     "IBCD", "MOVW"},
+
+    {"MOV_B",     "MOVB"},  {"MOV_W",     "MOVW"},  {"MOV_DW",    "MOVD"},  {"MOV_R",     "MOVR"},
+    {"BLKMOV_B",  "BMB"},   {"BLKMOV_W",  "BMW"},   {"BLKMOV_D",  "BMD"},   {"BLKMOV_DW", "BMD"},
+    {"MOV_BIR",   "BIR"},   {"MOV_BIW",   "BIW"},   {"FILL_N",    "FILL"},
+    {"B_I",       "BTI"},   {"I_B",       "ITB"},   {"I_DI",      "ITD"},   {"DI_I",      "DTI"},   {"DI_R",      "DTR"},
+    {"I_S",       "ITS"},   {"DI_S",      "DTS"},   {"R_S",       "RTS"},   {"S_I",       "STI"},   {"S_DI",      "STD"},
+    {"S_R",       "STR"},
+    {"STR_LEN",   "SLEN"},  {"STR_CPY",   "SCPY"},  {"SSTR_CPY",  "SSCPY"}, {"STR_CAT",   "SCAT"},  {"STR_FIND",  "SFND"},
+    {"CHR_FIND",  "CFND"},  {"AD_T_TBL",  "ATT"},
+    {"READ_RTC",  "TODR"},  {"SET_RTC",   "TODW"},  {"READ_RTCX", "TODRX"}, {"SET_RTCX",  "TODWX"},
+    {"GET_ADDR",  "GPA"},   {"SET_ADDR",  "SPA"},   {"DIAG_LED",  "DLED"},  {"SCR",       "LSCR"},
+    {"BGN_ITIME", "BITIM"}, {"CAL_ITIME", "CITIM"},
 };
 // clang-format on
 
-/// Of the German set or of another controller family.
+/// `SRW OUT, N`; the IN1 of an instruction that works on OUT is the IN2 of its box.
+std::string syntax_after_move(const Instruction& instruction) {
+  std::string text = syntax(instruction);
+  if (const std::size_t in1 = text.find("IN1"); in1 != std::string::npos) text.replace(in1, 3, "IN2");
+  return text;
+}
+
+/// `write MOVW IN1, OUT, then +I IN2, OUT; OUT must not be IN2`
+std::string hint_for(const Box& box) {
+  const Instruction& instruction = *find_instruction(box.mnemonic);
+  if (box.move.empty())
+    return std::string("write ").append(instruction.modelled() ? syntax(instruction) : std::string(box.mnemonic));
+  const std::string after = syntax_after_move(instruction);
+  const bool two_inputs = after.find("IN2") != std::string::npos;
+  const std::string hint =
+      std::string("write ").append(box.move).append(two_inputs ? " IN1" : " IN").append(", OUT, then ") + after;
+  const std::string_view other = two_inputs ? "IN2" : instruction.rules().size() > 1 ? "N" : "";
+  return other.empty() ? hint : hint + "; OUT must not be " + std::string(other);
+}
+
+/// Of the German set, of the ladder editor or of another controller family.
 std::optional<UnknownMnemonic> foreign_mnemonic(std::string_view mnemonic) {
   if (const auto* row = std::ranges::find(kRows, mnemonic, &Row::mnemonic); row != std::end(kRows))
     return UnknownMnemonic{std::string(row->what), std::string(row->hint)};
+  if (const auto* box = std::ranges::find(kBoxes, mnemonic, &Box::name); box != std::end(kBoxes))
+    return UnknownMnemonic{std::string(kBox), hint_for(*box)};
   const Instruction* meant = find_german_instruction(mnemonic);
   if (!meant) return {};
   return UnknownMnemonic{std::string(kGerman), std::string("write ").append(meant->mnemonic)};
 }
 
-/// The mnemonic that was probably meant; empty if none is close.
-std::string_view nearest_mnemonic(std::string_view mnemonic) {
+/// The mnemonics that were perhaps meant. One letter more or less is another instruction in most of them, so only a long one
+/// may have two changes.
+std::vector<std::string_view> nearest_mnemonics(std::string_view mnemonic) {
   static const std::vector<std::string_view> kMnemonics = [] {
     std::vector<std::string_view> mnemonics;
     for (const Instruction& instruction : all_instructions()) mnemonics.push_back(instruction.mnemonic);
     return mnemonics;
   }();
-  return nearest(mnemonic, kMnemonics);
+  constexpr std::size_t kLong = 6;
+  return all_nearest(mnemonic, kMnemonics, mnemonic.size() < kLong ? 1 : 2);
+}
+
+/// `did you mean MOVW (IN to OUT)?`, so that nobody takes another instruction for his own; of several, all are named, since
+/// any of them can be meant.
+std::string question_about(const std::vector<std::string_view>& mnemonics) {
+  constexpr std::size_t kMost = 4;
+  if (mnemonics.empty() || mnemonics.size() > kMost) return {};
+  std::string question = "did you mean ";
+  for (std::size_t i = 0; i < mnemonics.size(); ++i)
+    question.append(i == 0 ? "" : i + 1 == mnemonics.size() ? " or " : ", ").append(mnemonics[i]);
+  if (mnemonics.size() == 1) question.append(" (").append(find_instruction(mnemonics.front())->meaning).append(")");
+  return question + "?";
 }
 
 }  // namespace
@@ -80,8 +234,7 @@ const Instruction* find_german_instruction(std::string_view mnemonic) {
 
 UnknownMnemonic unknown_mnemonic(std::string_view mnemonic) {
   if (auto foreign = foreign_mnemonic(mnemonic)) return *std::move(foreign);
-  const std::string_view nearest = nearest_mnemonic(mnemonic);
-  return {"", nearest.empty() ? "" : std::string("did you mean ").append(nearest).append("?")};
+  return {"", question_about(nearest_mnemonics(mnemonic))};
 }
 
 }  // namespace s7200
