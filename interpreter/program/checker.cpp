@@ -19,6 +19,7 @@
 #include "interpreter/program/german.hpp"
 #include "interpreter/program/networks.hpp"
 #include "interpreter/program/operands.hpp"
+#include "interpreter/program/other_width.hpp"
 #include "interpreter/program/parameters.hpp"
 #include "interpreter/program/routine_ends.hpp"
 #include "interpreter/program/structure.hpp"
@@ -198,12 +199,14 @@ class Checker {
     }
     bool good = true;
     auto& placed = placed_.back();
+    const std::size_t diagnostics_before = diagnostics_.size();
     for (std::size_t i = 0; i < taken; ++i) {
       const auto operand =
           place_operand(instruction, instruction.operand[i], statement.operands[i], model_, constants_, diagnostics_);
       if (operand) placed[i] = *operand;
       good = good && operand;
     }
+    if (!good) offer_other_width(instruction, statement, diagnostics_before);
     if (called && good) return pass_parameters(instruction, statement, *called);
     return good && blocks_fit(instruction, statement) && mode_fits(instruction, statement);
   }
@@ -220,6 +223,13 @@ class Checker {
     error(second->position, "two statements in one line",
           fmt::format("begin a new line with {}", std::get<stl::Name>(second->value).text));
     return true;
+  }
+
+  /// One instruction that takes all the operands as they are is better than what can be said of each of them.
+  void offer_other_width(const Instruction& instruction, const stl::Statement& statement, std::size_t first_diagnostic) {
+    const std::string fitting = in_other_width(instruction, statement, model_);
+    if (fitting.empty()) return;
+    for (std::size_t i = first_diagnostic; i < diagnostics_.size(); ++i) diagnostics_[i].hint = "write " + fitting;
   }
 
   /// A CALL or ATCH of a name that no block has. True after a message.

@@ -100,7 +100,16 @@ class Placing {
 
   Result wrong_kind() {
     return error(fmt::format("{} cannot be {}", of_instruction(), text()),
-                 fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_)));
+                 instruction_.hidden == Hidden::InputPoint
+                     ? immediate_hint()
+                     : fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_)));
+  }
+
+  /// Of LDI and its like. The I of other controllers is a closed contact.
+  std::string immediate_hint() const {
+    const std::string_view usual = instruction_.mnemonic.substr(0, instruction_.mnemonic.size() - 1);
+    const std::string closed = usual.ends_with('N') ? "" : fmt::format(", or {}N {} for a closed contact", usual, text());
+    return fmt::format("only inputs are read at once: write {} {}{}", usual, text(), closed);
   }
 
   // --- numbers that are part of the instruction ---
@@ -250,7 +259,8 @@ class Placing {
     }
     if (!names_width(address, *area)) {
       error(fmt::format("{} does not say whether it is a byte, word or double word", text()),
-            fmt::format("did you mean {}?", address_text(*area, meant, address.number, 0)));
+            meant == Width::Bit ? bits_text(*area, address.number)
+                                : fmt::format("did you mean {}?", address_text(*area, meant, address.number, 0)));
       return {};
     }
     return area;
@@ -262,10 +272,47 @@ class Placing {
     const auto width = width_of(address, area);
     if (!width || *width == rule_.width) return true;
     std::string meant = fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_));
-    if (!is_numbered(area) && area != Area::AI && area != Area::AQ)
-      meant = fmt::format("did you mean {}?", address_text(area, rule_.width, address.number, 0));
+    if (!is_numbered(area) && area != Area::AI && area != Area::AQ) meant = width_hint(area, *width, address.number);
     error(fmt::format("{} is a {}, {} is a {}", of_instruction(), name_of(rule_.width), text(), name_of(*width)), meant);
     return false;
+  }
+
+  static std::string bits_text(Area area, std::uint32_t number) {
+    return fmt::format("its bits are {} to {}", address_text(area, Width::Bit, number, 0),
+                       address_text(area, Width::Bit, number, 7));
+  }
+
+  /// The parts of `wide` at `number`: `VB0 and VB1`, `VB0 to VB3`.
+  static std::string parts_text(Area area, Width wide, Width part, std::uint32_t number) {
+    const std::uint32_t last = number + bytes_of(wide) - bytes_of(part);
+    return fmt::format("{} {} {}", address_text(area, part, number, 0), bytes_of(wide) == 2 * bytes_of(part) ? "and" : "to",
+                       address_text(area, part, last, 0));
+  }
+
+  /// What an address of the wrong width has to do with the one of the right width. That is other memory, so it is not what
+  /// to write without a thought.
+  std::string width_hint(Area area, Width width, std::uint32_t number) const {
+    const std::string fitting = address_text(area, rule_.width, number, 0);
+    if (rule_.counted != 0 && width != Width::Bit && rule_.width != Width::Bit)
+      return fmt::format("{} works on {}s: {} is where {} begins", instruction_.mnemonic, name_of(rule_.width), fitting,
+                         text());
+    if (rule_.width == Width::Bit) return bits_text(area, number);
+    if (width == Width::Bit)
+      return fmt::format("{} is {} to {}", fitting, address_text(area, Width::Bit, number, 0),
+                         address_text(area, Width::Bit, number + bytes_of(rule_.width) - 1, 7));
+    if (width > rule_.width)
+      return fmt::format("its {}s are {}", name_of(rule_.width), parts_text(area, width, rule_.width, number));
+    return fmt::format("{} is {}{}", fitting, parts_text(area, rule_.width, width, number), conversion_hint(width));
+  }
+
+  /// `; BTI makes a word of a byte`, if the CPU can.
+  std::string conversion_hint(Width width) const {
+    const std::string_view mnemonic = width == Width::Byte && rule_.width == Width::Word     ? "BTI"
+                                      : width == Width::Word && rule_.width == Width::Double ? "ITD"
+                                                                                             : "";
+    const Instruction* conversion = find_instruction(mnemonic);
+    if (!conversion || rule_.role != Role::In || rule_.real || (conversion->cpus & model_.self) == 0) return {};
+    return fmt::format("; {} makes a {} of a {}", mnemonic, name_of(rule_.width), name_of(width));
   }
 
   Result area_refused(Area area) {
