@@ -120,7 +120,7 @@ class Verbs(Case):
 
     def test_german_mnemonics_are_explained_as_check_does(self):
         self.assertIn("U is a German mnemonic; write A\n", self.ends(UNUSABLE, "instructions", "u").stderr)
-        self.assertIn("unknown instruction 'MOWV'; did you mean MOVW?\n", self.ends(UNUSABLE, "instructions", "MOWV").stderr)
+        self.assertIn("unknown instruction 'MOWV'; did you mean MOVW (copy word IN to OUT)?\n", self.ends(UNUSABLE, "instructions", "MOWV").stderr)
 
     def test_a_word_that_is_not_a_verb_gets_the_nearest_one(self):
         for word, meant in (("chek", "check"), ("RUN", "run"), ("sned", "send"), ("tests", "test"), ("Help", "help")):
@@ -2429,7 +2429,14 @@ class Files(Case):
     def test_a_symbol_table_may_be_csv_and_a_status_chart_is_left_out_with_a_note(self):
         self.ends(FINE, "check", EXPORTS / "pump.awl", EXPORTS / "pump_symbols.csv")
         done = self.ends(FINE, "run", EXPORTS / "pump.awl", EXPORTS / "pump_symbols.csv", EXPORTS / "pump_chart.txt", "--scans", "1")
-        self.assertIn("pump_chart.txt is a status chart: nothing of it is part of the program", done.stderr)
+        said = "pump_chart.txt is a status chart: nothing of it is part of the program"
+        self.assertIn(said, done.stderr)
+        self.assertIn(said, self.ends(FINE, "check", EXPORTS / "pump.awl", EXPORTS / "pump_symbols.csv", EXPORTS / "pump_chart.txt").stderr)
+        files = f"program: {EXPORTS}/pump.awl\nwith: [{EXPORTS}/pump_symbols.txt, {EXPORTS}/pump_chart.txt]\n"
+        scenario = self.program(files + "steps: [{wait: 10ms}, {memory: {M0.0: 0}}]\n", "chart.yaml")
+        self.assertIn(said, self.ends(FINE, "test", scenario).stderr)
+        system = self.program("plcs:\n  pump:\n    " + files.replace("\n", "\n    ") + "copies: 2\n", "chart_system.yaml")
+        self.assertEqual(self.ends(FINE, "run", system, "--for", "10ms").stderr.count(said), 1)
 
     def test_messages_name_the_file_the_block_and_the_network(self):
         done = self.ends(FAILED, "check", EXPORTS / "broken.awl", EXPORTS / "pump_symbols.txt")

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
@@ -90,6 +91,7 @@ Programs::Loaded Programs::load(const std::vector<std::string>& files, const std
   auto times = load_times(model, times_table, errors);
   for (const std::string& error : errors) add_error(loaded.messages, error);
   if (!times) return loaded;
+  for (const std::string& note : parsed->notes) loaded.messages.push_back({.kind = Message::Kind::Note, .text = note});
   CheckResult result = check(std::move(*parsed), model, *times);
   loaded.times = std::move(*times);
   loaded.program = std::move(result.program);
@@ -165,6 +167,8 @@ class ProgramBenches {
       return false;
     }
     if (!loaded.program) bench.problem = loaded.why();
+    if (loaded.program && told_.insert(&loaded).second)
+      messages.insert(messages.end(), loaded.messages.begin(), loaded.messages.end());
     if (name.empty()) name = path;
     return true;
   }
@@ -187,6 +191,7 @@ class ProgramBenches {
   bool same_for_all_;
   const SuiteSettings& settings_;
   Programs& programs_;
+  std::set<const Programs::Loaded*> told_{};
 };
 
 using SlaveMaker = decltype(Bench::make_slave);

@@ -21,7 +21,7 @@ class Programs {
   struct Loaded {
     std::shared_ptr<const Program> program{};
     TimeTable times{};    ///< that it has
-    Messages messages{};  ///< why there is none
+    Messages messages{};  ///< why there is none; of one that there is, what is worth knowing of how it was read
 
     /// The first of what is wrong, in a few lines.
     std::string why() const;
