@@ -28,11 +28,6 @@ constexpr std::string_view kBox = "a box of the ladder editor";
 constexpr std::string_view kSmart = "an instruction of the S7-200 SMART";
 constexpr std::string_view kAsCpu226 =
     "a program for the SMART runs here as CPU 226 as far as it goes; what GET and PUT do there, NETR and NETW do on a 226";
-constexpr std::string_view kIec = "a mnemonic of IEC 61131-3";
-constexpr std::string_view kMitsubishi = "a mnemonic of Mitsubishi controllers";
-constexpr std::string_view kOther = "a mnemonic of other controllers";
-constexpr std::string_view kContact = "a contact of the ladder editor";
-constexpr std::string_view kBox = "a box of the ladder editor";
 constexpr std::string_view kEnds = "the main program ends with MEND, a subroutine with RET, an interrupt routine with RETI";
 constexpr std::string_view kMove = "write MOVB, MOVW, MOVD or MOVR, as wide as what it moves";
 constexpr std::string_view kCompare = "write a contact that compares, such as LDW>= IN1, IN2";
