@@ -4,17 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/dap_debuggee.hpp"
+#include "tools/command/dap_server.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/choices.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/dap/serve.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/host/server_rules.hpp"
-#include "tools/host/tcp_listener.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -25,47 +22,9 @@ struct DapOptions {
   std::vector<std::string> allowed;
 };
 
-constexpr std::size_t kShortestToken = 16;
-
 bool write_standard_output(std::string_view bytes) {
   std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
   return std::cout.good();
-}
-
-/// The token that clients give; empty and an error if the file with it is of no use.
-std::string token_of(const DapOptions& options) {
-  if (options.token_file.empty()) return new_token();
-  std::string why;
-  const auto text = read_text(options.token_file, why);
-  const std::string token(stl::trim(std::string_view(text.value_or("")).substr(0, text.value_or("").find('\n'))));
-  if (token.size() >= kShortestToken) return token;
-  print_error(
-      fmt::format("--token-file {}: {}", options.token_file,
-                  text ? fmt::format("its first line is not a token of {} characters or more", kShortestToken) : why));
-  return {};
-}
-
-/// One client after the other, until an interruption.
-int serve_clients(const DapOptions& options, const dap::SessionSettings& settings, std::atomic<bool>& stop_request) {
-  std::string why;
-  const std::string token = token_of(options);
-  if (token.empty()) return kUnusable;
-  const auto address = parse_listen_address(options.listen, why);
-  const auto listener = address ? TcpListener::open(*address, why) : nullptr;
-  if (!listener) return print_error(fmt::format("--listen {}: {}", options.listen, why)), kUnusable;
-  catch_interruption();
-  fmt::print(stderr, "listening on {}, for clients with {}\n", to_text(listener->address()),
-             options.token_file.empty() ? fmt::format("\"token\": \"{}\"", token) : "the token of --token-file");
-  while (!interrupted()) {
-    const int client = listener->accept(why);
-    if (client < 0 && !interrupted()) return print_error(fmt::format("--listen {}: {}", options.listen, why)), kUnusable;
-    if (client < 0) break;
-    const auto write = [client](std::string_view bytes) { return send_all(client, bytes) == 0; };
-    const std::string wrong = dap::serve(client, write, settings, stop_request, token);
-    if (!wrong.empty()) print_note(fmt::format("a client {}", wrong));
-    close(client);
-  }
-  return kFine;
 }
 
 int run_dap(const CLI::App& verb, const DapOptions& options) {
@@ -82,7 +41,7 @@ int run_dap(const CLI::App& verb, const DapOptions& options) {
     if (!settings.attachable) return exit_code;
   }
   if (!options.listen.empty()) {
-    exit_code = serve_clients(options, settings, stop_request);
+    exit_code = serve_clients({options.listen, options.token_file}, settings, stop_request);
   } else if (const std::string wrong = dap::serve(STDIN_FILENO, write_standard_output, settings, stop_request);
              !wrong.empty()) {
     print_error(fmt::format("standard input {}", wrong));

@@ -1,0 +1,57 @@
+#include "tools/command/dap_server.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/load.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/dap/serve.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/host/server_rules.hpp"
+#include "tools/host/tcp_listener.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::size_t kShortestToken = 16;
+
+/// The token that clients give; empty and an error if the file with it is of no use.
+std::string token_of(const DapServer& server) {
+  if (server.token_file.empty()) return new_token();
+  std::string why;
+  const auto text = read_text(server.token_file, why);
+  const std::string token(stl::trim(std::string_view(text.value_or("")).substr(0, text.value_or("").find('\n'))));
+  if (token.size() >= kShortestToken) return token;
+  print_error(
+      fmt::format("--token-file {}: {}", server.token_file,
+                  text ? fmt::format("its first line is not a token of {} characters or more", kShortestToken) : why));
+  return {};
+}
+
+}  // namespace
+
+int serve_clients(const DapServer& server, const dap::SessionSettings& settings, std::atomic<bool>& stop_request) {
+  std::string why;
+  const std::string token = token_of(server);
+  if (token.empty()) return kUnusable;
+  const auto address = parse_listen_address(server.listen, why);
+  const auto listener = address ? TcpListener::open(*address, why) : nullptr;
+  if (!listener) return print_error(fmt::format("--listen {}: {}", server.listen, why)), kUnusable;
+  catch_interruption();
+  fmt::print(stderr, "listening on {}, for clients with {}\n", to_text(listener->address()),
+             server.token_file.empty() ? fmt::format("\"token\": \"{}\"", token) : "the token of --token-file");
+  while (!interrupted()) {
+    const int client = listener->accept(why);
+    if (client < 0 && !interrupted()) return print_error(fmt::format("--listen {}: {}", server.listen, why)), kUnusable;
+    if (client < 0) break;
+    const auto write = [client](std::string_view bytes) { return send_all(client, bytes) == 0; };
+    const std::string wrong = dap::serve(client, write, settings, stop_request, token);
+    if (!wrong.empty()) print_note(fmt::format("a client {}", wrong));
+    close(client);
+  }
+  return kFine;
+}
+
+}  // namespace s7200::tools
