@@ -26,10 +26,12 @@
 #include "interpreter/program/parameters.hpp"
 #include "interpreter/program/routine_ends.hpp"
 #include "interpreter/program/special_memory_use.hpp"
+#include "interpreter/program/stand_ins.hpp"
 #include "interpreter/program/structure.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/project.hpp"
 #include "interpreter/stl/symbols.hpp"
 
 namespace s7200 {
@@ -57,6 +59,7 @@ class Checker {
     else if (const auto known = what_is_known(structure))
       find_warnings(*known);
     tell_undefined_symbols_apart();
+    forget_warnings_of_stand_ins();
     stl::sort(diagnostics_);
     return program;
   }
@@ -85,6 +88,13 @@ class Checker {
       if (warning.find) warning.find(program, diagnostics_);
   }
 
+  /// A program need not use all of a stand-in.
+  void forget_warnings_of_stand_ins() {
+    std::erase_if(diagnostics_, [this](const stl::Diagnostic& d) {
+      return d.severity == stl::Severity::Warning && is_stand_in(stl::in_file(source_, d.position.line).file);
+    });
+  }
+
   /// With a symbol table each undefined name has a cause of its own; without one they all have the same.
   void tell_undefined_symbols_apart() {
     if (source_.symbols.empty()) return;
@@ -98,9 +108,17 @@ class Checker {
           part ? "it is a part of a project: give the file with the program too" : "a program needs at least MEND");
   }
 
+  /// The main program of a listing is in no block; there may be blocks all the same, those of stand-ins.
   bool lacks_main_program() const {
+    const auto is_in_block = [this](const stl::Line& line) {
+      const auto* statement = std::get_if<stl::Statement>(&line);
+      return !statement || std::ranges::any_of(source_.blocks, [&](const stl::Block& block) {
+        return statement->position.line >= block.position.line && statement->position.line <= block.last_line;
+      });
+    };
     return !source_.blocks.empty() &&
-           std::ranges::find(source_.blocks, stl::Block::Kind::Main, &stl::Block::kind) == source_.blocks.end();
+           std::ranges::find(source_.blocks, stl::Block::Kind::Main, &stl::Block::kind) == source_.blocks.end() &&
+           std::ranges::all_of(source_.lines, is_in_block);
   }
 
   void read(const stl::Line& line) {
@@ -229,11 +247,6 @@ class Checker {
     if (is_missing_block(instruction, statement)) return false;
     const stl::Block* called = called_block(instruction, statement);
     if (given != taken && !called) {
-      const auto* name = given == 0 ? nullptr : std::get_if<stl::Name>(&statement.operands[0].value);
-      if (name && !name->reason.empty()) {
-        error(statement.operands[0].position, name->reason, "a listing calls its routines by their numbers");
-        return false;
-      }
       if (is_two_statements(statement, taken)) return false;
       const stl::Position at = given > taken ? statement.operands[taken].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(taken), given),
@@ -276,13 +289,17 @@ class Checker {
     for (std::size_t i = first_diagnostic; i < diagnostics_.size(); ++i) diagnostics_[i].hint = "write " + fitting;
   }
 
-  /// A CALL or ATCH of a name that no block has. True after a message.
+  /// A CALL or ATCH of a name that stands for no routine. True after a message.
   bool is_missing_block(const Instruction& instruction, const stl::Statement& statement) {
     const bool names = instruction.structure == Structure::Call || instruction.structure == Structure::Attach;
     const auto* name = names && !statement.operands.empty() ? std::get_if<stl::Name>(&statement.operands[0].value) : nullptr;
-    if (!name || !name->reason.starts_with("there is no") || source_.blocks.empty()) return false;
-    error(statement.operands[0].position, name->reason,
-          "give the file with its block too; the blocks of Micro/WIN's own libraries are in no export");
+    if (!name || !name->reason.starts_with("there is no")) return false;
+    if (instruction.structure == Structure::Attach) {
+      error(statement.operands[0].position, name->reason, "give the file with its block too");
+      return true;
+    }
+    auto [message, hint, cause] = missing_routine(*name, model_);
+    error(statement.operands[0].position, std::move(message), std::move(hint), std::move(cause));
     return true;
   }
 
@@ -694,50 +711,60 @@ class Checker {
   std::set<std::pair<std::uint32_t, std::uint32_t>> misplaced_;  // lines and columns where the structure has errors
 };
 
-/// What the CPU has no part in.
-void read_names(stl::ParseResult& parsed) {
+/// Puts addresses in place of names, ends where a CPU 22x needs none, and stand-ins in place of the routines of libraries.
+void read_names(stl::ParseResult& parsed, const CpuModel& model) {
   read_german(parsed);
+  StandInFiles stand_ins = link_stand_ins(parsed, model);
   stl::resolve_symbols(parsed);
+  if (model.self & kCpu22x) add_missing_ends(parsed);
+  for (stl::ParseResult& file : stand_ins) stl::append(parsed, std::move(file));
 }
 
-/// A source as the CPUs 21x take it, and as the CPUs 22x do.
-class ForEachFamily {
+/// A source as the CPUs 21x take it, and as the CPUs 22x do; one that needs stand-ins, as each CPU does.
+class ForEachCpu {
  public:
-  explicit ForEachFamily(stl::ParseResult parsed) : for_21x_(std::move(parsed)) {
-    read_names(for_21x_);
-    for_22x_ = for_21x_;
-    add_missing_ends(for_22x_);
+  explicit ForEachCpu(stl::ParseResult parsed) : source_(std::move(parsed)), same_for_family_(!may_need_stand_ins(source_)) {
+    if (same_for_family_) {
+      read_names(for_21x_ = source_, cpu214());
+      read_names(for_22x_ = source_, cpu224());
+    }
   }
 
   bool is_fine_for(const CpuModel& model) const {
-    const stl::ParseResult& read = model.self & kCpu22x ? for_22x_ : for_21x_;
-    return !has_errors(read.diagnostics) && Checker(read.source, {}, model).is_fine();
+    if (same_for_family_) return is_fine(model.self & kCpu22x ? for_22x_ : for_21x_, model);
+    stl::ParseResult own = source_;
+    read_names(own, model);
+    return is_fine(own, model);
   }
 
  private:
-  stl::ParseResult for_21x_, for_22x_;
+  static bool is_fine(const stl::ParseResult& read, const CpuModel& model) {
+    return !has_errors(read.diagnostics) && Checker(read.source, {}, model).is_fine();
+  }
+
+  stl::ParseResult source_;
+  bool same_for_family_;
+  stl::ParseResult for_21x_{}, for_22x_{};
 };
 
 }  // namespace
 
 CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
-  read_names(parsed);
-  if (model.self & kCpu22x) add_missing_ends(parsed);
+  read_names(parsed, model);
   Checker checker(parsed.source, std::move(parsed.diagnostics), model);
   auto program = checker.program(times);
   return {std::move(program), std::move(parsed.source), checker.take_diagnostics()};
 }
 
 std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {
-  const ForEachFamily read(std::move(parsed));
+  const ForEachCpu read(std::move(parsed));
   std::vector<const CpuModel*> fine;
-  std::ranges::copy_if(all_cpus(), std::back_inserter(fine),
-                       [&](const CpuModel* model) { return read.is_fine_for(*model); });
+  std::ranges::copy_if(all_cpus(), std::back_inserter(fine), [&](const CpuModel* model) { return read.is_fine_for(*model); });
   return fine;
 }
 
 const CpuModel* first_cpu_without_errors(stl::ParseResult parsed, std::span<const CpuModel* const> tried) {
-  const ForEachFamily read(std::move(parsed));
+  const ForEachCpu read(std::move(parsed));
   const auto first = std::ranges::find_if(tried, [&](const CpuModel* model) { return read.is_fine_for(*model); });
   return first == tried.end() ? nullptr : *first;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/german.hpp"
 #include "interpreter/program/routine_ends.hpp"
+#include "interpreter/program/stand_ins.hpp"
 #include "interpreter/stl/block_words.hpp"
 #include "interpreter/stl/german_letters.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -240,8 +242,10 @@ class Printable {
     parsed_.diagnostics.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
   }
 
+  /// Micro/WIN knows the routines of its libraries by their names.
   void check(const stl::Statement& statement) {
-    for (const stl::Operand& operand : statement.operands)
+    const std::size_t known = blocks_ && has_stand_in(statement) ? 1 : 0;
+    for (const stl::Operand& operand : std::span(statement.operands).subspan(known))
       if (const auto* name = std::get_if<stl::Name>(&operand.value)) check(operand, *name);
     if (!blocks_ && statement.mnemonic == "CALL" && statement.operands.size() > 1)
       error(statement.operands[1].position, "parameters of CALL have no notation outside of blocks", "use --to microwin");

@@ -1119,7 +1119,7 @@ class Json(Case):
         fine, failed = self.json(FAILED, "check", "--json", good, wrong)["files"]
         for result in (fine, failed):
             self.assertEqual(list(result), ["file", "ok", "cpu", "fine_for", "kind", "encoding", "instructions",
-                                            "left_out", "diagnostics"])
+                                            "left_out", "stand_ins", "diagnostics"])
         self.assertEqual((fine["ok"], fine["instructions"], fine["diagnostics"]), (True, 2, []))
         self.assertEqual((failed["ok"], failed["instructions"]), (False, 0))
         first = failed["diagnostics"][0]
@@ -2576,8 +2576,51 @@ class Files(Case):
         done = self.ends(FAILED, "check", block)
         self.assertIn("there is no main program (ORGANIZATION_BLOCK)", done.stderr)
         self.assertNotIn("MEND", done.stderr)
-        library = self.program("LD SM0.1\nCALL MBUS_INIT, 1, 1, M0.0\nMEND\n", "library.stl")
-        self.assertIn("there is no subroutine MBUS_INIT", self.ends(FAILED, "check", library, "--cpu", "224").stderr)
+        library = self.program("LD SM0.1\nCALL USS_INIT, 1, 1, M0.0\nMEND\n", "library.stl")
+        self.assertIn("USS_INIT is a routine of the USS protocol library, which is in no export and has no stand-in here",
+                      self.ends(FAILED, "check", library, "--cpu", "224").stderr)
+
+    LIBRARY = SOURCE / "tests/programs/libraries"
+    USED = "MBUS_INIT and MBUS_SLAVE are in no export: our stand-in:modbus_slave.awl is used, with times of our own"
+
+    def test_the_routines_of_a_library_have_stand_ins_in_every_verb(self):
+        slave = self.LIBRARY / "slave.awl"
+        answered = ["send", slave, "--cpu", "224", "--crc", "010300000001"]
+        for verb in (["check", slave, "--cpu", "224"], ["run", slave, "--cpu", "224", "--scans", "2"], answered,
+                     ["master", slave, "--cpu", "224", "read", "40001"], ["debug", slave, "--cpu", "224", "-x", "step 100"],
+                     ["run", self.LIBRARY / "systems/line.0.yaml", "--for", "10ms"]):
+            self.assertIn(self.USED, self.ends(FINE, *verb).stderr, verb)
+            refused = self.ends(FAILED, verb[0], "--no-stand-ins", *verb[1:])
+            self.assertIn("error: MBUS_INIT and MBUS_SLAVE are in no export", refused.stderr)
+            self.assertIn("write a subroutine of this name with the same parameters", refused.stderr)
+        self.assertIn("1 register: 16#0000", self.ends(FINE, *answered).stdout)
+
+    def test_scenarios_say_which_stand_ins_they_had(self):
+        steps = "steps: [{read: holding 0, expect: accepted}]\n"
+        of_program = self.program(f"program: {self.LIBRARY}/slave.awl\ncpu: 224\nafter: 20ms\n{steps}", "library.yaml")
+        of_system = self.program(f"system: {self.LIBRARY}/systems/line.0.yaml\n"
+                                 "steps: [{wait: 20ms}, {errors: none, on: slave}]\n", "system.yaml")
+        for scenario in (of_program, of_system):
+            self.assertEqual(self.ends(FINE, "test", scenario, scenario).stderr.count(self.USED), 1)
+            self.assertIn("MBUS_INIT and MBUS_SLAVE are in no export", self.ends(UNUSABLE, "test", scenario, "--no-stand-ins").stdout)
+
+    def test_check_json_names_the_stand_ins_and_their_memory(self):
+        (checked,) = self.json(FINE, "check", self.LIBRARY / "slave.awl", "--cpu", "224", "--json")["files"]
+        self.assertEqual(checked["stand_ins"], [{"file": "stand-in:modbus_slave.awl", "routines": ["MBUS_INIT", "MBUS_SLAVE"],
+                                                 "memory": "VB7822:370"}])
+
+    def test_convert_leaves_the_calls_of_a_library_to_micro_win(self):
+        converted = self.ends(FINE, "convert", self.LIBRARY / "small_slave.stl", "--to", "microwin").stdout
+        self.assertIn("CALL    MBUS_INIT, 1, 5, 19200", converted)
+        self.assertNotIn("mb_crc", converted)
+        self.ends(FINE, "check", self.program(converted, "converted.awl"), "--cpu", "224")
+
+    def test_a_stand_in_may_be_changed_and_given_with_the_program(self):
+        libraries = SOURCE / "stl_programs/libraries"
+        files = [libraries / name for name in ("modbus_slave.awl", "modbus_crc.awl", "modbus_slave_symbols.csv", "port_0_symbols.csv")]
+        done = self.ends(FINE, "check", self.LIBRARY / "slave.awl", *files, "--cpu", "224")
+        self.assertEqual(done.stderr, "")
+        self.assertIn("fine", done.stdout)
 
     def test_symbols_name_memory_in_scenarios_too(self):
         program = self.program("LD SM0.0\nINCW VW20\nMEND\n", "count.stl")

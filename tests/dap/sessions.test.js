@@ -46,6 +46,25 @@ session("what is announced is offered", async (s, program, capabilities) => {
   assert.equal((await s.ask("threads")).threads[0].name, "CPU 214");
 });
 
+test("stand-ins for libraries are sources that the client asks for", async () => {
+  const s = new Session();
+  try {
+    await s.start();
+    const program = path.join(SOURCE, "tests/programs/libraries/slave.awl");
+    await s.begin({ program, cpu: "224", stopOnEntry: true });
+    const [, stand_in] = (await s.ask("loadedSources")).sources;
+    assert.equal(stand_in.path, "stand-in:modbus_slave.awl");
+    const { content } = await s.ask("source", { source: stand_in, sourceReference: stand_in.sourceReference });
+    const line = content.split("\n").findIndex((each) => each.startsWith("SUBROUTINE_BLOCK MBUS_SLAVE")) + 1;
+    assert.ok(line > 0);
+    const [breakpoint] = (await s.ask("setBreakpoints", { source: stand_in, breakpoints: [{ line }] })).breakpoints;
+    assert.equal(breakpoint.verified, true);
+    assert.match(await s.refused("source", { sourceReference: 99 }), /read them by their paths/);
+  } finally {
+    await s.end();
+  }
+});
+
 session("a launch takes the options of debug, and says what is wrong with them", async (s, program) => {
   assert.match(await s.refused("launch", {}), /'program' is missing/);
   assert.match(await s.refused("launch", { program, frob: 1 }), /no attribute 'frob'/);

@@ -41,7 +41,7 @@ class Conversation(unittest.TestCase):
         self.late = 0
         dumps = [word for place in self.model.memory() for word in ("--dump", place)]
         self.plc = subprocess.Popen(
-            [S7200, "run", path_of(SLAVE, SOURCE), "--pty", self.link, "--speed", str(SPEED), "--json", "--capture",
+            [S7200, "run", path_of(SLAVE, SOURCE), "--cpu", SLAVE.cpu, "--pty", self.link, "--speed", str(SPEED), "--json", "--capture",
              self.capture, *self.model.settings(), *dumps],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(self.pull_the_plug)
@@ -195,7 +195,7 @@ class Peers(Conversation):
         draw = self.draw
         function = draw.choice((1, 2, 3, 4, 5, 6, 15, 16))
         size = {3: REGISTERS, 6: REGISTERS, 16: REGISTERS, 4: INPUT_REGISTERS}.get(function, POINTS)
-        most = {1: 64, 2: 64, 3: 125, 4: 16, 15: 64, 16: SLAVE.most_written_registers}.get(function, 1)
+        most = {1: 64, 2: 64, 3: SLAVE.most_registers, 4: 16, 15: 64, 16: SLAVE.most_written_registers}.get(function, 1)
         count = min(draw.randint(1, most), draw.randint(1, most))
         first = draw.randrange(size) if draw.random() < 0.12 else draw.randint(0, size - count)
         if function == 15 and not SLAVE.writes_any_coils and draw.random() < 0.9:

@@ -4,7 +4,7 @@ import pathlib
 
 from masters import Refused, SILENT
 
-POINTS, REGISTERS, INPUT_REGISTERS = 64, 1000, 16  # of both
+POINTS, REGISTERS, INPUT_REGISTERS = 64, 1000, 16  # of all of them
 
 
 @dataclasses.dataclass(frozen=True)
@@ -15,6 +15,10 @@ class Slave:
     writes_any_coils: bool  # with function 15; otherwise whole bytes
     obeys_broadcasts: bool
     pause: float  # seconds of quiet that it needs after an answer
+    cpu: str = "214"
+    most_registers: int = 125  # of a read
+    input_register: str = "VW"  # memory that input registers are in, ...
+    first_input_register: int = 2000  # ... and the byte of the first
 
 
 SLAVES = {
@@ -22,6 +26,9 @@ SLAVES = {
                           writes_any_coils=True, obeys_broadcasts=True, pause=3.5 * 11 / 9600),
     "tip41": Slave("../shared/seeds/tip41_modbus_rtu_slave.txt", illegal_quantity=2, most_written_registers=60,
                    writes_any_coils=False, obeys_broadcasts=False, pause=10e-3),
+    "modbus_library": Slave("tests/peers/library_slave.awl", illegal_quantity=3, most_written_registers=120, most_registers=120,
+                            writes_any_coils=True, obeys_broadcasts=True, pause=3.5 * 11 / 9600, cpu="224",
+                            input_register="AIW", first_input_register=0),
 }
 
 
@@ -39,7 +46,8 @@ class Model:
         """Options of `s7200 run` that make the PLC's memory like this one."""
         settings = [f"IB{n}={byte}" for n, byte in enumerate(self.packed(self.inputs))]
         settings += [f"VW{2 * n}={value}" for n, value in enumerate(self.registers)]
-        settings += [f"VW{2000 + 2 * n}={value}" for n, value in enumerate(self.input_registers)]
+        settings += [f"{self.slave.input_register}{self.slave.first_input_register + 2 * n}={value}"
+                     for n, value in enumerate(self.input_registers)]
         return [word for setting in settings for word in ("--set", setting)]
 
     def memory(self):
@@ -62,7 +70,7 @@ class Model:
         table = {1: self.coils, 5: self.coils, 15: self.coils, 2: self.inputs, 4: self.input_registers}.get(
             request.function, self.registers)
         count = len(request.values) if request.writes else request.count
-        most = {1: 2000, 2: 2000, 3: 125, 4: 125, 15: 1968, 16: self.slave.most_written_registers}.get(request.function, 1)
+        most = {1: 2000, 2: 2000, 3: self.slave.most_registers, 4: self.slave.most_registers, 15: 1968, 16: self.slave.most_written_registers}.get(request.function, 1)
         if not 1 <= count <= most:
             return Refused(self.slave.illegal_quantity)
         if request.first + count > len(table):

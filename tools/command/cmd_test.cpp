@@ -6,6 +6,7 @@
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/growing_transcript.hpp"
+#include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/options/test_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/test_output.hpp"
@@ -86,6 +87,7 @@ int run_test(TestOptions& options) {
   options.suite.jobs = options.jobs > 0 ? options.jobs : options.band.wanted() ? options.band.jobs() : 1;
   options.suite.plc = options.other.settings();
   options.suite.protocol = options.protocol->name;
+  options.suite.no_stand_ins = stand_ins_refused();
   options.suite.exchanges_wanted = options.json || to.record || !options.against.empty();
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);

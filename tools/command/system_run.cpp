@@ -14,6 +14,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/options/system_options.hpp"
 #include "tools/command/progress.hpp"
 #include "tools/command/rig_output.hpp"
@@ -138,7 +139,8 @@ int run_plan(SystemPlan plan, const RigSurroundings& surroundings, Bridges bridg
 bool refuse_options_of_s7200(const CLI::App& verb, const RunOptions& options) {
   const auto refused = [](const CLI::Option& option) {
     const std::string& name = option.get_name();
-    return name == "--scans" || name == kNoSkip || (is_about_one_plc(name) && !is_about_the_line(name));
+    return name == "--scans" || name == kNoSkip || name == kNoStandIns ||
+           (is_about_one_plc(name) && !is_about_the_line(name));
   };
   for (const CLI::Option* option : verb.get_options())
     if (option->count() > 0 && !option->get_positional() && refused(*option))

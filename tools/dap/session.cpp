@@ -119,6 +119,7 @@ const std::vector<Session::Request>& Session::requests() {
                                            {"scopes", &Session::scopes},
                                            {"variables", &Session::variables},
                                            {"loadedSources", &Session::loaded_sources},
+                                           {"source", &Session::source, Needs::Nothing},
                                            {"evaluate", &Session::evaluate},
                                            {"completions", &Session::completions},
                                            {"disassemble", &Session::disassemble},

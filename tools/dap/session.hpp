@@ -178,6 +178,7 @@ class Session {
   Json scopes(const Json& arguments);
   Json variables(const Json& arguments);
   Json loaded_sources(const Json& arguments);
+  Json source(const Json& arguments);
   Json evaluate(const Json& arguments);
   Json completions(const Json& arguments);
   Json disassemble(const Json& arguments);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/stand_ins.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/dap/addresses.hpp"
 #include "tools/dap/session.hpp"
@@ -141,6 +142,13 @@ Json Session::variables(const Json& arguments) {
     if (wants_hex(arguments) && !all[i].memory.empty()) variables.back()["value"] = hex_of(all[i].value);
   }
   return {{"variables", variables}};
+}
+
+/// Of the stand-ins for libraries, which are no files.
+Json Session::source(const Json& arguments) {
+  const std::string text = stand_in_text(static_cast<std::size_t>(number_at<std::int64_t>(arguments, "sourceReference")));
+  if (text.empty()) throw Refused("sources that have no reference are files: read them by their paths");
+  return {{"content", text}, {"mimeType", "text/plain"}};
 }
 
 Json Session::loaded_sources(const Json&) {

@@ -7,6 +7,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/stand_ins.hpp"
 
 namespace s7200::tools::dap {
 namespace {
@@ -50,7 +51,7 @@ std::string uri_of(const std::string& path) {
 }
 
 std::string full_name(const std::string& name, const std::string& folder) {
-  if (name.empty()) return name;
+  if (name.empty() || is_stand_in(name)) return name;
   std::error_code error;
   const auto path = std::filesystem::path(path_of(folder)) / path_of(name);
   const auto full = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
@@ -65,6 +66,8 @@ Sources::Sources(const Program& program, bool as_uris)
 }
 
 Json Sources::source_of(const File& file) const {
+  if (const auto number = number_of_stand_in(file.path))
+    return {{"name", file.path}, {"path", file.path}, {"sourceReference", *number}, {"origin", "part of s7200"}};
   return {{"name", std::filesystem::path(file.path).filename().string()},
           {"path", as_uris_ ? uri_of(file.path) : file.path}};
 }

@@ -19,7 +19,8 @@ std::string path_of(const std::string& name);
 std::string uri_of(const std::string& path);
 
 /// The one name that all spellings of a file have, such as `./a//b/../main.stl`, a link to it, or its URI. A relative path
-/// begins at `folder`; the folder of the command if that is empty. Empty for an empty name.
+/// begins at `folder`; the folder of the command if that is empty. Empty for an empty name; a stand-in for a library
+/// (program/stand_ins.hpp) is no file and keeps its name.
 std::string full_name(const std::string& name, const std::string& folder = {});
 
 class Sources {

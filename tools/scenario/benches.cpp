@@ -7,6 +7,7 @@
 
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
+#include "interpreter/program/stand_ins.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/other_plc.hpp"
 #include "tools/rig/system_reader.hpp"
@@ -147,7 +148,7 @@ class ProgramBenches {
 
   /// False, with messages, if there is none and there will be none for all others either.
   bool add_to(Bench& bench, const Scenario& scenario, std::string& name, Messages& messages) {
-    if (scenario.plan) return add_system_to(bench, scenario, name), true;
+    if (scenario.plan) return add_system_to(bench, scenario, name, messages), true;
     const std::string& path = target_.empty() ? scenario.program : target_;
     if (path.empty()) {
       bench.problem = "it names no program, and there is no --target";
@@ -156,6 +157,7 @@ class ProgramBenches {
     const auto with = target_.empty() ? scenario.with : std::vector<std::string>{};
     const Programs::Loaded& loaded = programs_.get(path, with, scenario.cpu, scenario.times, scenario.repair);
     bench.program = loaded.program;
+    if (loaded.program) look_for_stand_ins(*loaded.program, bench, messages);
     if (loaded.program && scenario.system_block != SystemBlock{})
       bench.program = with_system_block(*loaded.program, scenario.system_block);
     if (loaded.program && settings_.every_scan) bench.program = with_every_scan(*bench.program);
@@ -174,7 +176,16 @@ class ProgramBenches {
   }
 
  private:
-  void add_system_to(Bench& bench, const Scenario& scenario, std::string& name) const {
+  void look_for_stand_ins(const Program& program, Bench& bench, Messages& messages) {
+    for (const StandIn& stand_in : stand_ins_of(program.source)) {
+      if (settings_.no_stand_ins) bench.problem = fmt::format("{}; {}", refusal(stand_in).message, refusal(stand_in).hint);
+      Message note{.kind = Message::Kind::Note, .text = fmt::format("{}: {}", program.source.name, to_text(stand_in))};
+      if (!settings_.no_stand_ins && noted_.insert(note.text).second) messages.push_back(std::move(note));
+    }
+  }
+
+  void add_system_to(Bench& bench, const Scenario& scenario, std::string& name, Messages& messages) {
+    for (const PlcPlan& plc : scenario.plan->plcs) look_for_stand_ins(*plc.program, bench, messages);
     if (!target_.empty())
       bench.problem = fmt::format("it is about the system {}, which --target cannot replace", scenario.system);
     if (settings_.band.random > 0) bench.problem = "--times-band is about one program, and this scenario about a system";
@@ -192,6 +203,7 @@ class ProgramBenches {
   const SuiteSettings& settings_;
   Programs& programs_;
   std::set<const Programs::Loaded*> told_{};
+  std::set<std::string> noted_{};  // stand-ins
 };
 
 using SlaveMaker = decltype(Bench::make_slave);

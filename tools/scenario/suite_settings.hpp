@@ -29,6 +29,7 @@ struct SuiteSettings {
   bool fail_fast = false;         ///< ends at the first failure
   bool exchanges_wanted = false;  ///< all of them are in the results
   bool every_scan = false;        ///< of programs: scans that are all alike are run, too
+  bool no_stand_ins = false;      ///< a program that needs a stand-in for a library is refused
 };
 
 }  // namespace s7200::tools

@@ -9,6 +9,7 @@
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/operands.hpp"
+#include "interpreter/program/stand_ins.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -68,6 +69,15 @@ std::string counted(stl::Severity severity, const stl::Diagnostics& all) {
   const std::size_t causes = stl::count_causes(of_severity);
   return counted(of_severity.size(), severity == stl::Severity::Error ? "error" : "warning") +
          (causes == of_severity.size() ? "" : " with " + counted(causes, "cause"));
+}
+
+nlohmann::ordered_json stand_ins_json(const CheckResult& result) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const StandIn& stand_in : stand_ins_of(result.source))
+    all.push_back({{"file", stand_in.file},
+                   {"routines", stand_in.routines},
+                   {"memory", fmt::format("VB{}:{}", stand_in.memory, stand_in.bytes)}});
+  return all;
 }
 
 }  // namespace
@@ -145,6 +155,7 @@ nlohmann::ordered_json check_json(const std::string& path, const SourceText& tex
           {"instructions", result.program ? result.program->ops.size() : 0},
           {"left_out", text.parsed.left_out},
           {"notes", text.parsed.notes},
+          {"stand_ins", stand_ins_json(result)},
           {"diagnostics", to_json(result.diagnostics, result.source)}};
 }
 

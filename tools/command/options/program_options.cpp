@@ -12,6 +12,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/choices.hpp"
 #include "tools/command/options/input.hpp"
+#include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/measuring/band.hpp"
 #include "tools/rig/program_cpu.hpp"
@@ -95,6 +96,7 @@ void CpuOptions::add_to(CLI::App& app) {
          "the CPU is delivered with]")
       ->type_name("RANGES");
   add_repair_option(app, repairs);
+  add_no_stand_ins_option(app);
   add_no_skip_option(app, every_scan);
 }
 
@@ -188,6 +190,10 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, const CpuMo
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
   auto program = std::move(result.program);
+  if (program && !accept_stand_ins(*program)) {
+    exit_code = kCheckFailed;
+    return nullptr;
+  }
   const SystemBlock block = *system_block(model);
   if (program && block != SystemBlock{}) program = with_system_block(*program, block);
   return every_scan && program ? with_every_scan(*program) : program;

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "interpreter/program/load.hpp"
@@ -11,10 +12,24 @@
 #include "tools/command/options/band_options.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/rig_options.hpp"
+#include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
+
+namespace {
+
+/// Those of each program once: copies of a PLC have the same.
+bool accept_stand_ins_of(const SystemPlan& plan) {
+  std::set<const Program*> seen;
+  bool accepted = true;
+  for (const PlcPlan& plc : plan.plcs)
+    if (seen.insert(plc.program.get()).second) accepted &= accept_stand_ins(*plc.program);
+  return accepted;
+}
+
+}  // namespace
 
 std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_code) {
   const std::string& path = options.path;
@@ -26,6 +41,10 @@ std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_c
   for (const SystemFile::Text& program : file.programs) print_diagnostics(program.diagnostics, *program.source);
   print_diagnostics(file.file.diagnostics, *file.file.source);
   exit_code = file.ok() ? kFine : file.programs.empty() ? kUnusable : kCheckFailed;
+  if (file.ok() && !accept_stand_ins_of(file.plan)) {
+    exit_code = kCheckFailed;
+    return {};
+  }
   if (file.ok() && options.every_scan) run_every_scan(file.plan);
   if (file.ok()) return std::move(file.plan);
   print_error(fmt::format("{} has errors; nothing was run", path));
@@ -33,7 +52,7 @@ std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_c
 }
 
 bool is_about_one_plc(const std::string& option) {
-  if (option == kNoSkip) return false;
+  if (option == kNoSkip || option == kNoStandIns) return false;
   CLI::App of_one_plc;
   ProgramOptions programs;
   RigOptions rigs;

@@ -1,0 +1,51 @@
+#include "tools/command/options/stand_in_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "interpreter/program/stand_ins.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/command/terminal.hpp"
+
+namespace s7200::tools {
+
+namespace {
+
+bool& refused() {
+  static bool refused = false;
+  return refused;
+}
+
+}  // namespace
+
+void add_no_stand_ins_option(CLI::App& app) {
+  app.add_flag_callback(
+      kNoStandIns, [] { refused() = true; },
+      "refuse a program that calls MBUS_INIT, MBUS_MSG … and does not have them, instead of using stand-ins");
+}
+
+bool stand_ins_refused() { return refused(); }
+
+void refuse_stand_ins(CheckResult& result) {
+  if (!stand_ins_refused()) return;
+  for (const StandIn& stand_in : stand_ins_of(result.source)) {
+    result.diagnostics.push_back(refusal(stand_in));
+    result.program.reset();
+  }
+  stl::sort(result.diagnostics);
+}
+
+bool accept_stand_ins(const Program& program) {
+  stl::Diagnostics errors;
+  for (const StandIn& stand_in : stand_ins_of(program.source)) {
+    if (stand_ins_refused())
+      errors.push_back(refusal(stand_in));
+    else
+      print_note(fmt::format("{}: {}", program.source.name, to_text(stand_in)));
+  }
+  print_diagnostics(errors, program.source);
+  return errors.empty();
+}
+
+}  // namespace s7200::tools
