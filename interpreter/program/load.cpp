@@ -226,21 +226,6 @@ bool is_empty(const stl::ParseResult& parsed) {
 
 }  // namespace
 
-namespace {
-
-bool is_code(const stl::Line& line) {
-  return std::holds_alternative<stl::Statement>(line) || std::holds_alternative<stl::NetworkHead>(line);
-}
-
-/// Only comments, or headings of a table.
-bool is_empty(const stl::ParseResult& parsed) {
-  const stl::Source& source = parsed.source;
-  return std::ranges::none_of(source.lines, is_code) && std::ranges::all_of(source.data, &stl::DataLine::only_comment) &&
-         source.blocks.empty() && source.symbols.empty() && parsed.diagnostics.empty();
-}
-
-}  // namespace
-
 bool SourceText::is_program() const {
   if (kind == SourceKind::Document) return true;
   if (kind == SourceKind::Listing)  // not if it is all comments, as the data block of a new project is

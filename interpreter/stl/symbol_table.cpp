@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -35,7 +36,7 @@ std::string without_iec_mark_and_gap(std::string_view text) {
 
 /// The address or constant in a cell, or the name of a block; nothing for other text.
 std::optional<OperandValue> value_of(std::string_view cell, std::string& why) {
-  if (cell.empty() || cell.size() > kLongestValue) return std::nullopt;
+  if (cell.size() > kLongestValue || cell.find_first_of("0123456789'") == std::string_view::npos) return std::nullopt;
   const std::string text = without_iec_mark_and_gap(cell);
   if (block_number(text)) return Name{upper_case(text)};
   const auto operand = parse_operand(text, why);
@@ -175,24 +176,19 @@ std::size_t place_of_address(const std::vector<std::string_view>& words) {
   return words.size() > 1 && has_value(words[1]) ? 1 : words.size();
 }
 
-/// A row whose columns only blanks separate: name, address, and what follows them, wherever the row has the address. Blanks
-/// may be part of a name.
-Cells cells_between_blanks(std::string_view line) {
-  const auto wide = parts_of(line, "  "), words = parts_of(line, " ");
-  const auto as_they_stand = [&] {
-    Cells cells;
-    for (const std::string_view part : wide.size() > 1 ? wide : words) cells.push_back(cell_of(part));
-    return cells;
-  };
-  if (words.size() < 2) return as_they_stand();
-  for (const auto& parts : {wide, words}) {
-    const auto name = std::ranges::find_if(parts, [](auto p) { return is_one_of(kNameHeadings, p); });
-    const auto address = std::ranges::find_if(parts, [](auto p) { return is_one_of(kAddressHeadings, p); });
-    if (name != parts.end() && address != parts.end() && std::min(name, address) - parts.begin() < 2)
-      return {cell_of(*name), cell_of(*address)};
-  }
+/// The headings of name and address among the parts of a row, of which one begins it or follows a number; otherwise nothing.
+Cells headings_among(const std::vector<std::string_view>& parts) {
+  const auto name = std::ranges::find_if(parts, [](auto part) { return is_one_of(kNameHeadings, part); });
+  const auto address = std::ranges::find_if(parts, [](auto part) { return is_one_of(kAddressHeadings, part); });
+  if (name == parts.end() || address == parts.end() || std::min(name, address) - parts.begin() > 1) return {};
+  return {cell_of(*name), cell_of(*address)};
+}
+
+/// Name, address, and what follows them, wherever the row has the address; nothing if it has none. Blanks may be part of a
+/// name.
+Cells symbol_among(const std::vector<std::string_view>& words) {
   const std::size_t at = place_of_address(words);
-  if (at == words.size() || (at == 0 && is_type(words[1]))) return as_they_stand();
+  if (at == words.size() || (at == 0 && words.size() > 1 && is_type(words[1]))) return {};
   const bool gap = !is_address(words[at]) && !has_value(words[at]);  // `I 0.0`
   const std::size_t after = at + (gap ? 2 : 1);
   std::size_t first = 0, last = at;
@@ -203,10 +199,20 @@ Cells cells_between_blanks(std::string_view line) {
     while (first < last && !is_name(words[first]) && !words[first].starts_with('"')) ++first;
     while (last > first + 1 && is_type(words[last - 1])) --last;
   }
-  if (first >= last || last > words.size()) return as_they_stand();
+  if (first >= last || last > words.size()) return {};
   Cells cells{cell_of(from_to(words[first], words[last - 1])), cell_of(from_to(words[at], words[after - 1]))};
   for (std::size_t i = std::max(last, after); i < words.size(); ++i) cells.push_back(cell_of(words[i]));
   return cells;
+}
+
+/// A row whose columns only blanks separate.
+Cells cells_between_blanks(std::string_view line) {
+  const auto wide = parts_of(line, "  "), words = parts_of(line, " ");
+  for (Cells cells : {headings_among(wide), headings_among(words), symbol_among(words)})
+    if (!cells.empty()) return cells;
+  Cells as_they_stand;
+  std::ranges::transform(wide.size() > 1 ? wide : words, std::back_inserter(as_they_stand), cell_of);
+  return as_they_stand;
 }
 
 Cells cells_of(std::string_view line, Separator separator) {

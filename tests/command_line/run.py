@@ -2435,7 +2435,8 @@ class Files(Case):
         files = f"program: {EXPORTS}/pump.awl\nwith: [{EXPORTS}/pump_symbols.txt, {EXPORTS}/pump_chart.txt]\n"
         scenario = self.program(files + "steps: [{wait: 10ms}, {memory: {M0.0: 0}}]\n", "chart.yaml")
         self.assertIn(said, self.ends(FINE, "test", scenario).stderr)
-        system = self.program("plcs:\n  pump:\n    " + files.replace("\n", "\n    ") + "copies: 2\n", "chart_system.yaml")
+        system = self.program("plcs:\n  pump:\n    " + files.replace("\n", "\n    ") + "copies: 2\nlines: {bus: {stations: [pump]}}\n",
+                              "chart_system.yaml")
         self.assertEqual(self.ends(FINE, "run", system, "--for", "10ms").stderr.count(said), 1)
 
     def test_messages_name_the_file_the_block_and_the_network(self):

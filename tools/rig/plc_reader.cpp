@@ -117,8 +117,7 @@ class PlcReader {
     SourceText project = join_files(std::move(files));
     for (const std::string& note : project.parsed.notes)
       if (told_.insert(note).second)
-        reading_.file.file.diagnostics.push_back(
-            {.severity = stl::Severity::Warning, .position = program->position, .message = note});
+        reading_.notes.push_back({.severity = stl::Severity::Warning, .position = program->position, .message = note});
     return project;
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "interpreter/program/load.hpp"
@@ -58,6 +59,7 @@ SystemFile read_system(const std::string& text, const std::string& path) {
   YamlValues values(diagnostics);
   SystemReading reading{file, path, values};
   if (root) read_file(*root, reading);
+  std::ranges::move(reading.notes, std::back_inserter(diagnostics));
   stl::sort(diagnostics);
   return file;
 }

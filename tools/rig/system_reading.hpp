@@ -56,6 +56,7 @@ struct SystemReading {
   const std::string& path;
   YamlValues& values;
   SystemNames names{};
+  stl::Diagnostics notes{};  ///< on how programs were read; they join the complaints last, since any of those ends the checks
 };
 
 /// Complains about each key of `map` that has no row with one of these places.
