@@ -16,6 +16,7 @@
 #include "interpreter/program/embedded_libraries.hpp"
 #include "interpreter/stl/blocks.hpp"
 #include "interpreter/stl/project.hpp"
+#include "interpreter/stl/symbol_table.hpp"
 #include "interpreter/stl/symbols.hpp"
 
 namespace s7200 {
