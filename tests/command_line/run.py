@@ -2906,6 +2906,64 @@ class Files(Case):
         self.ends(FINE, "debug", "--at", "b", system, "-x", "continue 100ms; send 01 03 00 0a 00 01 crc; continue; station a; send 01 03 00 00 00 05 crc; "
                   f"continue; station b; record {self.folder / 'other.yaml'}")
 
+    def test_a_recorded_session_expects_what_was_printed_and_expected_and_lets_answers_be_late(self):
+        recorded = self.folder / "lives.yaml"
+        self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; send 01 06 00 0a 12 34 crc; continue; continue 20ms; print VW20; expect VW20 = 16#1234; "
+                  f"set VW20=7; continue 20ms; print VW20; record {recorded}")
+        text = recorded.read_text(encoding="utf-8")
+        self.assertIn("tolerance: 5 ms", text)
+        self.assertRegex(text, r'memory: \{"?VW20"?: "?16#1234"?\}')
+        self.assertRegex(text, r'memory: \{"?VW20"?: "?16#0007"?\}')
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+
+    def test_a_session_that_would_test_nothing_is_not_recorded(self):
+        for commands in ("continue 10ms", "continue 10ms; set VW20=5; continue 10ms", "break 40; regs"):
+            done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"{commands}; record {self.folder / 'empty.yaml'}")
+            self.assertIn("so it would test nothing; 'expect VW100 = 5' or 'display VW100' first says what", done.stderr)
+            self.assertFalse((self.folder / "empty.yaml").exists())
+
+    def test_a_red_test_opens_in_the_debugger_at_its_failed_step(self):
+        program = self.program("LD SM0.0\nMOVW 7, VW0\nMEND\n")
+        scenarios = self.program(f"program: {program}\nscenarios:\n- {{name: fine, steps: [wait: 1ms, memory: {{VW0: 7}}]}}\n"
+                                 "- name: it's red\n  steps:\n  - wait: 50ms\n  - set: {VW4: 9}\n  - wait: 10ms\n  - memory: {VW0: 5}\n  - wait: 1s\n", "red.yaml")
+        failed = self.ends(FAILED, "test", scenarios).stdout
+        self.assertRegex(failed, r"VW0 is 7, expected 5; last written at [0-9.]+ ms by MOVW 7, VW0 in line 2\n")
+        (command,) = re.findall(r"debug     s7200 (debug .*)", failed)
+        done = self.ends(FINE, *shlex.split(command), "-x", "why; who VW0; print VW4; past")
+        self.assertIn("'it's red' fails in ", done.stdout)
+        self.assertIn("VW0 is 7, expected 5", done.stdout)
+        self.assertRegex(done.stdout, r"6\d\.\d+ ms  scan ")
+        self.assertIn("(9)", done.stdout)
+        passes = self.ends(FINE, "debug", scenarios, "--only", "fine", "-x", "print VW0").stdout
+        self.assertIn("'fine' passes; this is its end", passes)
+        self.assertIn("--cpu is about a program", self.ends(UNUSABLE, "debug", scenarios, "--cpu", "214", "-x", "regs").stderr)
+        self.assertIn("--only and --target choose from a file of scenarios", self.ends(UNUSABLE, "debug", program, "--only", "x", "-x", "regs").stderr)
+
+    def test_a_mistake_in_a_scenario_is_written_for_continuous_integration(self):
+        out = self.folder / "results.xml"
+        typo = self.program(f"program: {SLAVE}\nsteps:\n  - {{reed: holding 0}}\n", "typo.yaml")
+        self.ends(UNUSABLE, "test", typo, "--junit", out)
+        suites = xml.etree.ElementTree.parse(out).getroot()
+        self.assertEqual((suites.get("errors"), suites.get("failures")), ("1", "0"))
+        (case,) = suites.iter("testcase")
+        self.assertEqual((case.get("file"), case.get("line")), (str(typo), "3"))
+        self.assertIn("reed", case.find("error").get("message"))
+
+    def test_send_and_master_say_why_the_first_request_got_no_answer(self):
+        bad = ["01 03 00 0a 00 01 00 00"]
+        done = self.ends(FAILED, "send", SLAVE, *bad)
+        self.assertIn("why the first request without an answer got none:\n  ", done.stdout)
+        self.assertIn("JMP 255 in line 141 (LDW= AC0, 0: ", done.stdout)
+        self.assertIn("JMP 255 in line 141", self.json(FAILED, "send", SLAVE, *bad, "--json")["why"][0])
+        self.assertNotIn("why the first", self.ends(FINE, "send", SLAVE, "--crc", "0103000a0001").stdout)
+        done = self.ends(FAILED, "master", SLAVE, "read", "40011", "--station", "9", "--timeout", "200ms")
+        self.assertIn("why the first request without an answer got none:\n", done.stdout)
+        self.assertIn("why", self.json(FAILED, "master", SLAVE, "read", "40011", "--station", "9", "--timeout", "200ms", "--json"))
+
+    def test_an_option_that_is_nearly_one_is_offered(self):
+        self.assertIn("there is no option --cup; did you mean --cpu?", self.ends(UNUSABLE, "check", SLAVE, "--cup", "224").stderr)
+        self.assertIn("there is no option --jsno; did you mean --json?", self.ends(UNUSABLE, "send", SLAVE, "01", "--jsno").stderr)
+
     def test_what_is_done_at_the_instant_of_a_request_is_recorded_in_front_of_it(self):
         recorded = self.folder / "at_once.yaml"
         self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; send 01 03 00 0a 00 01 crc; set VW3300=7; fault parity:character=2,exchange=2; continue; "

@@ -109,8 +109,8 @@ TEST(ScenarioRunner, EveryKindOfExpectationCanFail) {
   EXPECT_NE(findings("  - {read: holding 0, latency: 1s..}\n"), "");
   EXPECT_EQ(findings("  - {read: holding 0, station: 2, latency: 1ms..}\n"), "latency: 1 ms or more / no answer\n");
   EXPECT_NE(findings("  - {read: holding 0, answer_gap: 1ms..}\n"), "");
-  EXPECT_EQ(findings("  - memory: {VW20: 5}\n"), "VW20:  / \n");
-  EXPECT_EQ(findings("  - memory: {Q0.0: 1}\n"), "Q0.0:  / \n");
+  EXPECT_EQ(findings("  - memory: {VW20: 5}\n"), "VW20: 5 / 0\n");
+  EXPECT_EQ(findings("  - memory: {Q0.0: 1}\n"), "Q0.0: 1 / 0\n");
   EXPECT_EQ(findings("  - {read: holding 0}\n  - interrupts: {INT 123: 8, event 10: 2.., lost: 1}\n"),
             "INT 123: 8 / 7\nevent 10: 2 or more / 1\nlost events: 1 / 0\n");
   EXPECT_EQ(findings("  - mode: stop\n"), "mode: STOP / RUN\n");
@@ -254,8 +254,8 @@ TEST(ScenarioRunner, EveryExpectationOfTextCanFail) {
   EXPECT_EQ(text_findings(R"(  - {send: {text: 'HELLO'}, expect: any})"), "answer: an answer / no answer within 200 ms\n");
   EXPECT_EQ(text_findings(R"(  - {send: {text: 'HELLO\r'}, expect: 01 03})"), "answer:  / 'OK\\r\\n'\n")
       << "no word about a CRC";
-  EXPECT_EQ(text_findings("  - memory: {VD4: 1.5, VW0: 5..10}\n"), "VD4: 1.5 / 0.0\nVW0: 5..10 / 16#0000 (0)\n");
-  EXPECT_EQ(text_findings("  - set: {VD20: 2.0}\n  - memory: {VD20: 2}\n"), "VD20:  / the real 2.0: write 2.0 for it\n");
+  EXPECT_EQ(text_findings("  - memory: {VD4: 1.5, VW0: 5..10}\n"), "VD4: 1.5 / 0.0\nVW0: 5..10 / 0\n");
+  EXPECT_EQ(text_findings("  - set: {VD20: 2.0}\n  - memory: {VD20: 2}\n"), "VD20: 2 / 1073741824, the real 2.0: write 2.0 for it\n");
 }
 
 TEST(ScenarioRunner, WhatCameBeforeARequestIsNotReceivedAndTheFindingSaysSo) {
@@ -281,11 +281,11 @@ TEST(ScenarioRunner, WaitsUntilMemoryIsAsExpected) {
                      "after: 0\n", counts),
             "");
   EXPECT_EQ(findings("  - {wait_until: {VW0: -1, VW2: 0}, timeout: 20ms}\n", "after: 0\n", counts),
-            "VW0 after 20 ms:  / \n");
+            "VW0 after 20 ms: -1 / 22\n");
   EXPECT_EQ(findings("  - {wait_until: {VW0: 5000..}, timeout: 0}\n", "after: 0\n", counts),
-            "VW0 after 0 ns: 5000.. / 16#0000 (0)\n");
+            "VW0 after 0 ns: 5000.. / 0\n");
   EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait_until: {VW0: 60}\n  - mode: stop\n", "after: 0\n", counts),
-            "VW0 when the CPU went to STOP, after 46.284 ms:  / the CPU is in STOP\n");
+            "VW0 when the CPU went to STOP, after 46.284 ms: 60 / 50, the CPU is in STOP\n");
   EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait_until: {VW0: 50}\n  - mode: stop\n", "after: 0\n", counts), "")
       << "the STOP ends the scan in which it comes true";
 }
@@ -547,7 +547,7 @@ TEST(ScenarioCompare, TransmissionsAreComparedAndAProgramThatNeverGetsThereDiffe
       << difference(other);
   EXPECT_NE(difference(other).find("b         'HEADY\\r\\n' "), std::string::npos) << difference(other);
   EXPECT_NE(difference(other).find(" ms before it was waited for\n"), std::string::npos) << difference(other);
-  EXPECT_NE(difference(forgetful).find("b could not be asked, file.yaml:5: VW0 after 50 ms: expected 00 05, found 00 00\n"),
+  EXPECT_NE(difference(forgetful).find("b could not be asked, file.yaml:5: VW0 after 50 ms is 0, expected 5; nothing has written it since power-up\n"),
             std::string::npos)
       << difference(forgetful);
 }
@@ -574,8 +574,8 @@ TEST(ScenarioReport, AFindingIsOneLineForMachines) {
             "01 03 00 00 00 01 84 0a: expected no answer, found 1 register: 16#0000");
   EXPECT_EQ(line("  - {read: holding 0, latency: ..1ms}\n", slave()).substr(0, 62),
             "latency, 01 03 00 00 00 01 84 0a: expected 1 ms or less, found");
-  EXPECT_EQ(line("  - memory: {VW20: 5}\n", slave()), "VW20: expected 00 05, found 00 00");
-  EXPECT_EQ(line("  - repeat: 2\n    steps: [memory: {VD0: 1.5}]\n", slave()), "VD0: expected 1.5, found 0.0 (turn 1 of 2)");
+  EXPECT_EQ(line("  - memory: {VW20: 5}\n", slave()), "VW20 is 0, expected 5; nothing has written it since power-up");
+  EXPECT_EQ(line("  - repeat: 2\n    steps: [memory: {VD0: 1.5}]\n", slave()), "VD0 is 0.0, expected 1.5; nothing has written it since power-up (turn 1 of 2)");
   EXPECT_EQ(line("  - {receive: silence}\n", text_commands()), "transmission: expected nothing, found 'READY\\r\\n'");
 }
 
