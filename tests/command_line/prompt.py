@@ -325,7 +325,7 @@ class Prompt(unittest.TestCase):
     def test_what_is_forced_or_wrong_is_red_and_stops_are_bold_unless_no_colour_is_wanted(self):
         terminal = self.session()
         self.assertIn("\x1b[31m  forced: Q0.0=1", terminal.command("force Q0.0=1; print Q0.0"))
-        self.assertIn("\x1b[31munknown command 'frob'; 'help' lists them\x1b[0m", terminal.command("frob"))
+        self.assertIn("\x1b[31munknown command 'frob'; did you mean fork?\x1b[0m", terminal.command("frob"))
         self.assertIn("\x1b[1mbreakpoint 1, hit for the first time\x1b[0m", terminal.command("break 82; continue"))
         self.assertIn(" \x1b[1m>\x1b[0m    82  ", terminal.command("step; rs"))
         self.quit(terminal)

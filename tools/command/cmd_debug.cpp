@@ -26,8 +26,9 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
     return kUnusable;
   }
   if (is_scenario_file(options.program.path)) return run_debug_scenario(verb, options);
-  if (!options.only.empty() || !options.target.empty())
-    return print_error("--only and --target choose from a file of scenarios, and this is none"), kUnusable;
+  for (const auto& [option, given] : {std::pair("--only", &options.only), std::pair("--target", &options.target)})
+    if (!given->empty())
+      return print_error(fmt::format("{} is about a file of scenarios, and this is none", option)), kUnusable;
   int exit_code = kFine;
   if (!options.rig.load_all(verb, options.program, exit_code)) return exit_code;
   std::string why;

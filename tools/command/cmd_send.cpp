@@ -102,9 +102,8 @@ void add_send(CLI::App& app, int& exit_code) {
   options->rig.add_to(*verb);
   options->rig.add_place_to(*verb);
   options->band.add_to(*verb);
-  auto* timeline = verb->add_flag("--timeline", options->timeline,
-                                  "show what the CPU did during each exchange: characters, interrupts, XMT");
-  timeline->excludes(verb->get_option("--times-band"));
+  verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT")
+      ->excludes(verb->get_option("--times-band"));
   verb->add_flag("--json", options->json, "print the exchanges and the results as JSON");
   verb->footer(
       fault_help() +

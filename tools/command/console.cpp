@@ -41,7 +41,8 @@ std::optional<std::string> typed_line() {
   std::array<char, kLongest> line{};
   const ssize_t length = read(STDIN_FILENO, line.data(), line.size());
   if (length <= 0) return {};
-  return std::string(line.data(), static_cast<std::size_t>(length));
+  const std::string_view typed(line.data(), static_cast<std::size_t>(length));
+  return std::string(typed.substr(0, typed.find_last_not_of("\r\n") + 1));
 }
 
 /// The layout: while it is wanted, it is shown whenever the terminal has room for it.

@@ -90,10 +90,8 @@ void CpuOptions::add_to(CLI::App& app) {
                  fmt::format("PPI station until SPA sets another, 1 to 126; 3,4: port 0 and port 1 [{}]",
                              s7200::to_text(SystemBlock{}.ppi_stations)))
       ->type_name("NUMBER[,NUMBER]");
-  app.add_option(
-         "--retain", retain,
-         "memory that survives power off, as the system block sets it: VB0:100,MB0:14,T0:32,C0:5 or none [those that "
-         "the CPU is delivered with]")
+  app.add_option("--retain", retain,
+                 "memory that survives power off: VB0:100,MB0:14,T0:32,C0:5, or none [as the CPU is delivered]")
       ->type_name("RANGES");
   add_repair_option(app, repairs);
   add_no_stand_ins_option(app);
