@@ -92,7 +92,7 @@ session("relative paths begin at cwd, and a URI is a path", async (s, program) =
   assert.match(await s.refused("launch", { program: path.basename(program), cwd: path.join(cwd, "none") }), /cwd: '.*' is not a folder/);
   await s.begin({ program: path.basename(program), cwd: "file://" + cwd.replaceAll(" ", "%20"), trace: "run.trace", stopOnEntry: true });
   const source = { path: "file://" + encodeURI(path.join(cwd, path.basename(program))) };
-  assert.equal((await s.ask("breakpointLocations", { source, line: 1, endLine: 200 })).breakpoints.length > 10, true);
+  assert.equal((await s.ask("breakpointLocations", { source, line: 1, endLine: 100000 })).breakpoints.length > 10, true);
   await s.ask("terminate");
   assert.ok(fs.existsSync(path.join(cwd, "run.trace")));
 });
