@@ -245,7 +245,7 @@ class Prompt(unittest.TestCase):
             terminal.type("set VW20=77\n")
             terminal.until("\n")
             terminal.type("print VW20\n")
-            self.assertNotIn(PROMPT, terminal.until("(77)"), "while it runs")
+            self.assertNotIn(PROMPT, terminal.until("16#004D"), "while it runs")
             terminal.type("force I0.3=1\nforce\n")
             self.assertNotIn(PROMPT, terminal.until("I0.3=1", "I0.3=1"), "while it runs")
             terminal.type("contineu\n")

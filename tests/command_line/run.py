@@ -1450,7 +1450,7 @@ class StandardInput(Case):
         text = "LD SM0.0\nINCB VB0\nMEND\n"
         for name in ("-", "/dev/stdin"):
             self.assertIn("fine for CPU 215, 216 or 22x\n", self.fed(FAILED, text, "check", name, "--cpu", "214").stdout)
-        (result,) = json.loads(self.fed(FAILED, text, "check", "-", "--json").stdout)["files"]
+        (result,) = json.loads(self.fed(FAILED, text, "check", "-", "--cpu", "214", "--json").stdout)["files"]
         self.assertEqual((result["file"], result["fine_for"][:3]), ("-", ["215", "216", "221r1"]))
 
     def test_a_document_can_go_from_import_to_check(self):
@@ -2909,7 +2909,7 @@ class Files(Case):
     def test_a_recorded_session_expects_what_was_printed_and_expected_and_lets_answers_be_late(self):
         recorded = self.folder / "lives.yaml"
         self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; send 01 06 00 0a 12 34 crc; continue; continue 20ms; print VW20; expect VW20 = 16#1234; "
-                  f"set VW20=7; continue 20ms; print VW20; record {recorded}")
+                  f"continue 20ms; set VW20=7; continue 20ms; print VW20; record {recorded}")
         text = recorded.read_text(encoding="utf-8")
         self.assertIn("tolerance: 5 ms", text)
         self.assertRegex(text, r'memory: \{"?VW20"?: "?16#1234"?\}')
@@ -2932,7 +2932,7 @@ class Files(Case):
         done = self.ends(FINE, *shlex.split(command), "-x", "why; who VW0; print VW4; past")
         self.assertIn("'it's red' fails in ", done.stdout)
         self.assertIn("VW0 is 7, expected 5", done.stdout)
-        self.assertRegex(done.stdout, r"6\d\.\d+ ms  scan ")
+        self.assertRegex(done.stdout, r"7\d\.\d+ ms  scan ")
         self.assertIn("(9)", done.stdout)
         passes = self.ends(FINE, "debug", scenarios, "--only", "fine", "-x", "print VW0").stdout
         self.assertIn("'fine' passes; this is its end", passes)
@@ -2947,7 +2947,7 @@ class Files(Case):
         self.assertEqual((suites.get("errors"), suites.get("failures")), ("1", "0"))
         (case,) = suites.iter("testcase")
         self.assertEqual((case.get("file"), case.get("line")), (str(typo), "3"))
-        self.assertIn("reed", case.find("error").get("message"))
+        self.assertEqual(case.find("error").get("message"), "a step that does nothing")
 
     def test_send_and_master_say_why_the_first_request_got_no_answer(self):
         bad = ["01 03 00 0a 00 01 00 00"]
@@ -3136,7 +3136,7 @@ class Files(Case):
         self.assertIn(":5:10: warning: SMB94 is a byte: this writes 0 into it [unused-sm]\n", done.stderr)
         self.assertIn("hint: write MOVB 20, SMB94\n", done.stderr)
         self.assertNotIn("warning:", self.ends(FINE, "check", program, "--cpu", "224", "--no-warn", "unused-sm").stderr)
-        self.assertIn("SMB94 00 14", self.ends(FINE, "run", program, "--cpu", "224", "--scans", "1", "--dump", "SMB94:2").stdout)
+        self.assertRegex(self.ends(FINE, "run", program, "--cpu", "224", "--scans", "1", "--dump", "SMB94:2").stdout, r"SMB94 +00 14")
 
     def test_what_survives_power_off_is_set_as_in_the_system_block(self):
         counts = self.program("LD SM0.1\nINCB VB0\nINCB MB0\nINCB MB20\nLD SM0.0\nMEND\n")
@@ -3716,7 +3716,7 @@ class Readme(Case):
                     out = self.ends(FINE, "debug", program, "-x",
                                     f"continue 2s; break unanswered; send {frame}; continue; why; rwhy; history 9").stdout
                     place, history = out.split("(s7200) rwhy\n")[1].split("(s7200) history 9\n")
-                    self.assertIn(f"  {routine} ", place.splitlines()[1])
+                    self.assertIn(f"  {routine} ", place)
                     self.assertRegex(place, r" > +\d+  " + r" +".join(map(re.escape, instruction.split())))
                     self.assertRegex(history, r" +".join(map(re.escape, contact.split())) + f" +S0={value}")
 

@@ -66,9 +66,7 @@ class HeadReader {
     }
     if (const auto times = values_.optional_text(map, "times")) {
       scenario.times = find_times(*times) ? *times : *optional_path(map, "times");
-      std::vector<std::string> errors;
-      load_times(*find_cpu(scenario.cpu), scenario.times, errors);
-      for (const std::string& error : errors) values_.wrong(*map.find("times"), error);
+      check_times(*map.find("times"), scenario);
     }
     read_system_block(map, *find_cpu(scenario.cpu), scenario.system_block, values_);
     if (const YamlNode* port = map.find("port")) read_port(*port, scenario);
@@ -154,6 +152,15 @@ class HeadReader {
                            "write for example with: [symbols.txt]");
     for (const YamlNode& part : parts.items)
       if (const auto path = name_from(part, values_)) with.push_back(beside(scenario_file_, *path));
+  }
+
+  /// What comes through a pipe is read with the program: it can be read only once.
+  void check_times(const YamlNode& node, const Scenario& scenario) {
+    std::error_code none;
+    if (std::filesystem::is_fifo(scenario.times, none)) return;
+    std::vector<std::string> errors;
+    load_times(*find_cpu(scenario.cpu), scenario.times, errors);
+    for (const std::string& error : errors) values_.wrong(node, error);
   }
 
   /// A file that cannot be read is complained about when the program is.

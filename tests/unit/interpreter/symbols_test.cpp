@@ -195,7 +195,7 @@ TEST(SystemSymbols, StandForTheSpecialMemoryThatTheirNamesSay) {
   EXPECT_EQ(addresses({"Receive_Char", "Parity_Err", "Comm_Int_Ovr", "RUN_Err", "Int_Enable", "Xmit0_Idle", "Force_On",
                        "IO_Err", "Too_Many_D_IO", "CPU_ID", "EM2_Err", "Last_Scan", "Maximum_Scan", "Time_1_Intrvl"}),
             "SMB2 SM3.0 SM4.0 SM4.3 SM4.4 SM4.5 SM4.7 SM5.0 SM5.1 SMB6 SMB13 SMW22 SMW26 SMB35");
-  EXPECT_EQ(said("LD first_scan_on\nMOVB 100, \"Time_0_Intrvl\"\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB Receive_Char, VB0\nRETI\n", ""), Lines{});
+  EXPECT_EQ(said("LD first_scan_on\nMOVB 100, \"Time_0_Intrvl\"\nMOVB 9, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB Receive_Char, VB0\nRETI\n", ""), Lines{});
 }
 
 TEST(SystemSymbols, OfPortsCountersAndPulseOutputsHaveTheirNumberInTheName) {
