@@ -2933,7 +2933,7 @@ class Files(Case):
         self.assertIn("'it's red' fails in ", done.stdout)
         self.assertIn("VW0 is 7, expected 5", done.stdout)
         self.assertRegex(done.stdout, r"7\d\.\d+ ms  scan ")
-        self.assertIn("(9)", done.stdout)
+        self.assertRegex(done.stdout, r"VW4 +16#0009 +9\n")
         passes = self.ends(FINE, "debug", scenarios, "--only", "fine", "-x", "print VW0").stdout
         self.assertIn("'fine' passes; this is its end", passes)
         self.assertIn("--cpu is about a program", self.ends(UNUSABLE, "debug", scenarios, "--cpu", "214", "-x", "regs").stderr)

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
 #include <iostream>
 
@@ -45,11 +46,12 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
   bool good = false, in_the_past = false, expectation_failed = false;
   {
-    DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), nullptr);
+    std::atomic<bool> pause = false;
+    DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), &pause);
     if (!live.start(why)) return print_error(why), kUnusable;
     if (live.has_bridges()) print_note(kMastersWait);
     print_note_if_any(options.rig.note_on_first_station());
-    Debugger debugger(options.rig.stations(*rig), std::cout, session_options(options, *rig, live));
+    Debugger debugger(options.rig.stations(*rig), std::cout, session_options(options, *rig, live, pause));
     good = run_commands(debugger, *script, options);
     expectation_failed = !good && debugger.expectation_failed();
     good &= live.failure().empty();

@@ -69,7 +69,7 @@ class StepsOfSession {
       if (const auto* const call = std::get_if<serial::HostCall>(&action))
         from_hosts.at(recording.stations[i]).note(*call, recording.moments[i].time);
       else
-        add(action, recording.stations[i], recording.moments[i].time);
+        add(action, i, recording.stations[i], recording.moments[i].time);
     }
     for (std::size_t host = 0; host < hosts_.size(); ++host)
       for (const HostTransmission& sent : from_hosts[host].transmissions()) add(sent, host, first);
@@ -79,7 +79,9 @@ class StepsOfSession {
   /// Memory that was looked at is expected to be so again, after all that was done by then.
   void expect(const SessionRecord::LookedAt& one) {
     const auto later = std::find_if(steps_.begin() + static_cast<std::ptrdiff_t>(last_power_up_), steps_.end(),
-                                    [&](const SessionSteps::Step& step) { return step.at > one.at; });
+                                    [&](const SessionSteps::Step& step) {
+                                      return step.at > one.at || (step.at == one.at && step.action >= one.actions);
+                                    });
     steps_.insert(later, {.at = one.at, .expect = one.memory, .on = place(one.station)});
   }
 
@@ -98,7 +100,7 @@ class StepsOfSession {
     if (why_nothing_.empty()) why_nothing_ = std::move(why);
   }
 
-  void add(const Action& action, std::size_t station, Time at) {
+  void add(const Action& action, std::size_t number, std::size_t station, Time at) {
     std::string why_not;
     SessionSteps::Step step = std::visit(StepOf{at, why_not}, action);
     if (!why_not.empty()) return left_out_.push_back(why_not);
@@ -111,6 +113,7 @@ class StepsOfSession {
                       "step: 'power TIME' switches it off and on again",
                       power->on ? "on" : "off", moment_text(at)));
     if (power) step = {.at = at, .event = fmt::format("power_{}: {}", power->on ? "on" : "off", places_[station].name)};
+    step.action = number;
     if (step.send && at < cut_until_[step.on]) return join(*step.send, step.on, at);
     if (step.does_something()) steps_.insert(place_for(step), std::move(step));
   }
@@ -233,7 +236,7 @@ void show_progress(std::string_view text) {
 
 }  // namespace
 
-DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, DebuggeeRun& live) {
+DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, DebuggeeRun& live, std::atomic<bool>& pause) {
   std::vector<DebuggedStation> stations;
   for (const RigOptions::Station& station : options.rig.named_stations(options.master))
     stations.push_back({station.name, station.master});
@@ -243,6 +246,7 @@ DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, Deb
           .stop_request = &interruption(),
           .history = live.history(),
           .take_failure = [&live] { return live.take_failure(); },
+          .pause = &pause,
           .files = options.rig.recorded_files(),
           .colour = colour_wanted(stdout),
           .progress = can_redraw(stderr) ? show_progress : std::function<void(std::string_view)>(),

@@ -32,8 +32,9 @@ struct SessionSteps {
     std::optional<Time> sent_until{};  ///< it came over a bridge: the end of the frame
     std::optional<Time> timeout{};     ///< of what is sent, if not the scenario's
     std::optional<PowerCycle> power{};
-    std::string event{};  ///< of a system: `power_off: pump`
-    std::string on{};     ///< a PLC of a system
+    std::string event{};     ///< of a system: `power_off: pump`
+    std::string on{};        ///< a PLC of a system
+    std::size_t action = 0;  ///< its number among what was done since power-up
 
     bool does_something() const {
       return send || power || mode ||

@@ -99,7 +99,7 @@ Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostrea
       options_(options),
       history_(stations, settings_of(options, [this] { show_progress(); })),
       stepper_(history_, options.stop_request) {
-  stepper_.pause_when(&pause_asked_);
+  stepper_.pause_when(options.pause);
   for (serial::Simulation* const station : stations) stations_.emplace_back(*station);
   for (const DebuggedStation& station : options_.stations) name_width_ = std::max(name_width_, station.name.size());
   for (const LineStation& station : history_.line_stations()) name_width_ = std::max(name_width_, station.name.size());
@@ -162,7 +162,7 @@ Debugger::Error Debugger::execute_one(std::string_view text) {
 
 /// Once a second; the view, which shows it too, while a run goes on.
 void Debugger::show_progress() {
-  if (is_typed_to_ && !typed_ && (typed_ = layout_.typed())) pause_asked_ = true;
+  if (is_typed_to_ && !typed_ && (typed_ = layout_.typed())) *options_.pause = true;
   if (live_status_ && layout_.refresh) layout_.refresh();
   if (host_time() < progress_at_ || is_in_view()) return;
   progress_at_ = host_time() + std::min(options_.patience, kSecond);
@@ -226,10 +226,11 @@ void Debugger::go(const Run& run) {
   if (typed_) carry_out_typed();  // the run has ended meanwhile
 }
 
-/// To its end, with what is typed meanwhile. Nothing after a typed command that has moved it, which has said where it stands.
+/// To its end, with what is typed meanwhile. Nothing after a typed command that has moved it, which has said where it
+/// stands.
 std::optional<Stop> Debugger::run_through(const Run& run) {
   const Time now = history_.now().time, end = now < kNever - run.limit ? now + run.limit : kNever;
-  is_typed_to_ = run.of_all && layout_.typed && options_.history.drive;
+  is_typed_to_ = run.of_all && options_.pause && layout_.typed && options_.history.drive;
   Stop stop = stepper_.run(run.goal, end, run.stop_at_answer);
   while (stop.reason == StopReason::Request && typed_) {
     if (!carry_out_typed()) return is_typed_to_ = false, std::nullopt;
@@ -243,7 +244,7 @@ std::optional<Stop> Debugger::run_through(const Run& run) {
 /// What was typed while a run goes on. Returns whether the run is to go on: not after a command that has moved it.
 bool Debugger::carry_out_typed() {
   const std::string line = std::exchange(typed_, {}).value();
-  pause_asked_ = false;
+  *options_.pause = false;
   hide_progress();
   const History::Place place = history_.here();
   const std::string command = command_, repeatable = repeatable_;

@@ -49,6 +49,9 @@ struct DebuggerOptions {
   History::Settings history{};                      ///< with the records, which watch the CPU too
   /// Why a run has ended by itself, such as a bridge that has failed: said once, empty otherwise. The next one goes on.
   std::function<std::string()> take_failure = [] { return std::string(); };
+  /// Ends a run that follows the clock when it becomes true, so that what was typed meanwhile can be carried out; null if
+  /// nobody types.
+  std::atomic<bool>* pause = nullptr;
   std::string files{};  ///< that the records and captures write: "the trace"; "" for none
   bool colour = false;  ///< what is forced, and errors, are shown in red, stops in bold, trouble of a trace in yellow
   /// Shows how far a long command has come, in place of what it showed before; "" takes that away. None: nothing is shown.
@@ -438,9 +441,8 @@ class Debugger {
   Time progress_at_ = kNever;  ///< of the host: when progress is shown next
   bool progress_shown_ = false;
   Layout layout_{};
-  bool is_typed_to_ = false;               ///< a run goes on that follows the clock: what is typed is carried out
-  std::optional<std::string> typed_{};     ///< a line that waits for that
-  std::atomic<bool> pause_asked_ = false;  ///< the run is to stand still for it
+  bool is_typed_to_ = false;            ///< a run goes on that follows the clock: what is typed is carried out
+  std::optional<std::string> typed_{};  ///< a line that waits for that
 
   /// What is in view while a run goes on.
   struct LiveStatus {

@@ -175,7 +175,7 @@ std::vector<SessionRecord::LookedAt> Debugger::looked_at_here() {
     history_.go_to(moment);
     const State& state = stations_[station].simulation->cpu().state();
     if (history_.now() != moment || range.bytes_in(state.image) != bytes) continue;
-    SessionRecord::LookedAt one{.station = station, .at = moment.time, .memory = {}};
+    SessionRecord::LookedAt one{.station = station, .at = moment.time, .actions = moment.actions, .memory = {}};
     for (std::uint32_t i = 0; i < range.count; ++i) one.memory.push_back(object_of(state, range, i));
     all.push_back(std::move(one));
   }

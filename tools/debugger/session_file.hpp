@@ -42,6 +42,7 @@ struct SessionRecord {
   struct LookedAt {
     std::size_t station = 0;
     Time at = 0;
+    std::size_t actions = 0;  ///< done before it
     std::vector<Assignment> memory{};
   };
 
