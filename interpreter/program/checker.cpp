@@ -56,7 +56,7 @@ class Checker {
     if (!has_errors(diagnostics_)) program = decode(structure, times);
     if (program)
       find_warnings(*program);
-    else if (const auto known = what_is_known(structure))
+    else if (const auto known = beyond_ ? nullptr : what_is_known(structure))  // or the rest of it was not read at all
       find_warnings(*known);
     tell_undefined_symbols_apart();
     forget_warnings_of_stand_ins();

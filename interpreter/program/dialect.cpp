@@ -29,7 +29,7 @@ constexpr std::array<DialectText, kDialects> kTexts{{
      "the STL of the S7-200 has = for OUT, AN for ANI, ALD for ANB, I and Q for X and Y, V for D"},
     {"a program for Omron", "the STL of the S7-200 has = for OUT, LDN for LD NOT, TON for TIM, MOVW for MOV(21)"},
     {"STL of STEP 7 for the S7-300 and S7-400",
-     "it has accumulators, which the S7-200 has not: MOVB, MOVW and MOVD move a value in place of L and T, TON is a timer"},
+     "the S7-200 has no accumulators to load with L and T: MOVB, MOVW and MOVD move a value, and TON is a timer"},
 }};
 
 /// A line of code in capitals, without its comment and a semicolon at its end.

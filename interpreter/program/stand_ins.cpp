@@ -543,8 +543,9 @@ std::vector<StandIn> stand_ins_of(const stl::Source& program) {
 }
 
 std::string to_text(const StandIn& stand_in) {
-  return fmt::format("{}: our {} is used, with times of our own; its variables are VB{} to VB{}", in_no_export(stand_in),
-                     stand_in.file, stand_in.memory, stand_in.memory + stand_in.bytes - 1);
+  const std::string_view name = std::string_view(stand_in.file).substr(stand_in.file.find(':') + 1);
+  return fmt::format("{}: our stand-in {} is used, with times of our own; its variables are VB{} to VB{}",
+                     in_no_export(stand_in), name, stand_in.memory, stand_in.memory + stand_in.bytes - 1);
 }
 
 stl::Diagnostic refusal(const StandIn& stand_in) {

@@ -2581,7 +2581,7 @@ class Files(Case):
                       self.ends(FAILED, "check", library, "--cpu", "224").stderr)
 
     LIBRARY = SOURCE / "tests/programs/libraries"
-    USED = "MBUS_INIT and MBUS_SLAVE are in no export: our stand-in:modbus_slave.awl is used, with times of our own"
+    USED = "MBUS_INIT and MBUS_SLAVE are in no export: our stand-in modbus_slave.awl is used, with times of our own"
 
     def test_the_routines_of_a_library_have_stand_ins_in_every_verb(self):
         slave = self.LIBRARY / "slave.awl"

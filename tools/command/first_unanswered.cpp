@@ -12,7 +12,8 @@ namespace s7200::tools {
 namespace {
 
 std::vector<std::string> reasons_in(serial::Simulation& simulation, Recording recording, Time timeout) {
-  History history(simulation, {.stop_request = &interruption()});
+  constexpr std::size_t kCheckpoints = 1 << 20;  // bytes: a run of hours needs no more memory than a short one
+  History history(simulation, {.bound = kCheckpoints, .stop_request = &interruption()});
   if (!history.replay(std::move(recording))) return {};
   const DecisionSearch search = find_last_decision(history, 0, timeout, &interruption());
   if (search.interrupted || search.unanswered.empty()) return {};
