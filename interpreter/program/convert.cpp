@@ -245,8 +245,12 @@ class Printable {
   /// Micro/WIN knows the routines of its libraries by their names.
   void check(const stl::Statement& statement) {
     const std::size_t known = blocks_ && has_stand_in(statement) ? 1 : 0;
-    for (const stl::Operand& operand : std::span(statement.operands).subspan(known))
-      if (const auto* name = std::get_if<stl::Name>(&operand.value)) check(operand, *name);
+    const Instruction* const instruction = find_instruction(statement.mnemonic);
+    for (std::size_t i = known; i < statement.operands.size(); ++i) {
+      const auto* name = std::get_if<stl::Name>(&statement.operands[i].value);
+      const bool may_be_text = instruction && i < instruction->rules().size() && instruction->operand[i].text;
+      if (name && !(may_be_text && name->text.starts_with('"'))) check(statement.operands[i], *name);
+    }
     if (!blocks_ && statement.mnemonic == "CALL" && statement.operands.size() > 1)
       error(statement.operands[1].position, "parameters of CALL have no notation outside of blocks", "use --to microwin");
   }
@@ -257,7 +261,7 @@ class Printable {
     error(operand.position,
           name.reason.empty() ? fmt::format("'{}' is neither an address nor a defined symbol", stl::shortened(name.text))
                               : name.reason,
-          "give its symbol table too, --with SYMBOLS, or write the address itself");
+          "give its symbol table too, beside the program, or write the address itself");
   }
 
   stl::ParseResult& parsed_;

@@ -257,9 +257,20 @@ struct LineNumber {
 };
 
 std::optional<LineNumber> line_number(std::string_view line) {
-  const auto skip = [&line](std::size_t at, std::string_view characters) {
-    const std::size_t end = line.find_first_not_of(characters, at);
-    return end == std::string_view::npos ? line.size() : end;
+  const auto is_unicode_blank = [](char32_t code) {
+    const auto reading = reading_of(code);
+    return reading && reading->change == kBlanks;
+  };
+  /// Blanks are any of those that web pages have.
+  const auto skip = [&](std::size_t at, std::string_view characters) {
+    const bool blanks_too = characters.find(' ') != std::string_view::npos;
+    while (at < line.size()) {
+      const Character next = first_character(line.substr(at));
+      const bool among = next.code < 0x80 && characters.find(static_cast<char>(next.code)) != std::string_view::npos;
+      if (!among && !(blanks_too && is_unicode_blank(next.code))) break;
+      at += next.bytes;
+    }
+    return at;
   };
   const std::size_t digits = skip(0, " \t[(");
   const std::size_t end = skip(digits, "0123456789");

@@ -33,7 +33,7 @@ class EventHandler {
 /// stations there are, nor are there many of them where there is one PLC.
 class Dispatcher {
  public:
-  static constexpr std::size_t kMostOfARank = 4096;
+  static constexpr std::size_t kMostOfARank = 8192;
 
   /// Of a CPU, and of anything else. They live as long as the dispatcher.
   EventQueue& add_queue() { return *queues_.emplace_back(std::make_unique<EventQueue>()); }

@@ -79,7 +79,7 @@ int run_check(const CheckOptions& options) {
 
 std::string warnings_help() {
   std::string text = "Warnings, by the names that switch them off:\n";
-  for (const WarningInfo& warning : all_warnings()) text += fmt::format("  {:<16}{}\n", warning.name, warning.meaning);
+  for (const WarningInfo& warning : all_warnings()) text += fmt::format("  {:<18}{}\n", warning.name, warning.meaning);
   return text;
 }
 

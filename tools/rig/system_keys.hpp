@@ -7,11 +7,13 @@
 #include <string>
 #include <string_view>
 
+#include "tools/yaml/yaml.hpp"
+
 namespace s7200::tools {
 
 /// Of a whole system. A PLC with two ports and a sync signal takes three numbers of a rank, a master two; whoever joins a
 /// line takes two more.
-inline constexpr std::size_t kMostStations = 1000;
+inline constexpr std::size_t kMostStations = kMostYamlKeys;
 
 /// Of a line.
 inline constexpr std::int64_t kLeastBaud = 50, kMostBaud = 1'000'000;

@@ -44,7 +44,7 @@ bool is_yaml_file(const std::filesystem::path& path);
 std::string to_text(const YamlNode& node);
 
 inline constexpr int kDeepestYaml = 24;             ///< maps and lists inside each other
-inline constexpr std::size_t kMostYamlKeys = 500;  ///< in one map
+inline constexpr std::size_t kMostYamlKeys = 1000;  ///< in one map
 
 /// A text with the name that messages have for it.
 std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const std::string& path);

@@ -181,6 +181,12 @@ TEST(Convert, NamesThatAListingWouldTakeForSomethingElseAreQuoted) {
   EXPECT_NE(text.find("CALL    \"K1\""), std::string::npos) << text;
 }
 
+TEST(Convert, TextsOfStringInstructionsAreNoNames) {
+  const std::string text = "NETWORK 1\nLD SM0.1\nSCPY \"HELLO\", VB300\nMEND\n";
+  EXPECT_NE(printed(text, Notation::Iec).find("\"HELLO\", VB300"), std::string::npos);
+  EXPECT_NE(printed(text, Notation::MicroWin).find("\"HELLO\", VB300"), std::string::npos);
+}
+
 TEST(Convert, KeepsNamesAmongBlocksAndTheirTable) {
   std::string why;
   std::vector<SourceText> files;

@@ -533,8 +533,8 @@ TEST(ScenarioReader, NothingMakesItGrowWithoutBounds) {
   EXPECT_FALSE(read(std::string(Limits{}.bytes + 1, ' ')).diagnostics.empty());
   EXPECT_FALSE(read("a: \xFF\n").diagnostics.empty());
   std::string keys;
-  for (int i = 0; i < 600; ++i) keys += fmt::format("k{}: 1\n", i);
-  EXPECT_NE(read(keys).diagnostics[0].message.find("more than 500 keys"), std::string::npos);
+  for (int i = 0; i < 1001; ++i) keys += fmt::format("k{}: 1\n", i);
+  EXPECT_NE(read(keys).diagnostics[0].message.find("more than 1000 keys"), std::string::npos);
 }
 
 /// So many exchanges, as they are recorded.
