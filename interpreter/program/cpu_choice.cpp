@@ -97,8 +97,7 @@ const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {
     return std::ranges::count(diagnostics, stl::Severity::Error, &stl::Diagnostic::severity);
   };
   const CpuModel& fewest = **std::ranges::min_element(tried.begin(), tried.begin() + kCommon.size(), {}, errors_on);
-  const auto least = errors_on(&fewest), on_214 = errors_on(&cpu214());
-  return 2 * least <= on_214 || least + 2 <= on_214 ? fewest : cpu214();
+  return 2 * errors_on(&fewest) <= errors_on(&cpu214()) ? fewest : cpu214();
 }
 
 }  // namespace s7200

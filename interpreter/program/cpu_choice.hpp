@@ -12,7 +12,7 @@ const CpuModel* cpu_in_head(const stl::Source& source);
 
 /// The first CPU on which check() finds no errors: the CPU 214 if it can run the program, else the common CPUs 224, 226 and
 /// 224XP, then the others. If none can, the program has mistakes: the CPU 214 all the same, unless one of the common CPUs finds
-/// at most half as many, or two fewer.
+/// at most half as many.
 const CpuModel& first_cpu_for(const stl::ParseResult& parsed);
 
 }  // namespace s7200
