@@ -91,15 +91,12 @@ void add_decode(CLI::App& app, int& exit_code) {
       "decode", "show a recording of a line, or a line itself, as requests and answers, with gaps and latencies");
   options->recording.add_to(*verb);
   verb->add_flag("--json", options->json, "print the frames as JSON");
-  verb->footer(
-      fmt::format("Recordings are\n  {}\n", stl::joined(recording_forms(), &RecordingForm::meaning, "\n  ")) +
-      "Nothing is sent to a line. Times are those of arrival: a USB adapter delivers up to 16 ms late. A pcap does not say "
-      "which\n"
-      "characters had parity errors. Behind a --pty of `s7200 run` only what the simulated line says is heard, not what "
-      "others "
-      "ask it.\n"
-      "Messages of Modbus TCP are shown as on a serial line, with CRCs that are not in the recording.\n" +
-      std::string(kEndOfListening) + "Example: s7200 decode tests/recordings/plant.log");
+  verb->footer(fmt::format("Recordings are\n  {}\n", stl::joined(recording_forms(), &RecordingForm::meaning, "\n  ")) +
+               "Nothing is sent to a line. Times are those of arrival: a USB adapter delivers up to 16 ms late. A\n"
+               "pcap does not say which characters had parity errors. Behind a --pty of `s7200 run` only what the\n"
+               "simulated line says is heard, not what others ask it. Messages of Modbus TCP are shown as on a\n"
+               "serial line, with CRCs that are not in the recording.\n" +
+               std::string(kEndOfListening) + "Example: s7200 decode tests/recordings/plant.log");
   verb->callback([options, &exit_code] {
     try {
       exit_code = run_decode(*options);
