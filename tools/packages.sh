@@ -12,7 +12,7 @@ needed_to_build=(
   /usr/include/fmt/format.h:libfmt-dev
   /usr/include/histedit.h:libedit-dev
   /usr/include/pcap/pcap.h:libpcap-dev
-  /usr/include/zip.h:libzip-dev
+  /usr/include/zlib.h:zlib1g-dev
   /usr/include/curses.h:libncurses-dev
   /usr/include/CLI/CLI.hpp:libcli11-dev
   /usr/include/nlohmann/json.hpp:nlohmann-json3-dev

@@ -1,12 +1,9 @@
-// Sessions of sigrok, `.sr`: a zip with `metadata` and the samples of all channels, read by libzip.
+// Sessions of sigrok, `.sr`: a zip with `metadata` and the samples of all channels.
 // Source: sigrok.org, File format:Sigrok/v2.
 #include <fmt/format.h>
-#include <zip.h>
 
 #include <algorithm>
-#include <functional>
 #include <map>
-#include <memory>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -15,44 +12,10 @@
 #include "tools/recordings/levels.hpp"
 #include "tools/recordings/lines.hpp"
 #include "tools/recordings/samplerate.hpp"
+#include "tools/recordings/zip.hpp"
 
 namespace s7200::tools {
 namespace {
-
-struct Discard {
-  void operator()(zip_t* zip) const { zip_discard(zip); }
-  void operator()(zip_file_t* file) const { zip_fclose(file); }
-};
-using Zip = std::unique_ptr<zip_t, Discard>;
-using ZipFile = std::unique_ptr<zip_file_t, Discard>;
-
-Zip open_zip(std::string_view bytes, std::string& why) {
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* const source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
-  Zip zip(source == nullptr ? nullptr : zip_open_from_source(source, ZIP_RDONLY, &error));
-  if (!zip && source != nullptr) zip_source_free(source);
-  if (!zip) why = fmt::format("the zip cannot be read: {}", zip_error_strerror(&error));
-  zip_error_fini(&error);
-  return zip;
-}
-
-bool has_file(zip_t* zip, const std::string& name) { return zip_name_locate(zip, name.c_str(), 0) >= 0; }
-
-/// Tells a file piece by piece. False, and `why`, if it is damaged.
-bool read_file(zip_t* zip, const std::string& name, const std::function<bool(std::string_view piece)>& tell,
-               std::string& why) {
-  const ZipFile file(zip_fopen(zip, name.c_str(), 0));
-  std::string piece(std::size_t{1} << 16, '\0');
-  while (file) {
-    const zip_int64_t read = zip_fread(file.get(), piece.data(), piece.size());
-    if (read == 0) return true;
-    if (read < 0) break;
-    if (!tell(std::string_view(piece).substr(0, static_cast<std::size_t>(read)))) return false;
-  }
-  why = fmt::format("'{}' in it cannot be read", stl::shortened(name));
-  return false;
-}
 
 /// What `metadata` says of the first device.
 struct Device {
@@ -135,20 +98,20 @@ class Sampler {
 };
 
 /// `logic-1-1`, `logic-1-2` …, of older files `logic-1`.
-std::vector<std::string> files_of(zip_t* zip, const Device& device) {
-  if (has_file(zip, device.capture_file)) return {device.capture_file};
+std::vector<std::string> files_of(const Zip& zip, const Device& device) {
+  if (zip.has(device.capture_file)) return {device.capture_file};
   std::vector<std::string> files;
   for (std::size_t number = 1;; ++number) {
     std::string name = fmt::format("{}-{}", device.capture_file, number);
-    if (!has_file(zip, name)) return files;
+    if (!zip.has(name)) return files;
     files.push_back(std::move(name));
   }
 }
 
 /// What a zip without sigrok's `metadata` may be.
-std::string why_not_sigrok(zip_t* zip) {
-  if (has_file(zip, "meta.json")) return "a session of Saleae Logic 2; export its decoded table, or its raw data, as CSV";
-  if (has_file(zip, "header")) return "a session of DSView; export its decoder list as CSV, or its levels as CSV or VCD";
+std::string why_not_sigrok(const Zip& zip) {
+  if (zip.has("meta.json")) return "a session of Saleae Logic 2; export its decoded table, or its raw data, as CSV";
+  if (zip.has("header")) return "a session of DSView; export its decoder list as CSV, or its levels as CSV or VCD";
   return "a zip that is not a session of sigrok: unpack the recording";
 }
 
@@ -157,25 +120,23 @@ std::string why_not_sigrok(zip_t* zip) {
 bool looks_like_sigrok_session(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
 std::optional<LineRecording> read_sigrok_session(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
-  const Zip zip = open_zip(bytes, why);
+  const auto zip = Zip::open(bytes, why);
   if (!zip) return {};
-  if (!has_file(zip.get(), "metadata")) return why = why_not_sigrok(zip.get()), std::nullopt;
+  if (!zip->has("metadata")) return why = why_not_sigrok(*zip), std::nullopt;
   constexpr std::size_t kMostMetadata = std::size_t{1} << 20;
   std::string metadata;
   const auto keep = [&](std::string_view piece) { return metadata += piece, metadata.size() < kMostMetadata; };
   why = "its metadata are too long";
-  if (!read_file(zip.get(), "metadata", keep, why)) return {};
+  if (!zip->read("metadata", keep, why)) return {};
   const Device device = device_of(metadata);
-  const auto files = files_of(zip.get(), device);
+  const auto files = files_of(*zip, device);
   const std::uint64_t samplerate = choices.samplerate != 0 ? choices.samplerate : device.samplerate;
   if (files.empty() || device.probes.empty()) return why = "it has no levels; sigrok decodes analog channels", std::nullopt;
   if (samplerate == 0) return why = "it does not say its samplerate: name it with --samplerate, as 1MHz", std::nullopt;
   Sampler sampler(device, samplerate);
   why = "it is longer than a recording can be";
   for (const std::string& file : files)
-    if (!read_file(
-            zip.get(), file, [&](std::string_view piece) { return sampler.take(piece); }, why))
-      return {};
+    if (!zip->read(file, [&](std::string_view piece) { return sampler.take(piece); }, why)) return {};
   why.clear();
   return frames_of(sampler.finish(), choices, why);
 }
