@@ -21,6 +21,19 @@ Lead lead_of(unsigned char byte) {
   return {0, 0, 0};
 }
 
+/// Where the first line ends: its CR or LF. The search for either stays near the other, so that a text that has only one of
+/// them is not searched to its end for each line.
+std::size_t line_end(std::string_view text) {
+  constexpr std::size_t kNear = 256;
+  for (std::size_t from = 0; from < text.size(); from += kNear) {
+    std::string_view near = text.substr(from, kNear);
+    near = near.substr(0, near.find('\n'));
+    const std::size_t end = std::min(near.find('\r'), near.size());
+    if (end < std::min(kNear, text.size() - from)) return from + end;
+  }
+  return text.size();
+}
+
 constexpr Character kUnreadable{kReplacement, 1};
 
 /// C0 and C1; marks, embeddings, overrides and isolates of bidirectional text (UAX #9); line and paragraph separators.
@@ -78,8 +91,7 @@ bool is_valid_utf8(std::string_view text) {
 }
 
 std::string_view take_line(std::string_view& text) {
-  const auto found = std::find_if(text.begin(), text.end(), [](char c) { return c == '\r' || c == '\n'; });
-  const std::string_view line = text.substr(0, static_cast<std::size_t>(found - text.begin()));
+  const std::string_view line = text.substr(0, line_end(text));
   text.remove_prefix(line.size());
   text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(text.size(), 1));
   return line;

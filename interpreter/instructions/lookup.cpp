@@ -1,14 +1,14 @@
 // Finding an instruction by its mnemonic, and how it is written.
-#include <map>
 #include <string>
+#include <unordered_map>
 
 #include "interpreter/model/instruction.hpp"
 
 namespace s7200 {
 
 const Instruction* find_instruction(std::string_view mnemonic) {
-  static const std::map<std::string_view, const Instruction*> kIndex = [] {
-    std::map<std::string_view, const Instruction*> index;
+  static const std::unordered_map<std::string_view, const Instruction*> kIndex = [] {
+    std::unordered_map<std::string_view, const Instruction*> index;
     for (const Instruction& instruction : all_instructions()) index.emplace(instruction.mnemonic, &instruction);
     return index;
   }();

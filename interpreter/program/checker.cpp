@@ -188,21 +188,16 @@ class Checker {
   const Instruction* known_instruction(const stl::Statement& statement) {
     const Instruction* instruction = find_instruction(statement.mnemonic);
     const std::string& mnemonic = statement.mnemonic;
+    if (instruction && (instruction->cpus & model_.self) && instruction->modelled()) return instruction;
     const std::string cause = fmt::format("mnemonic {}", mnemonic);
-    if (!instruction) {
+    if (!instruction)
       unknown_instruction(statement, cause);
-      return nullptr;
-    }
-    if (!(instruction->cpus & model_.self)) {
+    else if (!(instruction->cpus & model_.self))
       error(statement.position, fmt::format("CPU {} has no {}", model_.name, mnemonic),
             needs(mnemonic + " needs", instruction->cpus), cause);
-      return nullptr;
-    }
-    if (!instruction->modelled()) {
+    else
       error(statement.position, fmt::format("{} is not modelled", mnemonic), std::string(instruction->not_modelled), cause);
-      return nullptr;
-    }
-    return instruction;
+    return nullptr;
   }
 
   void unknown_instruction(const stl::Statement& statement, const std::string& cause) {
@@ -726,7 +721,7 @@ class ForEachCpu {
   explicit ForEachCpu(stl::ParseResult parsed) : source_(std::move(parsed)), same_for_family_(!may_need_stand_ins(source_)) {
     if (same_for_family_) {
       read_names(for_21x_ = source_, cpu214());
-      read_names(for_22x_ = source_, cpu224());
+      read_names(for_22x_ = std::move(source_), cpu224());
     }
   }
 

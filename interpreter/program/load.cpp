@@ -67,6 +67,23 @@ bool looks_like_a_statement(std::string_view line) {
   return known && solid && any_operand;
 }
 
+/// Whether the first lines of code are all statements of the S7-200. Such a text is neither a table nor a program in another
+/// dialect, whose signs take longer to look for.
+bool begins_with_statements(std::string_view text) {
+  constexpr std::size_t kLinesOfCode = 100;
+  std::size_t code = 0;
+  while (!text.empty() && code < kLinesOfCode) {
+    const std::string_view line = stl::take_line(text);
+    std::string statement = stl::upper_case(line.substr(0, line.find("//")));
+    std::ranges::replace(statement, ',', ' ');
+    const std::vector<std::string> words = stl::split_words(statement);
+    if (words.empty()) continue;
+    ++code;
+    if (words[0] != "NETWORK" && !instruction_set().has(words[0], words.size() - 1)) return false;
+  }
+  return code > 0;
+}
+
 /// Whether a text can be STL with mistakes in it. If none of its first lines can, it is some other file: messages about its
 /// lines would not help and might reveal secrets, as with `program: /etc/passwd` in a scenario.
 bool can_be_stl(const std::vector<std::string>& text) {
@@ -156,10 +173,7 @@ bool is_mnemonic(std::string_view word) {
   return word == "NETWORK" || find_instruction(word) || !unknown_mnemonic(word).what.empty();
 }
 
-/// Nothing for a listing or a document, which are told apart by reading them.
-std::optional<SourceKind> kind_of(std::string_view text, bool force_document) {
-  if (stl::is_block_export(text)) return SourceKind::Blocks;
-  if (force_document || stl::has_routine_headings(text)) return SourceKind::Document;
+std::optional<SourceKind> kind_of_table(std::string_view text) {
   if (stl::is_status_chart(text)) return SourceKind::StatusChart;
   if (stl::is_data_block(text, is_mnemonic)) return SourceKind::DataBlock;
   if (stl::is_symbol_table(text, is_mnemonic)) return SourceKind::SymbolTable;
@@ -200,9 +214,14 @@ stl::ParseResult foreign(stl::Diagnostic dialect, std::string_view text, const s
 
 /// Returns nothing if the text is neither STL nor anything else that is read.
 std::optional<SourceText> read_plain(std::string_view text, const std::string& name, bool force_document) {
-  if (auto dialect = other_dialect(text))
+  const bool statements = begins_with_statements(text);
+  if (auto dialect = statements ? std::nullopt : other_dialect(text))
     return SourceText{foreign(*std::move(dialect), text, name), {}, SourceKind::Listing};
-  if (const auto kind = kind_of(text, force_document)) return SourceText{read_as(*kind, text, name), {}, *kind};
+  const std::optional<SourceKind> kind = stl::is_block_export(text)                          ? SourceKind::Blocks
+                    : force_document || stl::has_routine_headings(text) ? SourceKind::Document
+                    : statements                                        ? std::nullopt
+                                                                        : kind_of_table(text);
+  if (kind) return SourceText{read_as(*kind, text, name), {}, *kind};
   auto listing = stl::read_listing(text, name, instruction_set());
   if (!listing) return SourceText{read_as(SourceKind::Document, text, name), {}, SourceKind::Document};
   if (!can_be_stl(listing->source.text)) return std::nullopt;

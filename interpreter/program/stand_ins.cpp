@@ -157,8 +157,9 @@ constexpr std::array kOtherLibraries{
 };
 
 bool is_routine_of(const Library& library, std::string_view routine) {
-  return std::ranges::any_of(library.routines,
-                             [&](std::string_view each) { return routine == fmt::format("{}{}", each, library.suffix); });
+  return std::ranges::any_of(library.routines, [&](std::string_view each) {
+    return routine.starts_with(each) && routine.substr(each.size()) == library.suffix;
+  });
 }
 
 bool is_routine_of_any(std::string_view routine) {
@@ -231,7 +232,7 @@ class Linker {
     std::vector<Call> calls;
     for_each_statement([&](stl::Statement& statement) {
       std::string routine = called_by_name(statement);
-      if (!is_routine_of(library, routine)) return;
+      if (routine.empty() || !is_routine_of(library, routine)) return;
       if (!has(routine, std::get<stl::Name>(statement.operands.front().value).text))
         calls.push_back({&statement, std::move(routine)});
     });
@@ -484,7 +485,10 @@ std::string in_no_export(const StandIn& stand_in) {
 
 StandInFiles link_stand_ins(stl::ParseResult& program, const CpuModel& model) { return Linker(program, model).result(); }
 
-bool has_stand_in(const stl::Statement& call) { return is_routine_of_any(called_by_name(call)); }
+bool has_stand_in(const stl::Statement& call) {
+  const std::string routine = called_by_name(call);
+  return !routine.empty() && is_routine_of_any(routine);
+}
 
 bool may_need_stand_ins(const stl::ParseResult& program) {
   return std::ranges::any_of(program.source.lines, [](const stl::Line& line) {

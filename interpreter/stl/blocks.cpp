@@ -601,8 +601,11 @@ class BlockReader {
 }  // namespace
 
 bool is_block_export(std::string_view text) {
-  while (!text.empty())
-    if (opens_block(keyword_of(code_of(take_line(text))))) return true;
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    const bool may_open_block = line.find('_') != std::string_view::npos;
+    if (may_open_block && opens_block(keyword_of(code_of(line)))) return true;
+  }
   return false;
 }
 
@@ -611,6 +614,7 @@ ParseResult read_blocks(std::string_view text, std::string name, const IsInstruc
 }
 
 bool has_routine_headings(std::string_view text) {
+  if (is_ascii(text)) return false;
   bool after_main = false;
   while (!text.empty()) {
     const std::string_view line = take_line(text);

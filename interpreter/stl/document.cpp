@@ -311,9 +311,9 @@ class DocumentReader {
       reading.some_solid = reading.some_solid || solid;
       reading.all_solid = reading.all_solid && solid;
       reading.address = reading.address || address;
+      reading.words += words_of(token);
     }
     reading.operands = found.size();
-    reading.words = count_words(operands);
   }
 
   bool is_known(const std::string& mnemonic) {
@@ -364,7 +364,7 @@ class DocumentReader {
   /// `O l0.1`: where the statement is in capitals, a small L at the beginning of an address was an I, or a 1.
   std::optional<Diagnostic> look_alike(const Statement& statement) {
     const std::string_view clean = at(statement.position.line).clean;
-    if (has_small_letters(at(statement.position.line).mnemonic)) return {};
+    if (clean.find('l') == std::string_view::npos || has_small_letters(at(statement.position.line).mnemonic)) return {};
     if (!instructions_.has(statement.mnemonic, statement.operands.size())) return {};  // something else is wrong with it
     for (const Operand& operand : statement.operands) {
       const std::string written = characters_at(clean, operand.position.column, operand.position.length);

@@ -532,9 +532,27 @@ bool is_identity(const std::vector<std::uint32_t>& columns) {
   return true;
 }
 
+/// Bytes of which something else may be read, if they are not in a comment.
+constexpr std::array<bool, 256> kMayBeDifferent = [] {
+  std::array<bool, 256> bytes{};
+  for (const char c : {'`', '%', '~', '<', '&', '\x0B'}) bytes[static_cast<unsigned char>(c)] = true;
+  std::fill(bytes.begin() + 0x80, bytes.end(), true);
+  return bytes;
+}();
+
+bool has_line_end_of_word_processor(std::string_view text) {
+  const auto has = [text](std::string_view end) { return text.find(end) != std::string_view::npos; };
+  return has("\x0B") || has("\u2028") || has("\u2029");
+}
+
 /// Whether a line may be different, whatever stands around it.
 bool may_be_different(std::string_view line) {
-  return !is_ascii(line) || line.find_first_of("`%\x0B") != std::string_view::npos || is_fence(line) || has_html(line);
+  const std::string_view code = code_of(line), comment = line.substr(code.size());
+  const bool quoted = code.find_first_of("'\"") != std::string_view::npos;  // the slashes may be part of a text
+  const auto may_be = [](char c) { return kMayBeDifferent[static_cast<unsigned char>(c)]; };
+  if (std::ranges::any_of(quoted ? line : code, may_be))
+    return !is_ascii(line) || line.find_first_of("`%\x0B") != std::string_view::npos || is_fence(line) || has_html(line);
+  return has_line_end_of_word_processor(comment);
 }
 
 /// The same of one that may be numbered or quoted.

@@ -276,11 +276,14 @@ std::optional<Columns> columns_of(const Cells& cells) {
 template <typename IsRow>
 Separator separator_of(std::span<const std::string_view> lines, const IsRow& is_row) {
   using enum Separator;
-  const bool tabs =
-      std::ranges::any_of(lines, [](std::string_view line) { return line.find('\t') != std::string_view::npos; });
-  Separator found = tabs ? Tab : Comma;
+  const auto occurs = [&](Separator separator) {
+    return std::ranges::any_of(
+        lines, [&](std::string_view line) { return line.find(static_cast<char>(separator)) != std::string_view::npos; });
+  };
+  Separator found = occurs(Tab) ? Tab : Comma;
   std::ptrdiff_t most = 0;
   for (const Separator separator : {Tab, Semicolon, Comma, Bar, Blanks}) {
+    if (separator != Blanks && !occurs(separator)) continue;
     const auto rows =
         std::ranges::count_if(lines, [&](std::string_view line) { return is_row(cells_of(line, separator), separator); });
     if (rows <= most) continue;

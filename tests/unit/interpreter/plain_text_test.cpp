@@ -140,6 +140,7 @@ TEST(PlainText, APercentSignBeforeAnAddressIsLeftOut) {
 
 TEST(PlainText, LineEndsOfWordProcessorsEndALine) {
   EXPECT_EQ(program("LD I0.0\x0B= Q0.0\u2028LD I0.1\n= Q0.1\n"), program("LD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\n"));
+  EXPECT_EQ(program("LD I0.0 // Tür\u2028= Q0.0\n"), program("LD I0.0 // Tür\n= Q0.0\n")) << "also at the end of a comment";
 }
 
 TEST(PlainText, SymbolTablesAreReadTheSameWay) {

@@ -12,6 +12,14 @@ TEST(Text, WordsAreWhatBlanksAndTabsSeparate) {
   EXPECT_TRUE(split_words(" \t").empty());
 }
 
+TEST(Text, ALineEndsAtAnyLineEndWhateverItsLength) {
+  for (const std::string_view end : {"\n"sv, "\r"sv, "\r\n"sv})
+    for (const std::size_t length : {0U, 1U, 254U, 255U, 256U, 257U, 511U, 512U, 600U}) {
+      const std::string line(length, 'x'), text = line + std::string(end) + line;
+      EXPECT_EQ(split_lines(text), length == 0 ? std::vector{line} : (std::vector{line, line})) << length;
+    }
+}
+
 TEST(Text, OnlyAsciiLettersChangeTheirCase) {
   EXPECT_EQ(lower_case("VW100 ÄÖ@[`{Zz"), "vw100 ÄÖ@[`{zz");
   EXPECT_EQ(upper_case("vw100 äö@[`{Zz"), "VW100 äö@[`{ZZ");

@@ -249,7 +249,8 @@ std::vector<ProgramFiles> read_programs(const std::vector<std::string>& paths, i
     parts.erase(parts.begin());
   }
   for (auto& [path, text] : programs) {
-    std::vector<SourceText> files{std::move(text)};
+    std::vector<SourceText> files;
+    files.push_back(std::move(text));
     for (const ProgramFiles& part : parts) files.push_back(part.text);
     text = join_files(std::move(files));
   }
