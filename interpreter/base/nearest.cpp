@@ -9,7 +9,7 @@
 namespace s7200 {
 namespace {
 
-constexpr std::size_t kLongestWord = 12, kMostChanges = 2;
+constexpr std::size_t kLongestWord = 24, kMostChanges = 2;
 
 /// Edit distance, where two neighbours that have changed places are one change. Both words are short.
 std::size_t distance(std::string_view a, std::string_view b) {

@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/model/times_file.hpp"
@@ -33,6 +34,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/project.hpp"
 #include "interpreter/stl/symbols.hpp"
+#include "interpreter/stl/system_symbols.hpp"
 
 namespace s7200 {
 namespace {
@@ -95,11 +97,32 @@ class Checker {
     });
   }
 
-  /// With a symbol table each undefined name has a cause of its own; without one they all have the same.
+  /// With a symbol table each undefined name has a cause of its own; without one they all have the same, but for those that are
+  /// nearly a symbol of Micro/WIN.
   void tell_undefined_symbols_apart() {
-    if (source_.symbols.empty()) return;
-    for (stl::Diagnostic& diagnostic : diagnostics_)
-      if (diagnostic.cause == kUndefinedSymbols) diagnostic.cause = diagnostic.message;
+    for (stl::Diagnostic& diagnostic : diagnostics_) {
+      if (diagnostic.cause != kUndefinedSymbols) continue;
+      const std::string meant = nearest_symbol(written_at(diagnostic.position));
+      if (!meant.empty()) diagnostic.hint = fmt::format("did you mean {}?", meant);
+      if (!meant.empty() || !source_.symbols.empty()) diagnostic.cause = diagnostic.message;
+    }
+  }
+
+  /// The symbol that is written almost like a name; empty if there is none.
+  std::string nearest_symbol(std::string_view written) const {
+    constexpr std::string_view kMarks = "&*#\"";
+    constexpr std::size_t kShort = 6;  // two changes make another word of it
+    written.remove_prefix(std::min(written.find_first_not_of(kMarks), written.size()));
+    const std::string name = stl::upper_case(written.substr(0, written.find_first_of("\":")));
+    std::vector<std::string> names;
+    for (const std::span<const stl::Symbol> table : {std::span(source_.symbols), stl::system_symbols()})
+      for (const stl::Symbol& symbol : table) names.push_back(symbol.name);
+    std::vector<std::string> capitals;
+    std::ranges::transform(names, std::back_inserter(capitals), stl::upper_case);
+    const std::vector<std::string_view> known(capitals.begin(), capitals.end());
+    const auto found = all_nearest(name, known, name.size() < kShort ? 1 : 2);
+    if (found.empty()) return {};
+    return names[static_cast<std::size_t>(std::ranges::find(known, found.front()) - known.begin())];
   }
 
   void no_statement() {

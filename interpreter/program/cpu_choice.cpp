@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "interpreter/program/checker.hpp"
+#include "interpreter/stl/symbols.hpp"
 
 namespace s7200 {
 namespace {
+
+constexpr std::array<std::string_view, 3> kWordsOfRelease{"RELEASE", "REL", "V"};
 
 constexpr std::string_view kBlanks = " \t", kPunctuation = " \t:=-,./*";
 
@@ -39,6 +44,21 @@ bool ends_in_for(std::string_view before) {
   return word == "FOR";
 }
 
+/// `REL 02.01`, `, release 1.20`, `V1.1`: takes it off the rest of a line, and returns the number before the dot; 0 for none.
+int take_release(std::string_view& rest) {
+  std::string_view text = rest;
+  text.remove_prefix(std::min(text.find_first_not_of(" \t,("), text.size()));
+  const auto* const word = std::ranges::find_if(kWordsOfRelease, [&](std::string_view each) { return text.starts_with(each); });
+  if (word == kWordsOfRelease.end()) return 0;
+  text.remove_prefix(word->size());
+  text.remove_prefix(std::min(text.find_first_not_of(" \t.:"), text.size()));
+  int number = 0;
+  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (trouble != std::errc{}) return 0;
+  rest = text.substr(std::min(text.find_first_not_of("0123456789."), text.size()));
+  return number;
+}
+
 /// `224 XP, release 2.01`: the CPU, and the rest of the line. Nothing if it is not modelled.
 const CpuModel* cpu_at(std::string_view text, std::string_view& rest) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t:=-"), text.size()));
@@ -53,10 +73,12 @@ const CpuModel* cpu_at(std::string_view text, std::string_view& rest) {
     name += suffix;
   }
   if (!rest.empty() && (stl::is_letter(rest.front()) || stl::is_digit(rest.front()))) return nullptr;
-  return find_cpu(name);
+  const bool first_release = take_release(rest) == 1;
+  const CpuModel* const of_first_release = first_release ? find_cpu(name + "r1") : nullptr;
+  return of_first_release ? of_first_release : find_cpu(name);
 }
 
-const CpuModel* cpu_in_line(const std::string& comment, bool is_title) {
+const CpuModel* cpu_in_line(std::string_view comment, bool is_title) {
   const std::string upper = stl::upper_case(comment);
   const std::size_t at = upper.find("CPU");
   if (at == std::string::npos || (at > 0 && stl::is_letter(upper[at - 1]))) return nullptr;
@@ -66,7 +88,7 @@ const CpuModel* cpu_in_line(const std::string& comment, bool is_title) {
   if (!model) return nullptr;
   if (is_title && ends_in_for(before)) return model;
   rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
-  const bool ends_there = rest.empty() || std::string_view(",.;:(*").find(rest.front()) != std::string_view::npos;
+  const bool ends_there = rest.empty() || std::string_view(",.;:()*").find(rest.front()) != std::string_view::npos;
   return ends_there && is_about_nothing_else(before) ? model : nullptr;
 }
 
@@ -85,10 +107,16 @@ const CpuModel* cpu_in_head(const stl::Source& source) {
   return main == source.blocks.end() ? nullptr : cpu_in_line(main->title, true);
 }
 
+bool is_cpu_line(std::string_view line) {
+  const std::string first = stl::upper_case(line.substr(0, line.find_first_of(" \t:=-")));
+  return !find_instruction(first) && cpu_in_line(line, false);
+}
+
 const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {
   constexpr std::array kCommon{&cpu214, &cpu224, &cpu226, &cpu224xp};
   std::vector<const CpuModel*> tried;
   for (const auto model : kCommon) tried.push_back(&model());
+  if (!stl::symbol_of_smart(parsed.source).empty()) std::swap(tried[0], tried[2]);  // the CPU 226
   for (const CpuModel* model : all_cpus())
     if (std::ranges::find(tried, model) == tried.end()) tried.push_back(model);
   if (const CpuModel* first = first_cpu_without_errors(parsed, tried)) return *first;
@@ -96,8 +124,7 @@ const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {
     const auto diagnostics = check(parsed, *model, default_times(*model)).diagnostics;
     return std::ranges::count(diagnostics, stl::Severity::Error, &stl::Diagnostic::severity);
   };
-  const CpuModel& fewest = **std::ranges::min_element(tried.begin(), tried.begin() + kCommon.size(), {}, errors_on);
-  return 2 * errors_on(&fewest) <= errors_on(&cpu214()) ? fewest : cpu214();
+  return **std::ranges::min_element(tried.begin(), tried.begin() + kCommon.size(), {}, errors_on);
 }
 
 }  // namespace s7200

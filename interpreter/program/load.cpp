@@ -14,14 +14,17 @@
 #include <span>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/cpu_choice.hpp"
 #include "interpreter/program/dialect.hpp"
 #include "interpreter/stl/blocks.hpp"
 #include "interpreter/stl/data_block.hpp"
 #include "interpreter/stl/document.hpp"
+#include "interpreter/stl/drawings.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/project.hpp"
 #include "interpreter/stl/symbol_table.hpp"
+#include "interpreter/stl/symbols.hpp"
 
 namespace s7200 {
 namespace {
@@ -212,6 +215,18 @@ stl::ParseResult foreign(stl::Diagnostic dialect, std::string_view text, const s
   return result;
 }
 
+/// Where the code of the first line begins, if that only names the CPU: it is no statement, but a comment without its //.
+std::optional<std::size_t> place_of_cpu_line(std::string_view text) {
+  constexpr std::size_t kLongest = 100;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view code = stl::trim(stl::take_line(rest));
+    if (code.empty() || code.starts_with("//")) continue;
+    if (code.size() > kLongest || !is_cpu_line(code)) return std::nullopt;
+    return static_cast<std::size_t>(code.data() - text.data());
+  }
+  return std::nullopt;
+}
+
 /// Returns nothing if the text is neither STL nor anything else that is read.
 std::optional<SourceText> read_plain(std::string_view text, const std::string& name, bool force_document) {
   const bool statements = begins_with_statements(text);
@@ -226,6 +241,13 @@ std::optional<SourceText> read_plain(std::string_view text, const std::string& n
   if (!listing) return SourceText{read_as(SourceKind::Document, text, name), {}, SourceKind::Document};
   if (!can_be_stl(listing->source.text)) return std::nullopt;
   return SourceText{std::move(*listing), {}, SourceKind::Listing};
+}
+
+/// What is said of a text that has no statement in its first lines.
+std::string why_not_stl(std::string_view text) {
+  while (!text.empty())
+    if (stl::has_drawing(stl::take_line(text))) return fmt::format("{}: {}", stl::kIsDrawing, stl::kForDrawing);
+  return "it is not an STL program: there is no instruction in its first lines; a symbol table has rows such as Motor = Q0.0";
 }
 
 bool is_code(const stl::Line& line) {
@@ -262,6 +284,9 @@ SourceText join_files(std::vector<SourceText> files) {
       file->parsed.notes.push_back(fmt::format("nothing in {} is part of the program", file->parsed.source.name));
     stl::append(project.parsed, std::move(file->parsed));
   }
+  if (const std::string symbol = stl::symbol_of_smart(project.parsed.source); !symbol.empty())
+    project.parsed.notes.push_back(fmt::format("{}: {} is a symbol of the S7-200 SMART; {}", project.parsed.source.name,
+                                               stl::shortened(symbol), kSmartProgram));
   return project;
 }
 
@@ -274,11 +299,14 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
     return {};
   }
   const stl::PlainText plain(decoded->text);
-  auto source = read_plain(plain.text(), name, force_document);
+  const auto cpu_line = place_of_cpu_line(plain.text());
+  auto source = cpu_line ? read_plain(std::string(plain.text()).insert(*cpu_line, "// "), name, force_document)
+                         : read_plain(plain.text(), name, force_document);
   if (!source) {
-    why = "it is not an STL program: there is no instruction in its first lines";
+    why = why_not_stl(plain.text());
     return {};
   }
+  if (source->kind == SourceKind::Listing || source->as_document()) stl::name_drawings(source->parsed, instruction_set());
   plain.restore(source->parsed);
   source->encoding = decoded->encoding;
   return source;

@@ -603,7 +603,7 @@ class DocumentReader {
   void report_no_stl(Diagnostics& diagnostics) const {
     const Position start = text_.empty() ? Position{} : Position{1, 1, 1};
     diagnostics.push_back({Severity::Error, start, "there is no STL in this document",
-                           "STL lines begin with an instruction such as LD or MOVW"});
+                           "STL lines begin with an instruction such as LD or MOVW; a symbol table has rows such as Motor = Q0.0"});
   }
 
   static std::size_t prose_words(const Reading& reading) {

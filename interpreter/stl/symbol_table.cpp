@@ -98,6 +98,10 @@ constexpr std::array<std::string_view, 18> kAddressHeadings{
 constexpr std::array<std::string_view, 7> kFormatHeadings{"FORMAT", "FORMATO",  "DISPLAY FORMAT", "ANZEIGEFORMAT",
                                                           "格式",   "显示格式", "顯示格式"};
 
+constexpr std::array<std::string_view, 14> kCommentHeadings{
+    "COMMENT", "COMMENTS", "DESCRIPTION", "REMARK",  "REMARKS", "KOMMENTAR", "BESCHREIBUNG",
+    "COMMENTAIRE", "COMENTARIO", "COMMENTO", "注释", "註解", "注解", "说明"};
+
 bool is_one_of(std::span<const std::string_view> headings, std::string_view text) {
   constexpr std::size_t kLongestHeading = 40;
   return text.size() <= kLongestHeading && std::ranges::find(headings, heading_of(text)) != headings.end();
@@ -111,8 +115,10 @@ struct Cell {
 };
 using Cells = std::vector<Cell>;
 
-/// What separates cells.
-enum class Separator : char { Tab = '\t', Semicolon = ';', Comma = ',', Bar = '|', Blanks = ' ' };
+/// What separates cells. Of an assignment, `Motor = Q0.0`, only the first sign does.
+enum class Separator : char { Tab = '\t', Semicolon = ';', Comma = ',', Bar = '|', Equals = '=', Colon = ':', Blanks = ' ' };
+
+bool is_assignment(Separator separator) { return separator == Separator::Equals || separator == Separator::Colon; }
 
 std::string without_doubled_quotes(std::string_view text) {
   std::string plain;
@@ -176,12 +182,20 @@ std::size_t place_of_address(const std::vector<std::string_view>& words) {
   return words.size() > 1 && has_value(words[1]) ? 1 : words.size();
 }
 
-/// The headings of name and address among the parts of a row, of which one begins it or follows a number; otherwise nothing.
+/// The headings of name and address among the parts of a row, of which one begins it or follows a number, and what follows
+/// them; otherwise nothing.
 Cells headings_among(const std::vector<std::string_view>& parts) {
   const auto name = std::ranges::find_if(parts, [](auto part) { return is_one_of(kNameHeadings, part); });
   const auto address = std::ranges::find_if(parts, [](auto part) { return is_one_of(kAddressHeadings, part); });
   if (name == parts.end() || address == parts.end() || std::min(name, address) - parts.begin() > 1) return {};
-  return {cell_of(*name), cell_of(*address)};
+  Cells cells{cell_of(*name), cell_of(*address)};
+  std::transform(std::next(std::max(name, address)), parts.end(), std::back_inserter(cells), cell_of);
+  return cells;
+}
+
+/// `->`, `=>`, `AT`: between a name and its address.
+bool is_sign(std::string_view word) {
+  return upper_case(word) == "AT" || word.find_first_not_of("-=>:") == std::string_view::npos;
 }
 
 /// Name, address, and what follows them, wherever the row has the address; nothing if it has none. Blanks may be part of a
@@ -197,7 +211,7 @@ Cells symbol_among(const std::vector<std::string_view>& words) {
     last = after + 1;
   } else {
     while (first < last && !is_name(words[first]) && !words[first].starts_with('"')) ++first;
-    while (last > first + 1 && is_type(words[last - 1])) --last;
+    while (last > first + 1 && (is_type(words[last - 1]) || is_sign(words[last - 1]))) --last;
   }
   if (first >= last || last > words.size()) return {};
   Cells cells{cell_of(from_to(words[first], words[last - 1])), cell_of(from_to(words[at], words[after - 1]))};
@@ -208,15 +222,36 @@ Cells symbol_among(const std::vector<std::string_view>& words) {
 /// A row whose columns only blanks separate.
 Cells cells_between_blanks(std::string_view line) {
   const auto wide = parts_of(line, "  "), words = parts_of(line, " ");
-  for (Cells cells : {headings_among(wide), headings_among(words), symbol_among(words)})
-    if (!cells.empty()) return cells;
+  if (Cells cells = headings_among(wide); !cells.empty()) return cells;
+  if (Cells cells = headings_among(words); !cells.empty()) return {cells[0], cells[1]};  // `Data type` is two words
+  if (Cells cells = symbol_among(words); !cells.empty()) return cells;
   Cells as_they_stand;
   std::ranges::transform(wide.size() > 1 ? wide : words, std::back_inserter(as_they_stand), cell_of);
   return as_they_stand;
 }
 
+/// `Motor = Q0.0`, `Motor: Q 0.0 // main pump`: name, address, and the words of what follows them. One cell if
+/// there is no address behind the sign.
+Cells cells_of_assignment(std::string_view line, char sign) {
+  const std::size_t at = line.find(sign, end_of_quotes(line));
+  const std::string_view name = trim(line.substr(0, at));
+  if (at == std::string_view::npos || name.empty()) return {cell_of(trim(line))};
+  std::string_view rest = line.substr(std::min(line.find_first_not_of("=:> \t", at), line.size()));
+  const std::size_t end = std::min({rest.find(';'), rest.find("//"), rest.find("(*"), rest.size()});
+  const auto words = parts_of(rest.substr(0, end), " ");
+  if (words.empty() || place_of_address(words) != 0) return {cell_of(trim(line))};
+  const std::size_t of_address = is_address(words[0]) ? 1 : 2;  // `Q 0.0`
+  Cells cells{cell_of(name), cell_of(from_to(words[0], words[of_address - 1]))};
+  rest.remove_prefix(static_cast<std::size_t>(words[of_address - 1].data() + words[of_address - 1].size() - rest.data()));
+  rest.remove_prefix(std::min(rest.find_first_not_of("; \t/(*"), rest.size()));
+  for (const std::string_view word : parts_of(rest.substr(0, rest.find("*)")), " ")) cells.push_back(cell_of(word));
+  return cells;
+}
+
 Cells cells_of(std::string_view line, Separator separator) {
-  return separator == Separator::Blanks ? cells_between_blanks(line) : cells_between(line, static_cast<char>(separator));
+  if (separator == Separator::Blanks) return cells_between_blanks(line);
+  const char sign = static_cast<char>(separator);
+  return is_assignment(separator) ? cells_of_assignment(line, sign) : cells_between(line, sign);
 }
 
 /// Empty, a comment, or a line of strokes below headings.
@@ -243,18 +278,24 @@ std::size_t filled(const Cells& cells) {
 // --- symbol tables ---
 
 struct Columns {
+  static constexpr std::size_t kToTheEnd = std::string::npos;
+
   std::size_t name = 0, address = 1;
+  std::size_t comment = 2, after_comment = kToTheEnd;
+  bool has_comment = false;  ///< a heading names its column
 };
 
-/// The columns that a row of headings names.
+/// The columns that a row of headings names. Without a heading for comments, they are in the columns that have none.
 std::optional<Columns> headings(const Cells& cells) {
-  std::optional<std::size_t> name, address;
+  std::optional<std::size_t> name, address, comment;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!name && is_one_of(kNameHeadings, cells[i].text)) name = i;
     if (!address && is_one_of(kAddressHeadings, cells[i].text)) address = i;
+    if (!comment && is_one_of(kCommentHeadings, cells[i].text)) comment = i;
   }
   if (!name || !address) return std::nullopt;
-  return Columns{*name, *address};
+  const std::size_t first = comment.value_or(cells.size());
+  return Columns{*name, *address, first, first + 1 < cells.size() ? first + 1 : Columns::kToTheEnd, comment.has_value()};
 }
 
 /// Where name and address are in a row without headings: side by side or with a type between them, the name first unless
@@ -266,8 +307,8 @@ std::optional<Columns> columns_of(const Cells& cells) {
   for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
     const bool type = is_symbol(i) && i + 2 < cells.size() && is_type(cells[i + 1].text) && is_address(cells[i + 2].text);
     const std::size_t next = type ? i + 2 : i + 1;
-    if (is_symbol(i) && has_value(cells[next].text)) return Columns{i, next};
-    if (is_address(cells[i].text) && is_symbol(i + 1)) return Columns{i + 1, i};
+    if (is_symbol(i) && has_value(cells[next].text)) return Columns{i, next, next + 1};
+    if (is_address(cells[i].text) && is_symbol(i + 1)) return Columns{i + 1, i, i + 2};
   }
   return std::nullopt;
 }
@@ -282,7 +323,7 @@ Separator separator_of(std::span<const std::string_view> lines, const IsRow& is_
   };
   Separator found = occurs(Tab) ? Tab : Comma;
   std::ptrdiff_t most = 0;
-  for (const Separator separator : {Tab, Semicolon, Comma, Bar, Blanks}) {
+  for (const Separator separator : {Tab, Semicolon, Comma, Bar, Equals, Colon, Blanks}) {
     if (separator != Blanks && !occurs(separator)) continue;
     const auto rows =
         std::ranges::count_if(lines, [&](std::string_view line) { return is_row(cells_of(line, separator), separator); });
@@ -320,8 +361,13 @@ class SymbolTableReader {
       headed_ = found;
       return;
     }
-    const auto columns = headed_ && fits(cells, *headed_) ? headed_ : columns_of(cells);
+    const bool fit = headed_ && fits(cells, *headed_);
+    auto columns = fit ? headed_ : columns_of(cells);
     if (!columns) return add_without_address(cells, line);
+    if (headed_ && !fit && columns->name > headed_->name) {  // the empty ones are without headings
+      columns->comment = headed_->comment + columns->name - headed_->name;
+      columns->after_comment = Columns::kToTheEnd;
+    }
     add(cells, *columns, line);
   }
 
@@ -347,10 +393,17 @@ class SymbolTableReader {
         other && !std::holds_alternative<Name>(*other) && !may_be_name(*other, name.text))
       return error(position(name, line), fmt::format("{} is an address or a constant, not a name", shortened(name.text)),
                    "give the symbol a name of its own: in the program, this would always be the address or the constant");
+    result_.source.symbols.push_back({name.text, std::move(value), position(name, line), comment_of(cells, columns)});
+  }
+
+  /// Where no heading names its column, it begins after a type.
+  static std::string comment_of(const Cells& cells, const Columns& columns) {
     std::string comment;
-    const std::size_t after = std::max(columns.name, columns.address) + 1;
-    for (std::size_t i = after; i < cells.size(); ++i) comment += (comment.empty() ? "" : " ") + cells[i].text;
-    result_.source.symbols.push_back({name.text, std::move(value), position(name, line), std::string(trim(comment))});
+    const std::size_t end = std::min(cells.size(), columns.after_comment);
+    std::size_t from = columns.comment;
+    while (!columns.has_comment && from < end && is_type(cells[from].text)) ++from;
+    for (std::size_t i = from; i < end; ++i) comment += (comment.empty() ? "" : " ") + cells[i].text;
+    return std::string(trim(comment));
   }
 
   /// Micro/WIN lets a name have no address as long as nothing uses it.
@@ -397,12 +450,15 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
       ++rows;
     else if (filled(cells) > 1 || rows > 0)  // otherwise it is a title
       ++other;
-    certain +=
-        columns && !std::ranges::all_of(cells[columns->name].text, is_upper) && is_address(cells[columns->address].text);
+    const auto may_be_mnemonic = [&] {
+      return separator == Separator::Blanks && std::ranges::all_of(cells[columns->name].text, is_upper);
+    };
+    certain += columns && is_address(cells[columns->address].text) && !may_be_mnemonic();
   }
   if (headed) return rows >= statements;
-  // Blanks alone are between the words of any text, and of a listing whose mnemonics are those of another controller.
-  if (separator == Separator::Blanks) return statements == 0 && rows > other && 2 * certain > rows;
+  // Blanks alone are between the words of any text, and of a listing whose mnemonics are those of another controller;
+  // `port: 502` is in settings of any kind.
+  if (separator == Separator::Blanks || is_assignment(separator)) return statements == 0 && rows > other && 2 * certain > rows;
   return rows > statements + other;
 }
 

@@ -302,6 +302,24 @@ const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view n
   return found ? found : find_system_symbol(name);
 }
 
+std::string symbol_of_smart(const Source& source) {
+  const auto defines = [&](std::string_view name) {
+    const auto has_name = [&](const auto& thing) { return upper_case(thing.name) == upper_case(name); };
+    return std::ranges::any_of(source.symbols, has_name) ||
+           std::ranges::any_of(source.blocks, [&](const Block& block) { return std::ranges::any_of(block.variables, has_name); });
+  };
+  for (const Line& line : source.lines) {
+    const auto* statement = std::get_if<Statement>(&line);
+    if (!statement) continue;
+    for (const Operand& operand : statement->operands) {
+      const auto* unresolved = std::get_if<Name>(&operand.value);
+      const WrittenName written(unresolved ? unresolved->text : operand.symbol);
+      if (!written.name.empty() && is_only_of_smart(written.name) && !defines(written.name)) return std::string(written.name);
+    }
+  }
+  return {};
+}
+
 void resolve_symbols(ParseResult& result) { Resolver(result).run(); }
 
 }  // namespace s7200::stl

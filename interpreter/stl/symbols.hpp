@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,5 +31,9 @@ const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view n
 /// Puts the addresses of symbols, of local variables and of blocks in place of their names. A name that nothing defines
 /// stays, with the reason.
 void resolve_symbols(ParseResult& result);
+
+/// The first name in the statements of a program that only Micro/WIN SMART has by itself; empty if there is none. Names that
+/// the program defines are its own.
+std::string symbol_of_smart(const Source& source);
 
 }  // namespace s7200::stl

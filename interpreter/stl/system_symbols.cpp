@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "interpreter/base/text.hpp"
 
 namespace s7200::stl {
 namespace {
@@ -156,6 +159,16 @@ std::vector<Symbol> whole_table() {
 }
 
 }  // namespace
+
+bool is_only_of_smart(std::string_view name) {
+  const std::string upper = upper_case(name);
+  const auto is_point = [&](const Points& points) {
+    const std::string_view rest = std::string_view(upper).substr(std::min(points.name.size(), upper.size()));
+    return upper.starts_with(upper_case(points.name)) && !rest.empty() && std::ranges::all_of(rest, is_digit);
+  };
+  return std::ranges::any_of(kOnlyOfSmart, [&](std::string_view each) { return upper_case(each) == upper; }) ||
+         std::ranges::any_of(kPoints, is_point);
+}
 
 std::span<const Symbol> system_symbols() {
   static const std::vector<Symbol> kTable = whole_table();

@@ -11,6 +11,7 @@
 #include "interpreter/program/operands.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/line_parts.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 
 namespace s7200 {
@@ -18,8 +19,7 @@ namespace {
 
 std::string place_text(std::uint32_t op, const Program& program) {
   if (op == kNoRoutine) return "between two scans";
-  const stl::Statement& statement = program.statement(op);
-  return fmt::format("line {}: {}", statement.position.line, stl::to_text(statement));
+  return fmt::format("{}: {}", line_of(op, program), stl::to_text(program.statement(op)));
 }
 
 /// `0f`, as bytes of frames are written.

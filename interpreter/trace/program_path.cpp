@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "interpreter/trace/statement_text.hpp"
+
 namespace s7200 {
 namespace {
 
@@ -164,19 +166,19 @@ ProgramPath::Way ProgramPath::way_of(const Course& course) const {
 }
 
 std::string ProgramPath::text_of(const Step& step, std::size_t depth) const {
-  const stl::Position& place = program_.statement(step.op).position;
+  const std::string place = line_of(step.op, program_);
   const Op& op = program_.ops[step.op];
   switch (step.what) {
     case What::Network:
-      return fmt::format("line {}", place.line);
+      return place;
     case What::Call:
       return fmt::format(
-          "CALL {} in line {}{}{}", op[0].at, place.line, times_text(step.times),
+          "CALL {} in {}{}{}", op[0].at, place, times_text(step.times),
           step.inside.empty() || depth == deepest_ ? "" : fmt::format(" ({})", text_of(step.inside, depth + 1)));
     case What::Jump:
-      return fmt::format("JMP {} in line {}{}", op[0].at, place.line, times_text(step.times));
+      return fmt::format("JMP {} in {}{}", op[0].at, place, times_text(step.times));
     case What::Leave:
-      return fmt::format("{} in line {}{}", op.instruction->mnemonic, place.line, times_text(step.times));
+      return fmt::format("{} in {}{}", op.instruction->mnemonic, place, times_text(step.times));
     case What::More:
       return "…";
   }

@@ -19,9 +19,14 @@ std::string comment_of(const stl::Statement& statement) {
   return statement.comment.empty() ? "" : "  //" + stl::printable(statement.comment);
 }
 
+std::string line_of(std::uint32_t op, const Program& program) {
+  constexpr std::uint32_t kInMainFile = 1;
+  return stl::line_text(program.source, program.statement(op).position.line, kInMainFile);
+}
+
 std::string named_in_sentence(std::uint32_t op, const Program& program) {
   const stl::Statement& statement = program.statement(op);
-  return fmt::format("{} in line {}{}", short_text(statement), statement.position.line, comment_of(statement));
+  return fmt::format("{} in {}{}", short_text(statement), line_of(op, program), comment_of(statement));
 }
 
 }  // namespace s7200

@@ -14,6 +14,9 @@ std::string short_text(const stl::Statement& statement);
 /// `  // not quiet yet`; nothing without a comment.
 std::string comment_of(const stl::Statement& statement);
 
+/// `line 12`; of a file beside the program's own, `stand-in:modbus_slave.awl:230`.
+std::string line_of(std::uint32_t op, const Program& program);
+
 /// `ATCH 120, 10 in line 665  // not quiet yet`
 std::string named_in_sentence(std::uint32_t op, const Program& program);
 

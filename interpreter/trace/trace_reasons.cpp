@@ -136,7 +136,7 @@ TraceReasons::TraceReasons(const Program& program) : program_(program) {
 }
 
 std::string TraceReasons::line_of(std::uint32_t op) const {
-  return fmt::format("line {}", program_.statement(op).position.line);
+  return s7200::line_of(op, program_);
 }
 
 /// Where the program did it.

@@ -2569,6 +2569,36 @@ class Files(Case):
         self.assertEqual(done.stdout, "")
         self.assertIn("unknown instruction 'XYZ'", done.stderr)
 
+    def test_convert_finds_the_cpu_as_check_does(self):
+        program = self.program("CPU: 224 REL 02.01\nLD I0.0\n= Q0.0\n", "head.stl")
+        self.assertIn("= ", self.ends(FINE, "convert", program, "--to", "iec").stdout)
+        self.assertIn("the main program has no MEND", self.ends(FAILED, "convert", program, "--cpu", "214", "--to", "iec").stderr)
+        wrong = self.program("LD I0.0\nRCV VB100, 0\nMOVB VW0, VB2\n", "wrong.stl")
+        for verb in (["check", wrong], ["convert", wrong, "--to", "iec"]):
+            said = self.ends(FAILED, *verb).stderr
+            self.assertIn("CPU 224 is assumed", said)
+            self.assertEqual(said.count("error: ") - said.count("nothing was written"), 1, said)
+
+    def test_a_recording_that_is_given_for_a_program_names_decode(self):
+        rows = "".join(f'"Async Serial","data",{0.5 + i / 1000:.3f},0.001,0x{byte:02X}\n'
+                       for i, byte in enumerate(bytes.fromhex("010300000001840A")))
+        for name, text in (("logic.csv", "name,type,start_time,duration,data\n" + rows),
+                           ("log.txt", "> 01 03 00 00 00 01 84 0A\n< 01 03 02 00 05 78 47\n")):
+            recording = self.program(text, name)
+            for verb in (["check"], ["run", "--for", "1ms"]):
+                said = self.ends(UNUSABLE, *verb, recording).stderr
+                self.assertIn(f"not a program: s7200 decode {recording}", said)
+            self.ends(FINE, "decode", recording)
+        table = self.program("Symbol,Address,Data\nPump,Q0.0,01\nLamp,Q0.1,02\n", "table.csv")
+        self.ends(FINE, "check", self.program("LD Pump\n= Lamp\nMEND\n"), table)
+
+    def test_a_ladder_drawing_has_one_message(self):
+        for text, code in (("   I0.0    I0.1    Q0.0\n--] [-----]/[-----( )--\n", UNUSABLE),
+                           ("LD I0.0\n= Q0.0\n--| |--|/|--( )--\n   I0.1 I0.2  Q0.1\nMEND\n", FAILED)):
+            said = self.ends(code, "check", self.program(text)).stderr
+            self.assertEqual(said.count("this is a ladder drawing, not STL"), 1, said)
+            self.assertEqual(said.count("error: "), 1, said)
+
     def test_parts_of_a_project_alone_ask_for_the_rest(self):
         table = self.program("Pump\tQ0.0\n", "table.txt")
         self.assertIn("give the file with the program too", self.ends(FAILED, "check", table).stderr)
@@ -2594,6 +2624,10 @@ class Files(Case):
             self.assertIn("error: MBUS_INIT and MBUS_SLAVE are in no export", refused.stderr)
             self.assertIn("write a subroutine of this name with the same parameters", refused.stderr)
         self.assertIn("1 register: 16#0000", self.ends(FINE, *answered).stdout)
+
+    def test_why_names_the_file_of_a_line_of_a_stand_in(self):
+        said = self.ends(FAILED, "send", self.LIBRARY / "slave.awl", "--cpu", "224", "010300000001").stdout
+        self.assertRegex(said, r"the contacts from stand-in:modbus_slave\.awl:\d+ on")
 
     def test_scenarios_say_which_stand_ins_they_had(self):
         steps = "steps: [{read: holding 0, expect: accepted}]\n"

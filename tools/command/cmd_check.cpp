@@ -31,7 +31,7 @@ struct CheckOptions {
 /// Without the warnings that are switched off.
 CheckResult check_with(const CheckOptions& options, const SourceText& text, const CpuModel& model, const TimeTable& times) {
   CheckResult result = check(text.parsed, model, times);
-  refuse_stand_ins(result);
+  if (options.cpu.no_stand_ins) refuse_stand_ins(result);
   std::erase_if(result.diagnostics, [&](const stl::Diagnostic& d) {
     return d.severity == stl::Severity::Warning &&
            (options.no_warnings || std::ranges::find(options.unwanted, d.name) != options.unwanted.end());
@@ -57,14 +57,14 @@ int run_check(const CheckOptions& options) {
     }
     const CheckResult result = check_with(options, text, *model, *times);
     if (!result.program) exit_code = std::max<int>(exit_code, kCheckFailed);
-    const auto others = stand_ins_refused() ? std::vector<const CpuModel*>{} : fine_for(text, result, *model);
+    const auto others = options.cpu.no_stand_ins ? std::vector<const CpuModel*>{} : fine_for(text, result, *model);
     if (options.json) {
       files.push_back(check_json(path, text, result, *model, others));
     } else {
       print_diagnostics(result.diagnostics, result.source);
       print_notes(reading_notes(text));
-      if (result.program) accept_stand_ins(*result.program);
-      if (!stand_ins_refused()) print_note_if_any(dropped_networks_note(result, others));
+      if (result.program) accept_stand_ins(*result.program, options.cpu.no_stand_ins);
+      if (!options.cpu.no_stand_ins) print_note_if_any(dropped_networks_note(result, others));
       fmt::print("{}", check_summary(text, result, *model, others));
       std::fflush(stdout);  // it stays, if the next file is interrupted
     }
@@ -93,7 +93,7 @@ void add_check(CLI::App& app, int& exit_code) {
       ->required();
   options->cpu.add_cpu_and_times_to(*verb, fmt::format("CPU that they are to run on {}", kCpuFound));
   add_repair_option(*verb, options->cpu.repairs);
-  add_no_stand_ins_option(*verb);
+  add_no_stand_ins_option(*verb, options->cpu.no_stand_ins);
   std::vector<std::string> warnings;
   for (const WarningInfo& warning : all_warnings()) warnings.emplace_back(warning.name);
   offer(verb->add_option("--no-warn", options->unwanted, "leave out a warning, see below (repeatable)"), warnings)

@@ -8,24 +8,29 @@
 #include "tools/command/convert_output.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/views/check_report.hpp"
 
 namespace s7200::tools {
 namespace {
 
-/// False after the mistakes are printed, for the CPU that it has the fewest for. What is not modelled can be converted.
-bool is_right_for_any_cpu(const SourceText& source) {
-  const CheckResult best = check_for_best_cpu(source);
-  print_diagnostics(best.diagnostics, best.source);
-  return best.diagnostics.empty();
+/// False after the mistakes are printed. What is not modelled can be converted.
+bool is_right_for(const CpuModel& model, const SourceText& source) {
+  CheckResult result = check(source.parsed, model, default_times(model));
+  std::erase_if(result.diagnostics, [](const stl::Diagnostic& d) {
+    return d.severity == stl::Severity::Warning || d.message.find("not modelled") != std::string::npos;
+  });
+  print_diagnostics(result.diagnostics, result.source);
+  return result.diagnostics.empty();
 }
 
 int run_convert(const ConvertOptions& options) {
+  if (!options.program.model()) return kUnusable;
   auto source = read_project(options.program.path, options.program.parts);
   if (!source) return kUnusable;
   if (!repair(*source, options.program.repairs)) return kUnusable;
   print_notes(reading_notes(*source));
-  if (!is_right_for_any_cpu(*source)) return print_error("nothing was written"), kCheckFailed;
+  const CpuModel* const model = options.program.model_for(*source, options.program.path);
+  if (!model) return kUnusable;
+  if (!is_right_for(*model, *source)) return print_error("nothing was written"), kCheckFailed;
   const Notation notation = *notation_named(options.notation);
   const auto text = convert(source->parsed, notation);
   if (!text) {
@@ -45,6 +50,7 @@ void add_convert(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("convert", "print a program in another notation, which reads back as the same program");
   options->program.add_files_to(*verb);
+  add_cpu_option(*verb, options->program.cpu, fmt::format("CPU that it is for {}", kCpuFound));
   add_repair_option(*verb, options->program.repairs);
   verb->add_option("--to", options->notation,
                    "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (blocks of an export, with names), german (E, A, U)")

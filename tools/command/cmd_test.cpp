@@ -87,7 +87,6 @@ int run_test(TestOptions& options) {
   options.suite.jobs = options.jobs > 0 ? options.jobs : options.band.wanted() ? options.band.jobs() : 1;
   options.suite.plc = options.other.settings();
   options.suite.protocol = options.protocol->name;
-  options.suite.no_stand_ins = stand_ins_refused();
   options.suite.exchanges_wanted = options.json || to.record || !options.against.empty();
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);

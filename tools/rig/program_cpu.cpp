@@ -8,6 +8,7 @@
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/cpu_choice.hpp"
+#include "interpreter/stl/symbols.hpp"
 #include "tools/yaml/values.hpp"
 
 namespace s7200::tools {
@@ -52,7 +53,8 @@ ProgramCpu cpu_of_program(const SourceText& text, const std::string& path) {
   std::error_code none;
   if (!is_standard_input(path) && fs::exists(settings, none)) return read_settings(settings.string());
   const CpuModel& first = first_cpu_for(text.parsed);
-  if (&first == &cpu214()) return {.model = &first};
+  const bool said = !stl::symbol_of_smart(text.parsed.source).empty() && &first == &cpu226();  // in a note of the text
+  if (&first == &cpu214() || said) return {.model = &first};
   return {.model = &first,
           .note = fmt::format("{} does not run on a CPU 214; CPU {} is assumed, --cpu names another",
                               stl::printable(text.parsed.source.name), first.name)};

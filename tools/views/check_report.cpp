@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
 #include "interpreter/base/counted.hpp"
@@ -97,20 +96,6 @@ std::vector<const CpuModel*> fine_for(const SourceText& text, const CheckResult&
   std::vector<const CpuModel*> fitting = cpus_without_errors(text.parsed);
   std::erase(fitting, &asked);
   return fitting;
-}
-
-CheckResult check_for_best_cpu(const SourceText& text) {
-  const auto is_no_mistake = [](const stl::Diagnostic& d) {
-    return d.severity == stl::Severity::Warning || d.message.find("not modelled") != std::string::npos;
-  };
-  std::optional<CheckResult> best;
-  for (const CpuModel* model : all_cpus()) {
-    CheckResult result = check(text.parsed, *model, default_times(*model));
-    std::erase_if(result.diagnostics, is_no_mistake);
-    if (!best || result.diagnostics.size() < best->diagnostics.size()) best = std::move(result);
-    if (best->diagnostics.empty()) break;
-  }
-  return *best;
 }
 
 std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model,

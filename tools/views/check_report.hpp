@@ -17,9 +17,6 @@ std::string counted(const stl::Diagnostics& diagnostics);
 /// The CPUs, other than the one asked for, that a program with errors is fine for.
 std::vector<const CpuModel*> fine_for(const SourceText& text, const CheckResult& result, const CpuModel& asked);
 
-/// The check for the CPU with the fewest errors; warnings and what is not modelled are left out of its diagnostics.
-CheckResult check_for_best_cpu(const SourceText& text);
-
 /// One line: how many errors and warnings, and which other CPUs it is fine for.
 std::string check_summary(const SourceText& text, const CheckResult& result, const CpuModel& model,
                           const std::vector<const CpuModel*>& others);

@@ -33,6 +33,28 @@ TEST(CpuInHead, IsNamedByTheTitle) {
   EXPECT_EQ(named("//\n// times, for the CPU 214 and all later ones"), "214");
 }
 
+TEST(CpuInHead, MayHaveARelease) {
+  EXPECT_EQ(named("// CPU 224 REL 02.01"), "224");
+  EXPECT_EQ(named("// CPU: 226, release 1.20"), "226r1");
+  EXPECT_EQ(named("// CPU 222 V1.1"), "222r1");
+  EXPECT_EQ(named("// CPU 214 REL 01.14"), "214") << "of which only one is modelled";
+}
+
+TEST(CpuInHead, MayStandAboveAListingWithoutSlashes) {
+  EXPECT_EQ(named("CPU 224"), "224");
+  EXPECT_EQ(named("\n// pump station\nCPU: 224 REL 02.01"), "224");
+  EXPECT_EQ(named("PLC type: CPU 226XM"), "226XM");
+  EXPECT_EQ(named("SIMATIC S7-200, CPU 222 (6ES7 212-1AB23)"), "222");
+  EXPECT_EQ(named("CPU 224\n// below it"), "224");
+  const auto read_twice = read("CPU 224 REL 02.01\nLD I0.0\n= Q0.0\n");
+  EXPECT_TRUE(read_twice.diagnostics.empty()) << read_twice.diagnostics.front().message;
+}
+
+TEST(CpuInHead, IsNotTakenFromAStatement) {
+  EXPECT_EQ(cpu_in_head(read("A CPU224\n= Q0.0\n").source), nullptr) << "a symbol";
+  EXPECT_EQ(cpu_in_head(read("LD I0.0\nCPU 224\n= Q0.0\n").source), nullptr) << "not the first line";
+}
+
 TEST(CpuInHead, IsNotTakenFromASentence) {
   EXPECT_EQ(named("// a title\n// On CPU 22x nobody types MEND. For CPU 212 an error is right."), "none");
   EXPECT_EQ(named("// it replaces the CPU 212 of 1996"), "none");
@@ -65,10 +87,12 @@ TEST(FirstCpu, HasWhatTheProgramUses) {
   EXPECT_EQ(first_for("LD SM0.0\nRCV VB100, 1\nMEND\n"), "226");
 }
 
-TEST(FirstCpu, OfAProgramWithMistakesHasFarFewer) {
+TEST(FirstCpu, OfAProgramWithMistakesHasTheFewest) {
   EXPECT_EQ(first_for("LD SM0.0\nRCV VB100, 0\nRCV VB300, 0\nMOVB VW10, VB0\nMEND\n"), "224");
-  EXPECT_EQ(first_for("LD SM0.0\nMOVB VW10, VB0\nMEND\n"), "214");
-  EXPECT_EQ(first_for("LD SM0.0\nRCV VB100, 0\nMOVB VW10, VB0\nMOVB VW10, VB0\nMEND\n"), "214");
+  EXPECT_EQ(first_for("LD SM0.0\nRCV VB100, 0\nMOVB VW10, VB0\nMOVB VW10, VB0\nMEND\n"), "224") << "one fewer";
+  EXPECT_EQ(first_for("LD SM0.0\nMOVB VW10, VB0\nMOVW VB1, VW2\n= Q0.0\n"), "224") << "which needs no MEND";
+  EXPECT_EQ(first_for("LD SM0.0\nMOVB VW10, VB0\nRCV VB100, 1\nMEND\n"), "226");
+  EXPECT_EQ(first_for("LD SM0.0\nMOVB VW10, VB0\nMEND\n"), "214") << "the same mistake on all";
 }
 
 }  // namespace

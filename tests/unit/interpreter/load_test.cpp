@@ -28,7 +28,7 @@ TEST(ReadSource, OtherFilesAreRefusedWithoutQuotingThem) {
         "[server]\npassword = secret\n", "TOKEN=ghp_0123456789\n", "ghp_0123456789\n", "#!/bin/sh\nset -e\nexit 0\n",
         "<!DOCTYPE html>\n<html>404</html>\n", "time_ms,address,value\n2.000000,Q0.3,1\n", "A word\n", "port 22\n",
         "SELECT name FROM users\n"})
-    EXPECT_EQ(refusal(text), "it is not an STL program: there is no instruction in its first lines") << text;
+    EXPECT_EQ(refusal(text), "it is not an STL program: there is no instruction in its first lines; a symbol table has rows such as Motor = Q0.0") << text;
 }
 
 TEST(ReadSource, OnlyTheStartOfAFileDecides) {

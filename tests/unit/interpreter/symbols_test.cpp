@@ -47,7 +47,7 @@ TEST(SymbolTable, IsReadFromTabsAndCommasWithAndWithoutHeadings) {
   EXPECT_EQ(symbols("Symbol\tAddress\tComment\nPump\tQ0.0\tcontactor\nLevel low\tI0.1\t\n"),
             (Lines{"Pump=Q0.0 contactor", "Level low=I0.1"}));
   EXPECT_EQ(symbols("Pump\tQ0.0\nSpeed\tVW100\tin rpm\n"), (Lines{"Pump=Q0.0", "Speed=VW100 in rpm"}));
-  EXPECT_EQ(symbols("Name,Comment,Address\nPump,\"big, blue\",Q0.0\n"), Lines{"Pump=Q0.0"});
+  EXPECT_EQ(symbols("Name,Comment,Address\nPump,\"big, blue\",Q0.0\n"), Lines{"Pump=Q0.0 big, blue"});
   EXPECT_EQ(symbols("\"Pump \"\"1\"\"\",Q0.0,\"a, b\"\n"), Lines{"Pump \"1\"=Q0.0 a, b"});
   EXPECT_EQ(symbols("符号\t地址\t注释\n泵\tQ0.0\t\n"), Lines{"泵=Q0.0"});
 }
@@ -101,7 +101,7 @@ TEST(SymbolTable, IsOneWhenItsHeadingsSaySoWhateverItsCellsHold) {
 
 TEST(SymbolTable, HasTypesBetweenNameAndAddressOrAfterThem) {
   EXPECT_EQ(symbols("Button\tBOOL\tI0.0\tgreen\nSpeed\tINT\tVW10\t\n"), (Lines{"Button=I0.0 green", "Speed=VW10"}));
-  EXPECT_EQ(symbols("Button\tI0.0\tBOOL\tgreen\n"), Lines{"Button=I0.0 BOOL green"});
+  EXPECT_EQ(symbols("Button\tI0.0\tBOOL\tgreen\n"), Lines{"Button=I0.0 green"});
   EXPECT_EQ(symbols("Real\tVD4\nBit\tV0.0\n"), (Lines{"Real=VD4", "Bit=V0.0"}));
 }
 
@@ -109,7 +109,7 @@ TEST(SymbolTable, ReadsAddressesWithAPercentSignOrAGap) {
   EXPECT_EQ(symbols("Button\t%I0.0\nLamp\t%QX0.1\nSpeed\t%VW10\nLevel\t%AIW4\n"),
             (Lines{"Button=I0.0", "Lamp=Q0.1", "Speed=VW10", "Level=AIW4"}));
   EXPECT_EQ(symbols("\"Button\",\"I      0.0\",\"BOOL\",\"green\"\n\"Count\",\"C 5\",\"\",\"\"\n"),
-            (Lines{"Button=I0.0 BOOL green", "Count=C5"}));
+            (Lines{"Button=I0.0 green", "Count=C5"}));
 }
 
 TEST(SymbolTable, HeadingsMayBeInAnyLanguageOfMicroWinWithAndWithoutAccents) {
@@ -119,8 +119,37 @@ TEST(SymbolTable, HeadingsMayBeInAnyLanguageOfMicroWinWithAndWithoutAccents) {
         "Symbol\tAdresse\tKommentar", "符号\t地址\t注释", "Name:\tOperand:\tremark", "Nome\tEndereço\tComentário"}) {
     const std::string table = headings + "\nButton\tI0.0\tREAL\n";
     EXPECT_TRUE(is_symbol_table(table, is_mnemonic)) << headings;
-    EXPECT_EQ(symbols(table), Lines{"Button=I0.0 REAL"}) << headings;
+    const bool type = headings.find("Type") != std::string::npos;
+    EXPECT_EQ(symbols(table), Lines{type ? "Button=I0.0" : "Button=I0.0 REAL"}) << headings;
   }
+}
+
+TEST(SymbolTable, OnlyTheColumnOfCommentsIsOne) {
+  EXPECT_EQ(symbols("Symbol\tAddress\tData type\tComment\nButton\tI0.0\tBOOL\tgreen\nLamp\tQ0.0\tBOOL\t\n"),
+            (Lines{"Button=I0.0 green", "Lamp=Q0.0"}));
+  EXPECT_EQ(symbols("Rank;Symbol;Address;Comment;Retentive;Data type\n1;Button;I0.0;green;no;BOOL\n"), Lines{"Button=I0.0 green"});
+  EXPECT_EQ(symbols("Name,Address,Retain\nButton,I0.0,True\n"), Lines{"Button=I0.0"}) << "no heading for comments";
+  EXPECT_EQ(symbols("Name,Address\nButton,I0.0,green\n"), Lines{"Button=I0.0 green"}) << "a column without heading";
+  EXPECT_EQ(symbols("Symbol,Address,Comment\nButton,I0.0,green, not red\n"), Lines{"Button=I0.0 green not red"});
+  EXPECT_EQ(symbols("Symbol  Address  Type  Retain  Comment\nButton  I0.0  BOOL  no  big and green\n"),
+            Lines{"Button=I0.0 big and green"});
+}
+
+TEST(SymbolTable, MayBeAssignments) {
+  for (const std::string table : {"Motor = Q0.0\nStart=I0.1 // green\n", "Motor: Q0.0\nStart: I0.1  // green\n",
+                                  "Motor=Q 0.0;\nStart=%I0.1; green\n", "Motor -> Q0.0\nStart -> I0.1 green\n",
+                                  "Motor AT Q0.0\nStart AT %I0.1 green\n"}) {
+    EXPECT_EQ(file(table, "t").kind, SourceKind::SymbolTable) << table;
+    EXPECT_EQ(symbols(table), (Lines{"Motor=Q0.0", "Start=I0.1 green"})) << table;
+  }
+  EXPECT_EQ(file("MOTOR = Q0.0\n", "t").kind, SourceKind::SymbolTable);
+  EXPECT_EQ(symbols("Motor;Q0.0\nStart;I0.1\n"), (Lines{"Motor=Q0.0", "Start=I0.1"}));
+}
+
+TEST(SymbolTable, SettingsOfAnyKindAreNone) {
+  EXPECT_FALSE(is_symbol_table("port: 502\nretries: 3\n", is_mnemonic));
+  EXPECT_FALSE(is_symbol_table("LD Motor\n= Q0.0\n", is_mnemonic));
+  EXPECT_FALSE(is_symbol_table("LDW= VW0, 5\n= Q0.0\n", is_mnemonic));
 }
 
 TEST(SymbolTable, MayHaveOnlyBlanksOrBarsBetweenItsColumns) {
@@ -234,6 +263,31 @@ TEST(SystemSymbols, ThatOnlyTheSmartHasAreNamed) {
             Lines{"p.awl:1:4: error: RTC_Lost is a symbol of the S7-200 SMART; the S7-200 has nothing for it"});
 }
 
+TEST(SystemSymbols, ThatOnlyTheSmartHasAreSaidOnce) {
+  const auto notes = [](const std::string& program, const std::string& table) {
+    std::vector<SourceText> files{file(program, "p.awl")};
+    if (!table.empty()) files.push_back(file(table, "t.txt"));
+    return join_files(std::move(files)).parsed.notes;
+  };
+  const Lines said{"p.awl: CPU_Input0 is a symbol of the S7-200 SMART; a program for the SMART runs here as CPU 226 as far as it "
+                   "goes"};
+  EXPECT_EQ(notes("LD CPU_Input0\n= CPU_Output0\nLD Always_On\n= Q0.1\n", ""), said);
+  EXPECT_EQ(notes("LD \"CPU_Input0\"\n= Q0.0\n", ""), said);
+  EXPECT_EQ(notes("LD CPU_Input0\n= Q0.0\n", "CPU_Input0\tI0.0\n"), Lines{}) << "the user's own";
+  EXPECT_EQ(notes("LD Always_On\n= Q0.0\n", ""), Lines{}) << "both have it";
+}
+
+TEST(Symbols, OneThatIsMisspeltIsNamed) {
+  EXPECT_EQ(said("LD Strat\n= Motor1\nMEND\n", "Start\tI0.0\nMotor\tQ0.0\n"),
+            (Lines{"p.awl:1:4: error: 'Strat' is neither an address nor a defined symbol; did you mean Start?",
+                   "p.awl:2:3: error: 'Motor1' is neither an address nor a defined symbol; did you mean Motor?"}));
+  EXPECT_EQ(said("LD AlwaysOn\n= Q0.0\nMEND\n", ""),
+            Lines{"p.awl:1:4: error: 'AlwaysOn' is neither an address nor a defined symbol; did you mean Always_On?"});
+  EXPECT_EQ(said("LD Button\n= Q0.0\nMEND\n", "Motor\tQ0.0\n"),
+            Lines{"p.awl:1:4: error: 'Button' is neither an address nor a defined symbol; give its symbol table too, s7200 check "
+                  "PROGRAM SYMBOLS, or write the address itself"});
+}
+
 TEST(Symbols, StandForAddressesConstantsAndPointers) {
   EXPECT_EQ(said("LD Start\nMOVW Limit, Speed\nMOVD &Table, Next\nMOVB *Next, \"First one\"\nMEND\n",
                  "Start\tI0.0\nLimit\t100\nSpeed\tVW10\nTable\tVB100\nNext\tVD20\nFirst one\tVB30\n"),
@@ -244,8 +298,7 @@ TEST(Symbols, OneWrittenInOtherCapitalsIsFoundIfItIsTheOnlyOne) {
   EXPECT_EQ(said("LD START\n= Q0.0\nMEND\n", "Start\tI0.0\n"), Lines{});
   EXPECT_EQ(
       said("LD start\nLD Start\nLD START\nALD\nALD\n= Q0.0\nMEND\n", "Start\tI0.0\nSTART\tI0.1\n"),
-      Lines{"p.awl:1:4: error: 'start' is neither an address nor a defined symbol; give its symbol table too, s7200 check "
-            "PROGRAM SYMBOLS, or write the address itself"});
+      Lines{"p.awl:1:4: error: 'start' is neither an address nor a defined symbol; did you mean Start?"});
 }
 
 TEST(Symbols, DefinedTwiceAreReportedAtTheSecondPlace) {

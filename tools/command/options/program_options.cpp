@@ -15,6 +15,7 @@
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/measuring/band.hpp"
+#include "tools/recordings/recording.hpp"
 #include "tools/rig/program_cpu.hpp"
 #include "tools/rig/system_reader.hpp"
 
@@ -94,7 +95,7 @@ void CpuOptions::add_to(CLI::App& app) {
                  "memory that survives power off: VB0:100,MB0:14,T0:32,C0:5, or none [as the CPU is delivered]")
       ->type_name("RANGES");
   add_repair_option(app, repairs);
-  add_no_stand_ins_option(app);
+  add_no_stand_ins_option(app, no_stand_ins);
   add_no_skip_option(app, every_scan);
 }
 
@@ -188,7 +189,7 @@ std::shared_ptr<const Program> ProgramOptions::load(SourceText text, const CpuMo
   if (!result.program) print_error(fmt::format("{} has errors; nothing was run", result.source.name));
   exit_code = result.program ? kFine : kCheckFailed;
   auto program = std::move(result.program);
-  if (program && !accept_stand_ins(*program)) {
+  if (program && !accept_stand_ins(*program, no_stand_ins)) {
     exit_code = kCheckFailed;
     return nullptr;
   }
@@ -206,6 +207,25 @@ std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>&
   return errors.empty() ? std::optional(loaded) : std::nullopt;
 }
 
+namespace {
+
+bool has_statements(const SourceText& text) {
+  return std::ranges::any_of(text.parsed.source.lines,
+                             [](const stl::Line& line) { return std::holds_alternative<stl::Statement>(line); });
+}
+
+/// What `s7200 decode` reads a file as that has no statements; empty if it reads no frame in it. Any text with a few numbers may
+/// be a log, a table only if it has columns of one.
+std::string form_of_recording(std::string_view bytes, const std::optional<SourceText>& text) {
+  constexpr std::string_view kPlainLog = "text";
+  std::string why;
+  const auto recording = read_recording(bytes, {}, why);
+  const bool table = text && text->kind != SourceKind::Listing && text->kind != SourceKind::Document;
+  return recording && !recording->frames.empty() && !(table && recording->form == kPlainLog) ? recording->form : std::string();
+}
+
+}  // namespace
+
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document) {
   if (is_system_file(path)) {
     print_error(fmt::format(
@@ -217,6 +237,11 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
   const auto bytes = read_input(path, name);
   if (!bytes) return {};
   auto text = read_source(*bytes, name, why, force_document);
+  const bool program = text && (text->kind == SourceKind::Blocks || has_statements(*text));
+  if (const std::string form = program ? std::string() : form_of_recording(*bytes, text); !form.empty()) {
+    print_error(fmt::format("cannot read {0}: it is a recording of a line ({1}), not a program: s7200 decode {0}", name, form));
+    return {};
+  }
   if (!text) print_error(fmt::format("cannot read {}: {}", name, why));
   return text;
 }

@@ -40,7 +40,8 @@ struct CpuOptions {
   std::string retain;       ///< as parse_retentive() takes it; the same
   std::string ppi_station;  ///< as parse_ppi_stations() takes it; the same
   Repairs repairs;
-  bool every_scan = false;  ///< scans that are all alike are run, too
+  bool every_scan = false;    ///< scans that are all alike are run, too
+  bool no_stand_ins = false;  ///< a program that needs a stand-in for a library is refused
 
   void add_to(CLI::App& app);
 

@@ -10,25 +10,12 @@
 
 namespace s7200::tools {
 
-namespace {
-
-bool& refused() {
-  static bool refused = false;
-  return refused;
+void add_no_stand_ins_option(CLI::App& app, bool& refused) {
+  app.add_flag(kNoStandIns, refused,
+               "refuse a program that calls MBUS_INIT, MBUS_MSG … and does not have them, instead of using stand-ins");
 }
-
-}  // namespace
-
-void add_no_stand_ins_option(CLI::App& app) {
-  app.add_flag_callback(
-      kNoStandIns, [] { refused() = true; },
-      "refuse a program that calls MBUS_INIT, MBUS_MSG … and does not have them, instead of using stand-ins");
-}
-
-bool stand_ins_refused() { return refused(); }
 
 void refuse_stand_ins(CheckResult& result) {
-  if (!stand_ins_refused()) return;
   for (const StandIn& stand_in : stand_ins_of(result.source)) {
     result.diagnostics.push_back(refusal(stand_in));
     result.program.reset();
@@ -36,10 +23,10 @@ void refuse_stand_ins(CheckResult& result) {
   stl::sort(result.diagnostics);
 }
 
-bool accept_stand_ins(const Program& program) {
+bool accept_stand_ins(const Program& program, bool refused) {
   stl::Diagnostics errors;
   for (const StandIn& stand_in : stand_ins_of(program.source)) {
-    if (stand_ins_refused())
+    if (refused)
       errors.push_back(refusal(stand_in));
     else
       print_note(fmt::format("{}: {}", program.source.name, to_text(stand_in)));

@@ -11,14 +11,13 @@ namespace s7200::tools {
 
 inline constexpr const char* kNoStandIns = "--no-stand-ins";
 
-/// --no-stand-ins is a setting of the whole command, as its colours are: it holds for every program that is loaded.
-void add_no_stand_ins_option(CLI::App& app);
-bool stand_ins_refused();
+/// --no-stand-ins.
+void add_no_stand_ins_option(CLI::App& app, bool& refused);
 
-/// Makes errors of the stand-ins of a program if none are wanted.
+/// Makes errors of the stand-ins of a program.
 void refuse_stand_ins(CheckResult& result);
 
-/// Says in a note which stand-ins a program has. False after errors if none are wanted.
-bool accept_stand_ins(const Program& program);
+/// Says in a note which stand-ins a program has; if they are `refused`, in errors. False after errors.
+bool accept_stand_ins(const Program& program, bool refused);
 
 }  // namespace s7200::tools

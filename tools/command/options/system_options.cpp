@@ -21,11 +21,11 @@ namespace s7200::tools {
 namespace {
 
 /// Those of each program once: copies of a PLC have the same.
-bool accept_stand_ins_of(const SystemPlan& plan) {
+bool accept_stand_ins_of(const SystemPlan& plan, bool refused) {
   std::set<const Program*> seen;
   bool accepted = true;
   for (const PlcPlan& plc : plan.plcs)
-    if (seen.insert(plc.program.get()).second) accepted &= accept_stand_ins(*plc.program);
+    if (seen.insert(plc.program.get()).second) accepted &= accept_stand_ins(*plc.program, refused);
   return accepted;
 }
 
@@ -41,7 +41,7 @@ std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_c
   for (const SystemFile::Text& program : file.programs) print_diagnostics(program.diagnostics, *program.source);
   print_diagnostics(file.file.diagnostics, *file.file.source);
   exit_code = file.ok() ? kFine : file.programs.empty() ? kUnusable : kCheckFailed;
-  if (file.ok() && !accept_stand_ins_of(file.plan)) {
+  if (file.ok() && !accept_stand_ins_of(file.plan, options.no_stand_ins)) {
     exit_code = kCheckFailed;
     return {};
   }

@@ -60,7 +60,7 @@ void TestOptions::add_to(CLI::App& app) {
   band.add_tables_to(app);
   add_whole_number(app, "--jobs", jobs, {1, 64}, "scenarios, or tables of --times-band, at a time",
                    "1; with --times-band every core");
-  add_no_stand_ins_option(app);
+  add_no_stand_ins_option(app, suite.no_stand_ins);
   add_no_skip_option(app, suite.every_scan);
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE");
   app.add_flag("--json", json, "print the results as JSON");
