@@ -81,7 +81,9 @@ const std::vector<InterruptEvent>& all_events() {
 std::string needs(std::string_view what, CpuSet cpus) {
   std::string text(what);
   text.append(" ").append(to_text(cpus));
-  const CpuModel* usual = cpus & kCpu224 ? &cpu224() : smallest_cpu([&](const CpuModel& m) { return (m.self & cpus) != 0; });
+  const CpuModel* usual = cpus & kCpu224   ? &cpu224()
+                          : cpus & kCpu226 ? &cpu226()
+                                           : smallest_cpu([&](const CpuModel& m) { return (m.self & cpus) != 0; });
   if (usual && (cpus & kCpu21x) == 0) text.append("; choose one, such as CPU ").append(usual->name);
   return text;
 }

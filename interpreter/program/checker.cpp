@@ -108,7 +108,7 @@ class Checker {
     }
   }
 
-  /// The symbol that is written almost like a name; empty if there is none.
+  /// The symbol that is written almost like a name, or that begins with it; empty if there is none.
   std::string nearest_symbol(std::string_view written) const {
     constexpr std::string_view kMarks = "&*#\"";
     constexpr std::size_t kShort = 6;  // two changes make another word of it
@@ -120,9 +120,10 @@ class Checker {
     std::vector<std::string> capitals;
     std::ranges::transform(names, std::back_inserter(capitals), stl::upper_case);
     const std::vector<std::string_view> known(capitals.begin(), capitals.end());
-    const auto found = all_nearest(name, known, name.size() < kShort ? 1 : 2);
-    if (found.empty()) return {};
-    return names[static_cast<std::size_t>(std::ranges::find(known, found.front()) - known.begin())];
+    const auto near = all_nearest(name, known, name.size() < kShort ? 1 : 2);
+    const auto longer = [&](std::string_view each) { return name.size() >= kShort && each.starts_with(name); };
+    const auto found = near.empty() ? std::ranges::find_if(known, longer) : std::ranges::find(known, near.front());
+    return found == known.end() ? std::string() : names[static_cast<std::size_t>(found - known.begin())];
   }
 
   void no_statement() {
@@ -225,6 +226,9 @@ class Checker {
 
   void unknown_instruction(const stl::Statement& statement, const std::string& cause) {
     const std::string shown = stl::shortened(statement.mnemonic);
+    if (is_library_routine(statement.mnemonic))
+      return error(statement.position, fmt::format("{} is a routine of a library, not an instruction", shown),
+                   fmt::format("write CALL {} and its parameters", shown), cause);
     const auto [what, hint] = unknown_mnemonic(statement.mnemonic);
     if (what.empty()) return error(statement.position, fmt::format("unknown instruction '{}'", shown), hint, cause);
     // What is said of one mnemonic of another family with the same words is said once.

@@ -490,6 +490,13 @@ bool has_stand_in(const stl::Statement& call) {
   return !routine.empty() && is_routine_of_any(routine);
 }
 
+bool is_library_routine(std::string_view name) {
+  const std::string routine = stl::upper_case(name);
+  return is_routine_of_any(routine) || std::ranges::any_of(kOtherLibraries, [&](const OtherLibrary& library) {
+           return routine.starts_with(library.prefix);
+         });
+}
+
 bool may_need_stand_ins(const stl::ParseResult& program) {
   return std::ranges::any_of(program.source.lines, [](const stl::Line& line) {
     const auto* statement = std::get_if<stl::Statement>(&line);

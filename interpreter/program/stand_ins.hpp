@@ -56,6 +56,9 @@ bool may_need_stand_ins(const stl::ParseResult& program);
 /// Whether a CALL is of such a routine.
 bool has_stand_in(const stl::Statement& call);
 
+/// Whether a name is that of a routine of one of Siemens' libraries for Micro/WIN, with or without a stand-in: `USS_INIT`.
+bool is_library_routine(std::string_view name);
+
 /// What to tell about a CALL of a name that stands for no routine of the program.
 struct MissingRoutine {
   std::string message, hint, cause;

@@ -77,12 +77,19 @@ void name_drawings(ParseResult& read, const InstructionSet& instructions) {
     if (line < 1 || line > text.size()) return false;
     return is_drawn(line) || ((is_drawn(line - 1) || is_drawn(line + 1)) && is_row_of_operands(text[line - 1], instructions));
   };
-  for (Diagnostic& d : read.diagnostics) {
-    if (!is_error(d) || !is_part(d.position.line)) continue;
-    const auto length = static_cast<std::uint32_t>(count_characters(trim(code_of(text[d.position.line - 1]))));
-    d = {Severity::Error, {d.position.line, 1, std::max(1U, length)}, std::string(kIsDrawing), std::string(kForDrawing),
-         "ladder drawing"};
+  const auto message = [&](std::size_t line) {
+    const auto length = static_cast<std::uint32_t>(count_characters(trim(code_of(text[line - 1]))));
+    return Diagnostic{Severity::Error, {static_cast<std::uint32_t>(line), 1, std::max(1U, length)}, std::string(kIsDrawing),
+                      std::string(kForDrawing), "ladder drawing"};
+  };
+  const auto is_statement = [](const Line& line) { return std::holds_alternative<Statement>(line); };
+  const auto first = std::ranges::find_if(text, has_drawing);
+  if (first != text.end() && std::ranges::none_of(read.source.lines, is_statement)) {
+    read.diagnostics = {message(static_cast<std::size_t>(first - text.begin()) + 1)};
+    return;
   }
+  for (Diagnostic& d : read.diagnostics)
+    if (is_error(d) && is_part(d.position.line)) d = message(d.position.line);
   std::erase_if(read.source.lines, [&](const Line& line) {
     const auto* statement = std::get_if<Statement>(&line);
     return statement && !instructions.has(statement->mnemonic, statement->operands.size()) &&

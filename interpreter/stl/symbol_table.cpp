@@ -444,7 +444,8 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
     const Cells cells = cells_of(line, separator);
     headed |= rows + statements + other == 0 && headings(cells);
     const auto columns = headed || filled(cells) < 2 ? std::nullopt : columns_of(cells);
-    if (is_statement(columns ? cells[columns->name].text : split_words(line).front()))
+    const bool whole_name = columns && !is_assignment(separator);  // in `LD I0.0 = Q0.0` there is none
+    if (is_statement(whole_name ? cells[columns->name].text : split_words(line).front()))
       ++statements;
     else if (headed ? filled(cells) > 1 : columns && may_be_symbol(cells[columns->name]))
       ++rows;

@@ -39,6 +39,8 @@ TEST(Drawings, StatementsTablesAndRulesAreNone) {
 
 TEST(Drawings, HaveOneMessageWhereverTheyStand) {
   EXPECT_EQ(causes_of("   I0.0    I0.1    Q0.0\n--] [-----]/[-----( )--\n"), kOneMessage);
+  EXPECT_EQ(causes_of("Netzwerk 1: Motor ein\n\n   E0.0     E0.1      A0.0\n----| |------|/|------( )----\n   A0.0 |\n----| |--\n"),
+            kOneMessage);
   EXPECT_EQ(causes_of("Network 1\n|   I0.0      I0.1      Q0.0  |\n|---| |-------|/|-------( )---|\n"), kOneMessage);
   EXPECT_EQ(causes_of("NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\n--| |--|/|--( )--\n   I0.1 I0.2  Q0.1\nNETWORK 3\nLD I0.3\n= Q0.3\n"),
             kOneMessage);

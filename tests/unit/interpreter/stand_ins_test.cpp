@@ -209,6 +209,14 @@ TEST(StandIns, LibrariesThatHaveNoneAreNamedOnce) {
   }
 }
 
+TEST(StandIns, RoutinesOfLibrariesAreCalled) {
+  for (const std::string routine : {"MBUS_INIT", "MBUS_MSG_P1", "USS_INIT", "S_ITR"}) {
+    const CheckResult result = check_with(listing("NETWORK 1\nLD SM0.1\n" + routine + " 1, 5\n"), {});
+    EXPECT_EQ(errors(result), Lines{routine + " is a routine of a library, not an instruction"});
+    EXPECT_EQ(result.diagnostics.front().hint, "write CALL " + routine + " and its parameters");
+  }
+}
+
 TEST(StandIns, OtherRoutinesThatAreMissingAreNamedOnceEach) {
   const std::string calls = "NETWORK 1\nLD SM0.1\nCALL Blend, 1\nCALL Blend, 2\nCALL Mix, 2\n";
   for (const std::string& text : {exported(calls), listing(calls)}) {

@@ -149,6 +149,7 @@ TEST(SymbolTable, MayBeAssignments) {
 TEST(SymbolTable, SettingsOfAnyKindAreNone) {
   EXPECT_FALSE(is_symbol_table("port: 502\nretries: 3\n", is_mnemonic));
   EXPECT_FALSE(is_symbol_table("LD Motor\n= Q0.0\n", is_mnemonic));
+  EXPECT_FALSE(is_symbol_table("LD I0.0 = Q0.0\nLD I0.1 = Q0.1\n", is_mnemonic)) << "two statements in a line";
   EXPECT_FALSE(is_symbol_table("LDW= VW0, 5\n= Q0.0\n", is_mnemonic));
 }
 
@@ -283,6 +284,8 @@ TEST(Symbols, OneThatIsMisspeltIsNamed) {
                    "p.awl:2:3: error: 'Motor1' is neither an address nor a defined symbol; did you mean Motor?"}));
   EXPECT_EQ(said("LD AlwaysOn\n= Q0.0\nMEND\n", ""),
             Lines{"p.awl:1:4: error: 'AlwaysOn' is neither an address nor a defined symbol; did you mean Always_On?"});
+  EXPECT_EQ(said("LD First_Scan\n= Q0.0\nMEND\n", ""),
+            Lines{"p.awl:1:4: error: 'First_Scan' is neither an address nor a defined symbol; did you mean First_Scan_On?"});
   EXPECT_EQ(said("LD Button\n= Q0.0\nMEND\n", "Motor\tQ0.0\n"),
             Lines{"p.awl:1:4: error: 'Button' is neither an address nor a defined symbol; give its symbol table too, s7200 check "
                   "PROGRAM SYMBOLS, or write the address itself"});
