@@ -63,6 +63,9 @@ constexpr std::array<std::string_view, 14> kFormats{"SIGNED", "UNSIGNED", "HEXAD
 /// Of symbols, beside BOOL, REAL and STRING.
 constexpr std::array<std::string_view, 5> kTypes{"BYTE", "WORD", "INT", "DWORD", "DINT"};
 
+/// Whether a symbol is retentive, beside its type.
+constexpr std::array<std::string_view, 8> kFlags{"TRUE", "FALSE", "YES", "NO", "JA", "NEIN", "RETAIN", "NON-RETAIN"};
+
 bool is_format(std::string_view text) { return std::ranges::find(kFormats, upper_case(text)) != kFormats.end(); }
 bool is_type(std::string_view text) {
   return is_format(text) || std::ranges::find(kTypes, upper_case(text)) != kTypes.end();
@@ -396,14 +399,17 @@ class SymbolTableReader {
     result_.source.symbols.push_back({name.text, std::move(value), position(name, line), comment_of(cells, columns)});
   }
 
-  /// Where no heading names its column, it begins after a type.
+  /// Where no heading names its column, it begins after a type, and what follows that.
   static std::string comment_of(const Cells& cells, const Columns& columns) {
     std::string comment;
     const std::size_t end = std::min(cells.size(), columns.after_comment);
     std::size_t from = columns.comment;
-    while (!columns.has_comment && from < end && is_type(cells[from].text)) ++from;
+    if (!columns.has_comment && from < end && is_type(cells[from].text)) {
+      ++from;
+      while (from < end && std::ranges::find(kFlags, upper_case(cells[from].text)) != kFlags.end()) ++from;
+    }
     for (std::size_t i = from; i < end; ++i) comment += (comment.empty() ? "" : " ") + cells[i].text;
-    return std::string(trim(comment));
+    return std::string(trim(comment.starts_with("//") ? std::string_view(comment).substr(2) : comment));
   }
 
   /// Micro/WIN lets a name have no address as long as nothing uses it.

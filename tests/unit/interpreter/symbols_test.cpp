@@ -133,6 +133,8 @@ TEST(SymbolTable, OnlyTheColumnOfCommentsIsOne) {
   EXPECT_EQ(symbols("Symbol,Address,Comment\nButton,I0.0,green, not red\n"), Lines{"Button=I0.0 green not red"});
   EXPECT_EQ(symbols("Symbol  Address  Type  Retain  Comment\nButton  I0.0  BOOL  no  big and green\n"),
             Lines{"Button=I0.0 big and green"});
+  EXPECT_EQ(symbols("Button\tI0.0\tBOOL\tTrue\tgreen\n"), Lines{"Button=I0.0 green"}) << "no headings at all";
+  EXPECT_EQ(symbols("Button   I0.0   // green\nLamp   Q0.0   // on\n"), (Lines{"Button=I0.0 green", "Lamp=Q0.0 on"}));
 }
 
 TEST(SymbolTable, MayBeAssignments) {
