@@ -2627,7 +2627,9 @@ class Files(Case):
 
     def test_why_names_the_file_of_a_line_of_a_stand_in(self):
         said = self.ends(FAILED, "send", self.LIBRARY / "slave.awl", "--cpu", "224", "010300000001").stdout
-        self.assertRegex(said, r"the contacts from stand-in:modbus_slave\.awl:\d+ on")
+        (place,) = re.findall(r"the contacts from (stand-in:modbus_slave\.awl:\d+) on", said)
+        stopped = self.ends(FINE, "debug", self.LIBRARY / "slave.awl", "--cpu", "224", "-x", f"break {place}").stdout
+        self.assertRegex(stopped, r"breakpoint 1 in SBR 61 line \d+: LDW<> ")
 
     def test_scenarios_say_which_stand_ins_they_had(self):
         steps = "steps: [{read: holding 0, expect: accepted}]\n"

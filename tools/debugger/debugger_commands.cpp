@@ -161,8 +161,8 @@ more than a week of simulated time, which is run again.)",
        "A new branch: back takes it back.", &Debugger::restart},
       {"break", "b", "break [PLACE | WHAT | CONDITION] [always] [if CONDITION] [hits N] [log 'TEXT']",
        "stop at a place, when something happens, or when a condition comes to hold; alone: list",
-       R"(PLACE: LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that has
-one; boxes and coils stop only with power flow, or 'always'.
+       R"(PLACE: LINE, FILE:LINE, SBR n, INT n, LBL n or NETWORK n. A line without an instruction stands for the next one that
+has one; boxes and coils stop only with power flow, or 'always'.
 WHAT: event N [occurs | served], received or sent (a frame), xmt, rcv (its end), error [CODE], overflow (of a
 queue), lost (a character), mode, unanswered (a request on a line of this PLC), wrong (an answer to one, which it
 cannot take: wrong parity or CRC, cut short, of another station or function; an exception is an answer). 'send' and

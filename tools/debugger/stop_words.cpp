@@ -55,9 +55,20 @@ struct Mark {
 };
 constexpr Mark kMarks[] = {{"SBR", Structure::SubroutineHead}, {"INT", Structure::InterruptHead}, {"LBL", Structure::Label}};
 
-std::optional<NamedPlace> place_of_line(const std::string& text, const Listing& listing, std::string_view command,
-                                        std::string& why) {
-  const auto line = parse_decimal<std::uint32_t>(text);
+/// `12`, or in capitals `STAND-IN:MODBUS_SLAVE.AWL:12`, a line of one of the program's files, as a line of all of them.
+std::optional<std::uint32_t> line_named(std::string_view text, const stl::SourceLines& source) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return parse_decimal<std::uint32_t>(text);
+  const auto line = parse_decimal<std::uint32_t>(text.substr(colon + 1));
+  const auto is_named = [file = text.substr(0, colon)](const std::string& name) { return stl::upper_case(name) == file; };
+  if (!line || is_named(source.name)) return line;
+  const auto further = std::ranges::find_if(source.further_files, is_named, &stl::FurtherFile::name);
+  return further == source.further_files.end() ? std::nullopt : std::optional(further->first_line + *line - 1);
+}
+
+std::optional<NamedPlace> place_of_line(const std::string& text, const Program& program, const Listing& listing,
+                                        std::string_view command, std::string& why) {
+  const auto line = line_named(text, program.source);
   if (!line) {
     why = expects(command, kPlaces);
     return {};
@@ -198,8 +209,9 @@ std::optional<NamedPlace> find_place(const std::vector<std::string>& words, cons
                                      std::string_view command, std::string& why) {
   const std::string text = stl::upper_case(joined(words));
   if (text.starts_with("NETWORK")) return place_of_network(text, listing, command, why);
+  const bool in_file = text.find(':') != std::string::npos;
   const auto kind = std::ranges::find(kMarks, std::string_view(text).substr(0, 3), &Mark::word);
-  if (kind == std::end(kMarks)) return place_of_line(text, listing, command, why);
+  if (in_file || kind == std::end(kMarks)) return place_of_line(text, program, listing, command, why);
   const auto number = parse_decimal<std::uint32_t>(words.size() == 1 ? std::string_view(text).substr(3) : words[1]);
   if (!number || words.size() > 2) {
     why = expects(command, kPlaces);
