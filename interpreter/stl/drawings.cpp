@@ -29,10 +29,10 @@ bool is_in_coil(std::string_view text) {
 bool has_element(std::string_view code, std::string_view opening, std::string_view closing, bool (*is_mark)(std::string_view)) {
   constexpr std::size_t kWidest = 24;
   for (std::size_t at = code.find_first_of(opening); at != std::string_view::npos; at = code.find_first_of(opening, at + 1)) {
-    const std::size_t end = code.find_first_of(closing, at + 1);
-    if (end == std::string_view::npos) return false;
-    if (end - at > kWidest) continue;
-    const std::string_view inside = code.substr(at + 1, end - at - 1);
+    const std::string_view near = code.substr(at + 1, kWidest);
+    const std::string_view inside = near.substr(0, near.find_first_of(closing));
+    const std::size_t end = at + 1 + inside.size();
+    if (inside.size() == near.size()) continue;
     if (!inside.empty() && inside.find_first_not_of('-') == std::string_view::npos) continue;
     const char before = at == 0 ? ' ' : code[at - 1], after = end + 1 < code.size() ? code[end + 1] : ' ';
     const bool wire = before == '-' || after == '-', apart = !is_letter(before) && !is_digit(before);

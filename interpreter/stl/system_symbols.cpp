@@ -161,6 +161,8 @@ std::vector<Symbol> whole_table() {
 }  // namespace
 
 bool is_only_of_smart(std::string_view name) {
+  constexpr std::size_t kLettersBefore = 3;  // CPU_, RTC_
+  if (name.size() <= kLettersBefore || name[kLettersBefore] != '_') return false;
   const std::string upper = upper_case(name);
   const auto is_point = [&](const Points& points) {
     const std::string_view rest = std::string_view(upper).substr(std::min(points.name.size(), upper.size()));

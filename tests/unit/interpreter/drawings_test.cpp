@@ -37,6 +37,12 @@ TEST(Drawings, StatementsTablesAndRulesAreNone) {
     EXPECT_FALSE(stl::has_drawing(line)) << line;
 }
 
+TEST(Drawings, AreLookedForInTimeThatFollowsTheLine) {
+  constexpr std::size_t kLong = 1'000'000;
+  EXPECT_FALSE(stl::has_drawing(std::string(kLong, '(') + ")"));
+  EXPECT_FALSE(stl::has_drawing(std::string(kLong, '[') + "x"));
+}
+
 TEST(Drawings, HaveOneMessageWhereverTheyStand) {
   EXPECT_EQ(causes_of("   I0.0    I0.1    Q0.0\n--] [-----]/[-----( )--\n"), kOneMessage);
   EXPECT_EQ(causes_of("Netzwerk 1: Motor ein\n\n   E0.0     E0.1      A0.0\n----| |------|/|------( )----\n   A0.0 |\n----| |--\n"),
