@@ -226,6 +226,8 @@ class Checker {
 
   void unknown_instruction(const stl::Statement& statement, const std::string& cause) {
     const std::string shown = stl::shortened(statement.mnemonic);
+    if (statement.mnemonic == "CPU")  // as the head of a printed program; one that is modelled is a comment
+      return error(statement.position, "this line names no CPU that is modelled", "take the line out and name one with --cpu", cause);
     if (is_library_routine(statement.mnemonic))
       return error(statement.position, fmt::format("{} is a routine of a library, not an instruction", shown),
                    fmt::format("write CALL {} and its parameters", shown), cause);

@@ -476,6 +476,12 @@ class Linker {
   bool noted_ = false;  // what the program takes
 };
 
+/// The routine of its library that a program calls before the others.
+std::string initial_routine(const StandIn& stand_in) {
+  const auto* const library = std::ranges::find(kLibraries, stand_in.file, name_of);
+  return fmt::format("{}{}", library->routines.front(), library->suffix);
+}
+
 std::string in_no_export(const StandIn& stand_in) {
   return fmt::format("{} {} in no export", fmt::join(stand_in.routines, " and "),
                      stand_in.routines.size() == 1 ? "is" : "are");
@@ -555,8 +561,11 @@ std::vector<StandIn> stand_ins_of(const stl::Source& program) {
 
 std::string to_text(const StandIn& stand_in) {
   const std::string_view name = std::string_view(stand_in.file).substr(stand_in.file.find(':') + 1);
-  return fmt::format("{}: our stand-in {} is used, with times of our own; its variables are VB{} to VB{}",
-                     in_no_export(stand_in), name, stand_in.memory, stand_in.memory + stand_in.bytes - 1);
+  const std::string initial = initial_routine(stand_in);
+  const bool initialised = std::ranges::find(stand_in.routines, initial) != stand_in.routines.end();
+  return fmt::format("{}: our stand-in {} is used, with times of our own; its variables are VB{} to VB{}{}",
+                     in_no_export(stand_in), name, stand_in.memory, stand_in.memory + stand_in.bytes - 1,
+                     initialised ? "" : fmt::format("; nothing calls its {}, which switches it on", initial));
 }
 
 stl::Diagnostic refusal(const StandIn& stand_in) {

@@ -50,6 +50,12 @@ TEST(CpuInHead, MayStandAboveAListingWithoutSlashes) {
   EXPECT_TRUE(read_twice.diagnostics.empty()) << read_twice.diagnostics.front().message;
 }
 
+TEST(CpuInHead, ThatIsNotModelledIsNamed) {
+  const auto result = check(read("CPU 312\nLD I0.0\n= Q0.0\n"), cpu224(), default_times(cpu224()));
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_EQ(result.diagnostics.front().message, "this line names no CPU that is modelled");
+}
+
 TEST(CpuInHead, IsNotTakenFromAStatement) {
   EXPECT_EQ(cpu_in_head(read("A CPU224\n= Q0.0\n").source), nullptr) << "a symbol";
   EXPECT_EQ(cpu_in_head(read("LD I0.0\nCPU 224\n= Q0.0\n").source), nullptr) << "not the first line";

@@ -52,6 +52,14 @@ TEST(StandIns, AreInExportsAndInListingsAlike) {
   }
 }
 
+TEST(StandIns, ThatNothingSwitchesOnAreNamed) {
+  const auto note = [](const std::string& calls) { return to_text(stand_ins(listing("NETWORK 1\nLD SM0.0\n" + calls)).front()); };
+  EXPECT_TRUE(note("CALL MBUS_SLAVE, M0.2, MB2\n").ends_with("; nothing calls its MBUS_INIT, which switches it on"));
+  EXPECT_TRUE(note("CALL MBUS_MSG, SM0.5, 1, 0, 40001, 2, &VB100, M0.0, MB2\n")
+                  .ends_with("; nothing calls its MBUS_CTRL, which switches it on"));
+  EXPECT_EQ(note(kSlave).find("nothing calls"), std::string::npos);
+}
+
 TEST(StandIns, AreNotThereWithoutACall) { EXPECT_TRUE(stand_ins(exported("NETWORK 1\nLD SM0.0\n= M0.0\n")).empty()); }
 
 TEST(StandIns, FollowTheNameInAnyCapitalsAndQuotes) {
