@@ -9,9 +9,14 @@
 
 namespace s7200 {
 
+/// `character`, `characters`: the name of so many, where the number stands elsewhere or not at all.
+inline std::string noun(std::uint64_t count, std::string_view thing) {
+  return fmt::format("{}{}", thing, count == 1 ? "" : "s");
+}
+
 /// `1 character`, `2 characters`
 inline std::string counted(std::uint64_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+  return fmt::format("{} {}", count, noun(count, thing));
 }
 
 }  // namespace s7200

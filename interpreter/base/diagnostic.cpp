@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 
 namespace s7200::stl {
@@ -111,7 +112,7 @@ std::string where_else(const Diagnostic& first, const std::vector<const Diagnost
     const FileLine place = in_file(source, line);
     return &place.file == home ? std::to_string(place.line) : fmt::format("{}:{}", printable(place.file), place.line);
   };
-  std::string text = fmt::format("{} more, in line{} ", others.size(), lines.size() == 1 ? "" : "s");
+  std::string text = fmt::format("{} more, in {} ", others.size(), noun(lines.size(), "line"));
   const bool all = lines.size() <= kLinesShown;
   for (std::size_t i = 0; i < (all ? lines.size() : kLinesShown - 1); ++i) text += (i > 0 ? ", " : "") + shown(lines[i]);
   return all ? text : fmt::format("{} … {}", text, shown(lines.back()));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/counted.hpp"
+
 namespace s7200 {
 namespace {
 
@@ -12,8 +14,8 @@ std::string_view parity_text(Parity parity) {
 }  // namespace
 
 std::string format_text(const SerialFormat& format) {
-  return fmt::format("{} baud, {} data bits, {}, {} stop bit{}", format.baud, format.data_bits, parity_text(format.parity),
-                     format.stop_bits, format.stop_bits == 1 ? "" : "s");
+  return fmt::format("{} baud, {} data bits, {}, {}", format.baud, format.data_bits, parity_text(format.parity),
+                     counted(format.stop_bits, "stop bit"));
 }
 
 std::string character_text(const SerialFormat& format) {

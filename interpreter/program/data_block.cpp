@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -101,9 +102,8 @@ class DataPlacing {
       const std::int64_t number = std::get<stl::Integer>(value.value).value;
       const std::int64_t values = std::int64_t{1} << (8 * bytes_of(*width_));
       if (number < -values / 2 || number >= values)
-        return refuse(
-            fmt::format("{} does not fit in {} byte{}", number, bytes_of(*width_), bytes_of(*width_) == 1 ? "" : "s"),
-            "begin the line with VW for words, with VD for double words");
+        return refuse(fmt::format("{} does not fit in {}", number, counted(bytes_of(*width_), "byte")),
+                      "begin the line with VW for words, with VD for double words");
       bits = static_cast<std::uint32_t>(number);
     }
     std::string bytes;

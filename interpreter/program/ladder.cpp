@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/operand_memory.hpp"
@@ -373,8 +374,8 @@ class NetworkWriter {
               : "expected a name such as MOV_W, ADD_I or ATCH in the upper edge");
     if (instruction->modelled() && operands.size() != instruction->rules().size())
       return complain(element.position,
-                      fmt::format("this {} has {} operand{}, and {} takes {}", what, operands.size(),
-                                  operands.size() == 1 ? "" : "s", instruction->mnemonic, instruction->rules().size()),
+                      fmt::format("this {} has {}, and {} takes {}", what, counted(operands.size(), "operand"),
+                                  instruction->mnemonic, instruction->rules().size()),
                       fmt::format("expected {}", syntax(*instruction)));
     put(mnemonic, element.position, std::move(operands));
   }

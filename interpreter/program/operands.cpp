@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/special_memory_use.hpp"
 #include "interpreter/program/warnings.hpp"
@@ -182,8 +183,8 @@ class Placing {
       return error(fmt::format("{} is a real number, {} is an integer", of_instruction(), text()),
                    constant.form == stl::Integer::Form::Decimal ? fmt::format("write {}.0", constant.value) : "");
     if (constant.form == stl::Integer::Form::Ascii && constant.characters != width())
-      return error(fmt::format("{} has {} character{}, {} is a {}", text(), constant.characters,
-                               constant.characters == 1 ? "" : "s", of_instruction(), name_of(rule_.width)));
+      return error(fmt::format("{} has {}, {} is a {}", text(), counted(constant.characters, "character"), of_instruction(),
+                               name_of(rule_.width)));
     if (constant.value < lowest() || constant.value > highest())
       return error(fmt::format("{} does not fit in {}, a {}", text(), of_instruction(), name_of(rule_.width)),
                    fmt::format("a {} is {} to {} signed, 0 to {} unsigned", name_of(rule_.width), lowest(), -lowest() - 1,

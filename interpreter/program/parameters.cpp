@@ -7,6 +7,7 @@
 #include <array>
 #include <string>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/special_memory_use.hpp"
 #include "interpreter/stl/block_words.hpp"
@@ -105,8 +106,8 @@ std::optional<std::vector<Parameter>> place_parameters(const Instruction& call, 
   const std::string name = stl::shortened(block.name.empty() ? fmt::format("SBR{}", block.number) : block.name);
   if (given != formal.size())
     return error(given > formal.size() ? statement.operands[formal.size() + 1].position : statement.position,
-                 fmt::format("CALL of {} takes {} parameter{}, not {}", name,
-                             formal.empty() ? "no" : std::to_string(formal.size()), formal.size() == 1 ? "" : "s", given),
+                 fmt::format("CALL of {} takes {}, not {}", name,
+                             formal.empty() ? "no parameters" : counted(formal.size(), "parameter"), given),
                  formal.empty() ? "" : fmt::format("they are {}", declarations(formal)));
   if (given > kMostParameters)
     return error(statement.operands[kMostParameters + 1].position,

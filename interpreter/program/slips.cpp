@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/parser.hpp"
 
@@ -143,7 +144,7 @@ std::string to_text(const Slip& slip, const stl::Source& source) {
   std::string meant(slip.meant);
   if (const std::size_t end = meant.find('\n'); end != std::string::npos) meant.replace(end, 1, " / ");
   const std::string action = meant.empty() ? "left out" : "read as " + meant;
-  return fmt::format("{}: slip {} in line{} {}: {} is {}{}: {}", source.name, slip.id, lines.size() == 1 ? "" : "s",
+  return fmt::format("{}: slip {} in {} {}: {} is {}{}: {}", source.name, slip.id, noun(lines.size(), "line"),
                      fmt::join(lines, ", "), slip.printed,
                      slip.applied ? "" : fmt::format("kept; --repair {} has it ", slip.id), action, slip.reason);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/counted.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/request.hpp"
@@ -153,14 +154,20 @@ std::string check_data(const FunctionRow& row, Data asked, Data answer, Answer& 
   return {};
 }
 
-std::string plural(std::size_t count, std::string_view name) {
-  return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
+/// ` 16#1234 16#0000`
+std::string words_text(std::span<const std::uint16_t> values) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string text;
+  text.reserve(8 * values.size());
+  for (const std::uint16_t value : values) {
+    text += " 16#";
+    for (int shift = 12; shift >= 0; shift -= 4) text += kDigits[value >> shift & 0xF];
+  }
+  return text;
 }
 
 std::string registers_text(std::span<const std::uint16_t> values) {
-  std::string text = plural(values.size(), "register") + ":";
-  for (const std::uint16_t value : values) text += fmt::format(" 16#{:04X}", value);
-  return text;
+  return counted(values.size(), "register") + ":" + words_text(values);
 }
 
 /// From the first on, in groups of four.
@@ -189,8 +196,7 @@ std::string diagnostics_text(Data asked, const Answer& answer) {
   const DiagnosticRow* row = find_diagnostics_subfunction(subfunction);
   std::string text = row != nullptr ? std::string(row->name) : fmt::format("subfunction {}", subfunction);
   if (row != nullptr && row->answer == DiagnosticRow::Answer::Value) return fmt::format("{}: {}", text, answer.values[0]);
-  if (!answer.values.empty()) text += ":";
-  for (const std::uint16_t value : answer.values) text += fmt::format(" 16#{:04X}", value);
+  if (!answer.values.empty()) text += ":" + words_text(answer.values);
   return text + (row != nullptr && row->answer == DiagnosticRow::Answer::SameData ? " returned" : "");
 }
 
@@ -226,9 +232,9 @@ std::string written_text(Function function, Data asked, Numbering numbering) {
     case Function::WriteRegister:
       return fmt::format("register {} written: 16#{:04X}", first, second);
     case Function::WriteCoils:
-      return fmt::format("{} written from {} on", plural(second, "coil"), first);
+      return fmt::format("{} written from {} on", counted(second, "coil"), first);
     default:
-      return fmt::format("{} written from {} on", plural(second, "register"), first);
+      return fmt::format("{} written from {} on", counted(second, "register"), first);
   }
 }
 
@@ -262,7 +268,7 @@ std::string right_text(const FunctionRow& row, Data asked, const Answer& answer,
     case Shape::ReadFile:
       return file_text(asked, answer);
     case Shape::WriteFile:
-      return plural(references_of(asked.subspan(1), true).size(), "reference") + " written";
+      return counted(references_of(asked.subspan(1), true).size(), "reference") + " written";
   }
   return {};
 }

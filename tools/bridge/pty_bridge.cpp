@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/host/pty.hpp"
 
@@ -64,8 +65,8 @@ class PtyBridge final : public Bridge {
   }
 
   std::string summary() const override {
-    return fmt::format("{}: opened {} time{}, {} bytes from it, {} to it{}{}{}{}", link_, opened_, opened_ == 1 ? "" : "s",
-                       in_, out_, unheard_ ? fmt::format(", {} while no program listened", unheard_) : "",
+    return fmt::format("{}: opened {}, {} bytes from it, {} to it{}{}{}{}", link_, counted(opened_, "time"), in_, out_,
+                       unheard_ ? fmt::format(", {} while no program listened", unheard_) : "",
                        overrun_ ? fmt::format(", {} lost because no program read them", overrun_) : "",
                        errors_ ? fmt::format(", {} with errors", errors_) : "",
                        dropped_ ? fmt::format(", {} dropped that programs left", dropped_) : "");

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "interpreter/base/counted.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/gateway.hpp"
 #include "serial_sim/modbus/line_turns.hpp"
@@ -50,8 +51,7 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
   SerialFormat receive_format() const override { return line_->format(); }
 
   std::string summary() const override {
-    return fmt::format("{}: {} client{}{}, {} bytes from them, {} to them{}{}", kind_, counts_.clients,
-                       counts_.clients == 1 ? "" : "s",
+    return fmt::format("{}: {}{}, {} bytes from them, {} to them{}{}", kind_, counted(counts_.clients, "client"),
                        counts_.refused ? fmt::format(", {} sent away for others", counts_.refused) : "", counts_.bytes_in,
                        counts_.bytes_out, counts_.dropped ? fmt::format(", {} dropped that they left", counts_.dropped) : "",
                        more_summary());
@@ -189,7 +189,7 @@ class Rfc2217Bridge final : public TcpBridge {
   bool partial(Client) const override { return false; }
 
   std::string more_summary() const override {
-    return fmt::format("{}{}", breaks_ ? fmt::format("; {} break{}", breaks_, breaks_ == 1 ? "" : "s") : "",
+    return fmt::format("{}{}", breaks_ ? "; " + counted(breaks_, "break") : "",
                        purged_ ? fmt::format("; {} bytes purged by them", purged_) : "");
   }
   nlohmann::ordered_json more_json() const override { return {{"breaks", breaks_}, {"bytes_purged", purged_}}; }
@@ -373,10 +373,9 @@ class GatewayBridge final : public TcpBridge {
 
   std::string more_summary() const override {
     const auto& counts = gateway_.counts();
-    return fmt::format(
-        "; {} request{}, {} answered, {} broadcast, {} without answer, {} with a damaged one, {} to no station",
-        counts.requests, counts.requests == 1 ? "" : "s", counts.answers, counts.broadcasts, counts.silent, counts.damaged,
-        counts.no_path);
+    return fmt::format("; {}, {} answered, {} broadcast, {} without answer, {} with a damaged one, {} to no station",
+                       counted(counts.requests, "request"), counts.answers, counts.broadcasts, counts.silent, counts.damaged,
+                       counts.no_path);
   }
   nlohmann::ordered_json more_json() const override {
     const auto& counts = gateway_.counts();

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "interpreter/base/counted.hpp"
 #include "tools/host/host_time.hpp"
 
 namespace s7200::tools {
@@ -16,8 +17,7 @@ void Progress::operator()() {
   const Time now = host_time();
   if (now <= next_ || !isatty(STDERR_FILENO)) return;
   next_ = now + kSecond;
-  const std::string goal = limits_.end == kNever ? fmt::format("{} scan{}", limits_.scans, limits_.scans == 1 ? "" : "s")
-                                                 : format_duration(limits_.end);
+  const std::string goal = limits_.end == kNever ? counted(limits_.scans, "scan") : format_duration(limits_.end);
   fmt::print(stderr, "\r{} of {} simulated", format_duration(now_()), goal);
   if (now_() >= limits_.end) fmt::print(stderr, "\n");
 }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/terminal.hpp"
@@ -63,9 +64,8 @@ void TestOutput::show(const Compared& compared) {
   if (json_) return clear_progress();
   heading(*compared.scenario);
   const bool skipped = !compared.skipped.empty();
-  const std::string remark = skipped
-                                 ? fmt::format("   ({})", compared.skipped)
-                                 : fmt::format("   {} exchange{}", compared.exchanges, compared.exchanges == 1 ? "" : "s");
+  const std::string remark =
+      skipped ? fmt::format("   ({})", compared.skipped) : "   " + counted(compared.exchanges, "exchange");
   const char* const word = skipped ? "skip  " : compared.difference.found ? "DIFFER" : "same  ";
   fmt::print("  {}  {}{}\n{}", word, stl::printable(compared.scenario->name), stl::printable(remark),
              compared.difference.text);
@@ -89,7 +89,7 @@ void TestOutput::end(const SuiteResult& result) {
     fmt::print("{}", summary_text(result.reports));
   }
   if (result.not_run > 0)
-    print_note(result.not_run == 1 ? "1 scenario was not run" : fmt::format("{} scenarios were not run", result.not_run));
+    print_note(fmt::format("{} {} not run", counted(result.not_run, "scenario"), result.not_run == 1 ? "was" : "were"));
 }
 
 void TestOutput::end(const ComparisonResult& result) {

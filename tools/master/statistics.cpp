@@ -6,6 +6,8 @@
 #include <array>
 #include <numeric>
 
+#include "interpreter/base/counted.hpp"
+
 namespace s7200::tools {
 namespace {
 
@@ -55,7 +57,7 @@ std::optional<ExchangeStatistics::Latency> ExchangeStatistics::latency() const {
 }
 
 std::string ExchangeStatistics::text(std::string_view refusal) const {
-  std::string text = fmt::format("{} request{}: ", sent(), sent() == 1 ? "" : "s");
+  std::string text = counted(sent(), "request") + ": ";
   for (const Verdict verdict : kVerdicts)
     text += fmt::format("{} {}, ", count(verdict), verdict == Verdict::Exception ? refusal : verdict_name(verdict));
   text += fmt::format("{} repeated\n", retries_);

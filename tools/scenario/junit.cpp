@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
@@ -64,7 +65,7 @@ std::string failure_message(const Report& report) {
   if (findings.front().what == "answer") message = "answer to " + message;
   if (line != 0) message = fmt::format("line {}: {}", line, message);
   const std::size_t more = findings.size() - 1;
-  return more == 0 ? message : fmt::format("{}; and {} more finding{}", message, more, more == 1 ? "" : "s");
+  return more == 0 ? message : fmt::format("{}; and {}", message, counted(more, "more finding"));
 }
 
 std::string properties_text(const Report& report) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/scenario/bytes_diff.hpp"
 #include "tools/views/report.hpp"
@@ -115,9 +116,7 @@ std::string outcome_text(Outcome outcome, bool colour) {
   return "";
 }
 
-std::string expected_failures_text(std::size_t count) {
-  return fmt::format("{} expected failure{}", count, count == 1 ? "" : "s");
-}
+std::string expected_failures_text(std::size_t count) { return counted(count, "expected failure"); }
 
 /// In words, or its first bytes.
 std::string in_words(const std::string& words, const std::vector<BytePattern>& bytes) {
@@ -228,8 +227,7 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
 }
 
 std::string summary_text(const std::vector<Report>& reports) {
-  std::string text = fmt::format("{} scenario{}: {} passed", reports.size(), reports.size() == 1 ? "" : "s",
-                                 count(reports, Outcome::Passed));
+  std::string text = fmt::format("{}: {} passed", counted(reports.size(), "scenario"), count(reports, Outcome::Passed));
   if (const std::size_t failed = count(reports, Outcome::Failed)) text += fmt::format(", {} failed", failed);
   if (const std::size_t skipped = count(reports, Outcome::Skipped)) text += fmt::format(", {} skipped", skipped);
   if (const std::size_t expected = count(reports, Outcome::ExpectedFailure)) text += ", " + expected_failures_text(expected);

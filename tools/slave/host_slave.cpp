@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/base/counted.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
@@ -182,7 +183,7 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
 
   std::vector<HostLink::Character> received;
   Time begun = 0;
-  int ignored = 0;
+  std::size_t ignored = 0;
   const Time until = now() + request.timeout;
   const auto deadline = [&] { return received.empty() ? until : until + kToComplete; };
   do {
@@ -205,8 +206,7 @@ serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
       }
     }
   } while (exchange.response.empty() && now() < deadline());  // a server may never stop talking
-  if (ignored > 0)
-    remark(fmt::format("ignored {} answer{} to other transactions than {}", ignored, ignored == 1 ? "" : "s", transaction_));
+  if (ignored > 0) remark(fmt::format("ignored {} to other transactions than {}", counted(ignored, "answer"), transaction_));
   exchange.timed_out = exchange.response.empty();
   if (exchange.timed_out) {
     if (received.empty()) return exchange;

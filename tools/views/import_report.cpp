@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/views/check_report.hpp"
 
@@ -25,9 +26,8 @@ void add_import_results(nlohmann::ordered_json& results, const SourceText& text,
 }
 
 std::string comparison_summary(const LadderComparison& comparison) {
-  return fmt::format("{}: {} network{} drawn, {} of them like the STL; {}\n", stl::printable(comparison.source.name),
-                     comparison.networks, comparison.networks == 1 ? "" : "s", comparison.same,
-                     counted(comparison.diagnostics));
+  return fmt::format("{}: {} drawn, {} of them like the STL; {}\n", stl::printable(comparison.source.name),
+                     s7200::counted(comparison.networks, "network"), comparison.same, counted(comparison.diagnostics));
 }
 
 void add_comparison(nlohmann::ordered_json& results, const LadderComparison& comparison) {

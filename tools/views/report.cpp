@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "serial_sim/modbus/answer.hpp"
@@ -61,8 +62,8 @@ std::string errors_text(const Cpu& cpu) {
                         place_text(cpu.program(), error.op), error.count, format_duration(error.first));
   }
   if (const std::uint64_t others = errors_not_listed(cpu))
-    text += fmt::format("and {} more run-time error{} at other places: the first {} places are kept, a trace shows all\n",
-                        others, others == 1 ? "" : "s", state.errors.size());
+    text += fmt::format("and {} at other places: the first {} places are kept, a trace shows all\n",
+                        counted(others, "more run-time error"), state.errors.size());
   if (state.fatal_code)
     text += fmt::format("FATAL error {:04X}, {}\n  {}\n", state.fatal_code, meaning_of(FatalError{state.fatal_code}),
                         place_text(cpu.program(), state.fatal_op));

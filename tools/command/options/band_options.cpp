@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
@@ -50,9 +51,8 @@ std::unique_ptr<ProgramBand> BandOptions::load(const ProgramOptions& program, in
 
 std::string band_title(const CpuModel& model, const std::string& times_table, const BandSettings& settings) {
   const auto names = names_in_band(model, times_table);
-  return fmt::format("execution times: {}, and {} random table{} around {} (seed {})",
-                     stl::printable(stl::joined(names, std::identity{})), settings.random, settings.random == 1 ? "" : "s",
-                     names.size() == 1 ? "it" : "them", settings.seed);
+  return fmt::format("execution times: {}, and {} around {} (seed {})", stl::printable(stl::joined(names, std::identity{})),
+                     counted(settings.random, "random table"), names.size() == 1 ? "it" : "them", settings.seed);
 }
 
 BandProgress::BandProgress(std::size_t all) : all_(all), from_(host_time() + 2 * kSecond), wanted_(isatty(STDERR_FILENO)) {}

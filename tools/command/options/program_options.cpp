@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <span>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load_times.hpp"
@@ -289,8 +290,7 @@ std::vector<std::string> reading_notes(const SourceText& text) {
   if (lines.empty()) return notes;
   const auto shown = std::span(lines).first(std::min(kShown, lines.size()));
   notes.push_back(fmt::format("{}: {} of its listing left out as text: {}{}", text.parsed.source.name,
-                              lines.size() == 1 ? "1 line" : fmt::format("{} lines", lines.size()), fmt::join(shown, ", "),
-                              lines.size() > kShown ? ", …" : ""));
+                              counted(lines.size(), "line"), fmt::join(shown, ", "), lines.size() > kShown ? ", …" : ""));
   return notes;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "interpreter/base/counted.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/views/machine_text.hpp"
 
@@ -32,7 +33,7 @@ std::string numbers_text(const std::vector<std::uint32_t>& numbers) {
     names.resize(kNamed);
     names.push_back(fmt::format("{} more", numbers.size() - kNamed));
   }
-  return (numbers.size() == 1 ? "character " : "characters ") + list_text(names);
+  return noun(numbers.size(), "character") + " " + list_text(names);
 }
 
 }  // namespace
