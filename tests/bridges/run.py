@@ -368,6 +368,19 @@ class PtyTests(Case):
         self.assertRegex(running.said(), r"port 0 received \d+ characters with framing errors: whoever sent them is not set "
                                          r"to 9600 baud 8E1 like the port")
 
+    def test_a_master_that_speaks_while_the_plc_sends_is_said_at_the_end_and_no_rate(self):
+        running = self.serve()
+        port = self.open()
+        self.assertEqual(port.ask(), ANSWER)
+        for _ in range(3):
+            port.write(READ)
+            port.read(2)
+            port.write(READ)
+            port.read(100, SILENCE * 2)
+        running.end()
+        self.assertRegex(running.said(), r"a collision at .* s: a master spoke while port 0 of the PLC was sending")
+        self.assertNotIn("is not set to", running.said())
+
     def test_what_a_client_may_set_without_harm(self):
         self.serve()
         port = self.open()

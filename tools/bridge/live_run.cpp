@@ -98,6 +98,11 @@ class LiveRun::Engine {
   const std::string& failure() const { return failure_; }
   std::string take_failure() { return std::exchange(untold_, {}); }
   Pace::Report pace() const { return pace_.report(); }
+  std::uint64_t collisions(const serial::SharedLine* on) const {
+    std::uint64_t all = 0;
+    for (const auto& line : lines_) all += line->is_on(on) ? line->collisions() : 0;
+    return all;
+  }
 
  private:
   class Line final : public LiveLine {
@@ -111,6 +116,8 @@ class LiveRun::Engine {
     }
 
     Bridge& bridge() const { return *end_.bridge; }
+    bool is_on(const serial::SharedLine* line) const { return end_.line == line; }
+    std::uint64_t collisions() const { return collisions_; }
     bool has_failed() const { return !gone_ && !end_.bridge->failure().empty(); }
     /// From now on nobody stands at this end.
     void give_up() {
@@ -135,6 +142,7 @@ class LiveRun::Engine {
     void send(std::span<const serial::HostCharacter> characters) override {
       engine_.busy();
       tell_mix_up(characters);
+      note_collision();
       end_.port->send(characters, now());
     }
     std::size_t drop(std::uint64_t sender) override { return end_.port->drop(sender); }
@@ -164,8 +172,19 @@ class LiveRun::Engine {
       if (!note.empty() && told_.insert(note).second) messages().note(note);
     }
 
+    /// Said once: what collides is lost, and the master asks again.
+    void note_collision() {
+      const bool collides = end_.plc && !end_.port->sending() && is_sending(end_.plc->cpu().state(), end_.plc_port);
+      if (collides && collisions_++ == 0)
+        messages().note(
+            fmt::format("a collision at {}: a master spoke while port {} of the PLC was sending; what both sent "
+                        "is lost",
+                        format_duration(now()), end_.plc_port));
+    }
+
     Engine& engine_;
     const LiveEnd end_;
+    std::uint64_t collisions_ = 0;
     bool gone_ = false;
     std::set<std::string> told_;
   };
@@ -259,6 +278,8 @@ const std::string& LiveRun::failure() const { return engine_->failure(); }
 std::string LiveRun::take_failure() { return engine_->take_failure(); }
 
 Pace::Report LiveRun::pace() const { return engine_->pace(); }
+
+std::uint64_t LiveRun::collisions(const serial::SharedLine* line) const { return engine_->collisions(line); }
 
 std::string_view run_live(LiveRun& live, serial::Simulation& simulation, const LiveLimits& limits) {
   const State& state = simulation.cpu().state();

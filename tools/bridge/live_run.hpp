@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -78,6 +79,10 @@ class LiveRun {
   std::string take_failure();
 
   Pace::Report pace() const;
+
+  /// How often a master on a bridge spoke while the PLC at the other end of that line was sending; 0 for a line without a
+  /// bridge.
+  std::uint64_t collisions(const serial::SharedLine* line) const;
 
  private:
   class Engine;

@@ -23,4 +23,8 @@ std::string mix_up(std::span<const std::uint8_t> bytes, const State* state, std:
   return {};
 }
 
+bool is_sending(const State& state, std::size_t port) {
+  return state.port[port].transmitting || state.ppi[port].sending > 0;
+}
+
 }  // namespace s7200::tools

@@ -14,4 +14,7 @@ namespace s7200::tools {
 /// them.
 std::string mix_up(std::span<const std::uint8_t> bytes, const State* state, std::size_t port);
 
+/// Whether the PLC has a frame of its own on the line: what a master says then collides with it.
+bool is_sending(const State& state, std::size_t port);
+
 }  // namespace s7200::tools

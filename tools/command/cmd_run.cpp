@@ -22,7 +22,7 @@ Ending run_to_end(Rig& rig, const RunOptions& options) {
   const Time end = options.end(bridge != nullptr);
   if (!options.bridge.realtime()) {
     const RunLimits limits{end, options.scans, options.rig.strict()};
-    return {run(simulation, limits, Progress([&] { return simulation.time(); }, limits)), {}};
+    return {run(simulation, limits, Progress([&] { return simulation.time(); }, limits))};
   }
   const bool to_ppi = bridge && bridge->carries_ppi();
   LiveRun live(simulation,
@@ -41,7 +41,7 @@ Ending run_to_end(Rig& rig, const RunOptions& options) {
   if (!live.failure().empty()) print_error(live.failure());
   if (bridge && (reason == "stop" || reason == "fatal"))
     print_note("the CPU went to STOP, which ends the run: it no longer answers");
-  return {reason, live.pace()};
+  return {reason, live.pace(), live.collisions(&simulation.line())};
 }
 
 int run_run(const CLI::App& verb, RunOptions& options) {
@@ -63,7 +63,7 @@ int run_run(const CLI::App& verb, RunOptions& options) {
     print_json(*rig, ending, options);
   else
     print_text(*rig, ending, options);
-  print_notes(line_notes(*rig));
+  print_notes(line_notes(*rig, [&](const serial::SharedLine*) { return ending.collisions; }));
   if (!all_written) return kUnusable;
   if (ending.reason == "endless scan") {
     print_error(

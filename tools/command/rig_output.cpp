@@ -112,24 +112,27 @@ std::vector<std::string> stop_notes(const Rig& rig) {
   return notes;
 }
 
-std::vector<std::string> framing_notes(const Rig& rig) {
+std::vector<std::string> framing_notes(const Rig& rig, const CollisionsOn& collisions) {
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < rig.plan().plcs.size(); ++i) {
     const serial::Plc& plc = rig.plc(i);
     const std::string& name = rig.plan().plcs[i].name;
     for (std::uint8_t port = 0; port < plc.cpu().program().model->ports; ++port) {
       if (plc.framing_errors(port) == 0 || !plc.line(port).faults().state().injected.empty()) continue;
-      notes.push_back(
-          fmt::format("{}port {} received {} with framing errors: whoever sent them is not set to {} like the port{}",
-                      name.empty() ? "" : name + ": ", port, counted(plc.framing_errors(port), "character"),
-                      set_to(plc.port_format(port)), is_system(rig) ? ", or two stations sent at once" : ""));
+      const std::uint64_t collided = collisions(&plc.line(port));
+      const std::string why =
+          collided > 0 ? fmt::format("a master spoke while the PLC was sending, {}", counted(collided, "time"))
+                       : fmt::format("whoever sent them is not set to {} like the port{}", set_to(plc.port_format(port)),
+                                     is_system(rig) ? ", or two stations sent at once" : "");
+      notes.push_back(fmt::format("{}port {} received {} with framing errors: {}", name.empty() ? "" : name + ": ", port,
+                                  counted(plc.framing_errors(port), "character"), why));
     }
   }
   return notes;
 }
 
-std::vector<std::string> line_notes(const Rig& rig) {
-  std::vector<std::string> notes = fault_notes(rig), of_framing = framing_notes(rig);
+std::vector<std::string> line_notes(const Rig& rig, const CollisionsOn& collisions) {
+  std::vector<std::string> notes = fault_notes(rig), of_framing = framing_notes(rig, collisions);
   notes.insert(notes.end(), of_framing.begin(), of_framing.end());
   for (const LinePlan& line : rig.plan().lines) {
     const StationPlan* first = nullptr;
@@ -147,7 +150,7 @@ std::vector<std::string> line_notes(const Rig& rig) {
 }
 
 std::string poll_text(const serial::Poller::State& polls) {
-  std::string text = fmt::format("{} request{}, {} answered", polls.asked, polls.asked == 1 ? "" : "s", polls.answered);
+  std::string text = fmt::format("{}, {} answered", counted(polls.asked, "request"), polls.answered);
   if (polls.refused != 0) text += fmt::format(", {} of them refused", polls.refused);
   if (polls.wrong != 0) text += fmt::format(", {} {}wrong", polls.wrong, polls.refused == 0 ? "of them " : "");
   if (polls.answered > polls.wrong)

@@ -2,6 +2,7 @@
 // name.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -35,12 +36,16 @@ std::string errors_text(const Rig& rig);
 std::vector<std::string> fault_notes(const Rig& rig);
 std::vector<std::string> stop_notes(const Rig& rig);
 
-/// Ports that have received characters with framing errors, on lines without faults.
-std::vector<std::string> framing_notes(const Rig& rig);
+/// How often a master from outside spoke on a line while its PLC was sending.
+using CollisionsOn = std::function<std::uint64_t(const serial::SharedLine* line)>;
+inline std::uint64_t no_collisions(const serial::SharedLine*) { return 0; }
+
+/// Ports that have received characters with framing errors, on lines without faults, and why.
+std::vector<std::string> framing_notes(const Rig& rig, const CollisionsOn& collisions);
 
 /// Of the lines: faults, framing errors, and stations of a system that are left at another rate or format than the first one
 /// there.
-std::vector<std::string> line_notes(const Rig& rig);
+std::vector<std::string> line_notes(const Rig& rig, const CollisionsOn& collisions = no_collisions);
 
 /// Of a line of a system. The rig outlives it.
 StationName stations_of(const Rig& rig, std::size_t line);

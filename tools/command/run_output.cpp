@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/progress.hpp"
 #include "tools/command/rig_output.hpp"
@@ -13,9 +14,8 @@ namespace s7200::tools {
 void print_text(const Rig& rig, const Ending& ending, const RunOptions& options) {
   const serial::Simulation& simulation = rig.simulation();
   const State& state = simulation.cpu().state();
-  fmt::print("{} after {}: {} scan{}, {} instructions, CPU in {}\n", ending_text(ending.reason),
-             format_duration(state.time, 6), state.scans, state.scans == 1 ? "" : "s", state.instructions,
-             state.mode == Mode::Run ? "RUN" : "STOP");
+  fmt::print("{} after {}: {}, {} instructions, CPU in {}\n", ending_text(ending.reason), format_duration(state.time, 6),
+             counted(state.scans, "scan"), state.instructions, state.mode == Mode::Run ? "RUN" : "STOP");
   if (state.scans)
     fmt::print("scan time: shortest {}, longest {}\n", format_duration(state.shortest_scan),
                format_duration(state.longest_scan));

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -45,14 +46,15 @@ std::string who_there_was(const SystemPlan& plan) {
 /// How a run ended; no reason after an error.
 struct Ending {
   std::string_view reason;
-  std::optional<Pace::Report> pace;  // of a run in real time
+  std::optional<Pace::Report> pace{};                               // of a run in real time
+  std::map<const serial::SharedLine*, std::uint64_t> collisions{};  // of masters on bridges, by line
 };
 
 Ending run_to_end(Rig& rig, Bridges bridges, const RunOptions& options) {
   const Time end = options.end(!bridges.empty());
   if (bridges.empty() && !options.bridge.realtime()) {
     const RunLimits limits{.end = end};
-    return {run(rig, end, Progress([&] { return rig.system().time(); }, limits)), {}};
+    return {run(rig, end, Progress([&] { return rig.system().time(); }, limits))};
   }
   const auto machine = machine_of(rig.system());
   LiveRun live(
@@ -62,7 +64,9 @@ Ending run_to_end(Rig& rig, Bridges bridges, const RunOptions& options) {
   if (!live.start(why)) return print_error(why), Ending{};
   const serial::Halt halt = live.run_until(end);
   if (!live.failure().empty()) print_error(live.failure());
-  return {!live.failure().empty() ? "bridge" : halt == serial::Halt::Time ? "time" : "interrupted", live.pace()};
+  Ending ending{!live.failure().empty() ? "bridge" : halt == serial::Halt::Time ? "time" : "interrupted", live.pace()};
+  for (std::size_t i = 0; i < rig.plan().lines.size(); ++i) ending.collisions[&rig.line(i)] = live.collisions(&rig.line(i));
+  return ending;
 }
 
 void print_text(Rig& rig, const Ending& ending, Bridges bridges) {
@@ -70,8 +74,8 @@ void print_text(Rig& rig, const Ending& ending, Bridges bridges) {
   fmt::print("{} after {}: {}\n", ending_text(ending.reason), format_duration(rig.system().time(), 6), who_there_was(plan));
   for (std::size_t i = 0; i < plan.plcs.size(); ++i) {
     const State& state = rig.plc(i).cpu().state();
-    fmt::print("{}: {} scan{}, {} instructions, CPU {} {}\n", stl::printable(plan.plcs[i].name), state.scans,
-               state.scans == 1 ? "" : "s", state.instructions, plan.plcs[i].program->model->name,
+    fmt::print("{}: {}, {} instructions, CPU {} {}\n", stl::printable(plan.plcs[i].name), counted(state.scans, "scan"),
+               state.instructions, plan.plcs[i].program->model->name,
                rig.plc(i).powered() ? fmt::format("in {}", mode_of(rig.plc(i))) : "without power");
     fmt::print("{}", indented(errors_text(rig.plc(i).cpu())));
     for (const MemoryRange& range : plan.plcs[i].settings.dumps)
@@ -128,7 +132,10 @@ int run_plan(SystemPlan plan, const RigSurroundings& surroundings, Bridges bridg
     print_json(*rig, ending, bridges);
   else
     print_text(*rig, ending, bridges);
-  print_notes(line_notes(*rig));
+  print_notes(line_notes(*rig, [&](const serial::SharedLine* line) {
+    const auto found = ending.collisions.find(line);
+    return found == ending.collisions.end() ? 0 : found->second;
+  }));
   if (ending.reason == "time") note_events_to_come(*rig);
   if (!problems.empty() || ending.reason == "bridge") return kUnusable;
   if (ending.reason == "interrupted" && options.has_end(!bridges.empty())) return kCheckFailed;
