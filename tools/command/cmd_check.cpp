@@ -15,6 +15,7 @@
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/options/tables_by_cpu.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/views/check_report.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -41,10 +42,12 @@ CheckResult check_with(const CheckOptions& options, const SourceText& text, cons
 
 int run_check(const CheckOptions& options) {
   if (!options.cpu.model()) return kUnusable;
+  catch_interruption();  // what has been checked by then is still said
   int exit_code = kFine;
   TablesByCpu tables(options.cpu);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (auto& [path, text] : read_programs(options.paths, exit_code)) {
+    if (interrupted()) break;
     if (!repair(text, options.cpu.repairs)) {
       exit_code = kUnusable;
       continue;
@@ -74,7 +77,8 @@ int run_check(const CheckOptions& options) {
     results["files"] = std::move(files);
     fmt::print("{}", lines_of(results));
   }
-  return exit_code;
+  print_interruption();
+  return interrupted() ? kCheckFailed : exit_code;
 }
 
 std::string warnings_help() {

@@ -52,6 +52,7 @@ int run_import_capture(const ImportCaptureOptions& options) {
            kUnusable;
   const auto read = read_conversation(options.recording);
   if (!read) return kUnusable;
+  if (read->frames.empty() && options.recording.was_cut_short()) return print_interruption(), kCheckFailed;
   PlaybackChoices choices = options.choices;
   choices.name = read->name;
   const RecordedProtocol protocol = options.recording.spoken();
@@ -77,8 +78,7 @@ int run_import_capture(const ImportCaptureOptions& options) {
     print_file(text);
   }
   if (exit_code != kFine || !options.recording.was_cut_short()) return exit_code;
-  print_interruption();
-  return kCheckFailed;
+  return print_interruption(), kCheckFailed;
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ int run_test(TestOptions& options) {
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);
   print_messages(messages);
-  if (!suite) return write(to.junit, to_junit(messages)), kUnusable;
+  if (!suite) return print_interruption(), write(to.junit, to_junit(messages)), interrupted() ? kCheckFailed : kUnusable;
   if (options.list) {
     print_list(suite->scenarios(), options.json);
     return kFine;

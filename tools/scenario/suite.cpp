@@ -46,6 +46,7 @@ Time tolerance_for(Time given, bool live) {
 }
 
 std::optional<Suite> Suite::collect(const SuiteSettings& settings, Messages& messages) {
+  catch_interruption();  // from here on there is something to complete
   auto scenarios = collect_scenarios(settings, messages);
   if (!scenarios) return {};
   for (Scenario& scenario : *scenarios) {
@@ -134,7 +135,6 @@ unsigned Suite::jobs_on(const Benches& benches) const { return benches.slave ? 1
 std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& messages) {
   auto benches = benches_on(settings_.target, messages);
   if (!benches) return {};
-  catch_interruption();  // from here on there is something to complete
   note_robustness_not_judged(scenarios_, *benches, messages);
   SuiteResult result{.tested = benches->name, .live = benches->slave != nullptr};
   if (!settings_.target.empty())
@@ -186,7 +186,6 @@ std::optional<ComparisonResult> Suite::compare(const std::string& other, Time to
   if (!one_benches) return {};
   const auto other_benches = benches_on(other, messages);
   if (!other_benches) return {};
-  catch_interruption();
   const bool live = one_benches->slave || other_benches->slave;
   const Comparison comparison{.timing = !ignore_timing,
                               .tolerance = tolerance_for(tolerance, live),

@@ -6,6 +6,7 @@
 
 #include "interpreter/program/ladder.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -27,7 +28,7 @@ std::optional<std::string> read_input(const std::string& path, std::string& name
   name = from_input ? "standard input" : path;
   std::string why;
   auto bytes = from_input ? read_standard_input_once(why) : read_file(path, why);
-  if (!bytes) print_error(fmt::format("cannot read {}: {}", name, why));
+  if (!bytes && !interrupted()) print_error(fmt::format("cannot read {}: {}", name, why));
   return bytes;
 }
 

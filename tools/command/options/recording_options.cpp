@@ -162,9 +162,10 @@ bool listen(LineListener& line, const RecordingOptions& options, const std::func
 
 std::optional<ReadRecording> read_file(const RecordingOptions& options) {
   ReadRecording read;
-  const auto bytes = read_input(options.file, read.name);
-  if (!bytes) return {};
   catch_interruption();
+  const auto bytes = read_input(options.file, read.name);
+  if (interrupted()) return read;
+  if (!bytes) return {};
   std::string why;
   ReadingChoices choices = options.reading;
   choices.line = options.line;

@@ -79,8 +79,8 @@ inline constexpr std::string_view kEndOfListening =
     "Exit code 1 if --for was interrupted before its end; without it a line is listened to until Ctrl-C\n"
     "or SIGTERM, and that is 0.\n";
 
-/// A file without its frames, which tell_frames() has. Nothing after a message. Notes are printed. Interruptions are noted
-/// from here on.
+/// A file without its frames, which tell_frames() has. Nothing after a message; nothing is in it if an interruption came
+/// while it was read. Notes are printed. Interruptions are noted from here on.
 std::optional<ReadRecording> read_file(const RecordingOptions& options);
 
 /// Tells each frame of a file, as long as there is no interruption, then prints notes on all of them.
