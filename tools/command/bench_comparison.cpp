@@ -49,7 +49,7 @@ std::optional<EarlierBench> read_earlier_bench(const std::string& path) {
     const auto speed = speed_of(figure);
     if (!speed) {
       print_error(fmt::format("cannot read {}: '{}' is not a figure with a name and a rate above 0", path,
-                              stl::shortened(figure.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))));
+                              shown(figure)));
       return {};
     }
     before.speeds[figure["name"]] = *speed;

@@ -25,7 +25,7 @@ constexpr std::string_view kFormat = "s7200 session 5", kAnyFormat = "s7200 sess
 
 /// Of JSON from outside, which may hold what is not UTF-8.
 std::string sum_of(const Json& json) {
-  return digest_of(std::string_view(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  return digest_of(in_one_line(json));
 }
 
 constexpr Between<Time> kAnyMoment{0, kNever}, kAnyDuration{0, kLongestDuration};

@@ -56,7 +56,9 @@ std::optional<Json> parse_json(std::string_view text, std::string& why, const Js
   return {};
 }
 
-std::string shown(const Json& value) { return stl::shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace)); }
+std::string in_one_line(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string shown(const Json& value) { return stl::shortened(in_one_line(value)); }
 
 std::string text_of(const Json& value) {
   if (!value.is_string()) wrong_kind(value, "a text");

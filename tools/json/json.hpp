@@ -36,6 +36,9 @@ class WrongValue : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A value as JSON in one line; what is not UTF-8 in it as U+FFFD.
+std::string in_one_line(const nlohmann::ordered_json& value);
+
 /// A value for a message, at most 40 characters of it.
 std::string shown(const nlohmann::ordered_json& value);
 
