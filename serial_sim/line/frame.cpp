@@ -65,7 +65,17 @@ ParsedFrame parse_hex_frame(std::string_view text) {
   return parsed;
 }
 
-std::string to_hex(std::span<const std::uint8_t> bytes) { return fmt::format("{:02x}", fmt::join(bytes, " ")); }
+std::string to_hex(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  text.reserve(3 * bytes.size());
+  for (const std::uint8_t byte : bytes) {
+    if (!text.empty()) text += ' ';
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 0xF];
+  }
+  return text;
+}
 
 std::string to_hex(std::span<const FrameCharacter> frame) {
   std::string text;

@@ -503,6 +503,27 @@ class Verbs(Case):
         self.assertLess(len(results["frames"]), 200_000)
         self.assertGreater(results["summary"]["requests"], 0)
 
+    def test_what_is_interrupted_while_it_is_read_still_writes_its_results(self):
+        for command, results in ((["decode", "-", "--json"], {"form": None, "frames": []}), (["check", "-", "--json"], {"files": []})):
+            process = subprocess.Popen([S7200, *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            self.addCleanup(process.kill)
+            process.stdin.write(b"0.000 TX 01 03\n")
+            process.stdin.flush()
+            time.sleep(1)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(60), FAILED, command)
+            self.assertEqual(process.stderr.read(), b"s7200: note: interrupted\n")
+            said = json.loads(process.stdout.read())
+            self.assertEqual({key: said[key] for key in results}, results)
+
+    def test_a_recording_of_which_no_frame_is_right_fails(self):
+        log = self.folder / "wrong.log"
+        log.write_text("TX 01 03 00 0a 00 02 e4 00\nRX 01 03 04 12 34 56 78 81 00\n", encoding="utf-8")
+        self.assertEqual(self.json(FAILED, "decode", log, "--json")["summary"]["wrong"], 2)
+        self.assertIn("wrong frames: 2", self.ends(FAILED, "decode", log).stdout)
+        log.write_text("TX 01 03 00 0a 00 02 e4 09\nRX 01 03 04 12 34 56 78 81 00\n", encoding="utf-8")
+        self.ends(FINE, "decode", log)
+
     def test_a_program_is_no_recording(self):
         self.assertIn("it is a program in STL, not a recording", self.ends(UNUSABLE, "decode", SLAVE).stderr)
 

@@ -26,10 +26,17 @@ nlohmann::ordered_json head_of(const DecodeOptions& options, const std::string& 
                                const std::optional<SerialFormat>& line) {
   auto results = results_of("decode");
   results["file"] = options.recording.file;
-  results["form"] = form;
+  results["form"] = form.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(form);
   results["protocol"] = options.recording.protocol;
   results["line"] = line ? nlohmann::ordered_json(format_text(*line)) : nullptr;
   return results;
+}
+
+/// An interruption is said.
+int exit_code_of(const DecodeOptions& options, const DecodedSummary& summary) {
+  const bool cut_short = options.recording.was_cut_short();
+  if (cut_short) print_interruption();
+  return cut_short || summary.all_wrong() ? kCheckFailed : kFine;
 }
 
 /// Frame by frame as they come.
@@ -47,10 +54,7 @@ int run_live(const DecodeOptions& options, const SlaveTarget& target) {
     std::fflush(stdout);
   });
   fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
-  if (!heard) return kUnusable;
-  if (!options.recording.was_cut_short()) return kFine;
-  print_interruption();
-  return kCheckFailed;
+  return heard ? exit_code_of(options, summary) : kUnusable;
 }
 
 /// As it is read: the recording may be long.
@@ -73,9 +77,7 @@ int run_file(const DecodeOptions& options) {
   });
   fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
   if (!options.json && read->line) fmt::print("{}; --baud and --parity say otherwise\n", read->silences_text());
-  if (!options.recording.was_cut_short()) return kFine;
-  print_interruption();
-  return kCheckFailed;
+  return exit_code_of(options, summary);
 }
 
 int run_decode(const DecodeOptions& options) {
@@ -96,7 +98,9 @@ void add_decode(CLI::App& app, int& exit_code) {
                "pcap does not say which characters had parity errors. Behind a --pty of `s7200 run` only what the\n"
                "simulated line says is heard, not what others ask it. Messages of Modbus TCP are shown as on a\n"
                "serial line, with CRCs that are not in the recording.\n" +
-               std::string(kEndOfListening) + "Example: s7200 decode tests/recordings/plant.log");
+               std::string(kEndOfListening) +
+               "It is also 1 if there were frames and none of them was right.\n"
+               "Example: s7200 decode tests/recordings/plant.log");
   verb->callback([options, &exit_code] {
     try {
       exit_code = run_decode(*options);

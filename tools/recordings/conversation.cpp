@@ -89,9 +89,7 @@ void append(RecordedFrame& frame, const RecordedFrame& row) {
 }
 
 template <typename Tell>
-void read_all(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps, DirectionsTaken taken,
-              Tell tell) {
-  Conversation reading(protocol, stamps, taken);
+void read_all(const LineRecording& recording, Conversation reading, Tell tell) {
   for (std::span<const RecordedFrame> rows = recording.frames; !rows.empty();)
     for (ReadFrame& read : reading.take(rows))
       if (!tell(read)) return;
@@ -105,7 +103,9 @@ struct Fitting {
 Fitting fitting(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps,
                 DirectionsTaken taken = DirectionsTaken::AsSaid) {
   Fitting found;
-  read_all(recording, protocol, stamps, taken, [&](const ReadFrame& each) {
+  Conversation reading(protocol, stamps, taken);
+  reading.leave_out_texts();
+  read_all(recording, std::move(reading), [&](const ReadFrame& each) {
     found.fitting += each.right && (each.echo || each.direction != Direction::Unknown) ? 1U : 0U;
     found.right += each.right ? 1U : 0U;
     ++found.frames;
@@ -151,12 +151,16 @@ const Conversation::OpenRequest* Conversation::Stream::request_of(const Recorded
   return same ? &other_unit->second : nullptr;
 }
 
-ReadFrame Conversation::what_it_says(Stream& stream, const RecordedFrame& frame) const {
+ReadFrame Conversation::what_reader_says(const Stream& stream, const RecordedFrame& frame, const RecordedFrame* open) const {
+  return with_texts_ ? stream.reader->read(frame, open) : stream.reader->judge(frame, open);
+}
+
+ReadFrame Conversation::what_it_says(const Stream& stream, const RecordedFrame& frame) const {
   const OpenRequest* open = stream.request_of(frame);
   const bool same = open != nullptr && frame.direction == Direction::Unknown && frame.bytes == open->frame.bytes;
   const auto waited = same && stream.reader->may_be_echoed(frame) ? silence(open->frame, frame, stamps_) : std::nullopt;
   const bool repeats = waited && *waited > stamps_.timeout;
-  ReadFrame read = stream.reader->read(frame, open == nullptr || repeats ? nullptr : &open->frame);
+  ReadFrame read = what_reader_says(stream, frame, open == nullptr || repeats ? nullptr : &open->frame);
   if (!repeats) return read;
   read.repeats = open->number;
   read.text += fmt::format("; repeated after {}, or its late echo", format_duration(*waited));
@@ -242,18 +246,18 @@ std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) {
   return all;
 }
 
-bool Conversation::is_several(Stream& stream, const RecordedFrame& frame) const {
+bool Conversation::is_several(const Stream& stream, const RecordedFrame& frame) const {
   const OpenRequest* const waiting = stream.request_of(frame);
   const bool said_so = stamps_.exact || !frame.damaged.empty();
+  if (said_so || stream.reader->judge(frame, waiting != nullptr ? &waiting->frame : nullptr).right) return false;
   std::optional<RecordedFrame> open = waiting != nullptr ? std::optional(waiting->frame) : std::nullopt;
-  if (said_so || stream.reader->read(frame, open ? &*open : nullptr).right) return false;
   for (std::size_t end = 0; end < frame.bytes.size();) {
     const auto [length, echo] = first_message(stream, frame, end, open ? &*open : nullptr);
     const std::size_t begin = std::exchange(end, end + length);
     if (length == 0) return false;
     if (echo) continue;
     const RecordedFrame message = part_of(frame, begin, end, stamps_);
-    const ReadFrame read = stream.reader->read(message, open ? &*open : nullptr);
+    const ReadFrame read = stream.reader->judge(message, open ? &*open : nullptr);
     if (!read.right) return false;
     open = read.direction == Direction::Request && !read.needs_no_answer ? std::optional(message) : std::nullopt;
   }
@@ -315,7 +319,7 @@ std::size_t Conversation::close_rows(const Stream& stream, RecordedFrame whole, 
   constexpr std::size_t kMostRows = 9;
   const OpenRequest* const open = stream.request_of(whole);
   for (std::size_t count = 1; count <= std::min(rows.size(), kMostRows); ++count) {
-    if (stream.reader->read(whole, open != nullptr ? &open->frame : nullptr).right) return count;
+    if (stream.reader->judge(whole, open != nullptr ? &open->frame : nullptr).right) return count;
     if (count == rows.size() || !follows_closely(rows[count - 1], rows[count], stamps_)) return 1;
     append(whole, rows[count]);
   }
@@ -338,12 +342,14 @@ std::vector<ReadFrame> Conversation::take(std::span<const RecordedFrame>& rows) 
 
 void tell_conversation(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps,
                        const std::function<bool(ReadFrame&)>& tell) {
-  read_all(recording, protocol, stamps, DirectionsTaken::AsSaid, tell);
+  read_all(recording, Conversation(protocol, stamps), tell);
 }
 
 std::vector<bool> answered_requests(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps) {
   std::vector<bool> answered;
-  tell_conversation(recording, protocol, stamps, [&](const ReadFrame& frame) {
+  Conversation reading(protocol, stamps);
+  reading.leave_out_texts();
+  read_all(recording, std::move(reading), [&](const ReadFrame& frame) {
     answered.push_back(false);
     if (frame.other) answered[*frame.other] = true;
     return true;

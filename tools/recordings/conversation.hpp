@@ -41,6 +41,9 @@ class FrameReader {
   /// does.
   virtual ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) = 0;
 
+  /// The same, perhaps without its text, for whoever only counts.
+  virtual ReadFrame judge(const RecordedFrame& frame, const RecordedFrame* open) { return read(frame, open); }
+
   /// Whether a slave may answer a frame with the same bytes.
   virtual bool may_be_echoed(const RecordedFrame& frame) const = 0;
 
@@ -92,6 +95,9 @@ class Conversation {
   Conversation(const RecordedProtocol& protocol, const Stamps& stamps, DirectionsTaken taken = DirectionsTaken::AsSaid)
       : protocol_(protocol), stamps_(stamps), taken_(taken) {}
 
+  /// From now on frames may come without their texts.
+  void leave_out_texts() { with_texts_ = false; }
+
   /// What a frame says. One that was put together from characters, and whose direction is not known, may be several messages
   /// that followed each other closely, and so may every frame of some protocols. Of any other but of a capture several are
   /// made only if each of them is right: programs print in one line what has come to them together.
@@ -138,7 +144,7 @@ class Conversation {
   bool begins_with_echo(const Stream& stream, const RecordedFrame& frame, std::size_t begin,
                         const RecordedFrame& open) const;
   bool is_echo(const Stream& stream, const RecordedFrame& frame) const;
-  bool is_several(Stream& stream, const RecordedFrame& frame) const;
+  bool is_several(const Stream& stream, const RecordedFrame& frame) const;
   Rest rest_after_messages(const Stream& stream, const RecordedFrame& frame) const;
   bool announces_more(const Stream& stream, const RecordedFrame& frame, const Rest& rest) const;
   /// How many of the rows are one frame, the first of which is `whole`: by what they say, and because they follow closely.
@@ -146,11 +152,13 @@ class Conversation {
   std::size_t close_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   ReadFrame read(Stream& stream, RecordedFrame frame, bool echo);
   /// As an answer to the request that is open, or as a request.
-  ReadFrame what_it_says(Stream& stream, const RecordedFrame& frame) const;
+  ReadFrame what_it_says(const Stream& stream, const RecordedFrame& frame) const;
+  ReadFrame what_reader_says(const Stream& stream, const RecordedFrame& frame, const RecordedFrame* open) const;
 
   const RecordedProtocol& protocol_;
   Stamps stamps_;
   DirectionsTaken taken_;
+  bool with_texts_ = true;
   std::map<std::uint32_t, Stream> streams_;  // by connection
   bool hears_itself_ = false;                // whoever records: an echo was no answer
   std::optional<RecordedFrame> last_;

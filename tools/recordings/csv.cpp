@@ -97,12 +97,12 @@ std::string_view without_zone(std::string_view time) {
 
 /// A number in the column's unit, or a time as in a text. Where commas divide the columns, one in a number may stand for
 /// thousands, and is not read.
-std::optional<LeadingTime> time_of(const std::string& field, const Columns& columns) {
+std::optional<LeadingTime> time_of(std::string_view field, const Columns& columns) {
   std::string figure(stl::trim(field));
   std::ranges::replace(figure, ',', '.');
   if (const auto number = parse_decimal<long double>(figure)) {
     const long double time = *number * static_cast<long double>(columns.unit);
-    const bool readable = columns.separator != ',' || field.find(',') == std::string::npos;
+    const bool readable = columns.separator != ',' || field.find(',') == std::string_view::npos;
     if (!readable || !(std::abs(time) < static_cast<long double>(kFurthestTime))) return {};
     return LeadingTime{.time = std::llround(time)};
   }
@@ -127,21 +127,27 @@ bool has_bytes_below(std::string_view bytes, const Columns& columns) {
 
 /// What a cell has without blanks around it. A blank or a line end alone is a recorded character, unless the row has a
 /// column for each direction: then it is the empty one.
-std::string content_of(const std::string& field, const Columns& columns) {
-  return field.size() == 1 && !columns.sent ? field : std::string(stl::trim(field));
+std::string_view content_of(std::string_view field, const Columns& columns) {
+  return field.size() == 1 && !columns.sent ? field : stl::trim(field);
 }
 
-/// The notation of the bytes below the names. Null, and `why`, if they have none.
-const Notation* notation_of(TableRows rows, const Columns& columns, std::string& why) {
+/// What the bytes below the names are written in. Null, and `why`, if they have no notation.
+struct ColumnNotation {
+  const Notation* notation = nullptr;
+  bool characters = false;  ///< each row has one
+};
+ColumnNotation notation_of(TableRows rows, const Columns& columns, std::string& why) {
   NotationFinder finder;
+  std::vector<std::string> fields;
   while (const auto row = rows.next()) {
-    const auto fields = fields_of(row->text, columns.separator);
+    take_fields(row->text, columns.separator, fields);
     for (const auto& column : {columns.data, columns.sent, columns.received})
-      if (column && *column < fields.size() && !fields[*column].empty())
-        if (const std::string cell = content_of(fields[*column], columns); !cell.empty())
+      if (column && *column < fields.size())
+        if (const std::string_view cell = content_of(fields[*column], columns); !cell.empty())
           finder.take(without_error(cell).cell, row->number);
   }
-  return finder.found(why);
+  const Notation* const found = finder.found(why);
+  return {.notation = found, .characters = found != nullptr && columns.time && finder.are_characters(*found)};
 }
 
 }  // namespace
@@ -158,21 +164,21 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
   LineRecording recording;
   TableRows rows(bytes);
   const Columns columns = columns_of(rows.next()->text);
-  const Notation* const notation = notation_of(rows, columns, why);
+  const auto [notation, characters] = notation_of(rows, columns, why);
   if (notation == nullptr) return {};
   DayCounter days;
-  bool characters = columns.time.has_value();
+  CharacterJoiner joiner(choices);
+  std::vector<std::string> fields;
   while (const auto row = rows.next()) {
     if (row->text.find_first_not_of(" \t,;") == std::string::npos) continue;
-    const auto fields = fields_of(row->text, columns.separator);
+    take_fields(row->text, columns.separator, fields);
     const auto field = [&](std::optional<std::size_t> column) {
-      return column && *column < fields.size() ? fields[*column] : "";
+      return column && *column < fields.size() ? std::string_view(fields[*column]) : "";
     };
     const auto time = columns.time ? time_of(field(columns.time), columns) : std::nullopt;
     const bool is_received = columns.sent && stl::trim(field(columns.sent)).empty();
     const auto data_column = !columns.sent ? columns.data : is_received ? columns.received : columns.sent;
-    const std::string cell = content_of(field(data_column), columns);
-    const WrittenCharacter written = without_error(cell);
+    const WrittenCharacter written = without_error(content_of(field(data_column), columns));
     auto data = notation->read(written.cell);
     if (columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
       why = fmt::format("line {}: bytes in both directions; write them in two lines", row->number);
@@ -197,11 +203,12 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
     if (written.damaged ||
         std::ranges::any_of(columns.errors, [&](std::size_t column) { return says_error(field(column)); }))
       for (std::size_t place = 0; place < frame.bytes.size(); ++place) frame.damaged.push_back(place);
-    characters = characters && frame.bytes.size() == 1;
-    recording.frames.push_back(std::move(frame));
+    if (characters)
+      joiner.add(frame, recording.frames);
+    else
+      recording.frames.push_back(std::move(frame));
   }
   count_from_first(recording);
-  if (characters) join_characters(recording, choices);
   return recording;
 }
 

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 
+#include "interpreter/base/text.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/scenario/transcript_writer.hpp"
 #include "tools/views/report.hpp"
 
 namespace s7200::tools {
 namespace {
+
+constexpr std::size_t kKindColumn = 7, kTextColumn = 33;
 
 constexpr const char *kDim = "2", *kYellow = "33";
 
@@ -22,6 +25,23 @@ std::string painted(const std::string& text, const char* paint, bool colour) {
   return colour ? fmt::format("\x1b[{}m{}\x1b[0m", paint, text) : text;
 }
 
+/// `25.000`, to the nearest microsecond.
+std::string milliseconds(Time time) {
+  const auto magnitude = static_cast<std::uint64_t>(time < 0 ? -time : time);
+  const std::uint64_t rounded = (magnitude + kMicrosecond / 2) / kMicrosecond;
+  constexpr std::size_t kDecimals = 3;
+  std::string text = std::to_string(rounded);
+  if (text.size() <= kDecimals) text.insert(0, kDecimals + 1 - text.size(), '0');
+  text.insert(text.size() - kDecimals, 1, '.');
+  return time < 0 ? '-' + text : text;
+}
+
+/// To the right of a column.
+void append_column(std::string& line, std::string_view text, std::size_t width) {
+  const std::size_t characters = stl::count_characters(text);
+  line.append(characters < width ? width - characters : 0, ' ').append(text);
+}
+
 nlohmann::ordered_json microseconds(std::optional<Time> time) {
   if (!time) return nullptr;
   return static_cast<double>(*time) / kMicrosecond;
@@ -30,6 +50,7 @@ nlohmann::ordered_json microseconds(std::optional<Time> time) {
 }  // namespace
 
 void DecodedSummary::add(const ReadFrame& frame) {
+  ++frames_;
   requests_ += frame.direction == Direction::Request ? 1U : 0U;
   need_no_answer_ += frame.needs_no_answer ? 1U : 0U;
   echoes_ += frame.echo ? 1U : 0U;
@@ -68,12 +89,15 @@ std::string decoded_heading(bool colour) {
 
 std::string decoded_text(const ReadFrame& read, bool unanswered, bool colour) {
   const RecordedFrame& frame = read.frame;
-  const std::string line = fmt::format(
-      "{:>12}  {:>10}  {:<7}  {}{}", frame.at ? fmt::format("{:.3f}", static_cast<double>(*frame.at) / kMillisecond) : "",
-      read.silence ? format_duration(*read.silence) : "", kind_of(read, "?"), serial::to_hex(frame.bytes),
-      read.text.empty() ? "" : fmt::format("\n{:>33}{}", "", read.text));
+  std::string line;
+  append_column(line, frame.at ? milliseconds(*frame.at) : "", 12);
+  append_column(line, read.silence ? format_duration(*read.silence) : "", 12);
+  const std::string_view kind = kind_of(read, "?");
+  line.append("  ").append(kind).append(kind.size() < kKindColumn ? kKindColumn - kind.size() : 0, ' ').append("  ");
+  line += serial::to_hex(frame.bytes);
+  if (!read.text.empty()) line.append(1, '\n').append(kTextColumn, ' ').append(read.text);
   const bool trouble = !read.right || unanswered || (read.direction == Direction::Unknown && !read.echo);
-  return (trouble ? painted(line, kYellow, colour) : line) + '\n';
+  return (trouble ? painted(line, kYellow, colour) : std::move(line)) + '\n';
 }
 
 nlohmann::ordered_json decoded_json(const ReadFrame& read) {

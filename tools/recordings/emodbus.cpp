@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
 #include "tools/recordings/lines.hpp"
+#include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -22,10 +22,15 @@ struct Heading {
   std::size_t length = 0;   ///< bytes of the rows below it
 };
 std::optional<Heading> heading_of(std::string_view line) {
-  static const std::regex kHeading(R"((.*): @[0-9A-Fa-f]{1,16}/(\d{1,6}):\s*)");
-  TextMatch match;
-  if (line.size() > kLongestHead || !std::regex_match(line.begin(), line.end(), match, kHeading)) return {};
-  return Heading{.text = line.substr(0, static_cast<std::size_t>(match.length(1))), .length = std::stoul(match.str(2))};
+  constexpr std::string_view kBeforeAddress = ": @";
+  const std::size_t end = line.substr(0, kLongestHead).rfind(kBeforeAddress);
+  if (end == std::string_view::npos) return {};
+  Scan scan(line.substr(end + kBeforeAddress.size()));
+  const bool has_address = !scan.take_hex(16).empty() && scan.take("/") != '\0';
+  const std::string_view length = has_address ? scan.take_digits(6) : "";
+  const bool ends = scan.take(":") != '\0' && stl::trim(line.substr(end + kBeforeAddress.size() + scan.at())).empty();
+  if (length.empty() || !ends) return {};
+  return Heading{.text = line.substr(0, end), .length = static_cast<std::size_t>(decimal_number(length))};
 }
 
 struct DumpRow {
@@ -33,17 +38,32 @@ struct DumpRow {
   Bytes bytes{};
 };
 std::optional<DumpRow> row_of(std::string_view line) {
-  static const std::regex kRow(R"(\s*\|\s([0-9A-Fa-f]{4}):((?:\s{1,2}[0-9A-Fa-f]{2}){1,16})\s.*)");
-  TextMatch match;
-  if (line.size() > kLongestHead || !std::regex_match(line.begin(), line.end(), match, kRow)) return {};
-  return DumpRow{.offset = std::stoul(match.str(1), nullptr, 16), .bytes = *bytes_of_text(match.str(2))};
+  constexpr std::size_t kFullRow = 16;
+  Scan scan(line);
+  scan.skip(kAllBlanks);
+  if (scan.take("|") == '\0' || scan.skip(kAllBlanks, 1) == 0) return {};
+  const std::string_view offset = scan.take_hex(4);
+  if (offset.size() != 4 || scan.take(":") == '\0') return {};
+  DumpRow row{.offset = hex_number(offset)};
+  while (row.bytes.size() < kFullRow) {
+    const std::size_t before = scan.at(), blanks = scan.skip(kAllBlanks);
+    const std::string_view digits = blanks == 1 || blanks == 2 ? scan.take_hex(2) : "";
+    if (digits.size() != 2) {
+      scan.go_back_to(before);
+      break;
+    }
+    row.bytes.push_back(static_cast<std::uint8_t>(hex_number(digits)));
+  }
+  return row.bytes.empty() || scan.skip(kAllBlanks, 1) == 0 ? std::nullopt : std::optional(std::move(row));
 }
 
 /// `[D] 1234|`: milliseconds since the start.
 std::optional<LeadingTime> time_of(std::string_view line) {
-  static const std::regex kMilliseconds(R"(\[\w\]\s+(\d{1,10})\|)");
-  TextMatch match;
-  if (begins_with(line, match, kMilliseconds)) return LeadingTime{.time = std::stoll(match.str(1)) * kMillisecond};
+  Scan scan(line);
+  const bool has_level = scan.take("[") != '\0' && scan.take_while(is_word_sign, 1).size() == 1 && scan.take("]") != '\0';
+  const std::string_view milliseconds = has_level && scan.skip(kAllBlanks) > 0 ? scan.take_digits(10) : "";
+  if (!milliseconds.empty() && scan.take("|") != '\0')
+    return LeadingTime{.time = decimal_number(milliseconds) * kMillisecond};
   return leading_time(line);
 }
 

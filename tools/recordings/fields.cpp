@@ -8,58 +8,18 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
 namespace {
 
 constexpr Time kDay = 86'400 * kSecond, kFarthest = 36'525 * kDay;
 
-/// Takes parts off the beginning of a text, no further than a head goes.
-class Scan {
- public:
-  explicit Scan(std::string_view text) : text_(text.substr(0, kLongestHead)) {}
-
-  std::size_t at() const { return at_; }
-  void go_back_to(std::size_t at) { at_ = at; }
-  char next() const { return at_ < text_.size() ? text_[at_] : '\0'; }
-  /// The character itself, or 0 if it is none of those.
-  char take(std::string_view any) {
-    const char c = next();
-    if (c == '\0' || any.find(c) == std::string_view::npos) return '\0';
-    ++at_;
-    return c;
-  }
-  bool take_word(std::string_view word) {
-    const bool found = text_.substr(at_).starts_with(word);
-    at_ += found ? word.size() : 0;
-    return found;
-  }
-  void skip(std::string_view any) {
-    while (take(any) != '\0') continue;
-  }
-  std::string_view take_digits(std::size_t most) {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && at_ - begin < most && stl::is_digit(text_[at_])) ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-  std::string_view since(std::size_t begin) const { return text_.substr(begin, at_ - begin); }
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
-
-constexpr std::string_view kBlank = " \t\n\v\f\r", kBeforeTime = " \t\n\v\f\r[(", kAfterTime = " \t\n\v\f\r]):,;|";
-
-Time number_of(std::string_view digits) {
-  Time number = 0;
-  for (const char digit : digits) number = 10 * number + (digit - '0');
-  return number;
-}
+constexpr std::string_view kBeforeTime = " \t\n\v\f\r[(", kAfterTime = " \t\n\v\f\r]):,;|";
 
 /// `5` of a fraction is 500 ms.
 Time fraction(std::string_view digits) {
-  Time time = number_of(digits);
+  Time time = decimal_number(digits);
   for (std::size_t i = digits.size(); i < 9; ++i) time *= 10;
   return time;
 }
@@ -87,6 +47,37 @@ ReadDate date_of(const std::string& text) {
   return {of(year, b, a), of(year, a, b)};
 }
 
+constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                                   "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+constexpr std::array<std::string_view, 7> kWeekdays{"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
+
+/// `Nov 27 ` of syslog, `Fri Nov 27 ` of ctime. The year is not before the time: any leap year has all days.
+std::optional<ReadDate> take_date_with_name(Scan& scan) {
+  const std::size_t begin = scan.at();
+  std::string_view name = scan.take_while(stl::is_letter, 3);
+  if (std::ranges::find(kWeekdays, name) != kWeekdays.end()) {
+    scan.skip(", ");
+    name = scan.take_while(stl::is_letter, 3);
+  }
+  const auto month = std::ranges::find(kMonths, name);
+  const std::string_view day = month != kMonths.end() && scan.skip(" ") > 0 ? scan.take_digits(2) : "";
+  constexpr int kLeapYear = 2000;
+  const auto number = !day.empty() && scan.skip(" ") > 0
+                          ? day_number(kLeapYear, static_cast<unsigned>(month - kMonths.begin()) + 1,
+                                       static_cast<unsigned>(decimal_number(day)))
+                          : std::nullopt;
+  if (number) return ReadDate{number, number};
+  scan.go_back_to(begin);
+  return {};
+}
+
+/// The year that ctime writes after the time: ` 2026`.
+void skip_year(Scan& scan) {
+  const std::size_t before = scan.at();
+  const bool is_year = scan.take(" ") != '\0' && scan.take_word("20") && scan.take_digits(2).size() == 2;
+  if (!is_year || (!scan.at_end() && kAfterTime.find(scan.next()) == std::string_view::npos)) scan.go_back_to(before);
+}
+
 /// A date before a time: `2026-11-22 `, `22.11.2026T`.
 std::optional<ReadDate> take_date(Scan& scan) {
   const std::size_t begin = scan.at();
@@ -106,7 +97,7 @@ std::optional<ReadDate> take_date(Scan& scan) {
 std::optional<LeadingTime> time_of_day(std::string_view text) {
   Scan scan(text);
   scan.skip(kBeforeTime);
-  const auto date = take_date(scan);
+  const auto named_date = take_date_with_name(scan), date = named_date ? named_date : take_date(scan);
   const std::string_view hours = scan.take_digits(2);
   if (hours.empty() || scan.take(":") == '\0') return {};
   const std::string_view minutes = scan.take_digits(2);
@@ -120,13 +111,14 @@ std::optional<LeadingTime> time_of_day(std::string_view text) {
     scan.go_back_to(end);
   else
     end = scan.at();
-  scan.take(kBlank);
+  scan.take(kAllBlanks);
   const char half = scan.take("AP");
   const bool of_half_a_day = half != '\0' && scan.take("M") != '\0';
   if (!of_half_a_day) scan.go_back_to(end);
+  if (named_date) skip_year(scan);
   scan.skip(kAfterTime);
-  const Time written = number_of(hours), hour = !of_half_a_day ? written : written % 12 + (half == 'P' ? 12 : 0);
-  const Time time = ((hour * 60 + number_of(minutes)) * 60 + number_of(seconds)) * kSecond + fraction(part);
+  const Time written = decimal_number(hours), hour = !of_half_a_day ? written : written % 12 + (half == 'P' ? 12 : 0);
+  const Time time = ((hour * 60 + decimal_number(minutes)) * 60 + decimal_number(seconds)) * kSecond + fraction(part);
   return LeadingTime{.time = time, .length = scan.at(), .of_day = true, .date = date.value_or(ReadDate{})};
 }
 
@@ -141,7 +133,7 @@ bool goes_on_as_word(char c) { return std::isalnum(static_cast<unsigned char>(c)
 /// The unit after a number, if no word begins with it; null: there is none.
 const TimeUnit* take_unit(Scan& scan) {
   const std::size_t begin = scan.at();
-  scan.skip(kBlank);
+  scan.skip(kAllBlanks);
   for (const TimeUnit& unit : kTimeUnits) {
     const std::size_t before = scan.at();
     if (scan.take_word(unit.word) && !goes_on_as_word(scan.next())) return &unit;
@@ -173,32 +165,29 @@ std::optional<LeadingTime> time_since(std::string_view text) {
   const TimeUnit* const unit = take_unit(scan);
   if (unit == nullptr && (part.empty() || goes_on_as_word(scan.next()))) return {};
   scan.skip(kAfterTime);
-  const Time of_unit = unit == nullptr ? kSecond : unit->time, number = number_of(whole);
+  const Time of_unit = unit == nullptr ? kSecond : unit->time, number = decimal_number(whole);
   if (number >= kFurthestTime / of_unit) return {};
   const Time time = number * of_unit + fraction(part) / (kSecond / of_unit);
   return LeadingTime{.time = below_zero ? -time : time, .length = scan.at()};
 }
 
-/// What stands between blanks, or the part of it that has bytes.
-struct Word {
-  std::string_view text;
-  std::size_t begin = 0;
-  std::size_t first_byte = 0, bytes = 0;  ///< of those of its line; none: it is something else
-  enum class Number : std::uint8_t { No, Yes, Perhaps } number = Number::No;  ///< one that is no byte
-};
 using Words = std::span<const Word>;
 
-struct LineWords {
-  std::vector<Word> words{};
-  Bytes bytes{};  ///< of all of them, one after the other
-};
-
-bool is_hex_digit(char c) { return stl::is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
 bool is_letter(char c) { return stl::is_letter(c); }
 bool is_decimal(std::string_view text) { return !text.empty() && std::ranges::all_of(text, stl::is_digit); }
 bool is_marked(std::string_view text) { return text.starts_with("0x") || text.starts_with("0X"); }
 
-constexpr std::string_view kWordBlanks = " \t\r";
+bool is_word_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// The first blank, or the first sign that is none, from a place on; the length of the line if there is no more.
+std::size_t end_of_word(std::string_view line, std::size_t at) {
+  while (at < line.size() && !is_word_blank(line[at])) ++at;
+  return at;
+}
+std::size_t begin_of_word(std::string_view line, std::size_t at) {
+  while (at < line.size() && is_word_blank(line[at])) ++at;
+  return at;
+}
 
 /// `2026-11-22`
 bool has_date(std::string_view word) {
@@ -213,14 +202,14 @@ bool has_date(std::string_view word) {
   return false;
 }
 
-std::uint8_t value_of(char digit) {
-  return static_cast<std::uint8_t>(stl::is_digit(digit) ? digit - '0' : (digit | 0x20) - 'a' + 10);
-}
-
 /// Appends the bytes of `01`, `0103`, `0x1`, `01-03`, `[01][03]`, `0x01,`. False, and nothing is appended, for anything
 /// else; a date is no byte.
 bool append_bytes(Bytes& bytes, std::string_view word) {
   constexpr std::string_view kOpening = "[<(\"", kBetween = ",;-[]<>()\"";
+  if (word.size() == 2 && is_hex_digit(word[0]) && is_hex_digit(word[1])) {
+    bytes.push_back(static_cast<std::uint8_t>(value_of_digit(word[0]) << 4 | value_of_digit(word[1])));
+    return true;
+  }
   const std::size_t before = bytes.size();
   std::size_t at = std::min(word.find_first_not_of(kOpening), word.size());
   while (at < word.size()) {
@@ -233,28 +222,40 @@ bool append_bytes(Bytes& bytes, std::string_view word) {
       bytes.resize(before);
       return false;
     }
-    if (digits == 1) bytes.push_back(value_of(word[begin]));
+    if (digits == 1) bytes.push_back(value_of_digit(word[begin]));
     for (std::size_t i = begin; i + 1 < at; i += 2)
-      bytes.push_back(static_cast<std::uint8_t>(value_of(word[i]) << 4 | value_of(word[i + 1])));
+      bytes.push_back(static_cast<std::uint8_t>(value_of_digit(word[i]) << 4 | value_of_digit(word[i + 1])));
     at = next;
   }
   if (has_date(word)) bytes.resize(before);
   return bytes.size() > before;
 }
 
+/// Where a `;` closes bytes, of which there are two at least: `01 0x03;`. Otherwise where the line ends.
+std::size_t end_of_bytes_before_comment(std::string_view line) {
+  for (std::size_t at = line.find(';'); at != std::string_view::npos; at = line.find(';', at + 1)) {
+    const bool closes = at + 1 == line.size() || kAllBlanks.find(line[at + 1]) != std::string_view::npos;
+    const std::size_t blank = closes ? line.find_last_of(kAllBlanks, at) : std::string_view::npos;
+    if (blank == std::string_view::npos || blank == 0 || !is_hex_digit(line[blank - 1])) continue;
+    Scan word(line.substr(blank + 1));
+    word.take_word("0x");
+    const std::size_t digits = word.take_hex(4).size();
+    if (digits > 0 && blank + 1 + word.at() == at) return at;
+  }
+  return line.size();
+}
+
 /// A comment stands after `;`, `//` or `#` after a blank, or after a `;` that closes the bytes. Where `;` divides the
 /// bytes, there is one after the first.
 std::string_view without_comment(std::string_view line) {
-  constexpr std::string_view kMarks = ";/#", kBlanks = " \t\n\v\f\r";
-  if (line.find_first_of(kMarks) == std::string_view::npos) return line;
-  const auto is_blank = [&](std::size_t at) { return at < line.size() && kBlanks.find(line[at]) != std::string_view::npos; };
+  constexpr std::string_view kMarks = ";/#";
+  if (std::ranges::none_of(line, [](char c) { return c == ';' || c == '/' || c == '#'; })) return line;
+  const auto is_blank = [&](std::size_t at) {
+    return at < line.size() && kAllBlanks.find(line[at]) != std::string_view::npos;
+  };
   for (std::size_t at = line.find_first_of(kMarks); at != std::string_view::npos; at = line.find_first_of(kMarks, at + 1))
     if (at > 0 && is_blank(at - 1) && (line[at] != '/' || line.substr(at).starts_with("//"))) line = line.substr(0, at - 1);
-  static const std::regex kClosing(R"([0-9A-Fa-f]\s(0x)?[0-9A-Fa-f]{1,4};(\s|$))");
-  TextMatch match;
-  if (line.find(';') != std::string_view::npos && std::regex_search(line.begin(), line.end(), match, kClosing))
-    line = line.substr(0, static_cast<std::size_t>(match.position() + match.length()) - 1);
-  return line;
+  return line.substr(0, end_of_bytes_before_comment(line));
 }
 
 /// `feed` and `added` after pairs of digits are words of a language.
@@ -267,13 +268,25 @@ bool is_port_of_host(std::string_view name, std::string_view number) {
   return four_digits || (number.size() <= 5 && name.find('.') != std::string_view::npos);
 }
 
+/// Also a part of one that is not ASCII.
+bool is_letter_of_any_language(char c) { return is_letter(c) || (c & 0x80) != 0; }
+
+/// Whether a name may end there: `Tx:`, and after a sign that takes three bytes in UTF-8, an arrow or one of Chinese.
+/// Letters that take two may go on as `de` does.
+bool ends_name(std::string_view word, std::size_t end) {
+  constexpr unsigned char kThreeBytes = 0xE0, kFourBytes = 0xF0;
+  const auto lead = static_cast<unsigned char>(end >= 3 ? word[end - 3] : 0);
+  return is_any_of(word[end - 1], ":;>,])-|") || (lead >= kThreeBytes && lead < kFourBytes);
+}
+
 /// `Tx:01` is `01` after its name; `len=09` and `plc:5020` are none.
 std::size_t length_of_name(std::string_view word) {
-  const std::size_t end = word.find_last_of(":;>,])-|");
-  if (end == std::string_view::npos || end + 1 == word.size()) return 0;
-  const std::string_view name = word.substr(0, end + 1);
-  const bool named = std::ranges::any_of(name, [](char c) { return is_letter(c) && !is_hex_digit(c); });
-  return named && name.find('=') == std::string_view::npos && !is_port_of_host(name, word.substr(end + 1)) ? name.size() : 0;
+  std::size_t end = word.size();
+  while (end > 0 && !ends_name(word, end)) --end;
+  if (end == 0 || end == word.size()) return 0;
+  const std::string_view name = word.substr(0, end);
+  const bool named = std::ranges::any_of(name, [](char c) { return !is_hex_digit(c) && is_letter_of_any_language(c); });
+  return named && name.find('=') == std::string_view::npos && !is_port_of_host(name, word.substr(end)) ? name.size() : 0;
 }
 
 /// Words beside a number that say what it is.
@@ -291,6 +304,7 @@ constexpr std::array<std::string_view, 10> kAfterNumbers{"BYTE",    "BYTES", "CH
                                                          "SECONDS", "BAUD",  "RETRIES", "REGISTERS",  "COILS"};
 
 bool is_name_of_number(std::string_view word) {
+  if (!is_letter(word.front())) return false;
   const bool colon = word.ends_with(':');
   const std::string name = stl::upper_case(word.substr(0, word.size() - (colon ? 1 : 0)));
   const auto row = std::ranges::find(kBeforeNumbers, name, &NumberName::word);
@@ -299,7 +313,7 @@ bool is_name_of_number(std::string_view word) {
 
 bool is_counted(std::string_view word) {
   const std::size_t end = word.find_last_not_of(":)],;");
-  return end != std::string_view::npos &&
+  return end != std::string_view::npos && is_letter(word.front()) &&
          std::ranges::find(kAfterNumbers, stl::upper_case(word.substr(0, end + 1))) != kAfterNumbers.end();
 }
 
@@ -355,30 +369,6 @@ void take_numbers_out(std::vector<Word>& words) {
   }
 }
 
-LineWords words_of_line(std::string_view line) {
-  LineWords found;
-  std::vector<Word>& words = found.words;
-  bool in_pairs = false, has_others = false;
-  for (std::size_t begin = line.find_first_not_of(kWordBlanks); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(kWordBlanks, begin), line.size());
-    Word word{.text = line.substr(begin, end - begin), .begin = begin, .first_byte = found.bytes.size()};
-    begin = line.find_first_not_of(kWordBlanks, end);
-    bool any = !(in_pairs && is_of_a_language(word.text)) && append_bytes(found.bytes, word.text);
-    if (const std::size_t name = any ? 0 : length_of_name(word.text); name > 0)
-      if ((any = append_bytes(found.bytes, word.text.substr(name)))) {
-        words.push_back({.text = word.text.substr(0, name), .begin = word.begin});
-        word.text.remove_prefix(name);
-        word.begin += name;
-      }
-    word.bytes = any ? found.bytes.size() - word.first_byte : 0;
-    in_pairs = word.bytes == 1;
-    has_others = has_others || !any || word.text.front() == '(' || word.text.front() == '[';
-    words.push_back(word);
-  }
-  if (has_others) take_numbers_out(words);
-  return found;
-}
-
 bool names_a_direction(const Word& word) { return direction_of(word.text) != Direction::Unknown; }
 
 /// `1`, `3G`, `??`, `123` beside bytes: one of them may be damaged.
@@ -390,13 +380,23 @@ bool may_be_a_damaged_byte(const Word& word) {
          (std::ranges::all_of(word.text, is_hex_digit) && !is_of_a_language(word.text));
 }
 
+/// `12.5`, `0,123`
+bool ends_with_fraction(std::string_view text) {
+  constexpr std::size_t kMostDigits = 9;
+  std::size_t point = text.size();
+  while (point > 0 && stl::is_digit(text[point - 1])) --point;
+  const std::size_t digits = text.size() - point;
+  return digits >= 1 && digits <= kMostDigits && point >= 2 && (text[point - 1] == '.' || text[point - 1] == ',') &&
+         stl::is_digit(text[point - 2]);
+}
+
 /// `:010300C80002`, of Modbus ASCII: it ends with digits that may be bytes. A clock, a decimal and `len=09` do not.
 bool ends_with_digits(const Word& word) {
   const std::size_t end = word.text.find_last_not_of("0123456789ABCDEFabcdef");
   if (end == std::string_view::npos || end + 1 == word.text.size()) return false;
-  static const std::regex kNoByte(R"(\d:\d\d|\]:\d|\d[.,]\d{1,9}$|=)");
-  return std::ispunct(static_cast<unsigned char>(word.text[end])) != 0 &&
-         !std::regex_search(word.text.begin(), word.text.end(), kNoByte);
+  return std::ispunct(static_cast<unsigned char>(word.text[end])) != 0 && !has_clock(word.text) &&
+         !ends_with_fraction(word.text) && word.text.find('=') == std::string_view::npos &&
+         word.text.find("]:") == std::string_view::npos;
 }
 
 /// `E4 09 be` before `careful`: no tool writes capitals and small letters.
@@ -408,6 +408,7 @@ bool has_both_cases(Words run) {
 }
 
 bool has_mark(const Word& word) {
+  if (word.text.size() < 3) return false;
   return is_marked(word.text.substr(std::min(word.text.find_first_not_of("[<(\""), word.text.size())));
 }
 
@@ -440,6 +441,8 @@ const Word* what_is_doubtful(Words before, Words run, Words after) {
   if (after.empty() || after.front().number == Word::Number::Yes) return nullptr;
   if (has_both_cases(run)) return &run.back();
   const std::string_view next = after.front().text;
+  const bool ends_cell = next.front() == '|' && std::ranges::none_of(after, [](const Word& word) { return word.bytes > 0; });
+  if (ends_cell) return nullptr;
   const bool is_comment = next.front() == '(' || (next.size() > 2 && std::all_of(next.begin(), next.begin() + 3, is_letter));
   return is_comment && (run.size() > 1 || run.front().bytes > 1) ? nullptr : &after.front();
 }
@@ -452,7 +455,6 @@ std::string_view without_bars(std::string_view text) {
 
 /// What is not ASCII as one sign, whatever it takes in UTF-8.
 std::string in_single_bytes(std::string_view text) {
-  if (stl::is_ascii(text)) return std::string(text);
   std::string single;
   for (const char c : text)
     if ((c & 0xC0) != 0x80 || single.empty()) single += (c & 0x80) != 0 ? '.' : c;
@@ -469,7 +471,7 @@ bool is_number_of_a_sentence(Words before, Words run) {
   return names_a_station || (says_nothing && word.size() > 1);
 }
 
-/// The last run of bytes among the words that end at `end`.
+/// The last run of bytes among words.
 struct Run {
   Words before, words;
 };
@@ -479,6 +481,83 @@ std::optional<Run> last_run(Words words) {
   if (last == words.begin()) return {};
   const auto first = std::find_if_not(std::reverse_iterator(last), words.rend(), has_bytes).base();
   return Run{{words.begin(), first}, {first, last}};
+}
+
+/// In English, German, French, Spanish, Italian, Portuguese, Russian and Chinese; ASCII letters in capitals.
+constexpr std::array<std::string_view, 33> kRequestWords{"TX",
+                                                         "SENT",
+                                                         "SEND",
+                                                         "WRITE",
+                                                         "WRITTEN",
+                                                         "REQUEST",
+                                                         "QUERY",
+                                                         "MASTER",
+                                                         "GESENDET",
+                                                         "SENDEN",
+                                                         "ANFRAGE",
+                                                         "SENDE",
+                                                         "ENVOI",
+                                                         "ENVOY\u00E9",
+                                                         "ENVOYE",
+                                                         "\u00E9MISSION",
+                                                         "EMISSION",
+                                                         "REQU\u00EATE",
+                                                         "REQUETE",
+                                                         "ENVIADO",
+                                                         "ENVIAR",
+                                                         "ENVIO",
+                                                         "SOLICITUD",
+                                                         "INVIATO",
+                                                         "INVIO",
+                                                         "RICHIESTA",
+                                                         "PEDIDO",
+                                                         "\u041F\u0435\u0440\u0435\u0434\u0430\u0447\u0430",
+                                                         "\u0417\u0430\u043F\u0440\u043E\u0441",
+                                                         "\u041E\u0442\u043F\u0440\u0430\u0432\u043B\u0435\u043D\u043E",
+                                                         "\u53D1",
+                                                         "\u53D1\u9001",
+                                                         "\u53D1\u9001\u6570\u636E"};
+constexpr std::array<std::string_view, 33> kAnswerWords{"RX",
+                                                        "RECV",
+                                                        "RECEIVED",
+                                                        "READ",
+                                                        "RESPONSE",
+                                                        "ANSWER",
+                                                        "REPLY",
+                                                        "SLAVE",
+                                                        "EMPFANGEN",
+                                                        "EMPFANG",
+                                                        "ANTWORT",
+                                                        "EMPFANGE",
+                                                        "RE\u00E7U",
+                                                        "RECU",
+                                                        "R\u00E9CEPTION",
+                                                        "RECEPTION",
+                                                        "R\u00E9PONSE",
+                                                        "REPONSE",
+                                                        "RECIBIDO",
+                                                        "RECIBIR",
+                                                        "RESPUESTA",
+                                                        "RICEVUTO",
+                                                        "RICEZIONE",
+                                                        "RISPOSTA",
+                                                        "RECEBIDO",
+                                                        "RESPOSTA",
+                                                        "\u041F\u0440\u0438\u0435\u043C",
+                                                        "\u041F\u0440\u0438\u0451\u043C",
+                                                        "\u041E\u0442\u0432\u0435\u0442",
+                                                        "\u041F\u043E\u043B\u0443\u0447\u0435\u043D\u043E",
+                                                        "\u6536",
+                                                        "\u63A5\u6536",
+                                                        "\u63A5\u6536\u6570\u636E"};
+constexpr std::size_t kLongestDirection = 20;  // in UTF-8
+
+/// Signs that are no letters, from U+2000 to U+2FFF and the wide ones from U+FF00 on, as blanks.
+std::string without_signs(std::string_view text) {
+  std::string letters(text);
+  for (std::size_t i = 0; i + 2 < letters.size(); ++i)
+    if (letters[i] == '\xE2' || letters[i] == '\xEF') letters.replace(i, 3, 3, ' ');
+  return letters;
 }
 
 struct Unit {
@@ -523,22 +602,22 @@ Direction direction_of_brackets(std::string_view bytes) {
   return Direction::Unknown;
 }
 
-Direction direction_of(std::string_view text) {
-  static constexpr std::array<std::string_view, 8> kRequests{"TX",      "SENT",    "SEND",  "WRITE",
-                                                             "WRITTEN", "REQUEST", "QUERY", "MASTER"};
-  static constexpr std::array<std::string_view, 8> kAnswers{"RX",       "RECV",   "RECEIVED", "READ",
-                                                            "RESPONSE", "ANSWER", "REPLY",    "SLAVE"};
-  constexpr std::size_t kShortest = 2, kLongest = 8;
-  bool request = text.find('>') != std::string_view::npos, answer = text.find('<') != std::string_view::npos;
+Direction direction_of(std::string_view written) {
+  const bool ascii = stl::is_ascii(written);
+  const std::string letters = ascii ? "" : without_signs(written);
+  const std::string_view text = ascii ? written : std::string_view(letters);
+  constexpr std::size_t kShortest = 2;
+  bool request = text.find('>') != std::string_view::npos || written.find("\u2192") != std::string_view::npos;
+  bool answer = text.find('<') != std::string_view::npos || written.find("\u2190") != std::string_view::npos;
   for (std::size_t end = 0; end < text.size();) {
-    const auto begin = std::find_if(text.begin() + static_cast<std::ptrdiff_t>(end), text.end(), is_letter);
-    const auto after = std::find_if_not(begin, text.end(), is_letter);
+    const auto begin = std::find_if(text.begin() + static_cast<std::ptrdiff_t>(end), text.end(), is_letter_of_any_language);
+    const auto after = std::find_if_not(begin, text.end(), is_letter_of_any_language);
     end = static_cast<std::size_t>(after - text.begin());
     const auto length = static_cast<std::size_t>(after - begin);
-    if (length < kShortest || length > kLongest) continue;
+    if (length < kShortest || length > kLongestDirection) continue;
     const std::string word = stl::upper_case({begin, after});
-    request = request || std::ranges::find(kRequests, word) != kRequests.end();
-    answer = answer || std::ranges::find(kAnswers, word) != kAnswers.end();
+    request = request || std::ranges::find(kRequestWords, word) != kRequestWords.end();
+    answer = answer || std::ranges::find(kAnswerWords, word) != kAnswerWords.end();
   }
   if (request == answer) return Direction::Unknown;
   return request ? Direction::Request : Direction::Answer;
@@ -546,57 +625,88 @@ Direction direction_of(std::string_view text) {
 
 std::optional<Bytes> bytes_of_text(std::string_view text) {
   Bytes bytes;
-  for (std::size_t begin = text.find_first_not_of(kWordBlanks); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(kWordBlanks, begin), text.size());
+  for (std::size_t begin = begin_of_word(text, 0); begin < text.size();) {
+    const std::size_t end = end_of_word(text, begin);
     if (!append_bytes(bytes, text.substr(begin, end - begin))) return {};
-    begin = text.find_first_not_of(kWordBlanks, end);
+    begin = begin_of_word(text, end);
   }
   return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
 }
 
-std::optional<BytesInLine> bytes_in_line(std::string_view line) {
-  const LineWords all = words_of_line(without_comment(line));
-  const auto run = last_run(all.words);
+bool has_clock(std::string_view text) {
+  for (std::size_t at = text.find(':'); at != std::string_view::npos; at = text.find(':', at + 1))
+    if (at > 0 && at + 2 < text.size() && stl::is_digit(text[at - 1]) && stl::is_digit(text[at + 1]) &&
+        stl::is_digit(text[at + 2]))
+      return true;
+  return false;
+}
+
+std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
+  take_apart(without_comment(line));
+  const std::size_t end_of_row = end_of_hex(line);
+  if (end_of_row < line.size()) take_apart(without_comment(line.substr(0, end_of_row)));
+  const auto run = last_run(words_);
   if (!run || is_number_of_a_sentence(run->before, run->words)) return {};
   const Word &first = run->words.front(), &last = run->words.back();
-  BytesInLine found{.begin = first.begin, .end = last.begin + last.text.size()};
-  const Words after = Words(all.words).subspan(run->before.size() + run->words.size());
+  BytesInLine found{.begin = first.begin, .has_characters = end_of_row < line.size()};
+  const Words after = Words(words_).subspan(run->before.size() + run->words.size());
   if (const Word* const doubtful = what_is_doubtful(run->before, run->words, after)) {
     found.not_understood = doubtful->text;
     return found;
   }
-  const auto bytes = all.bytes.begin();
+  const auto bytes = bytes_.begin();
+  if (!after.empty() && after.front().text == "|") found.next_cell = after.front().begin + 1;
   found.bytes.assign(bytes + static_cast<std::ptrdiff_t>(first.first_byte),
                      bytes + static_cast<std::ptrdiff_t>(last.first_byte + last.bytes));
   return found;
 }
 
-/// Without the characters that some tools put beside the hex: after two blanks or more, after one in a full row. The first
-/// of them may be blanks.
-std::string_view without_characters(std::string_view line) {
-  constexpr std::size_t kFullRow = 16, kShortestFullRow = 2 * kFullRow, kLongest = 1000;
-  const bool may_have = line.find("  ") != std::string_view::npos || line.size() > kShortestFullRow;
-  if (!may_have || line.size() > kLongest) return line;
-  const LineWords all = words_of_line(without_comment(line));
-  constexpr std::size_t kBars = 2;
-  const bool ascii = stl::is_ascii(line);
-  std::size_t count = 0;  // of the words before the gap
-  for (std::size_t gap = line.find(' '); gap != std::string_view::npos; gap = line.find(' ', gap + 1)) {
-    const std::size_t last = line.find_first_not_of(' ', gap);
-    if (last == std::string_view::npos) return line;
-    const auto ends = [](const Word& word) { return word.begin + word.text.size(); };
-    while (count < all.words.size() && ends(all.words[count]) <= gap) ++count;
-    if ((last - gap == 1 && gap < kShortestFullRow) || count == 0 || ends(all.words[count - 1]) != gap) continue;
-    const std::size_t most = all.words[count - 1].first_byte + all.words[count - 1].bytes;
-    if (ascii && line.size() - last > most + kBars) continue;
-    const auto run = last_run(Words(all.words).first(count));
-    if (!run || run->words.end() != Words(all.words).begin() + static_cast<std::ptrdiff_t>(count)) continue;
-    const Word &first = run->words.front(), &final = run->words.back();
-    const auto bytes = std::span(all.bytes).subspan(first.first_byte, final.first_byte + final.bytes - first.first_byte);
-    for (std::size_t column = gap + (bytes.size() < kFullRow ? 2 : 1); column <= last; ++column)
-      if (is_column_of_characters(in_single_bytes(without_bars(line.substr(column))), bytes)) return line.substr(0, gap);
+void BytesOfLines::take_apart(std::string_view line) {
+  words_.clear();
+  bytes_.clear();
+  bool in_pairs = false, has_others = false;
+  for (std::size_t begin = begin_of_word(line, 0); begin < line.size();) {
+    const std::size_t end = end_of_word(line, begin);
+    Word word{.text = line.substr(begin, end - begin), .begin = begin, .first_byte = bytes_.size()};
+    begin = begin_of_word(line, end);
+    bool any = !(in_pairs && is_of_a_language(word.text)) && append_bytes(bytes_, word.text);
+    if (const std::size_t name = any ? 0 : length_of_name(word.text); name > 0)
+      if ((any = append_bytes(bytes_, word.text.substr(name)))) {
+        words_.push_back({.text = word.text.substr(0, name), .begin = word.begin});
+        word.text.remove_prefix(name);
+        word.begin += name;
+      }
+    word.bytes = any ? bytes_.size() - word.first_byte : 0;
+    in_pairs = word.bytes == 1;
+    has_others = has_others || !any || word.text.front() == '(' || word.text.front() == '[';
+    words_.push_back(word);
   }
-  return line;
+  if (has_others) take_numbers_out(words_);
+}
+
+/// Where the characters stand that a tool puts beside the hex; the length of the line if there are none. The first of them
+/// may be blanks.
+std::size_t BytesOfLines::end_of_hex(std::string_view line) const {
+  constexpr std::size_t kFullRow = 16, kShortestFullRow = 2 * kFullRow, kLongest = 1000, kBars = 2, kLongestSign = 4;
+  if (line.size() > kLongest) return line.size();
+  for (std::size_t count = 1; count <= words_.size(); ++count) {
+    const Word& before = words_[count - 1];
+    const std::size_t gap = before.begin + before.text.size();
+    std::size_t last = gap;
+    while (last < line.size() && line[last] == ' ') ++last;
+    const std::size_t most = before.first_byte + before.bytes;  // characters: one for each byte at most
+    const bool is_gap = last - gap > 1 || (last - gap == 1 && gap >= kShortestFullRow);
+    if (!is_gap || last == line.size() || most == 0) continue;
+    const std::size_t signs = line.size() - last;
+    if (signs > most + kBars && (signs > kLongestSign * (most + kBars) || stl::is_ascii(line.substr(last)))) continue;
+    const auto run = last_run(Words(words_).first(count));
+    if (!run || run->before.size() + run->words.size() != count) continue;
+    const Word& first = run->words.front();
+    const auto bytes = std::span(bytes_).subspan(first.first_byte, most - first.first_byte);
+    for (std::size_t column = gap + (bytes.size() < kFullRow ? 2 : 1); column <= last; ++column)
+      if (is_column_of_characters(in_single_bytes(without_bars(line.substr(column))), bytes)) return gap;
+  }
+  return line.size();
 }
 
 bool is_column_of_characters(std::string_view text, std::span<const std::uint8_t> bytes) {
@@ -610,20 +720,21 @@ bool is_column_of_characters(std::string_view text, std::span<const std::uint8_t
   return ends_with_blanks && std::equal(text.begin(), text.end(), bytes.begin(), shows);
 }
 
+void CharacterJoiner::add(const RecordedFrame& row, std::vector<RecordedFrame>& frames) {
+  const bool joins =
+      !frames.empty() && frames.back().direction == row.direction && last_ && row.at && *row.at - *last_ <= gap_;
+  last_ = row.at;
+  if (!joins) frames.push_back({.at = row.at, .direction = row.direction, .place = row.place, .stream = row.stream});
+  RecordedFrame& frame = frames.back();
+  for (const std::size_t place : row.damaged) frame.damaged.push_back(frame.bytes.size() + place);
+  frame.bytes.insert(frame.bytes.end(), row.bytes.begin(), row.bytes.end());
+  if (row.at) frame.times.push_back(*row.at);
+}
+
 void join_characters(LineRecording& recording, const ReadingChoices& choices) {
-  const Time gap = choices.gap == 0 ? kCharacterGap : choices.gap;
+  CharacterJoiner joiner(choices);
   std::vector<RecordedFrame> frames;
-  std::optional<Time> last;
-  for (RecordedFrame& row : recording.frames) {
-    const bool joins =
-        !frames.empty() && frames.back().direction == row.direction && last && row.at && *row.at - *last <= gap;
-    last = row.at;
-    if (!joins) frames.push_back({.at = row.at, .direction = row.direction, .place = row.place, .stream = row.stream});
-    RecordedFrame& frame = frames.back();
-    for (const std::size_t place : row.damaged) frame.damaged.push_back(frame.bytes.size() + place);
-    frame.bytes.insert(frame.bytes.end(), row.bytes.begin(), row.bytes.end());
-    if (row.at) frame.times.push_back(*row.at);
-  }
+  for (const RecordedFrame& row : recording.frames) joiner.add(row, frames);
   recording.frames = std::move(frames);
 }
 
@@ -648,6 +759,7 @@ void count_from_first(LineRecording& recording) {
     if (!frame.at) continue;
     if (!first) first = frame.at;
     *frame.at -= *first;
+    for (Time& time : frame.times) time -= *first;
   }
 }
 

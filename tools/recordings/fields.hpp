@@ -4,10 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <regex>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tools/recordings/recording.hpp"
 
@@ -15,18 +15,6 @@ namespace s7200::tools {
 
 /// 126 years: seconds since 1970 are within it, and the difference of two still fits a Time.
 inline constexpr Time kFurthestTime = 4'000'000'000 * kSecond;
-
-using TextMatch = std::match_results<std::string_view::const_iterator>;
-
-/// What stands before the bytes of a line is no longer. A pattern that repeats without end gets no more to look at:
-/// std::regex takes a piece of the stack for each character, and a line may have any number.
-inline constexpr std::size_t kLongestHead = 256;
-
-/// As far as the head goes. Not by a `^` in the pattern: std::regex then still tries at every character.
-inline bool begins_with(std::string_view text, TextMatch& match, const std::regex& pattern) {
-  const std::string_view head = text.substr(0, kLongestHead);
-  return std::regex_search(head.begin(), head.end(), match, pattern, std::regex_constants::match_continuous);
-}
 
 /// Days since 1970 of a date, with the day first and with the month first. They differ only in dates with slashes, of which
 /// tools write both; nothing for one that does not exist.
@@ -55,23 +43,56 @@ Direction direction_of_brackets(std::string_view bytes);
 /// `01 03 00`, `0x01,0x3`, `[01][03]`, `010300`; nothing if there is anything else.
 std::optional<Bytes> bytes_of_text(std::string_view text);
 
+/// What stands between blanks, or the part of it that has bytes.
+struct Word {
+  std::string_view text;
+  std::size_t begin = 0;
+  std::size_t first_byte = 0, bytes = 0;  ///< of those of its line; none: it is something else
+  enum class Number : std::uint8_t { No, Yes, Perhaps } number = Number::No;  ///< one that is no byte
+};
+
+/// Whether there is a time of day in a text: `10:00`.
+bool has_clock(std::string_view text);
+
 /// The bytes of a line: one run of words in hex after what names them, with nothing after it but a comment.
 struct BytesInLine {
   Bytes bytes{};
-  std::size_t begin = 0, end = 0;  ///< of the run
-  std::string not_understood{};    ///< what makes it doubtful which bytes there were; then there are none
+  std::size_t begin = 0;              ///< of the run
+  std::size_t next_cell = 0;          ///< after a bar that ends the bytes; 0: there is none
+  bool has_characters = false;        ///< they stand once more as characters behind it
+  std::string_view not_understood{};  ///< what makes it doubtful which bytes there were; then there are none
 };
-/// Nothing if there is no byte in it.
-std::optional<BytesInLine> bytes_in_line(std::string_view line);
 
-/// The line without the characters that some tools put beside the hex: after two blanks or more, after one in a full row.
-std::string_view without_characters(std::string_view line);
+/// Finds the bytes of lines, one after the other.
+class BytesOfLines {
+ public:
+  /// Nothing if there is no byte in it. The characters that some tools put beside the hex, after two blanks or more, or
+  /// after one in a full row, are none.
+  std::optional<BytesInLine> in(std::string_view line);
+
+ private:
+  void take_apart(std::string_view line);
+  std::size_t end_of_hex(std::string_view line) const;
+
+  std::vector<Word> words_;
+  Bytes bytes_;  // of all words, one after the other
+};
 
 /// Whether a text shows the bytes as characters, as tools do beside the hex: those that cannot be printed as a sign.
 /// Blanks at its end may be missing.
 bool is_column_of_characters(std::string_view text, std::span<const std::uint8_t> bytes);
 
 /// Rows with one character each become frames: those that follow within the gap, in the same direction.
+class CharacterJoiner {
+ public:
+  explicit CharacterJoiner(const ReadingChoices& choices) : gap_(choices.gap == 0 ? kCharacterGap : choices.gap) {}
+  /// The next row, into the last of the frames or as one more.
+  void add(const RecordedFrame& row, std::vector<RecordedFrame>& frames);
+
+ private:
+  Time gap_;
+  std::optional<Time> last_{};
+};
 void join_characters(LineRecording& recording, const ReadingChoices& choices);
 
 /// Puts times of day, row after row, on one axis. Between dates that can be read in two ways lie the fewer days. Without a

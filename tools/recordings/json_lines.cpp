@@ -1,11 +1,10 @@
-// An object of JSON in each line, after whatever a logger puts before it: what nodes of Node-RED, loggers and our own users
-// write.
+// Objects of JSON: one in each line, after whatever a logger puts before it, or lists of them, also over several lines.
+// Nodes of Node-RED, loggers and our own users write such.
 #include <algorithm>
 
 #include "interpreter/base/text.hpp"
 #include "tools/json/json.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/lines.hpp"
 #include "tools/recordings/named_fields.hpp"
 
 namespace s7200::tools {
@@ -14,6 +13,94 @@ namespace {
 using json = nlohmann::ordered_json;
 
 constexpr JsonLimits kLimits{.bytes = std::size_t{1} << 20, .depth = 16, .members = 1000};
+constexpr std::string_view kLineEnds = "\r\n", kBetween = " \t\r\n,[]";
+
+/// An object, which may go on in lines below its first; or a line with something else, or with an object that has no end.
+struct Piece {
+  enum class Kind : std::uint8_t { Object, NoEnd, Other } kind = Kind::Other;
+  std::string_view before{};  ///< what stands in the line before the object
+  std::string_view text{};
+  std::size_t number = 0;  ///< of the line
+};
+
+std::string_view first_line(std::string_view text) { return text.substr(0, text.find_first_of(kLineEnds)); }
+
+std::size_t count_lines(std::string_view text) {
+  std::size_t lines = 0;
+  for (std::size_t at = text.find_first_of(kLineEnds); at != std::string_view::npos;
+       at = text.find_first_of(kLineEnds, at + 1))
+    lines += text[at] == '\n' || !text.substr(at).starts_with("\r\n");
+  return lines;
+}
+
+/// Of `{"` or `{ "`, or of a brace at the end of its line.
+std::size_t begin_of_object(std::string_view line) {
+  for (std::size_t at = line.find('{'); at != std::string_view::npos; at = line.find('{', at + 1)) {
+    const std::size_t next = line.find_first_not_of(" \t", at + 1);
+    if (next == std::string_view::npos || line[next] == '"') return at;
+  }
+  return std::string_view::npos;
+}
+
+/// Up to its last brace; 0 if it has no end within its line, or not far below it. A text of JSON ends in its line.
+std::size_t length_of_object(std::string_view text) {
+  constexpr std::size_t kFarthest = std::size_t{1} << 16;
+  std::size_t depth = 0;
+  bool quoted = false, in_first_line = true;
+  for (std::size_t i = 0; i < text.size() && (in_first_line || i < kFarthest); ++i) {
+    const char c = text[i];
+    const bool ends_line = kLineEnds.find(c) != std::string_view::npos;
+    in_first_line = in_first_line && !ends_line;
+    if (quoted && ends_line) return 0;
+    if (quoted && c == '\\')
+      ++i;
+    else if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && (c == '{' || c == '['))
+      ++depth;
+    else if (!quoted && (c == '}' || c == ']'))
+      --depth;
+    if (depth == 0) return i + 1;
+    if (depth > kLimits.depth) return 0;
+  }
+  return 0;
+}
+
+/// The pieces of a text, one after the other.
+class Pieces {
+ public:
+  explicit Pieces(std::string_view text) : rest_(text) {}
+
+  /// Nothing at the end.
+  std::optional<Piece> next() {
+    pass(std::min(rest_.find_first_not_of(kBetween), rest_.size()));
+    if (rest_.empty()) return {};
+    const std::string_view line = first_line(rest_);
+    const std::size_t begin = begin_of_object(line);
+    Piece piece{.text = stl::trim(line), .number = number_};
+    std::size_t end = line.size();
+    if (begin != std::string_view::npos) {
+      const std::size_t length = length_of_object(rest_.substr(begin));
+      const std::string_view after = first_line(rest_.substr(begin + length));
+      const std::size_t more = std::min(after.find_first_not_of(kBetween), after.size());
+      const bool ends = length > 0 && (more == after.size() || begin_of_object(after.substr(more)) == 0);
+      piece.kind = ends ? Piece::Kind::Object : Piece::Kind::NoEnd;
+      piece.before = line.substr(0, begin);
+      if (ends) piece.text = rest_.substr(begin, length), end = begin + length;
+    }
+    pass(end);
+    return piece;
+  }
+
+ private:
+  void pass(std::size_t bytes) {
+    number_ += count_lines(rest_.substr(0, bytes));
+    rest_.remove_prefix(bytes);
+  }
+
+  std::string_view rest_;
+  std::size_t number_ = 1;
+};
 
 /// Numbers from 0 to 255, or bytes in texts.
 std::optional<Bytes> bytes_of_list(const json& list) {
@@ -21,7 +108,7 @@ std::optional<Bytes> bytes_of_list(const json& list) {
   for (const json& each : list) {
     if (const auto byte = number_from<std::uint8_t>(each))
       bytes.push_back(*byte);
-    else if (const auto some = each.is_string() ? bytes_of_text(each.get<std::string>()) : std::nullopt)
+    else if (const auto some = each.is_string() ? bytes_of_text(each.get_ref<const std::string&>()) : std::nullopt)
       bytes.insert(bytes.end(), some->begin(), some->end());
     else
       return {};
@@ -36,51 +123,51 @@ void add_fields(const json& object, const std::string& outer, NamedFields& field
     if (value.is_object())
       add_fields(value, name, fields);
     else if (value.is_array())
-      fields.push_back(
-          {.name = name, .value = value.dump(-1, ' ', true, json::error_handler_t::replace), .bytes = bytes_of_list(value)});
+      fields.push_back({.name = name, .value = in_one_line(value), .bytes = bytes_of_list(value)});
     else
-      fields.push_back({.name = name, .value = value.is_string() ? value.get<std::string>() : value.dump()});
+      fields.push_back({.name = name, .value = value.is_string() ? value.get<std::string>() : in_one_line(value)});
   }
 }
 
-struct Record {
-  std::string_view before{};
-  std::optional<NamedFields> fields{};  ///< nothing: it is not JSON
-};
-/// Nothing if there is no object in the line.
-std::optional<Record> record_of(std::string_view line) {
-  const std::size_t begin = line.find("{\"");
-  if (begin == std::string_view::npos) return {};
-  std::string_view text = stl::trim(line.substr(begin));
-  if (text.ends_with(',')) text.remove_suffix(1);  // a row of a list
-  Record record{.before = line.substr(0, begin)};
+/// The records of an object: those in a list that it has, otherwise itself.
+void add_records(const json& object, std::vector<NamedFields>& records) {
+  for (const json& value : object) {
+    const bool is_list = value.is_array() && !value.empty() && std::ranges::all_of(value, &json::is_object);
+    if (!is_list) continue;
+    for (const json& each : value) add_records(each, records);
+    return;
+  }
+  add_fields(object, "", records.emplace_back());
+}
+
+/// None if it is not JSON.
+std::vector<NamedFields> records_of(const Piece& piece) {
+  std::vector<NamedFields> records;
   std::string why;
-  const auto object = parse_json(text, why, kLimits);
-  if (object && object->is_object()) add_fields(*object, "", record.fields.emplace());
-  return record;
+  const auto object = piece.kind == Piece::Kind::Object ? parse_json(piece.text, why, kLimits) : std::nullopt;
+  if (object) add_records(*object, records);
+  return records;
 }
 
 }  // namespace
 
 bool looks_like_json_lines(std::string_view bytes) {
-  return is_text(bytes) && std::ranges::any_of(Lines(beginning_of(bytes)), [](std::string_view line) {
-           const auto record = record_of(line);
-           return record && record->fields && has_frame(*record->fields);
-         });
+  Pieces pieces(beginning_of(bytes));
+  while (const auto piece = pieces.next())
+    if (std::ranges::any_of(records_of(*piece), has_frame)) return is_text(bytes);
+  return false;
 }
 
 std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices&, std::string&) {
   NamedFieldsReader reader;
-  std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
-    ++number;
-    const auto record = record_of(line);
-    if (record && record->fields)
-      reader.take(*record->fields, record->before, number);
-    else if (record)
-      reader.take_unreadable(number, stl::trim(line));
-    else if (line.find_first_not_of(" \t[]") != std::string_view::npos)
-      reader.take_other(number);
+  Pieces pieces(bytes);
+  while (const auto piece = pieces.next()) {
+    const auto records = records_of(*piece);
+    for (const NamedFields& fields : records) reader.take(fields, piece->before, piece->number);
+    if (piece->kind == Piece::Kind::Other)
+      reader.take_other(piece->number);
+    else if (records.empty())
+      reader.take_unreadable(piece->number, piece->text);
   }
   return reader.finish();
 }

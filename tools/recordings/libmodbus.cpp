@@ -7,6 +7,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/left_out.hpp"
 #include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
@@ -26,6 +27,14 @@ std::optional<RecordedFrame> frame_in(std::string_view line) {
   return RecordedFrame{.direction = direction, .bytes = *bytes_of_text(text)};
 }
 
+/// `<01><03><0`: a frame that is not whole.
+bool begins_frame(std::string_view line) {
+  const std::string_view text = stl::trim(line);
+  constexpr std::size_t kShortest = 5;
+  return text.size() >= kShortest && direction_of_brackets(text) != Direction::Unknown && text[4] == text[0] &&
+         bytes_of_text(text.substr(0, 4));
+}
+
 bool is_of_mbpoll(std::string_view line) { return line.starts_with("mbpoll ") || line.starts_with("-- Polling slave "); }
 
 }  // namespace
@@ -38,14 +47,19 @@ bool looks_like_libmodbus(std::string_view bytes) {
 
 std::optional<LineRecording> read_libmodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
+  LeftOut left_out;
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes)) {
     ++number;
     auto frame = frame_in(line);
-    if (!frame) continue;
+    if (!frame) {
+      if (begins_frame(line)) left_out.not_understood(number, stl::trim(line));
+      continue;
+    }
     frame->place = fmt::format("line {}", number);
     recording.frames.push_back(std::move(*frame));
   }
+  left_out.tell(recording);
   if (recording.frames.empty()) read_values_of_mbpoll(bytes, choices, recording);
   return recording;
 }

@@ -161,7 +161,8 @@ std::string no_message(Data bytes, const RecordedFrame* open) {
   return instead.empty() ? "wrong CRC, or not a whole frame" : instead;
 }
 
-ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
+/// What a frame is; its text is left to whoever wants it.
+ReadFrame judge_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   const Data bytes(frame.bytes);
   ReadFrame read;
   if (open != nullptr && frame.direction != Direction::Request) {
@@ -169,25 +170,35 @@ ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
     if (fits(answer) || frame.direction == Direction::Answer) {
       read.direction = Direction::Answer;
       read.right = fits(answer);
-      if (!fits(answer) && !modbus::crc_ok(bytes)) read.text = what_it_is_instead(bytes, open);
-      if (read.text.empty()) read.text = modbus::describe(open->bytes, bytes, modbus::Numbering::Notation);
       return read;
     }
   }
   const bool crc = bytes.size() >= kShortestRtu && modbus::crc_ok(bytes);
   const bool whole = crc && has_length_of_request(bytes);
-  if (frame.direction == Direction::Answer || (frame.direction == Direction::Unknown && !whole)) {
-    read.right = crc;
-    read.text = !crc ? no_message(bytes, open) : "an answer without its request";
-    return read;
-  }
+  read.right = crc;
+  if (frame.direction == Direction::Answer || (frame.direction == Direction::Unknown && !whole)) return read;
   read.direction = Direction::Request;
   read.station = bytes[0];
   read.needs_no_answer = crc && is_to_all(frame);
   read.right = whole;
-  read.text = !crc    ? no_message(bytes, open)
-              : whole ? modbus_request_text(frame)
-                      : "no request: it does not have the length of its function";
+  return read;
+}
+
+std::string modbus_text(const RecordedFrame& frame, const RecordedFrame* open, const ReadFrame& read) {
+  const Data bytes(frame.bytes);
+  const bool crc = read.right || (bytes.size() >= kShortestRtu && modbus::crc_ok(bytes));
+  if (read.direction == Direction::Answer) {
+    const std::string instead = crc ? "" : what_it_is_instead(bytes, open);
+    return instead.empty() ? modbus::describe(open->bytes, bytes, modbus::Numbering::Notation) : instead;
+  }
+  if (!crc) return no_message(bytes, open);
+  if (read.direction == Direction::Unknown) return "an answer without its request";
+  return read.right ? modbus_request_text(frame) : "no request: it does not have the length of its function";
+}
+
+ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
+  ReadFrame read = judge_modbus(frame, open);
+  read.text = modbus_text(frame, open, read);
   return read;
 }
 
@@ -208,6 +219,7 @@ std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
 /// The messages of Modbus say how long they are.
 class ModbusReader final : public PlainReader<read_modbus, first_modbus_message> {
  public:
+  ReadFrame judge(const RecordedFrame& frame, const RecordedFrame* open) override { return judge_modbus(frame, open); }
   bool announces_more(Data bytes, Direction direction, const RecordedFrame* open) const override {
     const bool begins_answer =
         direction != Direction::Request && open != nullptr && bytes.size() < modbus::length_of_answer(open->bytes, bytes);

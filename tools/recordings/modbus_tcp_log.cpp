@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/counted.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/recordings/forms.hpp"
@@ -10,15 +11,53 @@
 namespace s7200::tools {
 namespace {
 
-/// Empty if the bytes are not whole messages. A request on a serial line may look like one, but has a CRC.
-std::vector<modbus::TcpMessage> messages_of(const Bytes& bytes) {
-  if (modbus::crc_ok(bytes)) return {};
+using Rows = std::span<const RecordedFrame>;
+
+struct WholeMessages {
+  std::size_t rows = 1;  ///< that they are in
+  bool may_be_serial =
+      false;  ///< a request on a serial line may look like a message, and a message may have a CRC by chance
+  std::vector<modbus::TcpMessage> messages{};
+};
+
+/// A message has its length, and protocol 0.
+bool may_begin_message(const Bytes& bytes) {
+  constexpr std::size_t kProtocol = 2, kLength = 4;
+  return bytes.size() >= kLength && load16(&bytes[kProtocol]) == 0;
+}
+
+/// Most rows are one message.
+bool is_one_message(const Bytes& bytes) {
+  constexpr std::size_t kHead = 6, kShortest = kHead + 2;
+  return bytes.size() >= kShortest && bytes.size() <= kHead + 1 + modbus::kLongestPdu &&
+         load16(&bytes[kHead - 2]) == bytes.size() - kHead;
+}
+
+modbus::TcpMessage message_of(const Bytes& bytes) {
+  constexpr std::size_t kUnit = 6;
+  return {load16(bytes.data()), bytes[kUnit], Bytes(bytes.begin() + kUnit + 1, bytes.end())};
+}
+
+/// The messages that the first of the rows begins with. One that is not all there may go on in the next row of its
+/// direction. There are none if the rows are not whole messages.
+WholeMessages first_messages(Rows rows) {
+  constexpr std::size_t kMostRows = 32;
+  const Bytes& first = rows.front().bytes;
+  if (!may_begin_message(first)) return {};
+  WholeMessages whole;
+  whole.may_be_serial = modbus::crc_ok(first);
+  if (is_one_message(first)) return whole.messages.push_back(message_of(first)), whole;
+  if (whole.may_be_serial) return {};
   modbus::MbapReader reader;
-  reader.take(bytes);
-  std::vector<modbus::TcpMessage> messages;
-  while (auto message = reader.next()) messages.push_back(std::move(*message));
-  const bool whole = reader.error().empty() && reader.pending() == 0;
-  return whole ? messages : std::vector<modbus::TcpMessage>{};
+  for (whole.rows = 1; whole.rows <= std::min(rows.size(), kMostRows); ++whole.rows) {
+    const RecordedFrame& row = rows[whole.rows - 1];
+    if (row.direction != rows.front().direction) return {};
+    reader.take(row.bytes);
+    while (auto message = reader.next()) whole.messages.push_back(std::move(*message));
+    if (!reader.error().empty()) return {};
+    if (reader.pending() == 0) return whole;
+  }
+  return {};
 }
 
 RecordedFrame on_a_line(const RecordedFrame& frame, const modbus::TcpMessage& message) {
@@ -30,24 +69,45 @@ RecordedFrame on_a_line(const RecordedFrame& frame, const modbus::TcpMessage& me
           .exchange = modbus::exchange_of(message)};
 }
 
+/// Rows of which the same is to be said.
+struct Counted {
+  std::string first{};
+  std::size_t count = 0;
+
+  void add(const std::string& what) {
+    if (count++ == 0) first = what;
+  }
+  /// `, and 3 more`
+  std::string more() const { return count == 1 ? "" : fmt::format(", and {} more", count - 1); }
+};
+
 }  // namespace
 
 void read_modbus_tcp(LineRecording& recording) {
   std::vector<RecordedFrame> frames;
-  std::string first_other;
-  std::size_t over_tcp = 0, others = 0;
-  for (const RecordedFrame& frame : recording.frames) {
-    const auto messages = messages_of(frame.bytes);
-    if (messages.empty() && others++ == 0) first_other = frame.place;
-    over_tcp += messages.empty() ? 0U : 1U;
-    for (const modbus::TcpMessage& message : messages) frames.push_back(on_a_line(frame, message));
+  Counted others, joined;
+  std::size_t over_tcp = 0;
+  frames.reserve(recording.frames.size());
+  for (Rows rows = recording.frames; !rows.empty();) {
+    const auto [count, may_be_serial, messages] = first_messages(rows);
+    const RecordedFrame& first = rows.front();
+    rows = rows.subspan(count);
+    if (messages.empty()) {
+      others.add(first.place);
+      continue;
+    }
+    over_tcp += may_be_serial ? 0U : 1U;  // however many rows it took: those of other protocols may fit together by chance
+    if (count > 1) joined.add(fmt::format("{}: a message of Modbus TCP in {}", first.place, counted(count, "row")));
+    for (const modbus::TcpMessage& message : messages) frames.push_back(on_a_line(first, message));
   }
-  if (over_tcp <= others) return;
+  if (over_tcp <= others.count) return;
   recording.frames = std::move(frames);
   recording.notes.emplace_back("the frames are messages of Modbus TCP: each is shown as on a serial line, with its CRC");
-  if (others > 0)
-    recording.notes.push_back(fmt::format("{}: left out{}: it is not a whole message of Modbus TCP", first_other,
-                                          others == 1 ? "" : fmt::format(", and {} more", others - 1)));
+  if (joined.count > 0)
+    recording.notes.push_back(fmt::format("{}{}: joined, as only the whole is one", joined.first, joined.more()));
+  if (others.count > 0)
+    recording.notes.push_back(
+        fmt::format("{}: left out{}: it is not a whole message of Modbus TCP", others.first, others.more()));
 }
 
 }  // namespace s7200::tools

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -11,40 +12,40 @@
 namespace s7200::tools {
 namespace {
 
-enum class Means : std::uint8_t { Nothing, Time, Direction, Data };
+using Holds = FieldMeaning::Holds;
 
 struct Name {
   std::string_view word;
-  Means means;
+  Holds holds;
 };
 constexpr std::array kNames{
-    Name{"time", Means::Time},
-    Name{"timestamp", Means::Time},
-    Name{"ts", Means::Time},
-    Name{"t", Means::Time},
-    Name{"at", Means::Time},
-    Name{"datetime", Means::Time},
-    Name{"date", Means::Time},
-    Name{"@timestamp", Means::Time},
-    Name{"direction", Means::Direction},
-    Name{"dir", Means::Direction},
-    Name{"type", Means::Direction},
-    Name{"event", Means::Direction},
-    Name{"op", Means::Direction},
-    Name{"kind", Means::Direction},
-    Name{"msg", Means::Direction},
-    Name{"message", Means::Direction},
-    Name{"topic", Means::Direction},
-    Name{"data", Means::Data},
-    Name{"payload", Means::Data},
-    Name{"bytes", Means::Data},
-    Name{"hex", Means::Data},
-    Name{"raw", Means::Data},
-    Name{"frame", Means::Data},
-    Name{"buffer", Means::Data},
-    Name{"packet", Means::Data},
-    Name{"pdu", Means::Data},
-    Name{"adu", Means::Data},
+    Name{"time", Holds::Time},
+    Name{"timestamp", Holds::Time},
+    Name{"ts", Holds::Time},
+    Name{"t", Holds::Time},
+    Name{"at", Holds::Time},
+    Name{"datetime", Holds::Time},
+    Name{"date", Holds::Time},
+    Name{"@timestamp", Holds::Time},
+    Name{"direction", Holds::Direction},
+    Name{"dir", Holds::Direction},
+    Name{"type", Holds::Direction},
+    Name{"event", Holds::Direction},
+    Name{"op", Holds::Direction},
+    Name{"kind", Holds::Direction},
+    Name{"msg", Holds::Direction},
+    Name{"message", Holds::Direction},
+    Name{"topic", Holds::Direction},
+    Name{"data", Holds::Data},
+    Name{"payload", Holds::Data},
+    Name{"bytes", Holds::Data},
+    Name{"hex", Holds::Data},
+    Name{"raw", Holds::Data},
+    Name{"frame", Holds::Data},
+    Name{"buffer", Holds::Data},
+    Name{"packet", Holds::Data},
+    Name{"pdu", Holds::Data},
+    Name{"adu", Holds::Data},
 };
 
 /// `SerialReceived` and `tx_data` in words: `serial received`, `tx data`.
@@ -59,17 +60,15 @@ std::string words_of_name(std::string_view name) {
 }
 
 /// By the last word that is known: `uart data` is data.
-Means meaning_of(std::string_view name) {
-  Means means = Means::Nothing;
-  for (const std::string& word : stl::split_words(words_of_name(name))) {
+FieldMeaning meaning_of(std::string_view name) {
+  const std::string words = words_of_name(name);
+  FieldMeaning meaning{.direction = direction_of(words), .unit = unit_of(words)};
+  for (const std::string& word : stl::split_words(words)) {
     const auto known = std::ranges::find(kNames, word, &Name::word);
-    if (known != kNames.end()) means = known->means;
+    if (known != kNames.end()) meaning.holds = known->holds;
   }
-  return means;
+  return meaning;
 }
-
-/// What the name alone says: `rx`, `SerialSend`.
-Direction direction_of_name(std::string_view name) { return direction_of(words_of_name(name)); }
 
 /// `01:03:00`, `01.03.00`
 std::optional<Bytes> bytes_with_signs_between(std::string_view text) {
@@ -89,64 +88,74 @@ std::optional<Bytes> bytes_of(const NamedField& field) {
   return bytes ? bytes : bytes_with_signs_between(field.value);
 }
 
-/// `data`, and `tx` where that is no count: `tx=8`.
-bool holds_frame(const NamedField& field) {
-  const Means means = meaning_of(field.name);
-  if (means == Means::Data) return bytes_of(field).has_value();
-  return means == Means::Nothing && direction_of_name(field.name) != Direction::Unknown && bytes_of(field).has_value();
+/// `data`, and `tx` where that is no count: `tx=8`. Nothing if it holds no frame.
+std::optional<Bytes> frame_in(const NamedField& field, const FieldMeaning& meaning) {
+  const bool may_hold =
+      meaning.holds == Holds::Data || (meaning.holds == Holds::Nothing && meaning.direction != Direction::Unknown);
+  return may_hold ? bytes_of(field) : std::nullopt;
 }
 
-bool should_hold_frame(const NamedField& field) { return meaning_of(field.name) == Means::Data && !field.value.empty(); }
-
-/// A time of day with or without a date, or seconds since 1970; milliseconds and finer units by their size.
-std::optional<LeadingTime> time_of(std::string_view text) {
+/// A time of day with or without a date, a number in the unit of its name, or seconds since 1970; milliseconds and finer
+/// units by their size.
+std::optional<LeadingTime> time_of(std::string_view text, std::optional<Time> unit) {
+  const auto number = unit ? parse_decimal<long double>(stl::trim(text)) : std::nullopt;
+  if (number) {
+    const long double time = *number * static_cast<long double>(*unit);
+    if (!(std::abs(time) < static_cast<long double>(kFurthestTime))) return {};
+    return LeadingTime{.time = std::llround(time)};
+  }
   if (const auto time = leading_time(text)) return time;
   auto since_1970 = parse_decimal<std::int64_t>(stl::trim(text));
   constexpr std::int64_t kLeast = 100'000'000;  // of seconds: 1973
   if (!since_1970 || *since_1970 < kLeast) return {};
-  Time unit = kSecond;
-  while (*since_1970 / (kFurthestTime / unit) != 0 && unit > 1) unit /= 1000;
-  if (*since_1970 >= kFurthestTime / unit) return {};
-  return LeadingTime{.time = *since_1970 * unit};
-}
-
-std::optional<LeadingTime> time_in(const NamedFields& fields) {
-  for (const NamedField& field : fields)
-    if (meaning_of(field.name) == Means::Time)
-      if (const auto time = time_of(field.value)) return time;
-  return {};
-}
-
-Direction direction_in(const NamedFields& fields) {
-  for (const NamedField& field : fields)
-    if (meaning_of(field.name) == Means::Direction)
-      if (const Direction direction = direction_of(words_of_name(field.value)); direction != Direction::Unknown)
-        return direction;
-  return Direction::Unknown;
+  Time of_one = kSecond;
+  while (*since_1970 / (kFurthestTime / of_one) != 0 && of_one > 1) of_one /= 1000;
+  if (*since_1970 >= kFurthestTime / of_one) return {};
+  return LeadingTime{.time = *since_1970 * of_one};
 }
 
 }  // namespace
 
-bool has_frame(const NamedFields& fields) { return std::ranges::any_of(fields, holds_frame); }
+bool has_frame(const NamedFields& fields) {
+  return std::ranges::any_of(fields,
+                             [](const NamedField& field) { return frame_in(field, meaning_of(field.name)).has_value(); });
+}
+
+const FieldMeaning& NamedFieldsReader::meaning_of(std::size_t place, const std::string& name) {
+  if (place >= known_.size()) known_.resize(place + 1);
+  KnownName& known = known_[place];
+  if (known.name != name) known = {name, tools::meaning_of(name)};
+  return known.meaning;
+}
 
 void NamedFieldsReader::take(const NamedFields& fields, std::string_view before, std::size_t number) {
-  auto time = time_in(fields);
+  std::optional<LeadingTime> time;
+  Direction said = Direction::Unknown;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const FieldMeaning& meaning = meaning_of(i, fields[i].name);
+    if (!time && meaning.holds == Holds::Time) time = time_of(fields[i].value, meaning.unit);
+    if (said == Direction::Unknown && meaning.holds == Holds::Direction) said = direction_of(words_of_name(fields[i].value));
+  }
   if (!time) time = leading_time(before);
   const auto at = time ? std::optional(days_.since_first_midnight(*time)) : std::nullopt;
-  const Direction said = direction_in(fields);
   std::size_t frames = 0;
-  for (const NamedField& field : fields) {
-    if (!holds_frame(field)) {
-      if (should_hold_frame(field)) left_out_.not_understood(number, fmt::format("{}: {}", field.name, field.value));
+  bool has_data = false;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const NamedField& field = fields[i];
+    const FieldMeaning& meaning = meaning_of(i, field.name);
+    auto bytes = frame_in(field, meaning);
+    const bool should_hold = meaning.holds == Holds::Data && !field.value.empty();
+    has_data |= should_hold;
+    if (!bytes) {
+      if (should_hold) left_out_.not_understood(number, fmt::format("{}: {}", field.name, field.value));
       continue;
     }
-    const Direction named = direction_of_name(field.name);
     recording_.frames.push_back({.at = frames++ == 0 ? at : std::nullopt,  // a request with its answer has one time
-                                 .direction = named != Direction::Unknown ? named : said,
-                                 .bytes = *bytes_of(field),
+                                 .direction = meaning.direction != Direction::Unknown ? meaning.direction : said,
+                                 .bytes = std::move(*bytes),
                                  .place = fmt::format("line {}", number)});
   }
-  if (frames == 0 && std::ranges::none_of(fields, should_hold_frame)) left_out_.without_bytes(number);
+  if (frames == 0 && !has_data) left_out_.without_bytes(number);
 }
 
 LineRecording NamedFieldsReader::finish() {

@@ -21,6 +21,13 @@ using NamedFields = std::vector<NamedField>;
 /// Whether one of the fields is called as bytes are, `data`, `tx`, `SerialReceived`, and holds some.
 bool has_frame(const NamedFields& fields);
 
+/// What the name of a field says of it.
+struct FieldMeaning {
+  enum class Holds : std::uint8_t { Nothing, Time, Direction, Data } holds = Holds::Nothing;
+  Direction direction = Direction::Unknown;  ///< `rx`, `SerialSend`
+  std::optional<Time> unit{};                ///< of a time: `time_ms`
+};
+
 /// Makes frames of records.
 class NamedFieldsReader {
  public:
@@ -32,9 +39,17 @@ class NamedFieldsReader {
   LineRecording finish();
 
  private:
+  /// Most records have the same names in the same places: what they say is worked out once.
+  struct KnownName {
+    std::string name{};
+    FieldMeaning meaning{};
+  };
+  const FieldMeaning& meaning_of(std::size_t place, const std::string& name);
+
   LineRecording recording_;
   LeftOut left_out_;
   DayCounter days_;
+  std::vector<KnownName> known_;
 };
 
 }  // namespace s7200::tools

@@ -139,12 +139,16 @@ void NotationFinder::take(std::string_view cell, std::size_t line) {
   only_digits_ = only_digits_ && cell.size() == 1 && stl::is_digit(cell.front());
   for (Candidate& candidate : candidates_) {
     if (candidate.read < cells_) continue;
-    if (candidate.notation->read(cell))
-      ++candidate.read;
+    if (const auto bytes = candidate.notation->read(cell))
+      ++candidate.read, candidate.characters &= bytes->size() == 1;
     else
       candidate.wrong = cell, candidate.line = line;
   }
   ++cells_;
+}
+
+bool NotationFinder::are_characters(const Notation& notation) const {
+  return std::ranges::find(candidates_, &notation, &Candidate::notation)->characters;
 }
 
 const Notation* NotationFinder::found(std::string& why) const {

@@ -39,11 +39,15 @@ class NotationFinder {
   /// Null after a message in `why`, `line 3: '256' is not bytes in decimal`: none reads all, or it is open which does.
   const Notation* found(std::string& why) const;
 
+  /// Whether each cell is one character, in that notation.
+  bool are_characters(const Notation& notation) const;
+
  private:
   struct Candidate {
     const Notation* notation;
-    std::size_t read = 0;  ///< cells before the first that it does not read
-    std::string wrong{};   ///< that cell
+    std::size_t read = 0;    ///< cells before the first that it does not read
+    bool characters = true;  ///< each of them is one
+    std::string wrong{};     ///< that cell
     std::size_t line = 0;
   };
 

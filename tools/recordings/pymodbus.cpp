@@ -12,6 +12,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/left_out.hpp"
 #include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
@@ -58,6 +59,14 @@ std::optional<Moved> moved_in(std::string_view line) {
   return {};
 }
 
+/// Bytes that are not understood: `recv: 0x1 0x`.
+std::optional<std::string_view> damaged_in(std::string_view line) {
+  for (const std::string_view word : {"send: 0", "SEND: 0", "recv: 0", "RECV: 0"})
+    if (const auto rest = what_follows(line, word))
+      return line.substr(static_cast<std::size_t>(rest->data() - line.data()) - 1);
+  return {};
+}
+
 bool says_it_again(std::string_view line) {
   const std::size_t received = std::min(line.find("recv: 0x"), line.size());
   const auto follows = [&](std::string_view waiting) { return line.find(waiting, received) != std::string_view::npos; };
@@ -80,13 +89,17 @@ bool looks_like_pymodbus(std::string_view bytes) {
 /// middle: then the frames have to say it themselves.
 std::optional<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices&, std::string&) {
   LineRecording recording;
+  LeftOut left_out;
   DayCounter days;
   std::optional<bool> is_client;
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes)) {
     ++number;
     auto moved = moved_in(line);
-    if (!moved) continue;
+    if (!moved) {
+      if (const auto damaged = damaged_in(line)) left_out.not_understood(number, *damaged);
+      continue;
+    }
     if (!is_client) is_client = moved->sent;
     const Direction who = moved->sent ? Direction::Request : Direction::Answer;
     const Direction direction = *is_client ? who : Direction::Unknown;
@@ -102,6 +115,7 @@ std::optional<LineRecording> read_pymodbus(std::string_view bytes, const Reading
                                 .place = fmt::format("line {}", number)});
   }
   count_from_first(recording);
+  left_out.tell(recording);
   return recording;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <regex>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -14,6 +13,7 @@
 #include "tools/recordings/left_out.hpp"
 #include "tools/recordings/lines.hpp"
 #include "tools/recordings/notation.hpp"
+#include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -26,12 +26,16 @@ struct Annotation {
 
 /// Nothing if the line is not of the decoder `uart`.
 std::optional<Annotation> annotation_of(std::string_view line) {
-  static const std::regex kHead(R"((?:(\d{1,18})-\d{1,18} )?uart-\d+: )");
-  TextMatch match;
-  if (!begins_with(line, match, kHead)) return {};
-  const std::string_view written = line.substr(static_cast<std::size_t>(match.length()));
+  constexpr std::size_t kMostDigits = 18;
+  Scan scan(line);
+  const std::string_view first = scan.take_digits(kMostDigits);
+  const bool has_samples =
+      !first.empty() && scan.take("-") != '\0' && !scan.take_digits(kMostDigits).empty() && scan.take(" ") != '\0';
+  if (!first.empty() && !has_samples) return {};
+  if (!scan.take_word("uart-") || scan.take_digits(kMostDigits).empty() || !scan.take_word(": ")) return {};
+  const std::string_view written = line.substr(scan.at());
   Annotation annotation{.text = written == " " ? written : stl::trim(written)};  // a blank may be a character
-  if (match[1].matched) annotation.begin = parse_decimal<std::int64_t>(match.str(1));
+  if (has_samples) annotation.begin = decimal_number(first);
   if (annotation.text.size() > 2 && annotation.text.starts_with('"') && annotation.text.ends_with('"'))
     annotation.text = annotation.text.substr(1, annotation.text.size() - 2);  // sigrok-cli -l 3
   return annotation;

@@ -37,20 +37,31 @@ std::optional<TableRow> TableRows::next() {
 }
 
 std::vector<std::string> fields_of(std::string_view row, char separator) {
-  std::vector<std::string> fields(1);
+  std::vector<std::string> fields;
+  take_fields(row, separator, fields);
+  return fields;
+}
+
+void take_fields(std::string_view row, char separator, std::vector<std::string>& fields) {
+  std::size_t count = 0;
+  const auto begin_field = [&] {
+    if (count == fields.size()) fields.emplace_back();
+    fields[count++].clear();
+  };
+  begin_field();
   bool quoted = false;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const char c = row[i];
     if (c == '"' && quoted && i + 1 < row.size() && row[i + 1] == '"')
-      fields.back() += row[++i];
+      fields[count - 1] += row[++i];
     else if (c == '"')
       quoted = !quoted;
     else if (c == separator && !quoted)
-      fields.emplace_back();
+      begin_field();
     else
-      fields.back() += c;
+      fields[count - 1] += c;
   }
-  return fields;
+  fields.resize(count);
 }
 
 }  // namespace s7200::tools

@@ -4,12 +4,12 @@
 #include <pcap/dlt.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/lines.hpp"
+#include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -30,12 +30,22 @@ struct DumpRow {
 
 /// `	0x0010:  7f00 0001 9c40 01f6  .....@..`: groups of two bytes with a blank between them.
 std::optional<DumpRow> row_of(std::string_view line) {
-  static const std::regex kRow(R"(\s+0x([0-9a-f]{4,5}):\s{1,2}((?:[0-9a-f]{2,4} ?){1,8})(?:\s.*)?)");
-  TextMatch match;
-  if (line.size() > kLongestHead || !std::regex_match(line.begin(), line.end(), match, kRow)) return {};
-  auto bytes = bytes_of_text(match.str(2));
-  if (!bytes) return {};
-  return DumpRow{.offset = std::stoul(match.str(1), nullptr, 16), .bytes = std::move(*bytes)};
+  constexpr std::size_t kFullRow = 16;
+  Scan scan(line);
+  if (scan.skip(kAllBlanks) == 0 || !scan.take_word("0x")) return {};
+  const std::string_view offset = scan.take_hex(5);
+  if (offset.size() < 4 || scan.take(":") == '\0') return {};
+  DumpRow row{.offset = hex_number(offset)};
+  for (std::size_t blanks = scan.skip(" "), most = 2; blanks >= 1 && blanks <= most && row.bytes.size() < kFullRow;
+       most = 1) {
+    const std::string_view group = scan.take_hex(4);
+    if (group.size() != 4 && group.size() != 2) return {};
+    for (std::size_t i = 0; i < group.size(); i += 2)
+      row.bytes.push_back(static_cast<std::uint8_t>(hex_number(group.substr(i, 2))));
+    blanks = scan.skip(" ");
+    if (blanks == 0 && !scan.at_end()) return {};
+  }
+  return row.bytes.empty() ? std::nullopt : std::optional(std::move(row));
 }
 
 /// How many bytes an IP packet says that it has; 0 if it is none.

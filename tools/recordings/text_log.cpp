@@ -1,30 +1,43 @@
 // Logs of serial sniffers: a frame in each line, or in rows below a line with its time.
 #include <fmt/format.h>
 
-#include <regex>
-
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/lines.hpp"
+#include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
 namespace {
 
+/// Whether the arrow that has its head or its tail there stands between two words: `plc --> pc`.
+bool stands_between_names(std::string_view text, std::size_t arrow) {
+  constexpr std::string_view kArrow = "<->", kBlanks = " \t";
+  const auto is_of_arrow = [&](char c) { return kArrow.find(c) != std::string_view::npos; };
+  const auto is_blank = [&](char c) { return kBlanks.find(c) != std::string_view::npos; };
+  std::size_t before = arrow, after = arrow;
+  while (before > 0 && is_of_arrow(text[before - 1])) --before;
+  while (before > 0 && is_blank(text[before - 1])) --before;
+  while (after < text.size() && is_of_arrow(text[after])) ++after;
+  while (after < text.size() && is_blank(text[after])) ++after;
+  return before > 0 && after < text.size() && is_word_sign(text[before - 1]) && is_word_sign(text[after]);
+}
+
 /// An arrow between two names says who talks to whom, not which of them is the master.
 Direction direction_of_heading(std::string_view text) {
-  static const std::regex kArrow(R"(\w\s*(-+>|<-+)\s*\w)");
   const std::string_view head = text.substr(0, kLongestHead);
-  if (head.find("->") == std::string_view::npos && head.find("<-") == std::string_view::npos) return direction_of(head);
-  return std::regex_search(head.begin(), head.end(), kArrow) ? Direction::Unknown : direction_of(head);
+  for (const std::string_view arrow : {"->", "<-"})
+    for (std::size_t at = head.find(arrow); at != std::string_view::npos; at = head.find(arrow, at + 1))
+      if (stands_between_names(head, at)) return Direction::Unknown;
+  return direction_of(head);
 }
 
 /// `Tx:000001-` of Modbus Poll: its number is no byte.
 std::size_t length_of_counter(std::string_view line) {
-  static const std::regex kCounter(R"(\s*[TR]x:\d+-)");
-  TextMatch match;
-  if (line.substr(0, kLongestHead).find("x:") == std::string_view::npos) return 0;
-  return begins_with(line, match, kCounter) ? static_cast<std::size_t>(match.length()) : 0;
+  Scan scan(line);
+  scan.skip(kAllBlanks);
+  const bool counts = scan.take("TR") != '\0' && scan.take_word("x:") && !scan.take_digits(kLongestHead).empty();
+  return counts && scan.take("-") != '\0' ? scan.at() : 0;
 }
 
 /// A direction that stands before the time, and how long it is: `> 2026/11/22 10:00:00.5  length=8` of socat, `[RTU]>Tx >
@@ -34,19 +47,18 @@ struct LeadingDirection {
   std::size_t length = 0;
 };
 LeadingDirection leading_direction(std::string_view line) {
-  static const std::regex kPattern(R"((?:\[\w+\]>([TR]x) )?[<>] )");
-  TextMatch match;
-  if (line.empty() || std::string_view("[<>").find(line.front()) == std::string_view::npos) return {};
-  if (!begins_with(line, match, kPattern)) return {};
-  const auto length = static_cast<std::size_t>(match.length());
-  if (!leading_time(line.substr(length))) return {};
-  return {direction_of(match[1].matched ? match.str(1) : match.str()), length};
-}
-
-bool has_clock(std::string_view text) {
-  static const std::regex kClock(R"(\d:\d\d\b)");
-  if (text.find(':') == std::string_view::npos) return false;
-  return std::regex_search(text.begin(), text.end(), kClock);
+  Scan scan(line);
+  Direction named = Direction::Unknown;
+  if (scan.take("[") != '\0') {
+    const bool is_named = !scan.take_while(is_word_sign).empty() && scan.take_word("]>");
+    const std::string_view name = is_named ? scan.take_while(stl::is_letter, 2) : "";
+    if ((name != "Tx" && name != "Rx") || scan.take(" ") == '\0') return {};
+    named = direction_of(name);
+  }
+  const char arrow = scan.take("<>");
+  if (arrow == '\0' || scan.take(" ") == '\0' || !leading_time(line.substr(scan.at()))) return {};
+  if (named == Direction::Unknown) named = arrow == '>' ? Direction::Request : Direction::Answer;
+  return {named, scan.at()};
 }
 
 constexpr std::size_t kFullRow = 16;
@@ -58,12 +70,15 @@ struct RecordedCharacter {
 
 /// `> 	0x01 (^A)`: a character in each line, with its name.
 std::optional<RecordedCharacter> character_of_interceptty(std::string_view line) {
-  static const std::regex kCharacter(R"(([<>])\s+0x([0-9A-Fa-f]{2})(\s+\(.*\))?\s*$)");
-  TextMatch match;
-  const bool may_be = !line.empty() && (line.front() == '<' || line.front() == '>') && line.size() <= kLongestHead;
-  if (!may_be || !begins_with(line, match, kCharacter)) return {};
-  return RecordedCharacter{match.str(1) == ">" ? Direction::Request : Direction::Answer,
-                           static_cast<std::uint8_t>(std::stoul(match.str(2), nullptr, 16))};
+  Scan scan(line);
+  const char arrow = scan.take("<>");
+  if (arrow == '\0' || line.size() > kLongestHead) return {};
+  const std::string_view digits = scan.skip(kAllBlanks) > 0 && scan.take_word("0x") ? scan.take_hex(2) : "";
+  const std::string_view rest = stl::trim(line.substr(scan.at()));
+  const bool is_name = rest.empty() || (is_any_of(scan.next(), kAllBlanks) && rest.front() == '(' && rest.back() == ')');
+  if (digits.size() != 2 || !is_name) return {};
+  return RecordedCharacter{arrow == '>' ? Direction::Request : Direction::Answer,
+                           static_cast<std::uint8_t>(hex_number(digits))};
 }
 
 class LogReader {
@@ -80,21 +95,21 @@ class LogReader {
     const std::string_view whole = line;
     if (!at && offset_is_wrong(line)) {
       in_dump_ = true;
-      return leave_out({.not_understood = std::string(line.substr(0, line.find(' ')))}, true);
+      return leave_out(line.substr(0, line.find(' ')), true);
     }
     if (!at) line.remove_prefix(length_of_offset(line));
     const std::size_t counter = length_of_counter(line);
     in_characters_ = false;
-    const std::string_view rest = without_characters(stl::trim_end(line.substr(counter)));
+    const std::string_view rest = stl::trim_end(line.substr(counter));
     const auto direction = [&, told = said](Direction read) { return time && told != Direction::Unknown ? told : read; };
-    const auto found = bytes_in_line(rest);
-    in_dump_ = !at && rest.size() < whole.size() && is_dump(whole);
+    auto found = bytes_of_lines_.in(rest);
+    in_dump_ = !at && (rest.size() < whole.size() || (found && found->has_characters)) && is_dump(whole);
     if (!found)
       take_heading(at, direction(direction_of_heading(line)));
     else if (!found->not_understood.empty())
-      leave_out(*found, !at);
+      leave_out(found->not_understood, !at);
     else
-      take(*found, rest, direction(direction_of(line.substr(0, counter + found->begin))), at);
+      take_with_cells(std::move(*found), rest, direction(direction_of(line.substr(0, counter + found->begin))), at);
   }
 
   LineRecording finish(const ReadingChoices& choices) {
@@ -135,28 +150,28 @@ class LogReader {
   /// `0010  ` before a row: how many bytes of the frame stand above it.
   std::size_t length_of_offset(std::string_view line) const {
     if (!heading_ && !goes_on_ && !is_dump(line)) return 0;
-    static const std::regex kOffset(R"(\s{0,9}([0-9A-Fa-f]{8}|[0-9A-Fa-f]{4})(:\s|\s\s))");
-    TextMatch match;
-    if (!begins_with(line, match, kOffset)) return 0;
-    return std::stoul(match.str(1), nullptr, 16) == bytes_above() ? static_cast<std::size_t>(match.length()) : 0;
+    Scan scan(line);
+    scan.skip(kAllBlanks, 9);
+    const std::string_view digits = scan.take_hex(8);
+    const bool is_offset = digits.size() == 8 || digits.size() == 4;
+    const bool ends = scan.take(":") != '\0' ? scan.skip(kAllBlanks, 1) == 1 : scan.skip(kAllBlanks, 2) == 2;
+    return is_offset && ends && hex_number(digits) == bytes_above() ? scan.at() : 0;
   }
 
   std::size_t bytes_above() const { return goes_on_ ? recording_.frames.back().bytes.size() : 0; }
 
   /// `00000010  01 03 …` of hexdump: eight digits, two blanks, and pairs of digits.
   static bool is_dump(std::string_view line) {
-    static const std::regex kDump(R"([0-9A-Fa-f]{8}\s\s+[0-9A-Fa-f]{2}(\s|$))");
-    TextMatch match;
-    constexpr std::size_t kDigits = 8, kShortest = 12;
-    if (line.size() < kShortest || (line[kDigits] != ' ' && line[kDigits] != '\t')) return false;
-    return begins_with(line, match, kDump);
+    Scan scan(line);
+    const bool has_offset = scan.take_hex(8).size() == 8 && scan.skip(kAllBlanks) >= 2;
+    return has_offset && scan.take_hex(2).size() == 2 && (scan.at_end() || scan.skip(kAllBlanks, 1) == 1);
   }
 
   /// `00000008` below the last row: how many bytes there were, with those of rows that were left out.
   bool ends_dump(std::string_view line) const {
     const std::string_view digits = stl::trim(line);
     return in_dump_ && digits.size() == 8 && digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos &&
-           (row_left_out_ || std::stoul(std::string(digits), nullptr, 16) == recording_.frames.back().bytes.size());
+           (row_left_out_ || hex_number(digits) == recording_.frames.back().bytes.size());
   }
 
   /// A character without a time: a frame lasts until the other end speaks.
@@ -172,10 +187,23 @@ class LogReader {
 
   /// Rows of a dump are missing above it: nobody knows of which frame it is.
   bool offset_is_wrong(std::string_view line) const {
-    return is_dump(line) && std::stoul(std::string(line.substr(0, 8)), nullptr, 16) != bytes_above();
+    return is_dump(line) && hex_number(line.substr(0, 8)) != bytes_above();
   }
 
-  void take(const BytesInLine& found, std::string_view line, Direction direction, std::optional<Time> at) {
+  /// What is not said before the bytes may stand in the cells after them: `01 03 | TX | 10:00:00.000`.
+  void take_with_cells(BytesInLine found, std::string_view line, Direction direction, std::optional<Time> at) {
+    for (std::size_t begin = found.next_cell; begin != 0 && begin < line.size();) {
+      const std::size_t end = std::min(line.find('|', begin), line.size());
+      const std::string_view cell = stl::trim(line.substr(begin, end - begin));
+      if (direction == Direction::Unknown) direction = direction_of(cell);
+      if (const auto time = at ? std::nullopt : leading_time(cell); time && time->length == cell.size())
+        at = days_.since_first_midnight(*time);
+      begin = end + 1;
+    }
+    take(std::move(found), line, direction, at);
+  }
+
+  void take(BytesInLine found, std::string_view line, Direction direction, std::optional<Time> at) {
     const bool is_row = !at && line.substr(0, found.begin).find_first_not_of(" \t") == std::string_view::npos;
     lost_row_ = lost_row_ && is_row;
     row_left_out_ = lost_row_;
@@ -201,11 +229,11 @@ class LogReader {
       direction = direction_of_brackets(line.substr(bracket));
     characters_ = characters_ && found.bytes.size() == 1 && at.has_value();
     recording_.frames.push_back(
-        {.at = at, .direction = direction, .bytes = found.bytes, .place = fmt::format("line {}", number_)});
+        {.at = at, .direction = direction, .bytes = std::move(found.bytes), .place = fmt::format("line {}", number_)});
   }
 
   /// A part of a frame would be one that nobody sent.
-  void leave_out(const BytesInLine& found, bool may_be_row) {
+  void leave_out(std::string_view not_understood, bool may_be_row) {
     if (may_be_row && goes_on_) recording_.frames.pop_back();
     lost_row_ = may_be_row && (goes_on_ || heading_ || lost_row_);
     heading_.reset();
@@ -213,7 +241,7 @@ class LogReader {
     row_left_out_ = true;
     if (++in_doubt_ <= kMostNamed)
       recording_.notes.push_back(fmt::format("line {}: left out: '{}' beside its bytes is not understood", number_,
-                                             stl::shortened(found.not_understood)));
+                                             stl::shortened(not_understood)));
   }
 
   void take_heading(std::optional<Time> at, Direction direction) {
@@ -234,6 +262,7 @@ class LogReader {
   static constexpr std::size_t kMostNamed = 10;
 
   LineRecording recording_;
+  BytesOfLines bytes_of_lines_;
   DayCounter days_;
   std::size_t number_ = 0, in_doubt_ = 0;
   Lines left_out_, not_understood_;

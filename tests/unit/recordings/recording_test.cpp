@@ -59,6 +59,10 @@ TEST(RecordedFields, TimesAreReadInTheFormsOfTools) {
   EXPECT_EQ(time("12.5 ms 01"), 12'500 * kMicrosecond);
   EXPECT_EQ(time("+7ms 01"), 7 * ms);
   EXPECT_EQ(time("[-0.002] 01 03"), -2 * ms) << "before the trigger";
+  EXPECT_EQ(time("Nov 27 00:00:01 plc: 01 03"), kSecond) << "of syslog";
+  EXPECT_EQ(time("Fri Nov 27 00:00:01.5 2026 01 03"), kSecond + 500 * ms) << "of ctime";
+  EXPECT_EQ(leading_time("Fri Nov 27 00:00:01 2026 01 03")->length, 25U) << "with its year";
+  EXPECT_EQ(leading_time("Nov 27 00:00:01 20 03")->length, 16U) << "a byte, not a year";
   EXPECT_EQ(time("1700000000.100000 01 03"), 1'700'000'000 * kSecond + 100 * ms) << "since 1970";
   EXPECT_EQ(time("4000000000.5 01 03"), std::nullopt) << "the difference of two would not fit";
   EXPECT_EQ(time("01 03 00"), std::nullopt) << "bytes";
@@ -70,6 +74,12 @@ TEST(RecordedFields, DirectionsAreReadInTheWordsOfTools) {
     EXPECT_EQ(direction_of(word), Direction::Request) << word;
   for (const char* word : {"Rx", "received 8", "<-", "< ", "response:", "IRP_MJ_READ"})
     EXPECT_EQ(direction_of(word), Direction::Answer) << word;
+  for (const char* word :
+       {"Gesendet:", "Anfrage", "envoyé", "Requête", "Enviado", "inviato", "Передача", "发送：", "发→◇", "→"})
+    EXPECT_EQ(direction_of(word), Direction::Request) << word;
+  for (const char* word :
+       {"Empfangen:", "Antwort", "reçu", "Réponse", "Recibido", "ricevuto", "Прием", "接收：", "收←◆", "←"})
+    EXPECT_EQ(direction_of(word), Direction::Answer) << word;
   for (const char* word : {"", "COM1", "context", "already"}) EXPECT_EQ(direction_of(word), Direction::Unknown) << word;
 }
 
@@ -80,7 +90,7 @@ TEST(RecordedFields, BytesAreReadInTheFormsOfTools) {
     EXPECT_EQ(bytes_of_text(text), bytes) << text;
   for (const char* text : {"", "hello", "1", "123", "0.25", "01 xx 03x"})
     EXPECT_EQ(bytes_of_text(text), std::nullopt) << text;
-  const auto found = bytes_in_line("COM3 TX (8): 01 03 AB");
+  const auto found = BytesOfLines().in("COM3 TX (8): 01 03 AB");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->bytes, bytes);
 }

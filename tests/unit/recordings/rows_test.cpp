@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "serial_sim/line/frame.hpp"
+#include "serial_sim/modbus/crc.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/playback.hpp"
 
@@ -153,6 +155,102 @@ TEST(RowsOfALog, ARequestThatTheMasterSendsOnceMoreIsNoEcho) {
   EXPECT_EQ(texts(frames), (std::vector{kAsked, kAsked, kSaid}));
   const auto unmarked = read("0.000 01 03 00 0a 00 02 e4 09\n0.500 01 03 00 0a 00 02 e4 09 01 03 04 12 34 56 78 81 07\n");
   EXPECT_EQ(texts(unmarked), (std::vector{kAsked, kAsked, kSaid})) << "later than its time-out";
+}
+
+TEST(ModbusTcpInALog, AMessageInSeveralRowsIsOne) {
+  for (const char* const log : {"10:00:00.000 TX 00 01 00 00 00 06 01 03 00 0a 00 02\n10:00:00.030 RX 00 01 00 00 00 07 01\n"
+                                "10:00:00.031 RX 03 04 12 34 56 78\n",
+                                "00 01 00 00 00 06 01 03 00 0a 00 02\n00 01 00 00\n00 07 01 03 04 12\n34 56 78\n",
+                                "TX 00 01 00 00 00 06 01 03\nTX 00 0a 00 02\nRX 00 01 00 00 00 07 01 03 04 12 34 56 78\n"}) {
+    EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kSaid})) << log;
+    const auto notes = recording_of(log).notes;
+    ASSERT_EQ(notes.size(), 2U) << log;
+    EXPECT_NE(notes[1].find(": a message of Modbus TCP in "), std::string::npos) << notes[1];
+    EXPECT_TRUE(notes[1].ends_with(" rows: joined, as only the whole is one")) << notes[1];
+  }
+}
+
+TEST(ModbusTcpInALog, AMessageThatHasACrcByChanceIsOneWhereTheOthersAre) {
+  const Bytes message{0x65, 0x5A, 0, 0, 0, 6, 1, 3, 0, 10, 0, 2};
+  const auto hex = [](const Bytes& bytes) { return serial::to_hex(bytes); };
+  Bytes chance = message;
+  for (unsigned transaction = 0; !modbus::crc_ok(chance) && transaction <= 0xFFFF; ++transaction)
+    store16(chance.data(), static_cast<std::uint16_t>(transaction));
+  ASSERT_TRUE(modbus::crc_ok(chance));
+  EXPECT_EQ(texts(read("TX " + hex(message) + "\nTX " + hex(chance) + "\n")), (std::vector{kAsked, kAsked}));
+  EXPECT_EQ(texts(read("TX 01 01 00 00 00 02 bd cb\n")), std::vector<std::string>{"station 1, read coils 00001, 2 of them"});
+}
+
+TEST(ModbusTcpInALog, ARowOfTheOtherDirectionOrTheNextMessageCompletesNone) {
+  const std::string request = "00 01 00 00 00 06 01 03 00 0a 00 02", part = "00 01 00 00 00 07 01 03 04 12 34 56";
+  for (const std::string& log :
+       {"TX " + request + "\nRX " + part + "\nTX " + request + "\n", request + "\n" + part + "\n" + request + "\n"}) {
+    EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kAsked})) << log;
+    EXPECT_EQ(recording_of(log).notes.back(), "line 2: left out: it is not a whole message of Modbus TCP") << log;
+  }
+}
+
+// --- other columns and other languages ---
+
+TEST(ColumnsOfALog, CharactersBehindABarAreNoBytes) {
+  for (const char* const log :
+       {"10:00:00.000  length=8\n0000  01 03 00 0a 00 02 e4 09                          |........|\n"
+        "10:00:00.030  length=9\n0000  01 03 04 12 34 56 78 81 07                       |....4Vx..|\n",
+        "10:00:00.000 | TX | 01 03 00 0a 00 02 e4 09 | ..~~\n10:00:00.030 | RX | 01 03 04 12 34 56 78 81 07 | ..4Vx.\n"})
+    EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kSaid})) << log;
+  EXPECT_EQ(recording_of("TX 01 03 00 0a 00 02 e4 09 | AB CD\nRX 01 03 04 12 34 56 78 81 07\n").notes,
+            std::vector<std::string>{"line 1: left out: '|' beside its bytes is not understood"});
+}
+
+TEST(ColumnsOfALog, DirectionAndTimeMayStandInCellsAfterTheBytes) {
+  const auto recording =
+      recording_of("01 03 00 0a 00 02 e4 09 | TX | 10:00:00.000\n01 03 04 12 34 56 78 81 07 | RX | 10:00:00.030\n");
+  ASSERT_EQ(recording.frames.size(), 2U);
+  EXPECT_EQ(recording.frames[0].direction, Direction::Request);
+  EXPECT_EQ(recording.frames[1].direction, Direction::Answer);
+  EXPECT_EQ(recording.frames[1].at, 30 * kMillisecond);
+}
+
+TEST(ColumnsOfALog, BytesRightAfterASignOfAnotherScriptAreWhole) {
+  for (const char* const log :
+       {"[10:00:00.000]发→◇01 03 00 0a 00 02 e4 09 \n[10:00:00.030]收←◆01 03 04 12 34 56 78 81 07 \n",
+        "10:00:00.000 发送：01 03 00 0a 00 02 e4 09\n10:00:00.030 接收：01 03 04 12 34 56 78 81 07\n"}) {
+    EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kSaid})) << log;
+    EXPECT_EQ(recording_of(log).frames[0].direction, Direction::Request) << log;
+  }
+  EXPECT_TRUE(refusal_of("Motor m\u00FCde\n").starts_with("no frame in it")) << "the end of a word is no byte";
+}
+
+TEST(ColumnsOfALog, ListsOfJsonMayHaveTheirBracketsAnywhere) {
+  const std::string asked = R"("dir":"tx","data":"01 03 00 0a 00 02 e4 09")",
+                    said = R"("dir":"rx","data":[1,3,4,18,52,86,120,129,7])";
+  for (const std::string& log :
+       {R"([{"t":0.5,)" + asked + "},\n{\"t\":0.53," + said + "}]\n",
+        "[ { \"t\":0.5," + asked + "} , {\"t\":0.53," + said + "} ]",
+        "[\n  {\n    \"time_ms\": 0,\n    " + asked + "\n  },\n  {\n    \"time_ms\": 30,\n    " + said + "\n  }\n]\n",
+        R"({"log":[{"t":0.5,)" + asked + R"(},{"t":0.53,)" + said + "}]}"}) {
+    EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kSaid})) << log;
+    const auto recording = recording_of(log);
+    EXPECT_EQ(recording.notes, std::vector<std::string>{}) << log;
+    EXPECT_EQ(recording.frames.back().at, 30 * kMillisecond) << log;
+  }
+}
+
+TEST(ColumnsOfALog, ARowOfAFrameThatIsNotUnderstoodIsNamedInEachForm) {
+  EXPECT_EQ(recording_of("[01][03][00][0A][00][02][E4][09]\nWaiting for a confirmation...\n<01><03><0\n").notes,
+            std::vector<std::string>{"line 3: left out: '<01><03><0' is not understood"});
+  EXPECT_EQ(recording_of("DEBUG send: 0x1 0x3 0x0 0xa 0x0 0x2 0xe4 0x9\nDEBUG recv: 0x1 0x\n"
+                         "DEBUG Processing: 0x1 0x3\n")
+                .notes,
+            std::vector<std::string>{"line 2: left out: '0x1 0x' is not understood"});
+}
+
+TEST(ColumnsOfALog, AnObjectOfJsonWithoutItsEndIsNamedAndHidesNothingBelowIt) {
+  const std::string request = R"({"tx":"01 03 00 0a 00 02 e4 09"})", answer = R"({"rx":"01 03 04 12 34 56 78 81 07"})";
+  const std::string log = request + "\n{\"tx\":\"01 03\n{\"tx\": 1,\n" + answer + "\n";
+  EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kSaid}));
+  EXPECT_EQ(recording_of(log).notes, (std::vector<std::string>{R"(line 2: left out: '{"tx":"01 03' is not understood)",
+                                                               R"(line 3: left out: '{"tx": 1,' is not understood)"}));
 }
 
 // --- Modbus TCP ---
