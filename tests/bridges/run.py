@@ -378,7 +378,7 @@ class PtyTests(Case):
             port.write(READ)
             port.read(100, SILENCE * 2)
         running.end()
-        self.assertRegex(running.said(), r"a collision at .* s: a master spoke while port 0 of the PLC was sending")
+        self.assertRegex(running.said(), r"a collision at .*: a master spoke while port 0 of the PLC was sending")
         self.assertNotIn("is not set to", running.said())
 
     def test_what_a_client_may_set_without_harm(self):

@@ -417,7 +417,7 @@ class Verbs(Case):
         self.assertEqual(decoded["line"], "9600 baud, 8 data bits, even parity, 1 stop bit")
         self.ends(FINE, "import-capture", capture, "--program", SLAVE, "-o", scenario)
         self.ends(FINE, "test", scenario)
-        self.assertIn("; 9600 baud fit better", self.ends(FINE, "decode", capture, "--baud", "300").stderr)
+        self.assertIn("; 9600 baud fit better", self.ends(FAILED, "decode", capture, "--baud", "300").stderr)
 
     def test_a_capture_shows_what_was_on_the_line_whoever_sent_it(self):
         capture, levels = self.folder / "line.pcap", self.folder / "line.vcd"
@@ -445,7 +445,7 @@ class Verbs(Case):
         system = self.program(f"plcs: {{slave: {{program: {SLAVE}}}}}\npeers:\n{peers}"
                               "lines: {bus: {stations: [slave, a, b], contention: space, capture: [both.pcap]}}\n", "both.yaml")
         self.ends(FINE, "run", system, "--for", "1500ms", cwd=self.folder)
-        frames = [frame["bytes"] for frame in self.json(FINE, "decode", self.folder / "both.pcap", "--json")["frames"]]
+        frames = [frame["bytes"] for frame in self.json(FAILED, "decode", self.folder / "both.pcap", "--json")["frames"]]
         first, second = (bytes.fromhex(frame) for _, frame in asked.values())
         self.assertEqual(frames, [bytes(one & other for one, other in zip(first, second)).hex()], "space wins, bit by bit")
 
@@ -705,7 +705,7 @@ class Verbs(Case):
 
     def test_a_recording_in_another_protocol_is_named(self):
         log = self.program("10 02 00 49 4B 16\n10 00 02 00 02 16\n10 02 00 5C 5E 16\nE5\n", "ppi.log")
-        self.assertIn("it looks like ppi: --protocol ppi", self.ends(FINE, "decode", log).stderr)
+        self.assertIn("it looks like ppi: --protocol ppi", self.ends(FAILED, "decode", log).stderr)
         self.assertEqual(self.ends(FINE, "decode", log, "--protocol", "ppi").stderr, "")
 
     def test_a_plc_on_the_pc1000_lan_is_read_and_written(self):
