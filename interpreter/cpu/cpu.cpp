@@ -160,17 +160,8 @@ void Cpu::poke(std::uint32_t at, std::span<const std::uint8_t> bytes) {
   if (core_.s.mode == Mode::Run) freeport::follow_control(core_);
 }
 
-bool Cpu::force(const MemoryRange& place, std::uint32_t value) {
-  const bool room = forcing::force(from_outside(), place, value);
-  if (room && core_.s.mode == Mode::Stop) points::enter_stop(core_);
-  return room;
-}
-
-bool Cpu::unforce(const MemoryRange& place) {
-  const bool any = forcing::unforce(from_outside(), place);
-  if (any && core_.s.mode == Mode::Stop) points::enter_stop(core_);
-  return any;
-}
+bool Cpu::force(const MemoryRange& place, std::uint32_t value) { return forcing::force(from_outside(), place, value); }
+bool Cpu::unforce(const MemoryRange& place) { return forcing::unforce(from_outside(), place); }
 
 std::optional<std::uint32_t> Cpu::peek(const Op& op, std::size_t i) const {
   Operand operand = op[i];

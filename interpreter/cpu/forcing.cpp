@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "interpreter/cpu/points.hpp"
+
 namespace s7200::forcing {
 namespace {
 
@@ -87,7 +89,7 @@ void list_points(const ForcedPoints& points, Area area, std::vector<Assignment>&
 
 bool possible(const MemoryRange& place) {
   if (place.area == Area::I || place.area == Area::Q) return true;
-  if (is_analog(place.area)) return place.width == Width::Word && place.count == 1;
+  if (is_analog(place.area)) return place.width == Width::Word && place.count == 1 && place.number % 2 == 0;
   return (place.area == Area::V || place.area == Area::M) && place.width != Width::Bit && place.count == 1;
 }
 
@@ -122,6 +124,7 @@ std::vector<Assignment> listed(const Forcing& forcing) {
 bool force(Core& core, const MemoryRange& place, std::uint32_t value) {
   const bool room = add(core.s.forcing, place, value);
   take_effect(core);
+  if (room && core.s.mode == Mode::Stop) points::write_stop_outputs(core);
   return room;
 }
 
@@ -130,6 +133,7 @@ bool unforce(Core& core, const MemoryRange& place) {
   if (any && place.area == Area::AI)
     std::copy_n(core.s.analog_terminals.begin() + (place.at - image::kAI), place.bytes(), core.s.image.begin() + place.at);
   take_effect(core);
+  if (any && core.s.mode == Mode::Stop) points::write_stop_outputs(core);
   return any;
 }
 

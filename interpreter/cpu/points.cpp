@@ -72,7 +72,30 @@ void write_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value) 
 
 /// All output points go off: the default of the output table for STOP (facts 9.1).
 void enter_stop(Core& core) {
-  for (std::uint32_t byte = 0; byte < core.model().size_of(Area::Q); ++byte) put_outputs(core, byte, 0);
+  core.s.stop_outputs = {};
+  write_stop_outputs(core);
+}
+
+void write_stop_outputs(Core& core) {
+  for (std::uint32_t byte = 0; byte < core.model().size_of(Area::Q); ++byte)
+    put_outputs(core, byte, core.s.stop_outputs[byte]);
+}
+
+bool can_be_set_in_stop(const MemoryRange& place) {
+  return place.area == Area::Q || (place.area == Area::AQ && forcing::possible(place));
+}
+
+void set_in_stop(Core& core, const MemoryRange& place, std::uint32_t value) {
+  if (place.area == Area::AQ) {
+    store16(&core.s.image[place.at], static_cast<std::uint16_t>(value));
+    return core.trace({.at = core.s.time, .kind = TraceKind::AnalogChanged, .op = place.number, .count = value});
+  }
+  std::uint8_t* const outputs = &core.s.stop_outputs[place.number];
+  if (place.width == Width::Bit)
+    *outputs = static_cast<std::uint8_t>((*outputs & ~(1U << place.bit)) | value << place.bit);
+  else
+    for (std::uint32_t i = place.bytes(); i-- > 0; value >>= 8) outputs[i] = static_cast<std::uint8_t>(value);
+  write_stop_outputs(core);
 }
 
 void write_outputs(Core& core) {

@@ -25,10 +25,13 @@ void reply(Core& core, std::uint8_t number, std::uint8_t to, Reply function, std
 
 void accept(Core& core, std::uint8_t number, Time reply_at) { send(core, number, std::array{kAccepted}, reply_at); }
 
-/// A request or a poll that came at `at`: the port works for one master at a time.
-bool works_for_another(const PpiPort& port, const Body& body, Time at) {
-  const bool works = port.job == Job::Waiting || port.job == Job::Ready;
-  return works && port.master != body.source && at - port.asked < kPatienceOfMasters;
+/// Whether a request or a poll that came at `at` has to wait: the port works for one master at a time.
+bool has_no_resource(const Core& core, std::uint8_t number, const Body& body, Time at) {
+  const PpiPort& port = core.s.ppi[number];
+  const bool works = (port.job == Job::Waiting || port.job == Job::Ready) && at - port.asked < kPatienceOfMasters;
+  const bool is_second = port.master == body.source && !body.data.empty();
+  return works &&
+         (port.master != body.source || (is_second && core.program().system_block.second_request == SecondRequest::Refused));
 }
 
 void take_request(Core& core, std::uint8_t number, const Body& body, Time reply_at) {
@@ -98,8 +101,7 @@ void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> f
       return reply(core, number, body->source, kSlave, {}, reply_at);
     case kAnswerLow:
     case kAnswerHigh:
-      if (works_for_another(core.s.ppi[number], *body, at))
-        return reply(core, number, body->source, kNoResource, {}, reply_at);
+      if (has_no_resource(core, number, *body, at)) return reply(core, number, body->source, kNoResource, {}, reply_at);
       if (!body->data.empty() || body->source == core.s.ppi[number].master) core.s.ppi[number].asked = at;
       return body->data.empty() ? take_poll(core, number, *body, reply_at) : take_request(core, number, *body, reply_at);
     default:

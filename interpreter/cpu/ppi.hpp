@@ -21,6 +21,12 @@
 //   otherwise. [Ppi.AnotherMasterIsToldThatThereIsNoResource]
 // - A master that has neither asked nor polled for 450 ms, three tries of 150 ms (facts 10.9), has given up: another one is
 //   served, and its answer is dropped. [Ppi.AMasterThatHasGivenUpIsNoLongerWaitedFor]
+// - A request of the same master before it has fetched the answer to the one before takes its place: function 6C has the bit
+//   of the frame count (20) without the one that makes it valid (10), as the first frame of a sequence in Profibus, and the
+//   client library libnodave repeats a request whose E5 it has not heard. A published driver of the S7-200 (S7_200_PCPPI)
+//   names SD1 with function 02 as the other thing that its master gets: so it is with SecondRequest::Refused, until the
+//   answer has been fetched or the master has been silent for 450 ms.
+//   [Ppi.ASecondRequestTakesThePlaceOfTheFirst, Ppi.ASecondRequestIsRefusedWhereThatIsChosen]
 // - A poll that repeats the frame count bit of the one before gets the same answer again.
 // [Ppi.ARepeatedPollGetsTheAnswerAgain]
 // - The status of the station (function 49) is asked and answered with SD1, function 00, by a port in master mode too: it

@@ -1,10 +1,15 @@
 #include "interpreter/cpu/s7_services.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
 #include "interpreter/cpu/clock.hpp"
+#include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/freeport.hpp"
+#include "interpreter/cpu/points.hpp"
+#include "interpreter/cpu/s7_blocks.hpp"
 #include "interpreter/model/s7_pdu.hpp"
 
 namespace s7200::s7_services {
@@ -71,14 +76,6 @@ Place find(const Core& core, const WireVariable& variable) {
   return area.element != 0 ? find_element(core, variable, area) : find_bytes(core, variable, area);
 }
 
-/// How many bytes are asked for, wherever they are.
-std::uint32_t bytes_wanted(const WireVariable& variable) {
-  const WireArea* wire = find_area(variable.area);
-  const std::uint32_t element = wire == nullptr ? 0 : info(wire->area).element;
-  if (element != 0) return variable.count * element;
-  return variable.type == kBit ? (variable.count + 7U) / 8 : variable.count * bytes_of_type(variable.type);
-}
-
 /// What a CPU is called, and its release.
 Bytes identification_of(const CpuModel& model) {
   std::string text = "CPU " + std::string(model.sold_as.empty() ? model.name : model.sold_as);
@@ -88,6 +85,22 @@ Bytes identification_of(const CpuModel& model) {
 }
 
 void append(Bytes& to, Span bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
+
+/// A place as forcing knows it.
+MemoryRange range_of(const Place& place, const WireVariable& variable) {
+  return {.area = place.area,
+          .width = width_of(variable.type).value_or(Width::Word),
+          .number = place.at - info(place.area).base,
+          .bit = place.bit.value_or(0),
+          .at = place.at};
+}
+
+std::uint32_t number_in(Width width, Span value) {
+  if (width == Width::Bit) return value[0] & 1;
+  std::uint32_t number = 0;
+  for (const std::uint8_t byte : value) number = number << 8 | byte;
+  return number;
+}
 
 /// What the answer to a request has in it.
 struct Reply {
@@ -111,6 +124,11 @@ class Request {
         return read();
       case kWrite:
         return write();
+      case kStartUpload:
+        return start_upload();
+      case kUpload:
+      case kEndUpload:
+        return go_on_with_upload();
       case kRun:
       case kStop:
         return change_mode();
@@ -123,10 +141,28 @@ class Request {
   Reply user_data() {
     const auto asked = user_data_in(parameters_);
     if (!asked) return user_data_reply(refused(Refusal::Malformed));
-    if ((core_.model().self & clock::kCpusWithClock) == 0) return user_data_reply(refused(Refusal::Unknown));
-    if (asked->group == kClockGroup && asked->service == kReadClock) return read_clock();
-    if (asked->group == kClockGroup && asked->service == kSetClock) return set_clock();
-    return user_data_reply(refused(Refusal::Unknown));
+    return user_data_reply(user_data(asked->group, asked->service));
+  }
+
+  Reply user_data(std::uint8_t group, std::uint8_t service) {
+    switch (group << 8 | service) {
+      case kBlockGroup << 8 | kListBlocks:
+        return list(s7_blocks::counts());
+      case kBlockGroup << 8 | kListBlocksOfType:
+        return list_blocks_of_type();
+      case kBlockGroup << 8 | kBlockInfo:
+        return tell_of_block();
+      case kClockGroup << 8 | kReadClock:
+        return has_clock() ? read_clock() : refused(Refusal::Unknown);
+      case kClockGroup << 8 | kSetClock:
+        return has_clock() ? set_clock() : refused(Refusal::Unknown);
+      case kForceGroup << 8 | kForce:
+        return force();
+      case kForceGroup << 8 | kSetInStop:
+        return set_in_stop();
+      default:
+        return refused(Refusal::Unknown);
+    }
   }
 
   Reply refused(Refusal why) {
@@ -144,19 +180,17 @@ class Request {
     core_.trace(record);
   }
 
-  void trace(const WireVariable& variable, const Place& place) const {
-    const bool found = place.code == kDone;
+  void trace(PpiVerb verb, const WireVariable& variable, ReturnCode code) const {
     core_.trace({.at = core_.s.time,
                  .kind = TraceKind::PpiAccess,
                  .event = source_,
-                 .routine = found && !place.identification ? place.bit.value_or(0) : variable.area,
-                 .byte = parameters_[0],
+                 .routine = variable.area,
+                 .byte = static_cast<std::uint8_t>(verb),
                  .port = port_,
-                 .code = place.code,
-                 .op = found ? place.at : variable.address,
-                 .count = !found      ? bytes_wanted(variable)
-                          : place.bit ? 0
-                                      : place.bytes});
+                 .type = variable.type,
+                 .code = code,
+                 .op = variable.address,
+                 .count = variable.count});
   }
 
   Reply set_up() {
@@ -190,7 +224,7 @@ class Request {
       if (reply.data.size() + std::max(place.bytes, place.in_data) > kLongestPdu) return refused(Refusal::TooLong);
       if (reply.data.size() % 2 != 0) reply.data.push_back(0);
       append_value(reply.data, place);
-      trace(variable, place);
+      trace(PpiVerb::Reads, variable, place.code);
     }
     return reply;
   }
@@ -236,7 +270,7 @@ class Request {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       Place place = find(core_, wanted[i]);
       if (place.code == kDone) place.code = put(place, values[i]);
-      trace(wanted[i], place);
+      trace(PpiVerb::Writes, wanted[i], place.code);
       reply.data.push_back(place.code);
     }
     if (core_.s.mode == Mode::Run) freeport::follow_control(core_);
@@ -285,20 +319,132 @@ class Request {
     return {.parameters = {parameters_[0]}};
   }
 
+  // --- blocks ---
+
+  /// A list as the data of the answer to user data.
+  Reply list(const Bytes& list) {
+    trace(0);
+    return {.data = data_of_list(list)};
+  }
+
+  Reply list_blocks_of_type() {
+    const auto type = list_in(data_);
+    if (!type || type->size() < 2 || (*type)[0] != '0') return refused(Refusal::Malformed);
+    const auto blocks = s7_blocks::of_type((*type)[1]);
+    if (!blocks) return refused(Refusal::BlockType);
+    return blocks->empty() ? refused(Refusal::NoBlockOfType) : list(*blocks);
+  }
+
+  Reply tell_of_block() {
+    const auto text = list_in(data_);
+    if (!text) return refused(Refusal::Malformed);
+    const Refusal refusal = refusal_of_block(*text);
+    return refusal == Refusal::None ? list(s7_blocks::information(core_.model())) : refused(refusal);
+  }
+
+  static Refusal refusal_of_block(Span text) {
+    const auto name = block_name_in(text);
+    return name ? s7_blocks::refusal_of(*name) : Refusal::BlockName;
+  }
+
+  Reply start_upload() {
+    const auto name = name_to_upload(parameters_);
+    if (!name) return refused(Refusal::Malformed);
+    const Refusal refusal = refusal_of_block(*name);
+    if (refusal != Refusal::None) return refused(refusal);
+    trace(0);
+    core_.s.ppi[port_].uploads = true;
+    core_.s.ppi[port_].uploaded = 0;
+    const std::string length = fmt::format("{:07}", s7_blocks::upload_length(core_.model()));
+    Reply reply{.parameters = {kStartUpload, 0, 1, 0, 0, 0, 0, kUploadId, static_cast<std::uint8_t>(length.size())}};
+    reply.parameters.insert(reply.parameters.end(), length.begin(), length.end());
+    return reply;
+  }
+
+  /// Its next part, or its end.
+  Reply go_on_with_upload() {
+    constexpr std::size_t kId = 7;
+    PpiPort& port = core_.s.ppi[port_];
+    if (parameters_.size() != kId + 1) return refused(Refusal::Malformed);
+    if (!port.uploads || parameters_[kId] != kUploadId) return refused(Refusal::OutOfTurn);
+    trace(0);
+    if (parameters_[0] == kUpload) return part_of_upload(port);
+    port.uploads = false;
+    return {.parameters = {kEndUpload}};
+  }
+
+  Reply part_of_upload(PpiPort& port) const {
+    constexpr std::size_t kMost = kLongestPdu - kAnswerHead - 2 - 4;
+    const Bytes part = s7_blocks::upload(core_, port.uploaded, kMost);
+    port.uploaded = static_cast<std::uint16_t>(port.uploaded + part.size());
+    const bool more = port.uploaded < s7_blocks::upload_length(core_.model());
+    Reply reply{.parameters = {kUpload, more}};
+    append16(reply.data, part.size());
+    append(reply.data, std::array<std::uint8_t, 2>{0, 0xFB});
+    append(reply.data, part);
+    return reply;
+  }
+
+  static constexpr std::uint8_t kUploadId = 1;
+
+  // --- forced values ---
+
+  Reply force() {
+    const auto list = forced_in(data_, 0);
+    if (!list) return refused(Refusal::Malformed);
+    return for_each(*list, list->released ? PpiVerb::Unforces : PpiVerb::Forces,
+                    [&](const MemoryRange& place, Span value) { return force(place, value, list->released); });
+  }
+
+  ReturnCode force(const MemoryRange& place, Span value, bool released) {
+    if (!forcing::possible(place)) return kNotAllowed;
+    if (released) return forcing::unforce(core_, place), kDone;
+    return forcing::force(core_, place, number_in(place.width, value)) ? kDone : kNotAllowed;
+  }
+
+  Reply set_in_stop() {
+    const auto list = forced_in(data_, kValueHead);
+    if (!list || list->released) return refused(Refusal::Malformed);
+    return for_each(*list, PpiVerb::SetsInStop, [&](const MemoryRange& place, Span value) {
+      if (core_.s.mode != Mode::Stop || !points::can_be_set_in_stop(place)) return kNotAllowed;
+      points::set_in_stop(core_, place, number_in(place.width, value));
+      return kDone;
+    });
+  }
+
+  /// The answer lists what has become of each variable.
+  Reply for_each(const ForcedList& list, PpiVerb verb, const auto& act) {
+    Bytes codes{static_cast<std::uint8_t>(list.released), static_cast<std::uint8_t>(list.variables.size())};
+    for (std::size_t i = 0; i < list.variables.size(); ++i) {
+      const WireVariable& variable = list.variables[i];
+      const Place place = find(core_, variable);
+      ReturnCode code = place.code;
+      if (code == kDone) code = place.identification ? kNotAllowed : variable.count != 1 ? kWrongType : kDone;
+      if (code == kDone) code = act(range_of(place, variable), list.released ? Span{} : list.values[i]);
+      trace(verb, variable, code);
+      codes.push_back(code);
+    }
+    return {.data = data_of_list(codes)};
+  }
+
+  // --- the clock ---
+
+  bool has_clock() const { return (core_.model().self & clock::kCpusWithClock) != 0; }
+
   Reply read_clock() {
     trace(0);
-    return user_data_reply({.data = data_of_clock(clock::bcd_now(core_))});
+    return {.data = data_of_clock(clock::bcd_now(core_))};
   }
 
   Reply set_clock() {
     const auto wanted = clock_in(data_);
-    if (!wanted) return user_data_reply(refused(Refusal::Malformed));
+    if (!wanted) return refused(Refusal::Malformed);
     clock::Bcd to = wanted->todr;
     to[6] = 0;
     to[7] &= 0x0F;
-    if (!clock::is_time(to) || !clock::set_bcd(core_, to)) return user_data_reply(refused(Refusal::Malformed));
+    if (!clock::is_time(to) || !clock::set_bcd(core_, to)) return refused(Refusal::Malformed);
     trace(0);
-    return user_data_reply({.data = {kNotStored, 0, 0, 0}});
+    return {.data = {kNotStored, 0, 0, 0}};
   }
 
   static constexpr std::uint8_t kNotStored = 0x0A;  ///< no data follow

@@ -1,9 +1,10 @@
 // What a CPU does for its programming devices, panels and other masters: the S7 services that PPI carries (facts 10.9; the
 // codes are in model/s7_pdu.hpp).
 //
-// Setup of the communication, read and write of variables, the CPU's identification, RUN and STOP, and the clock (as user
-// data, 32 07). A request with several variables gets a return code for each: FF done, 03 not allowed, 05 outside the area,
-// 06 a type that does not go with it, 0A no such area.
+// Setup of the communication, read and write of variables, the CPU's identification, RUN and STOP, the upload of blocks
+// (s7_blocks.hpp), and as user data, 32 07, the clock, lists of blocks, forced values (forcing.hpp) and outputs in STOP. A
+// request with several variables gets a return code for each: FF done, 03 not allowed, 05 outside the area, 06 a type that
+// does not go with it, 0A no such area.
 //
 // Not documented, modelled so:
 // - SMB0 to SMB29, analog inputs and high-speed counters cannot be written. [S7Services.WhatIsReadOnlyIsNotWritten]
@@ -15,8 +16,14 @@
 //   one that is not BCD, with error 87 04. [S7Services.TheClockIsReadAndSet, S7Services.ATimeThatDoesNotExistIsRefused]
 // - V memory is data block 1 (facts 10.9), and no other block exists: return code 0A. Other areas have no block, so that
 //   number is not looked at. [S7Services.VMemoryIsDataBlockOneAndThereIsNoOther]
-// Not modelled: upload and download of the program, password, force, status lists, the modules' data. They are refused with
-// error 81 04.
+// - The answer to forcing repeats the first two bytes of the list, and then has a return code for each variable: 03 for what
+//   cannot be forced, and for the seventeenth value of memory. [S7Services.ForcedValuesHold,
+//   S7Services.WhatCannotBeForcedIsRefused]
+// - Several variables stand before their values, as in a write. Releasing what is not forced is no error.
+//   [S7Services.SeveralValuesAreForcedAndReleasedAtOnce]
+// - Outputs are set in STOP only, in RUN that is not allowed: 03.
+//   [S7Services.OutputsAreSetInStopUntilTheNextChangeOfTheMode]
+// Not modelled: download of the program, password, status lists, the modules' data. They are refused with error 81 04.
 #pragma once
 
 #include <cstdint>

@@ -91,11 +91,12 @@ void begin_communication(Core& core) { begin_phase(core, Phase::Communication, P
 
 void communicate(Core& core) {
   const Mode before = core.s.mode;
+  forcing::apply(core);  // what a master reads is forced
   network::communicate(core);
   for (std::uint8_t port = 0; port < core.s.ppi.size(); ++port)
     if (ppi::waits(core.s.ppi[port])) ppi::communicate(core, port);
   if (core.s.mode != before) return;
-  forcing::apply(core);
+  forcing::apply(core);  // so is what it has written
   begin_phase(core, Phase::SelfTest, Program::kSelfTest);
 }
 

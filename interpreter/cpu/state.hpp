@@ -154,6 +154,8 @@ struct PpiPort {
   std::array<std::uint8_t, ppi::kLongestData> message{};
   std::uint8_t length = 0;            ///< of the message: the request, then its answer
   std::optional<Mode> wanted_mode{};  ///< for when the answer has left
+  bool uploads = false;               ///< the upload of a block has begun and has not been ended
+  std::uint16_t uploaded = 0;         ///< bytes of it that have been asked for
   bool operator==(const PpiPort&) const = default;
 };
 
@@ -324,6 +326,7 @@ struct State {
   Forcing forcing{};
   std::array<std::uint8_t, image::kPointBytes> terminals{};              ///< the inputs as they are wired
   std::array<std::uint8_t, image::kAQ - image::kAI> analog_terminals{};  ///< the analog inputs
+  std::array<std::uint8_t, image::kPointBytes> stop_outputs{};           ///< what the output points are set to in STOP
 
   std::array<std::uint8_t, image::kSize> image{};
 

@@ -74,6 +74,29 @@ std::optional<Width> width_of(std::uint8_t type) {
   }
 }
 
+std::string_view name_of_blocks(std::uint8_t letter) {
+  const auto found = std::ranges::find(kBlockTypes, letter, &BlockType::letter);
+  return found == kBlockTypes.end() ? std::string_view{} : found->name;
+}
+
+std::optional<BlockName> block_name_in(std::span<const std::uint8_t> text) {
+  constexpr std::size_t kLength = 8, kDigits = 5;
+  if (text.size() != kLength || text[0] != '0') return {};
+  BlockName name{.type = text[1]};
+  for (const std::uint8_t digit : text.subspan(2, kDigits)) {
+    if (digit < '0' || digit > '9') return {};
+    name.number = name.number * 10 + (digit - '0');
+  }
+  return name;
+}
+
+std::optional<std::span<const std::uint8_t>> name_to_upload(std::span<const std::uint8_t> parameters) {
+  constexpr std::size_t kLength = 8, kName = 10;
+  if (parameters.size() < kName || parameters.size() != kLength + 1 + parameters[kLength] || parameters[kName - 1] != '_')
+    return {};
+  return parameters.subspan(kName);
+}
+
 void append(Bytes& to, const Variable& variable) {
   append(to, variable.type, variable.count, variable.area == Area::V ? kBlockOfV : 0, code_of(variable.area),
          variable.first);
@@ -87,12 +110,35 @@ std::size_t data_bytes(std::uint8_t type, std::size_t length) {
   return type == kInBits || type == kInBitsOfBytes ? (length + 7) / 8 : length;
 }
 
+std::optional<ForcedList> forced_in(std::span<const std::uint8_t> data, std::size_t head) {
+  constexpr std::size_t kListHead = 2, kNoHead = 2, kBytes = kVariableBytes - kNoHead;
+  const auto list = list_in(data);
+  if (!list || list->size() < kListHead || (*list)[0] > 1 || (*list)[1] == 0) return {};
+  const std::size_t count = (*list)[1];
+  std::size_t at = kListHead + count * kBytes;
+  if (list->size() < at) return {};
+  ForcedList found{.released = (*list)[0] == 1 || list->size() == at};
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto bytes = list->subspan(kListHead - kNoHead + i * kBytes, kVariableBytes);  // its first two are not its own
+    if (bytes[kNoHead] != kVariableHead[kNoHead]) return {};
+    found.variables.push_back(variable_at(bytes));
+  }
+  for (std::size_t i = 0; i < count && !found.released; ++i) {
+    const auto width = width_of(found.variables[i].type);
+    const std::size_t bytes = width ? bytes_of(*width) : 0;
+    if (list->size() < at + head + bytes) return {};
+    found.values.push_back(list->subspan(at + head, bytes));
+    at += head + bytes + bytes % 2;
+  }
+  return found;
+}
+
 void append_identification(Bytes& to) { append(to, kByte, kIdentificationBytes, 0, kSystemInformation, 0); }
 
 Bytes parameters_of(const UserData& user_data) {
   const std::uint8_t side = user_data.is_answer ? kAnswersGroup : kAsksForGroup;
   Bytes bytes{0, 1, 0x12, 4, 0x11, static_cast<std::uint8_t>(side | user_data.group), user_data.service, user_data.number};
-  if (!user_data.is_answer) return bytes;
+  if (!user_data.is_answer && user_data.group != kForceGroup) return bytes;
   bytes[3] = 8, bytes[4] = 0x12;
   append16(bytes, 0);
   append16(bytes, user_data.error);
@@ -109,6 +155,19 @@ std::optional<UserData> user_data_in(std::span<const std::uint8_t> parameters) {
   if (parameters.size() < kError + 2) return {};
   found.error = load16(&parameters[kError]);
   return found;
+}
+
+Bytes data_of_list(std::span<const std::uint8_t> list) {
+  Bytes bytes{kDone, kInBytes};
+  append16(bytes, list.size());
+  bytes.insert(bytes.end(), list.begin(), list.end());
+  return bytes;
+}
+
+std::optional<std::span<const std::uint8_t>> list_in(std::span<const std::uint8_t> data) {
+  constexpr std::size_t kHead = 4;
+  if (data.size() < kHead || load16(&data[2]) != data.size() - kHead) return {};
+  return data.subspan(kHead);
 }
 
 Bytes data_of_clock(const std::array<std::uint8_t, 8>& todr) {

@@ -9,6 +9,14 @@
 // published recordings of an S7-200 (iottree, of T32…T34 and T40…T43) and in the client library libnodave (five and three
 // bytes each).
 //
+// Forced values go as user data of group 8, services 0B and 0E: a byte that is 00, or 01 to take them back, their number,
+// the variables without `12 0A`, then the values, each filled up to an even number of bytes. So 0B stands in published
+// requests to an S7-200 (of Q0.0) and to an S7-200 SMART (of VD228, forced with 00 and released with 01). The client library
+// libnodave sends 0E, which "sets outputs in STOP" and ends with RUN; there each value has the head of a value that is
+// written, `00 04 00 08`.
+// Blocks go as user data of group 3 and as functions 1D, 1E and 1F, in the form that the client libraries libnodave and
+// snap7 share; their errors are those that libnodave names.
+//
 // Not documented, modelled so:
 // - The status is 02 while the bit of the timer or counter is 1, as in a recording of a timer at 32767, otherwise 00, as of
 //   one that runs. What is written has the same form; its status is not looked at.
@@ -30,6 +38,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/time.hpp"
@@ -44,10 +53,30 @@ inline constexpr std::size_t kRequestHead = 10, kAnswerHead = 12, kLongestPdu = 
 /// How long a master asks for the answer to a request that was accepted (a choice: interpreter/cpu/network.hpp).
 inline constexpr Time kLongestWork = kSecond;
 
-enum Function : std::uint8_t { kRead = 0x04, kWrite = 0x05, kRun = 0x28, kStop = 0x29, kSetup = 0xF0 };
+enum Function : std::uint8_t {
+  kRead = 0x04,
+  kWrite = 0x05,
+  kStartUpload = 0x1D,
+  kUpload = 0x1E,
+  kEndUpload = 0x1F,
+  kRun = 0x28,
+  kStop = 0x29,
+  kSetup = 0xF0
+};
 
 /// Of a whole request: the error bytes of its answer.
-enum class Refusal : std::uint16_t { None = 0, Unknown = 0x8104, TooLong = 0x8500, Malformed = 0x8704 };
+enum class Refusal : std::uint16_t {
+  None = 0,
+  Unknown = 0x8104,
+  TooLong = 0x8500,
+  Malformed = 0x8704,
+  BlockName = 0xD201,  ///< its syntax
+  BlockType = 0xD203,
+  NoBlock = 0xD209,
+  NoBlockOfType = 0xD20E,
+  OutOfTurn = 0xD240,  ///< a part or the end of an upload that has not been started
+  Protected = 0xD241   ///< as by a password
+};
 
 /// Of a variable.
 enum ReturnCode : std::uint8_t { kDone = 0xFF, kNotAllowed = 0x03, kOutside = 0x05, kWrongType = 0x06, kNoArea = 0x0A };
@@ -63,6 +92,9 @@ std::optional<Width> width_of(std::uint8_t type);
 
 /// What the length of its data counts.
 enum DataType : std::uint8_t { kInBits = 3, kInBitsOfBytes = 4, kInBytes = 9 };
+
+/// Before each value in the data of a write: return code, type and length.
+inline constexpr std::size_t kValueHead = 4;
 
 /// How many bytes a value has whose data say this.
 std::size_t data_bytes(std::uint8_t type, std::size_t length);
@@ -86,6 +118,29 @@ void append_element(Bytes& to, Area area, std::span<const std::uint8_t> value, b
 /// The values alone, as the image has them; a part of an element at the end is left out.
 Bytes element_values(Area area, std::span<const std::uint8_t> data);
 
+/// The types of blocks, in the order in which S7 counts them.
+struct BlockType {
+  std::uint8_t letter;
+  std::string_view name;
+};
+inline constexpr std::array kBlockTypes{BlockType{'8', "OB"}, BlockType{'E', "FB"},  BlockType{'C', "FC"},
+                                        BlockType{'A', "DB"}, BlockType{'B', "SDB"}, BlockType{'D', "SFC"},
+                                        BlockType{'F', "SFB"}};
+/// Empty for a letter that is none of them.
+std::string_view name_of_blocks(std::uint8_t letter);
+
+/// A block as S7 names it: `0A00001A` is 0, the letter of its type, its number, and where it is: linked into the program
+/// (A), not linked (P), or either (B), which says nothing here.
+struct BlockName {
+  std::uint8_t type = 0;
+  std::uint32_t number = 0;
+};
+/// Nothing if the text is no name.
+std::optional<BlockName> block_name_in(std::span<const std::uint8_t> text);
+/// Where the name is in the parameters of a start of an upload, after 1D, seven bytes, its length and `_`. Nothing if the
+/// length is wrong.
+std::optional<std::span<const std::uint8_t>> name_to_upload(std::span<const std::uint8_t> parameters);
+
 /// V memory as a data block.
 inline constexpr std::uint16_t kBlockOfV = 1;
 
@@ -97,11 +152,13 @@ inline constexpr std::size_t kIdentificationName = 16, kIdentificationRelease = 
 /// The service that RUN and STOP name at the end of their parameters, after its length.
 inline constexpr std::string_view kProgram = "P_PROGRAM";
 
-/// Of user data: the clock, and what is done with it.
+// Of user data: groups, and the services of each.
+inline constexpr std::uint8_t kBlockGroup = 3, kListBlocks = 1, kListBlocksOfType = 2, kBlockInfo = 3;
 inline constexpr std::uint8_t kClockGroup = 7, kReadClock = 1, kSetClock = 2;
+inline constexpr std::uint8_t kForceGroup = 8, kForce = 0x0B, kSetInStop = 0x0E;
 
-/// The parameters of user data: 00 01 12 length(1) request or answer(1) group service number, and then, of an answer,
-/// 00 00 error(2).
+/// The parameters of user data: 00 01 12 length(1) request or answer(1) group service number, and then, of an answer and of
+/// a request to force, 00 00 error(2).
 struct UserData {
   std::uint8_t group = 0, service = 0, number = 0;
   bool is_answer = false;
@@ -110,6 +167,11 @@ struct UserData {
 Bytes parameters_of(const UserData& user_data);
 /// Nothing if they are too few.
 std::optional<UserData> user_data_in(std::span<const std::uint8_t> parameters);
+
+/// A list in the data of user data: FF 09 length(2), then its bytes.
+Bytes data_of_list(std::span<const std::uint8_t> list);
+/// Nothing if the length is not that of what follows.
+std::optional<std::span<const std::uint8_t>> list_in(std::span<const std::uint8_t> data);
 
 /// The clock in data: FF 09 00 0A 00, the century, and then the eight bytes of TODR, whose last two are milliseconds and day
 /// of the week. All are BCD.
@@ -148,6 +210,16 @@ struct WireVariable {
 };
 /// Of kVariableBytes.
 WireVariable variable_at(std::span<const std::uint8_t> bytes);
+
+/// What a master forces, releases, or sets in STOP.
+struct ForcedList {
+  bool released = false;
+  std::vector<WireVariable> variables{};
+  std::vector<std::span<const std::uint8_t>> values{};  ///< of each variable; none if they are released
+};
+/// In the data of user data. `head`: bytes before each value. Nothing if there is less than is listed. It says that values
+/// are released with 01, or by having none, as in a published description of the S7-200.
+std::optional<ForcedList> forced_in(std::span<const std::uint8_t> data, std::size_t head);
 
 /// The identification as a variable, to read.
 void append_identification(Bytes& to);

@@ -1,6 +1,7 @@
 #include "interpreter/program/system_block.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -94,6 +95,14 @@ std::string ppi_rates_text() {
 
 std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model, std::string& why) {
   return parse_ports(text, model, why, "rate", parse_rate);
+}
+
+std::optional<SecondRequest> parse_second_request(std::string_view text, std::string& why) {
+  for (std::size_t i = 0; i < kSecondRequestWords.size(); ++i)
+    if (text == kSecondRequestWords[i]) return static_cast<SecondRequest>(i);
+  why = fmt::format("'{}' is not what a port does with a second request; write {}", stl::shortened(text),
+                    fmt::join(kSecondRequestWords, " or "));
+  return {};
 }
 
 std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model, std::string& why) {

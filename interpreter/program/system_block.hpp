@@ -24,10 +24,19 @@ using PpiRates = std::array<std::uint32_t, kPorts.size()>;
 /// Addresses on the network, by port.
 using PpiStations = std::array<std::uint8_t, kPorts.size()>;
 
+/// What becomes of a request whose master has not fetched the answer to the one before (cpu/ppi.hpp). No system block
+/// says it; it is chosen here, where ports are set.
+enum class SecondRequest : std::uint8_t {
+  Replaces,  ///< it takes the place of the one before
+  Refused    ///< there is no resource, as for another master
+};
+inline constexpr std::array<std::string_view, 2> kSecondRequestWords{"replaces", "refused"};
+
 /// As a CPU is delivered, if nothing else is said (facts 10.9).
 struct SystemBlock {
   PpiRates ppi_rates{9600, 9600};
   PpiStations ppi_stations{2, 2};
+  SecondRequest second_request = SecondRequest::Replaces;
   std::optional<std::vector<RetentiveRange>> retentive{};  ///< nothing: those of the CPU
   auto operator<=>(const SystemBlock&) const = default;
 };
@@ -40,6 +49,9 @@ std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& m
 
 /// The same of stations, 1 to 126: `3`; `3,4` for port 0 and port 1.
 std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model, std::string& why);
+
+/// One of kSecondRequestWords. Returns nothing and sets `why` for anything else.
+std::optional<SecondRequest> parse_second_request(std::string_view text, std::string& why);
 
 /// The most ranges of memory that a system block makes retentive.
 inline constexpr std::size_t kMostRetentiveRanges = 6;
@@ -56,6 +68,7 @@ std::string to_text(const std::vector<RetentiveRange>& ranges);
 /// As they are parsed: one for both ports if they are the same.
 std::string to_text(const PpiRates& rates);
 std::string to_text(const PpiStations& stations);
+inline std::string_view to_text(SecondRequest request) { return kSecondRequestWords[static_cast<std::size_t>(request)]; }
 
 /// The same program with another system block.
 std::shared_ptr<const Program> with_system_block(const Program& program, const SystemBlock& block);

@@ -41,25 +41,24 @@ std::string status_text(std::uint8_t status) {
   return fmt::format("status 16#{:02X}{}", status, reasons.empty() ? "" : fmt::format(" ({})", reasons));
 }
 
-/// `VB100, 4 bytes`; `M3.1`
+/// What a master asks for: `VB100, 4 bytes`; `M3.1`; `VW300`; `T37, 3 in all`; as far as it is known `T37 as 2 bytes`.
 std::string variable_text(const TraceRecord& r) {
-  const AreaInfo* const area = &area_at(r.op);
-  const std::uint32_t number = (r.op - area->base) / area->step();
-  if (r.count == 0) return address_text(area->area, Width::Bit, number, r.routine);
-  const Width width = area->element == 0 ? Width::Byte : area->element == 2 ? Width::Word : Width::Double;
-  const std::uint64_t count = r.count / area->step();
-  return address_text(area->area, width, number, 0) +
-         (count == 1 ? "" : fmt::format(", {} {}", count, area->element ? "in all" : "bytes"));
-}
-
-/// Of a variable that the CPU does not have: `VB9000, 4 bytes`, `V9000.7, 1 byte`, `T300, 2 bytes`
-std::string wanted_text(const TraceRecord& r) {
+  if (r.routine == s7::kSystemInformation) return "the CPU's identification";
   const auto wire = std::ranges::find(s7::kWireAreas, r.routine, &s7::WireArea::code);
   const auto bit = static_cast<std::uint8_t>(r.op % 8);
   if (wire == s7::kWireAreas.end()) return fmt::format("area 16#{:02X}, address {}.{}", r.routine, r.op / 8, bit);
-  const std::uint32_t number = info(wire->area).element != 0 ? r.op : r.op / 8;
-  const std::string address = address_text(wire->area, bit == 0 ? Width::Byte : Width::Bit, number, bit);
-  return fmt::format("{}, {}", address, counted(r.count, "byte"));
+  const bool is_element = info(wire->area).element != 0;
+  const auto width = s7::width_of(r.type);
+  if (is_element) {
+    const std::string name = address_text(wire->area, Width::Word, r.op, 0);
+    if (r.type == r.routine) return name + (r.count == 1 ? "" : fmt::format(", {} in all", r.count));
+    return width ? fmt::format("{} as {}", name, counted(r.count, name_of(*width)))
+                 : fmt::format("{} as type 16#{:02X}", name, r.type);
+  }
+  const Width named = bit != 0 ? Width::Bit : width.value_or(Width::Byte);
+  const std::string name = address_text(wire->area, named, r.op / 8, bit);
+  if (!width) return fmt::format("{} as type 16#{:02X}", name, r.type);
+  return name + (r.count == 1 && *width == named ? "" : ", " + counted(r.count, name_of(*width)));
 }
 
 std::string unmodelled_ppi_text(const TraceRecord& r) {
@@ -84,6 +83,22 @@ std::string unmodelled_ppi_text(const TraceRecord& r) {
 
 std::string refusal_text(std::uint16_t code) { return fmt::format(": refused, error 16#{:02X}", code); }
 
+std::string_view does_text(PpiVerb verb) {
+  switch (verb) {
+    case PpiVerb::Reads:
+      return "reads";
+    case PpiVerb::Writes:
+      return "writes";
+    case PpiVerb::Forces:
+      return "forces";
+    case PpiVerb::Unforces:
+      return "unforces";
+    case PpiVerb::SetsInStop:
+      return "sets in STOP";
+  }
+  return {};
+}
+
 std::string function_text(const TraceRecord& r) {
   if (r.count == 0) return "asks for no function";
   switch (r.byte) {
@@ -93,6 +108,12 @@ std::string function_text(const TraceRecord& r) {
       return "asks for STOP";
     case s7::kSetup:
       return "sets up the communication";
+    case s7::kStartUpload:
+      return "starts the upload of a block";
+    case s7::kUpload:
+      return "fetches a part of the block";
+    case s7::kEndUpload:
+      return "ends the upload";
     default:
       return fmt::format("asks for function {:02X}", r.byte);
   }
@@ -100,8 +121,24 @@ std::string function_text(const TraceRecord& r) {
 
 std::string user_data_text(const TraceRecord& r) {
   if (r.count == 0) return "sends user data that name no service";
-  if (r.routine == s7::kClockGroup && r.byte == s7::kReadClock) return "reads the clock";
-  if (r.routine == s7::kClockGroup && r.byte == s7::kSetClock) return "sets the clock";
+  switch (r.routine << 8 | r.byte) {
+    case s7::kBlockGroup << 8 | s7::kListBlocks:
+      return "asks how many blocks there are";
+    case s7::kBlockGroup << 8 | s7::kListBlocksOfType:
+      return "asks for the blocks of a type";
+    case s7::kBlockGroup << 8 | s7::kBlockInfo:
+      return "asks about a block";
+    case s7::kClockGroup << 8 | s7::kReadClock:
+      return "reads the clock";
+    case s7::kClockGroup << 8 | s7::kSetClock:
+      return "sets the clock";
+    case s7::kForceGroup << 8 | s7::kForce:
+      return "forces or unforces values";
+    case s7::kForceGroup << 8 | s7::kSetInStop:
+      return "sets outputs in STOP";
+    default:
+      break;
+  }
   return fmt::format("asks for user data, group {}, service {}", r.routine, r.byte);
 }
 
@@ -109,11 +146,8 @@ std::string user_data_text(const TraceRecord& r) {
 std::string ppi_text(const TraceRecord& r) {
   const std::string who = fmt::format("PPI station {}", r.event);
   if (r.kind == TraceKind::PpiAccess) {
-    const std::string_view does = r.byte == s7::kRead ? "reads" : "writes";
-    const bool found = r.code == s7::kDone;
-    const bool identifies = r.routine == s7::kSystemInformation && (!found || r.count != 0);
-    const std::string what = identifies ? "the CPU's identification" : found ? variable_text(r) : wanted_text(r);
-    return fmt::format("{} {} {}{}", who, does, what, found ? "" : refusal_text(r.code));
+    return fmt::format("{} {} {}{}", who, does_text(PpiVerb{r.byte}), variable_text(r),
+                       r.code == s7::kDone ? "" : refusal_text(r.code));
   }
   return fmt::format("{} {}{}", who, r.op == s7::kUserData ? user_data_text(r) : function_text(r),
                      r.code == 0 ? "" : refusal_text(r.code));

@@ -37,11 +37,14 @@ enum class TraceKind : std::uint8_t {
   NetworkJob,         ///< byte: the status in the table of NETR, or of NETW if routine is 1; op: its place in the image
   PpiService,         ///< event: the master's station; code: error of the answer, 0 if it was carried out; op: s7::Kind;
                       ///< byte: S7 function, or of user data the service, of the group `routine`; count: 0 if it names none
-  PpiAccess,          ///< a variable that a master reads or writes, like PpiService. Code FF: op is its place in the image,
-              ///< count its bytes, 0 for the bit `routine`. Otherwise, and of the identification: the address and area
+  PpiAccess,       ///< a variable of a master's request: event: its station; byte: PpiVerb; routine, type, op, count: area,
+                   ///< type, address and count as in the request; code: s7::ReturnCode
   PpiIgnored,      ///< a frame with a wrong check sum or end; count: its characters
   PpiNotModelled,  ///< a right frame from station `event` to `byte` of which nothing comes here; code: PpiUnmodelled
 };
+
+/// What a master does with a variable.
+enum class PpiVerb : std::uint8_t { Reads, Writes, Forces, Unforces, SetsInStop };
 
 /// Why a character is ignored.
 enum class Ignored : std::uint16_t {
@@ -69,6 +72,7 @@ struct TraceRecord {
   bool parity_error = false;
   bool framing_error = false;
   std::uint8_t port = 0;  ///< of characters, messages and the control byte
+  std::uint8_t type = 0;  ///< of PpiAccess
   std::uint16_t code = 0;
   std::uint32_t op = 0;  ///< of Attach, Detach, Enable, Transmit, Receive, PortControl too: the instruction, kNoRoutine for
                          ///< none; of ServiceBegin the one that was executed before it

@@ -96,7 +96,11 @@ class Master {
 
   /// Asks and polls until there is an answer; its PDU. Nothing if the slave does not answer so.
   Bytes ask(const Bytes& pdu, std::uint8_t to = 2) {
-    if (say(sd2(to, station_, 0x6C, pdu), 20 * ms) != Bytes{0xE5}) return {};
+    return say(sd2(to, station_, 0x6C, pdu), 20 * ms) == Bytes{0xE5} ? fetch(to) : Bytes{};
+  }
+
+  /// Polls until the answer to what has been asked is there.
+  Bytes fetch(std::uint8_t to = 2) {
     for (int poll = 0; poll < 8; ++poll) {
       const Bytes heard = say(sd1(to, station_, poll % 2 == 0 ? 0x5C : 0x7C));
       if (heard == Bytes{0xE5}) continue;

@@ -54,10 +54,10 @@ auto members(const Freeport& part) {
 }
 
 auto members(const PpiPort& part) {
-  const auto& [frame, received, sending, sent, lost, heard, job, master, asked, frame_count, message, length, wanted_mode] =
-      part;
-  return std::tie(frame, received, sending, sent, lost, heard, job, master, asked, frame_count, message, length,
-                  wanted_mode);
+  const auto& [frame, received, sending, sent, lost, heard, job, master, asked, frame_count, message, length, wanted_mode,
+               uploads, uploaded] = part;
+  return std::tie(frame, received, sending, sent, lost, heard, job, master, asked, frame_count, message, length, wanted_mode,
+                  uploads, uploaded);
 }
 
 auto members(const NetworkPort::Job& part) {
@@ -121,13 +121,13 @@ auto members(const State& state) {
                longest_scan, calls, local, saved, serving_event, serving_routine, serving_since, attached, queue, waiting,
                timed_interval, port, ppi, network, timer, previous_scan_begin, next_tick_1ms, ticks_100ms, counter_inputs,
                counter, pulse, clock, clock_set_at, station, diagnostic_led, eeprom, fatal_code, fatal_op, errors,
-               error_count, forcing, terminals, analog_terminals, image] = state;
+               error_count, forcing, terminals, analog_terminals, stop_outputs, image] = state;
   return std::tie(time, pc, stack, rail, eno, mode, phase, phase_left, in_interrupt, interrupts_enabled, stop_after_scan,
                   stopped_by_master, call_depth, instructions, scans, scan_begin, watchdog, next_clock, shortest_scan,
                   longest_scan, calls, local, saved, serving_event, serving_routine, serving_since, attached, queue, waiting,
                   timed_interval, port, ppi, network, timer, previous_scan_begin, next_tick_1ms, ticks_100ms, counter_inputs,
                   counter, pulse, clock, clock_set_at, station, diagnostic_led, eeprom, fatal_code, fatal_op, errors,
-                  error_count, forcing, terminals, analog_terminals, image);
+                  error_count, forcing, terminals, analog_terminals, stop_outputs, image);
 }
 
 template <class T>
@@ -204,6 +204,7 @@ std::string digest_of(const Program& program) {
   for (const Time time : program.scan_phase) digest.add(time);
   for (const std::uint32_t baud : program.system_block.ppi_rates) digest.add(baud);
   for (const std::uint8_t station : program.system_block.ppi_stations) digest.add(station);
+  digest.add(program.system_block.second_request);
   if (program.system_block.retentive) digest.add(std::string_view(to_text(*program.system_block.retentive)));
   return digest.text();
 }
