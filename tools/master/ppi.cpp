@@ -45,13 +45,14 @@ s7::Variable variable(const MemoryRange& range) {
 
 /// A request, and what its answer is to be read as.
 struct Wanted {
-  enum class Kind : std::uint8_t { Status, Variable, Identification, Clock, Command };
+  enum class Kind : std::uint8_t { Status, Variable, Identification, Clock, Command, Forced, Unforced };
 
   Kind kind;
   Bytes pdu{};  ///< empty: the status of the station
   std::optional<MemoryRange> range{};
 
   bool has_value() const { return kind == Kind::Variable || kind == Kind::Identification; }
+  bool is_forced() const { return kind == Kind::Forced || kind == Kind::Unforced; }
   /// In the answer.
   std::size_t bytes() const {
     if (!range) return s7::kIdentificationBytes;
@@ -94,6 +95,7 @@ class PpiRequest final : public ProtocolRequest {
   void take(Data pdu, serial::Answer& answer) const;
   bool is_to_this(const s7::UserData& answer) const;
   void take_value(Data data, serial::Answer& answer) const;
+  static void take_forced(Data data, serial::Answer& answer);
   std::string value_text(const serial::Answer& answer, std::uint32_t i) const;
 
   serial::Frame raw_{};
@@ -174,6 +176,8 @@ void PpiRequest::take(Data pdu, serial::Answer& answer) const {
     answer.exception = error;
   } else if (wanted_.has_value()) {
     take_value(data, answer);
+  } else if (wanted_.is_forced()) {
+    take_forced(data, answer);
   } else if (wanted_.kind == Wanted::Kind::Clock && s7_clock_text(data).empty()) {
     answer = wrong(fmt::format("no time in it: {} bytes of data", data.size()));
   } else {
@@ -197,6 +201,17 @@ void PpiRequest::take_value(Data data, serial::Answer& answer) const {
     const bool words = wanted_.range->width == Width::Word || wanted_.range->width == Width::Double;
     for (std::size_t i = 0; i < answer.bytes.size(); i += words ? 2 : 1)
       answer.values.push_back(words ? load16(&answer.bytes[i]) : answer.bytes[i]);
+  }
+}
+
+/// What has become of the only variable.
+void PpiRequest::take_forced(Data data, serial::Answer& answer) {
+  const auto codes = s7::list_in(data);
+  if (!codes || codes->empty()) {
+    answer = wrong("no return code");
+  } else if (codes->back() != s7::kDone) {
+    answer.verdict = serial::Verdict::Exception;
+    answer.exception = codes->back();
   }
 }
 
@@ -237,6 +252,10 @@ std::string PpiRequest::in_short(const serial::Answer& answer, Data, Data respon
       return s7_clock_text(answer.bytes);
     case Wanted::Kind::Command:
       return "done";
+    case Wanted::Kind::Forced:
+      return range_text(*wanted_.range) + " forced";
+    case Wanted::Kind::Unforced:
+      return range_text(*wanted_.range) + " no longer forced";
     case Wanted::Kind::Variable:
       break;
   }
@@ -297,6 +316,8 @@ class Parser final : public WordParser {
 
   void read(const Words& operands);
   void write(const Words& operands);
+  void force(const Words& operands);
+  void unforce(const Words& operands);
   void run(const Words&) { change_mode(s7::kRun, {0, 0, 0, 0, 0, 0, 0xFD, 0, 0}); }
   void stop(const Words&) { change_mode(s7::kStop, {0, 0, 0, 0, 0}); }
   void clock(const Words&);
@@ -309,6 +330,7 @@ class Parser final : public WordParser {
   void add(Wanted wanted) { WordParser::add(std::make_shared<PpiRequest>(station_, own_, std::move(wanted))); }
   void add_clock(std::uint8_t service, const Bytes& data);
   void change_mode(s7::Function function, Bytes parameters);
+  void add_forced(Wanted::Kind kind, const MemoryRange& range, const Bytes& value);
   MemoryRange range_of(const std::string& text);
 
   std::uint8_t own_;
@@ -320,6 +342,8 @@ constexpr std::array kVerbs{
     PpiVerb{"read", "ADDRESS[:COUNT]…", "VB100:4, VW100:2, VD20:real, M31.7, QB0, SMB0, AIW0, T37, C5", 1, kMany,
             &Parser::read},
     PpiVerb{"write", "ADDRESS=VALUE,…", "VB100=65,66, VW100=-5, M31.7=1, C5=0", 1, kMany, &Parser::write},
+    PpiVerb{"force", "ADDRESS=VALUE…", "I0.3=1, Q0.0=1, VB500=9, AIW4=1000: until it is unforced", 1, kMany, &Parser::force},
+    PpiVerb{"unforce", "ADDRESS…", "I0.3, VB500", 1, kMany, &Parser::unforce},
     PpiVerb{"run", "", "the CPU goes to RUN", 0, 0, &Parser::run},
     PpiVerb{"stop", "", "the CPU goes to STOP", 0, 0, &Parser::stop},
     PpiVerb{"clock", "", "its time of day", 0, 0, &Parser::clock},
@@ -425,6 +449,37 @@ void Parser::write(const Words& operands) {
     s7::append16(data, type == s7::kInBitsOfBytes ? value.size() * 8 : value.size());
     data.insert(data.end(), value.begin(), value.end());
     add({Wanted::Kind::Variable, s7::pdu(s7::kRequest, kOnlyRequest, parameters, data), range});
+  }
+}
+
+/// The value is filled up to an even number of bytes.
+void Parser::add_forced(Wanted::Kind kind, const MemoryRange& range, const Bytes& value) {
+  const bool released = kind == Wanted::Kind::Unforced;
+  if (range.count != 1) refuse(fmt::format("{}: one value at a time", text_));
+  Bytes place, list{released, 1};
+  append(place, variable(range));
+  list.insert(list.end(), place.begin() + 2, place.end());
+  list.insert(list.end(), value.begin(), value.end());
+  if (value.size() % 2 != 0) list.push_back(0);
+  const Bytes parameters = s7::parameters_of({.group = s7::kForceGroup, .service = s7::kForce});
+  add({kind, s7::pdu(s7::kUserData, kOnlyRequest, parameters, s7::data_of_list(list)), range});
+}
+
+void Parser::force(const Words& operands) {
+  for (const std::string& operand : operands) {
+    const auto parts = split_at(operand, '=');
+    if (!parts) refuse(fmt::format("'{}': a value is missing; write for example Q0.0=1", stl::shortened(operand)));
+    text_ = "force " + operand;
+    MemoryRange range = range_of(parts->first);
+    const Bytes value = value_bytes(range, parts->second, text_);
+    add_forced(Wanted::Kind::Forced, range, value);
+  }
+}
+
+void Parser::unforce(const Words& operands) {
+  for (const std::string& operand : operands) {
+    text_ = "unforce " + operand;
+    add_forced(Wanted::Kind::Unforced, range_of(operand), {});
   }
 }
 

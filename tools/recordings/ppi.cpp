@@ -41,8 +41,8 @@ std::string name_of(const MemoryRange& range) {
   return range.name_of(0) + (range.count == 1 ? "" : fmt::format(":{}", range.count)) + (range.real ? ":real" : "");
 }
 
-Variable variable_of(Data bytes) {
-  const auto [type, wire_area, count, block, address] = s7::variable_at(bytes);
+Variable variable_of(const s7::WireVariable& wire_variable) {
+  const auto& [type, wire_area, count, block, address] = wire_variable;
   if (wire_area == s7::kSystemInformation && type == s7::kByte && count == s7::kIdentificationBytes && address == 0)
     return {.name = "identification", .identification = true};
   const auto wire = std::ranges::find(s7::kWireAreas, wire_area, &s7::WireArea::code);
@@ -59,7 +59,7 @@ Variable variable_of(Data bytes) {
 std::vector<Variable> variables_in(Data parameters) {
   std::vector<Variable> variables;
   for (std::size_t at = 2; at + s7::kVariableBytes <= parameters.size(); at += s7::kVariableBytes)
-    variables.push_back(variable_of(parameters.subspan(at, s7::kVariableBytes)));
+    variables.push_back(variable_of(s7::variable_at(parameters.subspan(at, s7::kVariableBytes))));
   return variables;
 }
 
@@ -138,11 +138,72 @@ std::optional<Pdu> pdu_of(Data bytes, std::string& why) {
 
 std::string error_text(std::uint16_t error) { return serial::error_text(error, s7_error_name(error)); }
 
+/// `Q0.0 = 1, VB500 = 16#09`; of values that are released their places alone.
+std::string forced_text(const s7::ForcedList& list) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < list.variables.size(); ++i) {
+    const Variable variable = variable_of(list.variables[i]);
+    texts.push_back(list.released ? variable.name : value_text(variable, list.values[i]));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// What has become of each variable that was to be forced.
+std::string forced_answer_text(Data data) {
+  const auto codes = s7::list_in(data);
+  if (!codes || codes->size() < 3) return "user data";
+  std::vector<std::string> texts;
+  for (const std::uint8_t code : codes->subspan(2)) texts.push_back(code == s7::kDone ? "done" : error_text(code));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string force_text(const Pdu& pdu, std::uint8_t service, bool answer) {
+  if (answer) return forced_answer_text(pdu.data);
+  const bool in_stop = service == s7::kSetInStop;
+  const auto list = s7::forced_in(pdu.data, in_stop ? s7::kValueHead : 0);
+  const std::string_view verb = in_stop ? "set in STOP" : list && list->released ? "unforce" : "force";
+  return list ? fmt::format("{} {}", verb, forced_text(*list)) : fmt::format("{}, incomplete", verb);
+}
+
+/// Type and number of each entry: `1 OB, 1 DB`, or of one type its numbers: `1, 2`.
+std::string blocks_text(Data entries, bool numbers) {
+  constexpr std::size_t kEntry = 4;
+  std::vector<std::string> texts;
+  for (; entries.size() >= kEntry; entries = entries.subspan(kEntry)) {
+    if (numbers)
+      texts.push_back(fmt::format("{}", load16(&entries[0])));
+    else if (const std::uint16_t count = load16(&entries[2]); count != 0)
+      texts.push_back(fmt::format("{} {}", count, s7::name_of_blocks(entries[1])));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string block_text(const Pdu& pdu, std::uint8_t service, bool answer) {
+  const Data list = s7::list_in(pdu.data).value_or(Data{});
+  switch (service) {
+    case s7::kListBlocks:
+      return answer ? "blocks: " + blocks_text(list, false) : "how many blocks?";
+    case s7::kListBlocksOfType:
+      if (answer) return "blocks: " + blocks_text(list, true);
+      return fmt::format("which {}?", list.size() < 2 ? "blocks" : s7::name_of_blocks(list[1]));
+    case s7::kBlockInfo: {
+      constexpr std::size_t kLength = 40;
+      if (!answer) return s7_block_text(list) + "?";
+      return list.size() < kLength + 2 ? "block" : fmt::format("block of {} bytes", load16(&list[kLength]));
+    }
+    default:
+      return fmt::format("user data, group {}, service {}", s7::kBlockGroup, service);
+  }
+}
+
 std::string user_data_text(const Pdu& pdu) {
   const auto user_data = s7::user_data_in(pdu.parameters);
   if (!user_data) return "user data";
   const auto& [group, service, number, answer, error] = *user_data;
   if (error != 0) return error_text(error);
+  if (group == s7::kBlockGroup) return block_text(pdu, service, answer);
+  if (group == s7::kForceGroup && (service == s7::kForce || service == s7::kSetInStop))
+    return force_text(pdu, service, answer);
   const std::string clock = s7_clock_text(pdu.data);
   if (group == s7::kClockGroup && service == s7::kReadClock) return answer ? "clock: " + clock : "read the clock";
   if (group == s7::kClockGroup && service == s7::kSetClock) return answer ? "clock set" : "set the clock to " + clock;
@@ -174,6 +235,12 @@ std::string request_text(const Pdu& pdu) {
       return fmt::format("read {}", fmt::join(names, ", "));
     case s7::kWrite:
       return write_text(pdu, variables);
+    case s7::kStartUpload:
+      return fmt::format("start the upload of {}", s7_block_text(s7::name_to_upload(pdu.parameters).value_or(Data{})));
+    case s7::kUpload:
+      return "next part of the block";
+    case s7::kEndUpload:
+      return "end the upload";
     case s7::kRun:
       return "go to RUN";
     case s7::kStop:
@@ -215,6 +282,12 @@ std::string answer_text(const Pdu& pdu, const std::vector<Variable>& variables) 
       return read_answer_text(pdu, variables);
     case s7::kWrite:
       return write_answer_text(pdu, variables);
+    case s7::kStartUpload:
+      return "upload started";
+    case s7::kUpload:
+      return fmt::format("part of the block{}", pdu.parameters.size() > 1 && pdu.parameters[1] != 0 ? ", more follows" : "");
+    case s7::kEndUpload:
+      return "upload ended";
     case s7::kRun:
       return "goes to RUN";
     case s7::kStop:

@@ -10,6 +10,22 @@
 namespace s7200::tools {
 
 std::string_view s7_error_name(std::uint16_t code) {
+  switch (s7::Refusal{code}) {
+    case s7::Refusal::BlockName:
+      return "not the name of a block";
+    case s7::Refusal::BlockType:
+      return "no such type of block";
+    case s7::Refusal::NoBlock:
+      return "no such block";
+    case s7::Refusal::NoBlockOfType:
+      return "no block of this type";
+    case s7::Refusal::OutOfTurn:
+      return "no upload has been started";
+    case s7::Refusal::Protected:
+      return "the block is protected";
+    default:
+      break;
+  }
   switch (code > UINT8_MAX ? code >> 8 : code) {
     case s7::kNotAllowed:
       return "not allowed";
@@ -36,6 +52,13 @@ std::string s7_clock_text(std::span<const std::uint8_t> data) {
   const auto& [year, month, day, hour, minute, second, milliseconds, weekday] = clock->todr;
   return fmt::format("{:02x}{:02x}-{:02x}-{:02x} {:02x}:{:02x}:{:02x}", clock->century, year, month, day, hour, minute,
                      second);
+}
+
+std::string s7_block_text(std::span<const std::uint8_t> name) {
+  const auto block = s7::block_name_in(name);
+  const std::string_view type = block ? s7::name_of_blocks(block->type) : std::string_view{};
+  return type.empty() ? fmt::format("block '{}'", stl::printable(std::string(name.begin(), name.end())))
+                      : fmt::format("{}{}", type, block->number);
 }
 
 std::string s7_identification_text(std::span<const std::uint8_t> bytes) {

@@ -6,6 +6,7 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/ppi_frame.hpp"
 #include "interpreter/base/word_bytes.hpp"
+#include "interpreter/model/s7_pdu.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/master/protocol.hpp"
 #include "tools/master/statistics.hpp"
@@ -272,6 +273,34 @@ TEST(PpiAction, ATimerIsWrittenFrom0To32767) {
 TEST(PpiAction, StationsAreFrom0To126) {
   EXPECT_EQ(parsed("read VB0", {.station = 126}, ppi_protocol()).size(), 1U);
   EXPECT_THROW(parsed("read VB0", {.station = 127}, ppi_protocol()), std::invalid_argument);
+}
+
+TEST(PpiAction, AValueIsForcedAsInPublishedRequests) {
+  const auto sent = [](const std::string& action) {
+    return serial::bytes_of(parsed(action, {.station = 2}, ppi_protocol()).at(0).request->frame());
+  };
+  EXPECT_EQ(
+      sent("force Q0.0=1"),
+      ppi::to_frame({2, 0, ppi::kRequestFunction,
+                     Bytes{0x32, 7,    0,    0,    0,    1, 0, 0x0C, 0, 0x12, 0, 1, 0x12, 8,    0x12, 0x48, 0x0B, 0, 0, 0, 0,
+                           0,    0xFF, 0x09, 0x00, 0x0E, 0, 1, 0x10, 1, 0,    1, 0, 0,    0x82, 0,    0,    0,    1, 0}}));
+  EXPECT_EQ(sent("unforce VD228"), ppi::to_frame({2, 0, ppi::kRequestFunction,
+                                                  Bytes{0x32, 7,    0,    0,    0, 1, 0, 0x0C, 0,    0x10, 0,    1,    0x12,
+                                                        8,    0x12, 0x48, 0x0B, 0, 0, 0, 0,    0,    0xFF, 0x09, 0x00, 0x0C,
+                                                        1,    1,    0x10, 6,    0, 1, 0, 1,    0x84, 0,    0x07, 0x20}}));
+  for (const char* const wrong : {"force Q0.0", "force VB0=1,2", "force Q0.0=2", "unforce VB0:2", "force AC0=1"})
+    EXPECT_THROW(parsed(wrong, {.station = 2}, ppi_protocol()), std::invalid_argument) << wrong;
+}
+
+TEST(PpiAction, TheReturnCodeOfAForcedValueIsItsAnswer) {
+  const auto answered = [](const Bytes& list) {
+    return judged_ppi("force Q0.0=1",
+                      s7::pdu(s7::kUserData, 1, s7::parameters_of({.group = 8, .service = 0x0B, .is_answer = true}),
+                              s7::data_of_list(list)));
+  };
+  EXPECT_EQ(answered({0, 1, 0xFF}).verdict, serial::Verdict::Right);
+  EXPECT_EQ(answered({0, 1, 0x03}).exception, 0x03);
+  EXPECT_EQ(answered({}).fault, "no return code");
 }
 
 TEST(PpiAction, AnAcceptanceAloneIsNoStatus) {

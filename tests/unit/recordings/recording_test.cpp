@@ -1020,6 +1020,68 @@ TEST(Conversation, WritesModesAndTheClockOfPpiAreInWords) {
                                 "clock: 2026-11-22 15:45:30", "set the clock to 2026-11-22 15:45:30", "clock set"}));
 }
 
+TEST(Conversation, ForcedValuesAndBlocksOfPpiAreInWords) {
+  const auto user_data = [](std::uint8_t group, std::uint8_t service, bool answer, const Bytes& list) {
+    return s7::pdu(s7::kUserData, 1, s7::parameters_of({.group = group, .service = service, .is_answer = answer}),
+                   s7::data_of_list(list));
+  };
+  const auto force = [&](std::uint8_t service, bool answer, const Bytes& list) {
+    return user_data(8, service, answer, list);
+  };
+  const auto blocks = [&](std::uint8_t service, bool answer, const std::string& list) {
+    return user_data(3, service, answer, Bytes(list.begin(), list.end()));
+  };
+  const Bytes q0{0x10, 1, 0, 1, 0, 0, 0x82, 0, 0, 0}, mb5{0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 40};
+  const auto list = [](Bytes head, std::initializer_list<Bytes> parts) {
+    for (const Bytes& part : parts) head.insert(head.end(), part.begin(), part.end());
+    return head;
+  };
+  Bytes information(78);
+  information[40] = 8;
+  EXPECT_EQ(
+      ppi_texts({{force(0x0B, false, list({0, 2}, {q0, mb5, {1, 0, 9, 0}})), force(0x0B, true, {0, 2, 0xFF, 0x03})},
+                 {force(0x0B, false, list({1, 1}, {q0})), force(0x0B, true, {1, 1, 0xFF})},
+                 {force(0x0E, false, list({0, 1}, {mb5, {0, 4, 0, 8, 7, 0}})), force(0x0E, true, {0, 1, 0xFF})},
+                 {force(0x0B, false, {0, 2}), force(0x0B, true, {})},
+                 {blocks(1, false, ""), blocks(1, true,
+                                               std::string("08\0\1"
+                                                           "0C\0\0"
+                                                           "0A\0\1",
+                                                           12))},
+                 {blocks(2, false, "0A"), blocks(2, true, std::string("\0\1\0\5", 4))},
+                 {blocks(3, false, "0A00001A"), user_data(3, 3, true, information)},
+                 {blocks(3, false, "x"), user_data(3, 3, true, {})},
+                 {s7::pdu(s7::kRequest, 1, {0x1D, 0, 0, 0, 0, 0, 0, 0, 9, '_', '0', '8', '0', '0', '0', '0', '1', 'A'}, {}),
+                  ppi_answer({0x1D}, {}, 0xD241)},
+                 {s7::pdu(s7::kRequest, 1, {0x1E, 0, 0, 0, 0, 0, 0, 1}, {}), ppi_answer({0x1E, 1}, {0, 1, 0, 0xFB, 7})},
+                 {s7::pdu(s7::kRequest, 1, {0x1E, 0, 0, 0, 0, 0, 0, 1}, {}), ppi_answer({0x1E, 0}, {0, 1, 0, 0xFB, 7})},
+                 {s7::pdu(s7::kRequest, 1, {0x1F, 0, 0, 0, 0, 0, 0, 1}, {}), ppi_answer({0x1F}, {})}}),
+      (std::vector<std::string>{"force Q0.0 = 1, MB5 = 16#09",
+                                "done, error 16#03: not allowed",
+                                "unforce Q0.0",
+                                "done",
+                                "set in STOP MB5 = 16#07",
+                                "done",
+                                "force, incomplete",
+                                "user data",
+                                "how many blocks?",
+                                "blocks: 1 OB, 1 DB",
+                                "which DB?",
+                                "blocks: 1",
+                                "DB1?",
+                                "block of 2048 bytes",
+                                "block 'x'?",
+                                "block",
+                                "start the upload of OB1",
+                                "error 16#D241: the block is protected",
+                                "next part of the block",
+                                "part of the block, more follows",
+                                "next part of the block",
+                                "part of the block",
+                                "end the upload",
+                                "upload ended"}));
+}
+
 TEST(Conversation, TheSameFrameAfterTheMastersTimeoutIsTheRequestRepeated) {
   const char* write = "01 06 00 00 00 01 48 0A";
   const auto after = [&](const char* time, const char* direction = "") {
