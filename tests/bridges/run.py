@@ -1227,10 +1227,10 @@ class PpiMaster:
             return begin + head + self.read(head[0] + 2)
         return begin
 
-    def ask(self, parameters, data=b""):
-        """Parameters and data of the answer."""
+    def fetch(self, kind, parameters, data):
+        """The PDU of the answer."""
         lengths = len(parameters).to_bytes(2, "big") + len(data).to_bytes(2, "big")
-        self.write(self.sd2(self.station, 0, 0x6C, 0x32, 1, 0, 0, 0, 1, *lengths, *parameters, *data))
+        self.write(self.sd2(self.station, 0, 0x6C, 0x32, kind, 0, 0, 0, 1, *lengths, *parameters, *data))
         assert self.frame() == b"\xe5"
         function = 0x5C
         while True:
@@ -1240,7 +1240,34 @@ class PpiMaster:
                 break
             function ^= 0x20
         pdu = frame[7:-2]
-        assert frame == self.sd2(0, self.station, 0x08, *pdu) and pdu[1] == 3 and pdu[10:12] == b"\0\0", frame.hex()
+        assert frame == self.sd2(0, self.station, 0x08, *pdu), frame.hex()
+        return pdu
+
+    def ask_user_data(self, group, service, values=None, long_head=False):
+        """What follows the head of the data of the answer."""
+        head = bytes([0, 1, 0x12, 8, 0x12]) if long_head else bytes([0, 1, 0x12, 4, 0x11])
+        data = b"\x0a\0\0\0" if values is None else b"\xff\x09" + len(values).to_bytes(2, "big") + values
+        pdu = self.fetch(7, head + bytes([0x40 | group, service, 0]) + bytes(4 if long_head else 0), data)
+        assert pdu[1] == 7 and pdu[15] == 0x80 | group and pdu[20:24] == b"\0\0\xff\x09", pdu.hex()
+        return pdu[26:]
+
+    def upload(self, name):
+        """A block, part by part, as the public clients fetch it."""
+        started, _ = self.ask(bytes([0x1D]) + bytes(7) + b"\x09_" + name)
+        upload, length = started[4:8], int(started[9:])
+        block, more = b"", True
+        while more:
+            parameters, data = self.ask(bytes([0x1E, 0, 0, 0]) + upload)
+            more = parameters[1] == 1
+            block += data[4:4 + int.from_bytes(data[:2], "big")]
+        self.ask(bytes([0x1F, 0, 0, 0]) + upload)
+        assert len(block) == length, (len(block), length)
+        return block
+
+    def ask(self, parameters, data=b""):
+        """Parameters and data of the answer."""
+        pdu = self.fetch(1, parameters, data)
+        assert pdu[1] == 3 and pdu[10:12] == b"\0\0", pdu.hex()
         split = 12 + int.from_bytes(pdu[6:8], "big")
         return pdu[12:split], pdu[split:]
 
@@ -1505,6 +1532,25 @@ class PpiTests(Case):
         self.start("--speed", SPEED, "--pty", self.folder / "plc", program=self.program(self.COUNTING))
         with SerialPort(self.folder / "plc") as port:
             self.exercise(PpiMaster(port.write, port.read))
+
+    def test_a_client_lists_the_blocks_uploads_the_data_and_forces_an_output(self):
+        """In the order in which the tests of libnodave do it."""
+        running = self.start("--speed", SPEED, "--pty", self.folder / "plc", program=self.program(self.COUNTING))
+        with SerialPort(self.folder / "plc") as port:
+            master = PpiMaster(port.write, port.read)
+            counts = master.ask_user_data(3, 1)
+            self.assertEqual([(counts[i:i + 2], counts[i + 3]) for i in range(0, len(counts), 4) if counts[i + 3]], [(b"08", 1), (b"0A", 1), (b"0B", 1)])
+            self.assertEqual(master.ask_user_data(3, 2, b"0A")[:2], b"\0\1")
+            information = master.ask_user_data(3, 3, b"0A00001A")
+            length = int.from_bytes(information[40:42], "big")
+            master.write_v(1000, b"upload")
+            block = master.upload(b"0A00001A")
+            self.assertEqual((block[:2], block[36 + 1000:36 + 1006], len(block)), (b"pp", b"upload", 36 + length + 36))
+            force = bytes([0, 1, 0x10, 1, 0, 1, 0, 0, 0x82, 0, 0, 0, 1, 0])
+            self.assertEqual(master.ask_user_data(8, 0x0B, force, long_head=True), b"\0\1\xff")
+            self.eventually(lambda: master.ask(bytes([4, 1, 0x12, 0x0A, 0x10, 1, 0, 1, 0, 0, 0x82, 0, 0, 0]))[1][4:] == b"\1")
+            self.assertEqual(master.ask_user_data(8, 0x0B, b"\1" + force[1:-2], long_head=True), b"\1\1\xff")
+        running.end()
 
     ECHOES_IN_RUN = ("LD SM0.1\nMOVB 16#48, SMB30\nATCH 0, 8\nENI\nLD SM0.7\n= SM30.0\nMEND\n"
                      "INT 0\nLD SM0.0\nMOVB 1, VB100\nMOVB SMB2, VB101\nXMT VB100, 0\nRETI\n")

@@ -2220,13 +2220,34 @@ lines:
                                (["--ppi-baud", "9600,19200"], "--ppi-baud: CPU 214 has no port 1 for the second rate"),
                                (["--ppi-baud", "38400"], "--ppi-baud: '38400' is not a rate of PPI; write 9600, 19200 or"),
                                (["--ppi-station", "3,4"], "--ppi-station: CPU 214 has no port 1 for the second station"),
-                               (["--ppi-station", "0"], "--ppi-station: '0' is not a PPI station from 1 to 126")):
+                               (["--ppi-station", "0"], "--ppi-station: '0' is not a PPI station from 1 to 126"),
+                               (["--ppi-second", "later"], "--ppi-second: 'later' is not what a port does with a second request")):
             self.assertIn(why, self.ends(UNUSABLE, "run", SLAVE, *arguments, "--scans", "1").stderr)
         system = self.program(f"plcs: {{a: {{program: {SLAVE}, cpu: 226, ppi_baud: \"9600,187500\"}}}}\nlines: {{l: {{stations: [a.1]}}}}\n",
                               "system.yaml")
         self.assertIn("after 58.667 us", self.ends(FINE, "master", "--protocol", "ppi", system, "status").stdout)
-        for option in ("--ppi-baud", "--ppi-station"):
+        for option in ("--ppi-baud", "--ppi-station", "--ppi-second"):
             self.assertIn(f"{option} is about one PLC", self.ends(UNUSABLE, "run", system, option, "19").stderr)
+
+    def test_what_becomes_of_a_masters_second_request_is_chosen(self):
+        program = self.program("LD SM0.0\nINCW VW0\nMEND\n")
+        ask = "68 1b 1b 68 02 00 6c 32 01 00 00 00 01 00 0e 00 00 04 01 12 0a 10 02 00 04 00 01 84 00 03 20 8f 16"
+        for second, says in (("replaces", "e5"), ("refused", "10 00 02 02 04 16")):
+            steps = f"program: {program}\nppi_second: {second}\nsteps:\n  - {{send: {ask}, expect: e5}}\n  - {{send: {ask}, expect: {says}}}\n"
+            scenario, transcript = self.program(steps, f"{second}.yaml"), self.folder / f"{second}-transcript.yaml"
+            self.ends(FINE, "test", scenario, "--record", transcript)
+            self.assertEqual("ppi_second: refused" in transcript.read_text(encoding="utf-8"), second == "refused")
+            self.ends(FINE, "test", transcript)
+            self.assertIn(says, self.ends(FINE, "send", program, "--ppi-second", second, ask, ask).stdout)
+
+    def test_a_master_forces_values_and_the_trace_says_what_it_does(self):
+        program = self.program("LD SM0.0\nR Q0.0, 1\nTON T37, 10\nMEND\n")
+        done = self.ends(FINE, "master", "--protocol", "ppi", program, "--cpu", "224", "--trace", "-", "force", "Q0.0=1", "VB500=9",
+                         "read", "M0.3", "T37", "C5", "AIW0", "unforce", "Q0.0").stdout
+        for said in ("Q0.0 forced", "Q0.0 no longer forced", "PPI station 0 forces Q0.0", "PPI station 0 forces VB500",
+                     "PPI station 0 unforces Q0.0", *(f"PPI station 0 reads {what}\n" for what in ("M0.3", "T37", "C5", "AIW0"))):
+            self.assertIn(said, done)
+        self.assertIn("error 16#03: not allowed", self.ends(FAILED, "master", "--protocol", "ppi", program, "--cpu", "224", "force", "SMB30=1").stdout)
 
     def test_ports_in_ppi_mode_are_at_the_station_of_the_system_block(self):
         program = self.program("LD SM0.0\nINCW VW0\nMEND\n")

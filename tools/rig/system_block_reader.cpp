@@ -36,6 +36,15 @@ std::string_view ppi_station_meaning() {
   return kMeaning;
 }
 
+std::string_view ppi_second_meaning() {
+  static const std::string kMeaning = fmt::format(
+      "what becomes of a PPI master's request before it has fetched the answer to the last one: `{}`, it takes its place, "
+      "or "
+      "`{}`, there is no resource; `{}` if left out",
+      kSecondRequestWords[0], kSecondRequestWords[1], s7200::to_text(SystemBlock{}.second_request));
+  return kMeaning;
+}
+
 std::string_view retain_meaning() {
   return "memory that survives power off, as the system block sets it: up to six ranges of V, M, T0–T31, T64–T95 and C, as "
          "`VB0:100,MB0:14,T0:32,C0:5`, or `none`; if left out those that the CPU is delivered with";
@@ -44,9 +53,15 @@ std::string_view retain_meaning() {
 void read_system_block(const YamlNode& map, const CpuModel& model, SystemBlock& block, YamlValues& values) {
   read_ports(map, "ppi_baud", model, block.ppi_rates, values, parse_ppi_rates);
   read_ports(map, "ppi_station", model, block.ppi_stations, values, parse_ppi_stations);
+  std::string why;
+  if (const auto second = values.optional_text(map, "ppi_second")) {
+    if (const auto read = parse_second_request(*second, why))
+      block.second_request = *read;
+    else
+      values.wrong(*map.find("ppi_second"), why);
+  }
   const auto retain = values.optional_text(map, "retain");
   if (!retain) return;
-  std::string why;
   block.retentive = parse_retentive(*retain, model, why);
   if (!block.retentive) values.wrong(*map.find("retain"), why);
 }

@@ -9,9 +9,10 @@ namespace s7200::tools {
 /// What its keys mean, for the tables of keys.
 std::string_view ppi_baud_meaning();
 std::string_view ppi_station_meaning();
+std::string_view ppi_second_meaning();
 std::string_view retain_meaning();
 
-/// `ppi_baud`, `ppi_station` and `retain`: what is there goes into `block`. Complains about what the CPU does not have.
+/// `ppi_baud`, `ppi_station`, `ppi_second` and `retain`: what is there goes into `block`. Complains about what the CPU does not have.
 void read_system_block(const YamlNode& map, const CpuModel& model, SystemBlock& block, YamlValues& values);
 
 }  // namespace s7200::tools

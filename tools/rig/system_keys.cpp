@@ -53,6 +53,7 @@ const std::array kKeys{
     SystemKey{Where::Plc, "times", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
     SystemKey{Where::Plc, "ppi_baud", "NUMBER", ppi_baud_meaning()},
     SystemKey{Where::Plc, "ppi_station", "NUMBER", ppi_station_meaning()},
+    SystemKey{Where::Plc, "ppi_second", "WORD", ppi_second_meaning()},
     SystemKey{Where::Plc, "retain", "RANGES", retain_meaning()},
     SystemKey{Where::Plc, "copies", "NUMBER", kept(fmt::format("how many PLCs like this one, 1 to {}; each has a number after the name: `slave1`, `slave2`, …; `station` and `ppi_station` go up by one with each", serial::Line::kDrivers))},
     SystemKey{Where::Plc, "station", "NUMBER", kept(fmt::format("address on the line, 1 to {}: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do", modbus::kLastStation))},

@@ -37,6 +37,7 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "times", kOfOneProgram, "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
     {Where::Scenario, "ppi_baud", kOfOneProgram, "NUMBER", ppi_baud_meaning()},
     {Where::Scenario, "ppi_station", kOfOneProgram, "NUMBER", ppi_station_meaning()},
+    {Where::Scenario, "ppi_second", kOfOneProgram, "WORD", ppi_second_meaning()},
     {Where::Scenario, "retain", kOfOneProgram, "RANGES", retain_meaning()},
     {Where::Scenario, "port", kOfOneProgram, "NUMBER", "of a CPU with two ports the one that the line is at, `0` or `1`; `0` if left out"},
     {Where::Scenario, "robust", kOfOneProgram, "SHARE", "`95%`: it must pass with so many of the tables of execution times that `--times-band 200` runs it with, and with the first of them, which is the one in use; not on a slave that is not a program"},

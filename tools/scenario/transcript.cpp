@@ -133,6 +133,8 @@ void TranscriptWriter::head(const Scenario& scenario) {
   if (block.ppi_rates != usual.ppi_rates) line(4, fmt::format("ppi_baud: \"{}\"", s7200::to_text(block.ppi_rates)));
   if (block.ppi_stations != usual.ppi_stations)
     line(4, fmt::format("ppi_station: \"{}\"", s7200::to_text(block.ppi_stations)));
+  if (block.second_request != usual.second_request)
+    line(4, fmt::format("ppi_second: {}", s7200::to_text(block.second_request)));
   if (block.retentive) line(4, fmt::format("retain: \"{}\"", s7200::to_text(*block.retentive)));
   if (scenario.port != 0) line(4, fmt::format("port: {}", scenario.port));
   line_settings(scenario.line);

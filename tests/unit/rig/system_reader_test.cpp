@@ -18,7 +18,8 @@ SystemFile read(const std::string& text) { return read_system(text, test::source
 TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   const SystemFile file = read(
       "plcs:\n"
-      "  gateway: {program: ../modbus_slave.stl, cpu: 226, ppi_baud: \"9600,187500\", ppi_station: \"7,8\", station: 9, "
+      "  gateway: {program: ../modbus_slave.stl, cpu: 226, ppi_baud: \"9600,187500\", ppi_station: \"7,8\", ppi_second: "
+      "refused, station: 9, "
       "set: {VW0: 5}, dump: "
       "[VW0]}\n"
       "  slave: {program: ../modbus_slave.stl, copies: 2, station: 3, ppi_station: 20}\n"
@@ -48,6 +49,7 @@ TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
       << "the master that joins the line drives it";
   EXPECT_EQ(plan.plcs[0].program->system_block.ppi_rates, (PpiRates{9600, 187500}));
   EXPECT_EQ(plan.plcs[0].program->system_block.ppi_stations, (PpiStations{7, 8}));
+  EXPECT_EQ(plan.plcs[0].program->system_block.second_request, SecondRequest::Refused);
   EXPECT_EQ(plan.plcs[1].program->system_block, (SystemBlock{.ppi_rates = {9600, 9600}, .ppi_stations = {20, 20}}));
   EXPECT_EQ(plan.plcs[2].program->system_block.ppi_stations, (PpiStations{21, 21})) << "the next copy";
   ASSERT_EQ(plan.lines.size(), 2U);
@@ -113,6 +115,8 @@ TEST(SystemFile, EveryMistakeIsToldAtItsPlace) {
        "CPU 212 has no time-of-day clock"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 38400}}\n", 1, 52, "'38400' is not a rate of PPI"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_baud: 187500}}\n", 1, 52, "PPI at 187500 baud needs CPU 22x"},
+      {"plcs: {a: {program: ../modbus_slave.stl, ppi_second: later}}\n", 1, 54,
+       "'later' is not what a port does with a second request"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_station: 127}}\n", 1, 55, "'127' is not a PPI station from 1 to 126"},
       {"plcs: {a: {program: ../modbus_slave.stl, ppi_station: \"3,4\"}}\n", 1, 55,
        "CPU 214 has no port 1 for the second station"},

@@ -92,6 +92,11 @@ void CpuOptions::add_to(CLI::App& app) {
                  fmt::format("PPI station until SPA sets another, 1 to 126; 3,4: port 0 and port 1 [{}]",
                              s7200::to_text(SystemBlock{}.ppi_stations)))
       ->type_name("NUMBER[,NUMBER]");
+  app.add_option("--ppi-second", ppi_second,
+                 fmt::format("what becomes of a PPI master's request before it has fetched the answer to the last one: it "
+                             "{} that one, or is {} [{}]",
+                             kSecondRequestWords[0], kSecondRequestWords[1], s7200::to_text(SystemBlock{}.second_request)))
+      ->type_name("WORD");
   app.add_option("--retain", retain,
                  "memory that survives power off: VB0:100,MB0:14,T0:32,C0:5, or none [as the CPU is delivered]")
       ->type_name("RANGES");
@@ -135,7 +140,9 @@ std::optional<SystemBlock> CpuOptions::system_block(const CpuModel& model) const
   if (!rates) return print_error("--ppi-baud: " + why), std::nullopt;
   const auto stations = ppi_station.empty() ? usual.ppi_stations : parse_ppi_stations(ppi_station, model, why);
   if (!stations) return print_error("--ppi-station: " + why), std::nullopt;
-  SystemBlock block{.ppi_rates = *rates, .ppi_stations = *stations};
+  const auto second = ppi_second.empty() ? usual.second_request : parse_second_request(ppi_second, why);
+  if (!second) return print_error("--ppi-second: " + why), std::nullopt;
+  SystemBlock block{.ppi_rates = *rates, .ppi_stations = *stations, .second_request = *second};
   if (retain.empty()) return block;
   block.retentive = parse_retentive(retain, model, why);
   if (!block.retentive) return print_error("--retain: " + why), std::nullopt;

@@ -38,6 +38,7 @@ struct CpuOptions {
   std::string times_table;  ///< a name or a file; empty: the CPU's own
   std::string ppi_baud;     ///< as parse_ppi_rates() takes it; empty: as a CPU is delivered
   std::string retain;       ///< as parse_retentive() takes it; the same
+  std::string ppi_second;   ///< one of kSecondRequestWords; the same
   std::string ppi_station;  ///< as parse_ppi_stations() takes it; the same
   Repairs repairs;
   bool every_scan = false;    ///< scans that are all alike are run, too
