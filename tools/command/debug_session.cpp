@@ -26,6 +26,7 @@ struct StepOf {
   SessionSteps::Step operator()(const CancelRequest&) const { return {}; }
   SessionSteps::Step operator()(const SetPower&) const { return {}; }
   SessionSteps::Step operator()(const serial::HostCall&) const { return {}; }
+  SessionSteps::Step operator()(const SystemEvent& event) const { return refuse(event.words); }
   SessionSteps::Step operator()(const Jump&) const { return refuse("the program was made to go on elsewhere"); }
   SessionSteps::Step operator()(const InjectFault& inject) const {
     return {.at = at, .fault = inject.fault ? serial::to_text(*inject.fault) : "none", .fault_of = inject.of};
@@ -76,12 +77,16 @@ class StepsOfSession {
     limit_waiting(first, recording.now.time);
   }
 
-  /// Memory that was looked at is expected to be so again, after all that was done by then.
+  /// Memory that was looked at is expected to be so again, after all that was done by then. A request that was sent at that
+  /// instant has changed nothing, and its answer would come before the step after it: it is expected in front of that.
   void expect(const SessionRecord::LookedAt& one) {
-    const auto later = std::find_if(steps_.begin() + static_cast<std::ptrdiff_t>(last_power_up_), steps_.end(),
-                                    [&](const SessionSteps::Step& step) {
-                                      return step.at > one.at || (step.at == one.at && step.action >= one.actions);
-                                    });
+    auto later = std::find_if(steps_.begin() + static_cast<std::ptrdiff_t>(last_power_up_), steps_.end(),
+                              [&](const SessionSteps::Step& step) {
+                                return step.at > one.at || (step.at == one.at && step.action >= one.actions);
+                              });
+    while (later != steps_.begin() + static_cast<std::ptrdiff_t>(last_power_up_) && std::prev(later)->send &&
+           std::prev(later)->at == one.at)
+      --later;
     steps_.insert(later, {.at = one.at, .expect = one.memory, .on = place(one.station)});
   }
 

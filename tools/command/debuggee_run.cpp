@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "tools/command/terminal.hpp"
-#include "tools/rig/system_trace.hpp"
+#include "tools/session/past/seen_rig.hpp"
 
 namespace s7200::tools {
 
@@ -41,16 +41,10 @@ DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges
 }
 
 History::Settings DebuggeeRun::history() {
-  History::Settings settings;
+  History::Settings settings = history_settings(rig_);
   for (std::size_t plc = 0; plc < rig_.plan().plcs.size(); ++plc) settings.records.push_back(&rig_.sinks(plc));
   if (rig_.simulation().has_host_port()) settings.hosts.push_back(&rig_.simulation().host_port());
   for (std::size_t bridge = 0; bridge < bridges_.size(); ++bridge) settings.hosts.push_back(&rig_.host_port(bridge));
-  for (std::size_t peer = 0; peer < rig_.plan().peers.size(); ++peer)
-    if (const serial::Poller* const poller = rig_.poller(peer))
-      settings.pollers.push_back({rig_.plan().peers[peer].name, poller});
-  settings.line_stations = line_stations(rig_);
-  for (const PlcPlan& plc : rig_.plan().plcs) settings.plcs.push_back({plc.name, plc.address});
-  settings.planned = event_texts(rig_.plan());
   if (realtime_)
     settings.drive = [this](Time end, const std::function<void()>& meanwhile) {
       return live_->run_until(

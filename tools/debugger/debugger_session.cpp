@@ -101,6 +101,10 @@ Debugger::Error Debugger::save(const Arguments& arguments) {
   if (!to) return why;
   const SessionFile file = session_file();
   if (!file.recording.complete) return "cannot save: " + oldest_text(history_);
+  for (const Action& action : file.recording.actions)
+    if (const auto* const event = std::get_if<SystemEvent>(&action))
+      return fmt::format("cannot save: a step of the scenario did '{}', which saved sessions have no word for",
+                         event->words);
   if (!write_result(*to, to_text(file), why)) return why;
   out_ << fmt::format("saved: {} with {} from outside{}\n", moment_text(history_.now().time),
                       counted(file.recording.actions.size(), "action"),

@@ -115,10 +115,13 @@ void SystemTrace::write_until(Time end) {
   waiting_.erase(waiting_.begin(), rest);
 }
 
+std::string named_event_text(const EventPlan& event, const SystemPlan& plan) {
+  return fmt::format("{}: {}", name_of_subject(event, plan), event_text(event, plan, false));
+}
+
 std::vector<std::string> event_texts(const SystemPlan& plan) {
   std::vector<std::string> texts;
-  for (const EventPlan& event : plan.events)
-    texts.push_back(fmt::format("{}: {}", name_of_subject(event, plan), event_text(event, plan, false)));
+  for (const EventPlan& event : plan.events) texts.push_back(named_event_text(event, plan));
   return texts;
 }
 

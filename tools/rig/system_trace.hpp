@@ -60,6 +60,9 @@ class SystemTrace final {
   std::vector<Line> waiting_;
 };
 
+/// An event in words, with whom it happens to: `slave2: power off`.
+std::string named_event_text(const EventPlan& event, const SystemPlan& plan);
+
 /// The events of a system in words, in their order: `slave2: power off`.
 std::vector<std::string> event_texts(const SystemPlan& plan);
 

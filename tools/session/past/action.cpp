@@ -46,6 +46,7 @@ struct Doer {
     if (simulation.plc().powered() == power.on) return;
     power.on ? simulation.system().power_on(simulation.plc()) : simulation.system().power_off(simulation.plc());
   }
+  void operator()(const SystemEvent&) const {}
   void operator()(const serial::HostCall& call) const { host->repeat(call, simulation.time()); }
 };
 
@@ -75,6 +76,7 @@ struct Teller {
   }
   std::string operator()(const SetStack&) const { return "set the logic stack"; }
   std::string operator()(const SetMode& set) const { return set.mode == Mode::Run ? "mode run" : "mode stop"; }
+  std::string operator()(const SystemEvent& event) const { return event.words; }
   std::string operator()(const serial::HostCall&) const { return "the other end of the bridge"; }
 };
 

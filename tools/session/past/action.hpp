@@ -10,6 +10,7 @@
 #include "interpreter/program/address.hpp"
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/rig/system_plan.hpp"
 #include "tools/session/past/line_stations.hpp"
 
 namespace s7200::tools {
@@ -67,10 +68,16 @@ struct SetPower {
   bool on = false;
 };
 
-using Action = std::variant<SetMemory, SendFrame, CancelRequest, Jump, serial::HostCall, Force, Unforce, SetStack,
-                            InjectFault, SetMode, SetPower>;
+/// A step of a scenario does to a system what could stand in its file: power, cables, faults.
+struct SystemEvent {
+  EventPlan event{};
+  std::string words{};  ///< `slave2: power off`
+};
 
-/// `host`: the port that a HostCall is made to. `of`: the station that a fault is about.
+using Action = std::variant<SetMemory, SendFrame, CancelRequest, Jump, serial::HostCall, Force, Unforce, SetStack,
+                            InjectFault, SetMode, SetPower, SystemEvent>;
+
+/// `host`: the port that a HostCall is made to. `of`: the station that a fault is about. A SystemEvent is done by the rig.
 void perform(const Action& action, serial::Simulation& simulation, serial::HostPort* host = nullptr,
              const LineStation* of = nullptr);
 

@@ -1,6 +1,7 @@
 #include "tools/session/past/history.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
@@ -51,12 +52,17 @@ bool writes_memory(TraceKind kind) {
 bool changes_memory(const Action& action) {
   return std::holds_alternative<SetMemory>(action) || std::holds_alternative<Force>(action) ||
          std::holds_alternative<Unforce>(action) || std::holds_alternative<SetMode>(action) ||
-         std::holds_alternative<SetPower>(action);
+         std::holds_alternative<SetPower>(action) || std::holds_alternative<SystemEvent>(action);
 }
 
 constexpr Time kLongestFrame = 3 * kSecond;    // 256 characters of 11 bits at 1200 baud
 constexpr Time kSlice = 100 * kMillisecond;    // a stop request is heard in between
 constexpr std::uint32_t kTellEvery = 1 << 10;  // instructions
+
+bool comes_before(const Moment& one, const Moment& other) {
+  if (one.is_counted() && other.is_counted()) return one < other;
+  return std::tie(one.time, one.actions) < std::tie(other.time, other.actions);
+}
 
 /// Comes to the first instruction, before what was done in front of it.
 class StopAtOnce final : public Observer {
@@ -288,11 +294,15 @@ bool History::do_next_action() {
   told_of_ = next_station().value_or(told_of_);
   stopped_by_observer_ = observer_ && !observer_->before_action();
   if (stopped_by_observer_) return false;
+  const Moment here = now();
   const std::size_t number = actions_++ - branch_->forgotten;
+  if (!branch_->moments[number].is_counted()) branch_->moments[number] = here;
   const Action& action = branch_->actions[number];
   const std::size_t where = branch_->stations[number];
   if (std::holds_alternative<serial::HostCall>(action))
     perform(action, station(0), settings_.hosts[where]);
+  else if (const auto* const event = std::get_if<SystemEvent>(&action))
+    settings_.carry_out(event->event);
   else
     perform(action, station(where), nullptr, station_of_fault(action, where));
   settled_ = false;
@@ -400,10 +410,15 @@ void History::planned(std::size_t number, bool done) {
 
 // --- going elsewhere ---
 
+bool History::stands_at(const Moment& moment) const {
+  const Moment here = now();
+  return moment.is_counted() ? here == moment : here.time == moment.time && here.actions == moment.actions;
+}
+
 const History::Checkpoint& History::checkpoint_before(const Moment& moment) const {
   const auto& all = branch_->checkpoints;
   const auto after = std::upper_bound(all.begin() + 1, all.end(), moment,
-                                      [](const Moment& m, const CheckpointPtr& c) { return m < c->moment; });
+                                      [](const Moment& m, const CheckpointPtr& c) { return comes_before(m, c->moment); });
   return **(after - 1);
 }
 
@@ -418,7 +433,7 @@ void History::restore(const Checkpoint& checkpoint) {
 
 void History::go_to(const Moment& moment) {
   const Checkpoint& checkpoint = checkpoint_before(moment);
-  if (const Moment here = now(); moment < here || here < checkpoint.moment) restore(checkpoint);
+  if (const Moment here = now(); comes_before(moment, here) || comes_before(here, checkpoint.moment)) restore(checkpoint);
   advance(moment);
 }
 
@@ -654,10 +669,11 @@ bool History::replay(Recording recording) {
   for (std::vector<WrittenMemory>& part : branch_->written)
     for (WrittenMemory& written : part) written.unknown = true;
   go_to(recording.end);
-  if (now() != recording.end) return false;
+  if (!stands_at(recording.end)) return false;
+  branch_->end = now();
   branch_->log_bytes = bytes_of(branch_->actions);  // not before: where it stood must not be forgotten on the way
   go_to(recording.now);
-  return now() == recording.now;
+  return stands_at(recording.now);
 }
 
 void History::begin_with(serial::Simulation::Snapshot state) {

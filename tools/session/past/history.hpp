@@ -40,6 +40,11 @@ struct Moment {
   Time time = 0;                   ///< the earliest clock of all stations
   bool stopped = false;            ///< the only CPU is in STOP, to which it may go in no time
 
+  /// `instructions` of one that a Journal has noted of a system: where nobody looks at instructions its CPUs run ahead of
+  /// one another, so such a moment is known by its time and the actions before it.
+  static constexpr std::uint64_t kNotCounted = ~std::uint64_t{0};
+  bool is_counted() const { return instructions != kNotCounted; }
+
   /// The order in which a run comes by; two of one run are never unordered.
   auto operator<=>(const Moment&) const = default;
 };
@@ -119,9 +124,11 @@ class History final {
     std::vector<LineStation> line_stations{};  ///< all on the lines of the system
     std::vector<NamedPlc> plcs{};              ///< by station; none: one PLC without a name
     std::vector<std::string> planned{};        ///< what the system file does, in words, in its order
-    std::size_t bound = 256 << 20;             ///< bytes for checkpoints
-    std::size_t log_bound = 64 << 20;          ///< bytes for what came in over a bridge
-    Time interval = 500 * kMillisecond;        ///< of checkpoints while it executes, until they have to be thinned
+    /// Does a SystemEvent to the rig; none comes without it.
+    std::function<void(const EventPlan& event)> carry_out{};
+    std::size_t bound = 256 << 20;                    ///< bytes for checkpoints
+    std::size_t log_bound = 64 << 20;                 ///< bytes for what came in over a bridge
+    Time interval = 500 * kMillisecond;               ///< of checkpoints while it executes, until they have to be thinned
     const std::atomic<bool>* stop_request = nullptr;  ///< ends what plays for long: go_to() a time, replay()
     std::function<void()> progress{};                 ///< told often while something runs or plays
   };
@@ -358,6 +365,7 @@ class History final {
   void keep_checkpoint();
   void thin();
   void restore(const Checkpoint& checkpoint);
+  bool stands_at(const Moment& moment) const;
   const Checkpoint& checkpoint_before(const Moment& moment) const;
 
   std::vector<serial::Simulation*> stations_;

@@ -4,21 +4,22 @@
 
 namespace s7200::tools {
 
-Journal::Journal(const serial::Simulation& simulation, std::vector<RetentiveMemory> memory) : simulation_(simulation) {
+Journal::Journal(serial::Simulation& simulation, std::vector<RetentiveMemory> memory)
+    : simulation_(simulation), is_alone_(simulation.system().plcs() == 1 && !simulation.system().has_schedule()) {
   recording_.memory = std::move(memory);
 }
 
-void Journal::note(Action action) {
+void Journal::note(Action action, std::size_t station) {
   recording_.moments.push_back(now());
   recording_.actions.push_back(std::move(action));
-  recording_.stations.push_back(0);
+  recording_.stations.push_back(station);
 }
 
 Moment Journal::now() const {
-  return {.instructions = simulation_.plc().executed(),
+  return {.instructions = is_alone_ ? simulation_.plc().executed() : Moment::kNotCounted,
           .actions = recording_.actions.size(),
           .time = simulation_.time(),
-          .stopped = simulation_.cpu().state().mode == Mode::Stop};
+          .stopped = is_alone_ && simulation_.cpu().state().mode == Mode::Stop};
 }
 
 Recording Journal::recording() const {

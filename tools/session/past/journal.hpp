@@ -10,11 +10,12 @@ namespace s7200::tools {
 
 class Journal {
  public:
-  /// The simulation has just been powered up, with `memory` if it is not empty. It must live as long as this.
-  explicit Journal(const serial::Simulation& simulation, std::vector<RetentiveMemory> memory = {});
+  /// The simulation has just been powered up, with `memory` if it is not empty. It must live as long as this. Of a system it
+  /// is any of its PLCs.
+  explicit Journal(serial::Simulation& simulation, std::vector<RetentiveMemory> memory = {});
 
-  /// What is about to be done.
-  void note(Action action);
+  /// What is about to be done to a station, or on its line.
+  void note(Action action, std::size_t station = 0);
 
   /// Where it stands.
   Moment now() const;
@@ -23,7 +24,8 @@ class Journal {
   Recording recording() const;
 
  private:
-  const serial::Simulation& simulation_;
+  serial::Simulation& simulation_;
+  bool is_alone_;  ///< nothing but the PLC's own clock tells one moment from another
   Recording recording_{};
 };
 
