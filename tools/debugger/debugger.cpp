@@ -114,9 +114,10 @@ Debugger::Debugger(const std::vector<serial::Simulation*>& stations, std::ostrea
   stepper_.on_unasked = [this](const SentByPlc& sent) { print_unasked(sent); };
 }
 
-bool Debugger::open(Recording recording, const Moment& at) {
+bool Debugger::open(Recording recording, const Moment& at, const std::vector<MemoryRange>& failed) {
   if (!history_.replay(std::move(recording))) return false;
   history_.go_to(at);
+  failed_ = {focus(), history_.now(), failed};
   return true;
 }
 

@@ -87,7 +87,8 @@ class Debugger {
   Debugger(const std::vector<serial::Simulation*>& stations, std::ostream& out, const DebuggerOptions& options);
 
   /// Runs a recording instead of what has run, and goes to a moment of it. False if it does not come to its end here.
-  bool open(Recording recording, const Moment& at);
+  /// `failed`: memory that was not as expected there, which `why` is about as long as it stands there.
+  bool open(Recording recording, const Moment& at, const std::vector<MemoryRange>& failed = {});
 
   /// Where it stands, and what is displayed.
   void show_place();
@@ -336,6 +337,8 @@ class Debugger {
   std::optional<Writer> report_attachment(std::uint8_t event);
   Error report_writer_of(const Arguments& arguments, std::string_view command, std::optional<Writer>& writer);
   DecisionSearch find_decision();
+  Error report_cause(const MemoryRange& range, std::string_view name);
+  bool report_failed();
 
   // Memory and expressions (debugger_print.cpp).
   Error print(const Arguments& arguments);
@@ -410,6 +413,13 @@ class Debugger {
     std::vector<std::uint8_t> bytes{};
   };
 
+  /// An expectation that did not hold.
+  struct FailedExpectation {
+    std::size_t station = 0;
+    Moment moment;
+    std::vector<MemoryRange> memory{};
+  };
+
   /// A run-time error of a station.
   struct StationError {
     std::size_t station = 0;
@@ -426,6 +436,7 @@ class Debugger {
   std::deque<Kept> kept_;                 ///< newest last
   std::vector<Displayed> displayed_;
   std::vector<LookedAt> looked_at_;          ///< since the last power-up, on whatever branch
+  FailedExpectation failed_{};               ///< the last one
   std::optional<StationError> first_error_;  ///< of the run under way
   Show show_ = Show::None;
   std::size_t unasked_ = 0;  ///< transmissions of the run under way

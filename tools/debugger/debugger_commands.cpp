@@ -119,12 +119,16 @@ takes the address that the pointer holds now. 'rwho' goes there.)",
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
        &Debugger::back_to_write, Takes::Writers, true, "event"},
-      {"why", "", "why", "what decided that it has come here: contacts, a jump or a conditional return, without going there",
-       R"(The contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.
+      {"why", "", "why [ADDRESS]",
+       "what decided that it has come here: contacts, a jump or a conditional return, without going there",
+       R"(With an address: who wrote it last, which contacts decided that, and so on back to an input; or which instructions
+could write it, and what keeps them from it. Where an 'expect' or a step of a scenario has just failed, why is about
+the memory that was not as expected.
+Without one: the contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.
 While a master or a program waits for an answer, and where it gives up: also what has left the request without one,
 be it the program, an event that is not attached, a port in PPI mode, or the line that lost it or its answer; or that
 it was for another station. That comes first, what led to this place last.)",
-       &Debugger::why},
+       &Debugger::why, Takes::Addresses},
       {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
        R"(Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of
 contacts: after the last of them, where S0 is what they have decided; if it stands there already, in front of

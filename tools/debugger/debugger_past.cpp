@@ -1,5 +1,6 @@
 // Back in time: the commands that go to another moment, that ask what was before, and that begin a new branch.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <ostream>
@@ -14,6 +15,7 @@
 #include "tools/debugger/timeline_of_past.hpp"
 #include "tools/debugger/words.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/session/causes/memory_cause.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
@@ -202,10 +204,35 @@ DecisionSearch Debugger::find_decision() {
   return search;
 }
 
-Debugger::Error Debugger::why(const Arguments& arguments) {
-  if (!arguments.empty()) return no_argument("why");
-  find_decision();
+/// `Conveyor (Q0.1) is 0; last written at …`, and a line for each step further back.
+Debugger::Error Debugger::report_cause(const MemoryRange& range, std::string_view name) {
+  const Cpu& cpu = simulation().cpu();
+  const std::string value = value_text(cpu.program(), range, range.bytes_in(cpu.state().image));
+  const auto lines = at_length([&] { return memory_cause(history_, focus(), range, options_.stop_request); });
+  if (!lines) {
+    out_ << interruption_text() << '\n';
+    return {};
+  }
+  out_ << fmt::format("{} is {}; {}\n", name, value, fmt::join(*lines, "\n  "));
+  if (const std::string forced = forced_text(cpu, {bits_of(range)}); !forced.empty()) out_ << forced << '\n';
   return {};
+}
+
+/// Whether an expectation has failed where it stands: then it says why.
+bool Debugger::report_failed() {
+  if (failed_.memory.empty() || failed_.station != focus() || failed_.moment != history_.now()) return false;
+  for (const MemoryRange& range : failed_.memory) report_cause(range, named(simulation().cpu().program(), range));
+  return true;
+}
+
+Debugger::Error Debugger::why(const Arguments& arguments) {
+  if (arguments.empty()) {
+    if (!report_failed()) find_decision();
+    return {};
+  }
+  std::string wrong;
+  const auto place = one_range(arguments, "why", wrong);
+  return place ? report_cause(place->range, named(simulation().cpu().program(), place->range)) : Error(wrong);
 }
 
 Debugger::Error Debugger::back_to_decision(const Arguments& arguments) {

@@ -164,6 +164,9 @@ Debugger::Error Debugger::expect(const Arguments& arguments) {
   for (const Place& place : expression->places()) note_looked_at(place);
   if (value && value->truth()) return {};
   expectation_failed_ = true;
+  failed_ = {focus(), history_.now(), {}};
+  for (const Place& place : expression->places())
+    if (const auto range = range_now(place, simulation().cpu())) failed_.memory.push_back(*range);
   std::string found = expression->places_text(simulation().cpu());
   if (!value && found.find(why) == std::string::npos) found += fmt::format("{}{}", found.empty() ? "" : "; ", why);
   return fmt::format("expected {}, which does not hold here{}{}", expression->text(), found.empty() ? "" : ": ", found);

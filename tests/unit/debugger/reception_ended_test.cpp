@@ -82,5 +82,28 @@ TEST(ReceptionEnded, AReceptionThatStopHasGivenUpIsSaidToBe) {
   EXPECT_TRUE(has(session("why"), " was given up when the CPU went to STOP at "));
 }
 
+/// Sends each character back while RCV waits for another message: XMT is refused.
+TEST(ReceptionEnded, AnXmtThatWasRefusedIsNamedWithWhatHadThePort) {
+  Session session = session_of_cpu_224(
+      "LD SM0.1\n"
+      "MOVB 9, SMB30\n"
+      "MOVB 16#B0, SMB87\n"
+      "MOVB 16#0D, SMB89\n"
+      "MOVW 5, SMW90\n"
+      "MOVB 10, SMB94\n"
+      "ATCH 0, 23\n"
+      "ENI\n"
+      "RCV VB100, 0\n"
+      "MEND\n"
+      "INT 0\n"
+      "LD SM0.0\n"
+      "RCV VB100, 0\n"
+      "XMT VB100, 0\n"  // 14
+      "RETI\n");
+  session("continue 50ms; break unanswered; send 41 42 0d; continue 2s");
+  EXPECT_TRUE(has(session("why"), "no answer: XMT VB100, 0 in line 14 was refused with run-time error 0009, "));
+  EXPECT_TRUE(has(session("why"), ": RCV was waiting for the start of a message"));
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -617,5 +617,65 @@ TEST(Why, AStopWithinARequestIsWhatKeptItsCharactersFromTheProgram) {
   EXPECT_FALSE(has(why, "SMB30")) << "which the program had set to Freeport";
 }
 
+TEST(Why, AStopByTheProgramIsNamedWithItsContacts) {
+  Session session("LD I0.0\nSTOP\nMEND\n");
+  session("continue 20ms; input I0.0=1; continue 1s");
+  EXPECT_TRUE(has(session("why"), "the CPU went to STOP by STOP in line 2 (LD I0.0: I0.0=1)\n"));
+}
+
+TEST(Why, AWatchdogNamesTheLoopThatTookTheTime) {
+  Session session("LBL 1\nLD SM0.0\nMOVW 1, VW0\nLD I0.0\nJMP 1\nMEND\n");
+  session("continue 20ms; input I0.0=1; continue 2s");
+  const std::string text = session("why");
+  EXPECT_TRUE(has(text, "the CPU went to STOP with fatal error 0003, "));
+  EXPECT_TRUE(has(text, "; the scan that began at "));
+  EXPECT_TRUE(has(text, " took longer than the watchdog allows: JMP 1 in line 5 was executed "));
+}
+
+TEST(Why, AFailedExpectationIsWhatItIsAboutAsLongAsItStandsThere) {
+  Session session("LD I0.3\n= Q0.1\nLD SM0.0\nMOVW 7, VW0\nMEND\n");
+  session("continue 20ms");
+  EXPECT_TRUE(has(session.error_of("expect Q0.1 = 1"), "does not hold"));
+  EXPECT_TRUE(has(session("why"), "Q0.1 is 0; last written at "));
+  EXPECT_TRUE(has(session("why"), " by = Q0.1 in line 2 (LD I0.3: I0.3=0)\n"));
+  session("step");
+  EXPECT_FALSE(has(session("why"), "Q0.1 is 0"));
+}
+
+TEST(Why, AnAddressIsAnsweredFromItsWriterToAnInput) {
+  Session session("LD I0.3\n= M0.0\nLDN M0.0\n= Q0.1\nLD I0.4\nMOVW 7, VW0\nMEND\n");
+  session("continue 20ms");
+  const std::string output = session("why Q0.1");
+  EXPECT_TRUE(has(output, "Q0.1 is 1; last written at "));
+  EXPECT_TRUE(has(output, "\n  M0.0 was 0: last written at "));
+  EXPECT_TRUE(has(output, " by = M0.0 in line 2 (LD I0.3: I0.3=0)\n"));
+  EXPECT_TRUE(has(session("why VW0"), "nothing has written it since power-up; MOVW 7, VW0 in line 6 could, which had no "));
+  EXPECT_TRUE(has(session("why I0.3"), "it is an input, which the program does not write"));
+}
+
+TEST(Why, WhatIsAskedAboutAnAddressMayHaveBeenSetFromOutside) {
+  Session session("LD SM0.0\nMEND\n");
+  session("continue 20ms; set VW0=5; continue 1ms");
+  EXPECT_TRUE(has(session("why VW0"), "VW0 is 16#0005 (5); last written at "));
+  EXPECT_TRUE(has(session("why VW0"), " by 'set VW0', from outside\n"));
+}
+
+TEST(Why, AnInterruptRoutineWithoutContactsIsLedToByItsEventAndTheATCH) {
+  Session session(kStopsListening);
+  session("continue 50ms; watch VB1; send 41; continue");
+  EXPECT_TRUE(has(session("why"),
+                  "main: ATCH 1, 8 in line 6 attached INT 1 to event 8 (port 0: character received), which called "));
+  session("rwhy");
+  EXPECT_EQ(session.line(), 6u);
+}
+
+/// It has no Freeport mode up to I0.0.
+TEST(Why, WhatSetThePortAfterTheRequestIsNotToBlame) {
+  Session session("LD I0.0\nEU\nMOVB 9, SMB30\nMEND\n");
+  session("continue 50ms; break unanswered; send 68 05 05 68; continue 100ms; input I0.0=1; continue");
+  const std::string text = session("why");
+  EXPECT_TRUE(has(text, "port 0 is in PPI mode; nothing has written SMB30 since power-up\n"));
+}
+
 }  // namespace
 }  // namespace s7200::tools

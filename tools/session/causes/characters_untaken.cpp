@@ -45,9 +45,18 @@ Keeper what_detached(Inquiry& inquiry, std::uint8_t event, Time until) {
   return inquiry.kept_by(turn->moment, *turn->by, "detached");
 }
 
-Keeper what_wrote_ppi_mode(Inquiry& inquiry, const MemoryRange& control) {
-  const WriteSearch search = find_last_write(inquiry.history(), inquiry.station(), control, inquiry.stop_request());
-  inquiry.answers.interrupted |= search.interrupted;
+/// A write that is over later than `until` is none of it.
+WriteSearch write_before(Inquiry& inquiry, const MemoryRange& range, Time until) {
+  for (;;) {
+    WriteSearch search = find_last_write(inquiry.history(), inquiry.station(), range, inquiry.stop_request());
+    inquiry.answers.interrupted |= search.interrupted;
+    if (!search.write || search.write->at <= until) return search;
+    inquiry.history().go_to(search.write->moment);
+  }
+}
+
+Keeper what_wrote_ppi_mode(Inquiry& inquiry, const MemoryRange& control, Time until) {
+  const WriteSearch search = write_before(inquiry, control, until);
   if (search.interrupted) return {};
   const std::string name = control.name_of(0);
   if (!search.write) return {.text = fmt::format("; nothing has written {} {}", name, since_oldest_text(inquiry.history()))};
@@ -62,7 +71,7 @@ Keeper what_left_freeport(Inquiry& inquiry, std::uint8_t port, Time until) {
   if (inquiry.here().cpu().state().mode == Mode::Stop) return {.text = "; the CPU is in STOP"};
   const MemoryRange control = range_at(kPorts[port].control, Width::Byte, *inquiry.program().model).value();
   if (turn && turn->by) return inquiry.kept_by(turn->moment, *turn->by, control.name_of(0) + " was set");
-  return what_wrote_ppi_mode(inquiry, control);
+  return what_wrote_ppi_mode(inquiry, control, until);
 }
 
 /// What has detached their event, or left Freeport mode, which ends in STOP.
@@ -88,7 +97,7 @@ Keeper what_was_searched(Inquiry& inquiry, const TraceRecord& dropped) {
 /// PPI takes characters for its own as long as they may be a frame of it.
 void find_port_in_ppi_mode(Inquiry& inquiry) {
   const AskedRequest& request = *inquiry.request();
-  const Keeper keeper = what_left_freeport(inquiry, request.port, inquiry.start().time);
+  const Keeper keeper = what_left_freeport(inquiry, request.port, request.end);
   inquiry.add(request.end, fmt::format("no answer: port {} is in PPI mode{}", request.port, keeper.text), keeper);
 }
 
@@ -108,8 +117,9 @@ void find_characters_untaken(Inquiry& inquiry) {
                 keeper);
   }
   if (!inquiry.has_unanswered() || !inquiry.answers.unanswered.empty()) return;
-  const serial::Simulation& now = inquiry.here_at_start();
-  if (now.plc().powered() && !now.cpu().state().port[inquiry.port()].active) find_port_in_ppi_mode(inquiry);
+  if (!inquiry.history().go_to(inquiry.request()->end)) return void(inquiry.answers.interrupted = true);
+  const serial::Simulation& then = inquiry.here();
+  if (then.plc().powered() && !then.cpu().state().port[inquiry.port()].active) find_port_in_ppi_mode(inquiry);
 }
 
 }  // namespace s7200::tools

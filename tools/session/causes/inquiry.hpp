@@ -110,6 +110,9 @@ void find_characters_untaken(Inquiry& inquiry);
 /// have not found it.
 std::size_t find_characters_waiting(Inquiry& inquiry);
 
+/// Which XMT was refused that was to answer, and what had the port then?
+void find_transmissions_refused(Inquiry& inquiry);
+
 /// Which frames has the program swallowed? Nothing else is known of them.
 void find_frames_swallowed(Inquiry& inquiry);
 

@@ -18,9 +18,14 @@ std::string routine_text(const Listing& listing, std::uint32_t op) {
 
 }  // namespace
 
-std::vector<std::string> to_lines(const DecisionSearch& search, const Listing& listing) {
+std::vector<std::string> cause_lines(const DecisionSearch& search) {
   std::vector<std::string> lines;
   for (const TraceLine& line : search.unanswered) lines.push_back(fmt::format("{}  {}", moment_text(line.at), line.text));
+  return lines;
+}
+
+std::vector<std::string> to_lines(const DecisionSearch& search, const Listing& listing) {
+  std::vector<std::string> lines = cause_lines(search);
   if (search.decision)
     lines.push_back(fmt::format("{}  {}{}: {}", moment_text(search.decision->by.at), lines.empty() ? "" : "what led here: ",
                                 routine_text(listing, search.decision->by.op), search.decision->text));
@@ -38,6 +43,7 @@ DecisionSearch find_last_decision(History& history, std::size_t station, Time ho
     find_frames_left(inquiry);
     find_characters_untaken(inquiry);
     const std::size_t named = find_characters_waiting(inquiry);
+    find_transmissions_refused(inquiry);
     find_frames_swallowed(inquiry);
     find_characters_lost(inquiry, named);
     find_what_the_line_lost(inquiry);

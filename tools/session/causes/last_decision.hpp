@@ -42,7 +42,11 @@ struct DecisionSearch {
 };
 
 inline constexpr std::string_view kNothingDecided =
-    "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far";
+    "nothing has decided that it comes here: no contact, no jump, no conditional call or return so far; "
+    "each scan does";
+
+/// A line for each frame without an answer; none if nothing is known of one.
+std::vector<std::string> cause_lines(const DecisionSearch& search);
 
 /// A line for each frame without an answer and for the decision, or kNothingDecided; what was found if it was interrupted.
 std::vector<std::string> to_lines(const DecisionSearch& search, const Listing& listing);

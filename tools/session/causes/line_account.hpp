@@ -29,7 +29,10 @@ class LineAccount final {
   void note(std::size_t station, const TraceRecord& record);
 
   /// Something is about to be done from outside, or was done.
-  void note_action() { traffic_.note_hosts(); }
+  void note_action() {
+    traffic_.note_hosts();
+    faults_.note_cable();
+  }
 
   /// What the system file had planned was done.
   void note_planned() { faults_.note_cable(); }

@@ -1,5 +1,7 @@
 #include "tools/session/causes/witness.hpp"
 
+#include <string_view>
+
 #include "interpreter/model/ports.hpp"
 
 namespace s7200::tools {
@@ -9,7 +11,8 @@ Witness::Witness(History& history, std::size_t station, std::uint8_t port, const
       reasons(history.station(station).cpu().program()),
       line(history, station, port),
       history_(history),
-      station_(station) {}
+      station_(station),
+      port_(port) {}
 
 bool Witness::before_action() {
   line.note_action();
@@ -24,13 +27,42 @@ void Witness::record(const TraceRecord& record) {
   for (const auto& frame : reasons.unanswered(record)) left_.push_back({record.at, record.at, frame});
   if (record.kind == TraceKind::ModeChange) stopped_ = record.code == 0;
   note_for_interrupts(record);
+  if (!stopped_) note_scan(record);
   if (!stopped_) reasons.note(record);
 }
 
 void Witness::instruction(const InstructionRecord& record) {
   if (history_.told_of() != station_) return;
   note_passed_over(record);
+  note_scan(record);
   reasons.note(record);
+}
+
+void Witness::note_scan(const TraceRecord& record) {
+  if (record.kind == TraceKind::ScanBegin) {
+    repeated_.clear();
+    served_.clear();
+  } else if (record.kind == TraceKind::ServiceBegin) {
+    ++served_[record.routine];
+  } else if (record.kind == TraceKind::RuntimeError && record.op != kNoRoutine) {
+    const Op& op = history_.station(station_).cpu().program().ops[record.op];
+    const bool is_own = op.instruction->mnemonic == "XMT" && op[1].at == port_;
+    if (is_own) refused_.push_back({record.at, record.op, record.code});
+  }
+}
+
+/// To be told before the reasons are.
+void Witness::note_scan(const InstructionRecord& record) {
+  const std::string_view mnemonic = history_.station(station_).cpu().program().ops[record.op].instruction->mnemonic;
+  if (mnemonic == "STOP" && record.powered) stop_executed_ = {record.op, reasons.contacts()};
+  if (mnemonic == "NEXT" || (mnemonic == "JMP" && record.powered)) ++repeated_[record.op];
+}
+
+Witness::Most Witness::most_of(const std::unordered_map<std::uint32_t, std::size_t>& counts) {
+  Most most;
+  for (const auto& [what, times] : counts)
+    if (times > most.times || (times == most.times && what < most.what)) most = {what, times};
+  return most;
 }
 
 /// To be told before the reasons are: what they know is in front of it.
