@@ -9,6 +9,7 @@
 #include "tools/command/master_run.hpp"
 #include "tools/command/options/master_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/command/unanswered.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
@@ -45,8 +46,12 @@ int run_master(const CLI::App& verb, MasterOptions& options) {
   }
   MasterSession session(*slave, actions, options.session(!over_tcp));
   MasterOutput output(options.output(), slave->name());
-  return run_session(
-      options, session, actions, output, [] { return false; }, RigOptions::no_json);
+  bool any_unanswered = false;
+  const int exit_code = run_session(
+      options, session, actions, output, [] { return false; }, RigOptions::no_json,
+      [&](const MasterResult& result) { any_unanswered |= result.exchange.timed_out; });
+  if (any_unanswered) print_note(note_on_unknown_causes(slave->name(), false));
+  return exit_code;
 }
 
 }  // namespace

@@ -36,11 +36,11 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   const serial::Requester& master = rig->requester(line)->requester();
   const auto failed_strictly = [&] { return !options.rig.without_s7200() && options.rig.failed_strictly(rig->cpu()); };
   Timelines timelines(*rig);
-  FirstUnanswered unanswered(*rig, !options.rig.plan());
+  const auto unanswered = options.rig.without_s7200() ? nullptr : std::make_unique<Unanswered>(*rig, options.rig.spot());
 
   StreamedResults results(results_of("send"), "exchanges");
   bool ready = false;
-  const std::unique_ptr<SlaveInSimulation> slave = slave_to_send_to(options, *rig, ready, unanswered);
+  const std::unique_ptr<SlaveInSimulation> slave = slave_to_send_to(options, *rig, ready, unanswered.get());
   std::size_t answered = 0, damaged = 0, foreign = 0;
   for (const serial::Frame& frame : *frames) {
     if (!ready || interrupted() || failed_strictly()) break;
@@ -51,7 +51,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     mark_request_of_another(exchange);
     if (options.timeline) timelines.end();
     if (master.busy()) break;  // Ctrl-C came before the answer
-    unanswered.note(exchange);
+    if (unanswered) unanswered->note(exchange);
     foreign += exchange.of_another_master;
     answered += !exchange.timed_out && !exchange.of_another_master;
     damaged += is_damaged(exchange);
@@ -67,9 +67,11 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     slave->wait(options.pause == kNever ? slave->pause() : options.pause);
   }
   const bool all_written = finish(*rig);
-  const std::vector<std::string> reasons = unanswered.reasons(options.master.timeout);
-  fmt::print("{}", options.json ? results.end(with_why(rig_json(*rig), reasons)) : why_text(reasons) + dump_text(*rig));
+  const UnansweredRequests why_none = unanswered ? unanswered->explained(options.master.timeout) : UnansweredRequests{};
+  fmt::print("{}", options.json ? results.end(with_why(rig_json(*rig), why_none)) : why_text(why_none) + dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
+  if (!unanswered && ready && answered + foreign < frames->size() && !interrupted())
+    print_note(note_on_unknown_causes(slave->name(), true));
   print_notes(line_notes(*rig));
   if (damaged > 0) print_note(fmt::format("{} of {} answers damaged", damaged, answered));
   if (foreign > 0)
@@ -80,10 +82,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   if (!all_written) return kUnusable;
   if (exit_code_of(*rig) != kFine) return exit_code_of(*rig);
   print_interruption();
-  if (failed_strictly()) {
-    print_error("--strict: a run-time error ended the exchanges");
-    return kCheckFailed;
-  }
+  if (failed_strictly()) return print_error("--strict: a run-time error ended the exchanges"), kCheckFailed;
   return answered == frames->size() && damaged == 0 && !interrupted() ? kFine : kCheckFailed;
 }
 

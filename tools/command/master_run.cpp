@@ -8,10 +8,10 @@
 #include "interpreter/model/special_memory.hpp"
 #include "tools/command/band_output.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/command/first_unanswered.hpp"
 #include "tools/command/master_menu.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/command/unanswered.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/first_scans.hpp"
 #include "tools/slave/line_of_other_plcs.hpp"
@@ -129,8 +129,11 @@ static int run_on_line(MasterOptions& options, Rig& rig, const std::vector<Maste
   } else {
     MasterSession session(slave, actions, options.session(true));
     MasterOutput output(options.output(), slave.name());
+    bool any_unanswered = false;
     exit_code = run_session(
-        options, session, actions, output, [] { return false; }, [&] { return rig_json(rig); });
+        options, session, actions, output, [] { return false; }, [&] { return rig_json(rig); },
+        [&](const MasterResult& result) { any_unanswered |= result.exchange.timed_out; });
+    if (any_unanswered) print_note(note_on_unknown_causes(slave.name(), true));
   }
   const bool all_written = finish(rig);
   print_notes(notes_on_other_masters(rig, line));
@@ -147,11 +150,11 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
   if (options.rig.without_s7200()) return run_on_line(options, *rig, actions);
-  FirstUnanswered unanswered(*rig, !options.rig.plan());
-  std::vector<std::string> reasons;
+  Unanswered unanswered(*rig, options.rig.spot());
+  UnansweredRequests why_none;
   const auto plant = [&] {
-    reasons = unanswered.reasons(options.master.timeout);
-    return with_why(rig_json(*rig), reasons);
+    why_none = unanswered.explained(options.master.timeout);
+    return with_why(rig_json(*rig), why_none);
   };
   SimulatedSlave slave(rig->simulation(), options.master, options.rig.target(),
                        somebody_answers_in_stop(*rig, options.rig.line(), *options.protocol));
@@ -188,7 +191,7 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
     exit_code = kCheckFailed;
   }
   const bool all_written = finish(*rig);
-  if (ready && !options.json) fmt::print("{}{}", why_text(reasons), dump_text(*rig));
+  if (ready && !options.json) fmt::print("{}{}", why_text(why_none), dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
   const bool fatal = exit_code_of(*rig) == kCpuFatal, stopped = rig->cpu().state().mode == Mode::Stop;
   if (!ready && stopped && !fatal) print_error("the CPU went to STOP before the first request");

@@ -3,16 +3,16 @@
 
 #include <memory>
 
-#include "tools/command/first_unanswered.hpp"
 #include "tools/command/send_band.hpp"
+#include "tools/command/unanswered.hpp"
 #include "tools/rig/rig.hpp"
 #include "tools/slave/slave.hpp"
 
 namespace s7200::tools {
 
 /// The program, or the line of a system without an S7-200; and whether the first frame can be sent: if not, after messages.
-/// `unanswered` listens to the program.
+/// `unanswered`, which may be null, listens to the program.
 std::unique_ptr<SlaveInSimulation> slave_to_send_to(const SendOptions& options, Rig& rig, bool& ready,
-                                                    FirstUnanswered& unanswered);
+                                                    Unanswered* unanswered);
 
 }  // namespace s7200::tools

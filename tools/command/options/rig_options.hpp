@@ -51,6 +51,9 @@ class RigOptions {
   std::string note_on_first_station() const;
   std::size_t line() const { return spot_.line; }
 
+  /// Where it is looked at from: of a PROGRAM its PLC at --port.
+  Spot spot() const { return plan_ ? spot_ : Spot{.port = static_cast<std::uint8_t>(settings_.port)}; }
+
   /// A PLC of a system, as it is looked at.
   struct Station {
     std::string name;
