@@ -259,7 +259,7 @@ std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const Laun
     app.parse(std::move(words));
     if (auto debuggee = make_debuggee(app, std::move(options), stop_request, exit_code, limits)) return debuggee;
   } catch (const CLI::ParseError& error) {
-    throw dap::Refused(fmt::format("launch: {}", in_our_words(error)));
+    throw dap::Refused(fmt::format("launch: {}", in_our_words(error, app)));
   }
   throw dap::Refused(std::string(stl::trim(messages.text)));
 }

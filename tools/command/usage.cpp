@@ -32,8 +32,9 @@ std::string not_a_verb(const std::string& word, const std::vector<std::string>& 
                        : fmt::format("'{}' is not a verb; did you mean {}?", shown, meant);
 }
 
-/// `; did you mean --version?`; empty if no option is close.
-std::string meant_option(const std::string& option, const CLI::App& app) {
+/// `; did you mean --version?`; empty if no option is close. One dash may be meant for two.
+std::string meant_option(std::string option, const CLI::App& app) {
+  if (!option.starts_with("--")) option.insert(0, "-");
   std::vector<std::string> names;
   for (const CLI::Option* known : app.get_options())
     for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
@@ -48,13 +49,14 @@ std::string not_an_option(const std::string& option, const CLI::App& app, bool a
                      stl::shortened(option), any_verb ? "the verb" : "one", meant_option(option, app));
 }
 
-/// Of what a verb does not take: `there is no option --cup; did you mean --cpu?`. Empty if no word of it is an option.
-std::string not_an_option_of(const CLI::App& verb) {
-  for (const std::string& word : verb.remaining())
-    if (word.starts_with("--"))
-      return fmt::format("there is no option {}{}", stl::shortened(word.substr(0, word.find('='))),
-                         meant_option(word, verb));
-  return {};
+/// Of words that a verb does not take: `there is no option --cup; did you mean --cpu?`, or that one is too many.
+std::string not_expected(const CLI::App& verb) {
+  const std::vector<std::string> words = verb.remaining();
+  const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("-"); });
+  if (option == words.end())
+    return fmt::format("'{}' is one word too many here", stl::shortened(words.empty() ? "" : words.back()));
+  return fmt::format("there is no option {}{}", stl::shortened(option->substr(0, option->find('='))),
+                     meant_option(*option, verb));
 }
 
 /// Of CLI11 what stands around a name or a value in a message, and what we say instead: `{0}` is in front of `between`,
@@ -86,14 +88,6 @@ std::optional<std::string> translated(std::string_view text, const ParserWords& 
   const std::string_view rest = text.substr(place + words.between.size());
   if (words.after.empty() && words.ours.find("{1}") == std::string_view::npos && !rest.empty()) return {};
   return fmt::format(fmt::runtime(words.ours), text.substr(0, place), rest);
-}
-
-/// Of words that are left over the option among them, if there is one: what follows it is its value.
-std::string not_expected(std::string_view left_over) {
-  const std::vector<std::string> words = stl::split_words(left_over.substr(left_over.find(": ") + 1));
-  const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("-"); });
-  if (option != words.end()) return fmt::format("there is no option {} here", stl::shortened(*option));
-  return fmt::format("'{}' is one word too many here", stl::shortened(words.empty() ? left_over : words.back()));
 }
 
 bool is_help_word(const std::string& word) { return word == "help" || word == "version"; }
@@ -136,14 +130,12 @@ void refuse_empty_values(CLI::App& app) {
 std::string usage_error(const CLI::App* app, const CLI::Error& error) {
   const auto verbs = app->get_subcommands();
   const std::string command = verbs.empty() ? app->get_name() : fmt::format("{} {}", app->get_name(), verbs[0]->get_name());
-  const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !verbs.empty();
-  const std::string option = is_extra ? not_an_option_of(*verbs[0]) : "";
-  return fmt::format("s7200: error: {}\n'{} --help' shows how it is used\n", option.empty() ? in_our_words(error) : option,
-                     command);
+  return fmt::format("s7200: error: {}\n'{} --help' shows how it is used\n",
+                     in_our_words(error, verbs.empty() ? *app : *verbs[0]), command);
 }
 
-std::string in_our_words(const CLI::Error& error) {
-  if (std::string_view(error.what()).starts_with("The following argument")) return not_expected(error.what());
+std::string in_our_words(const CLI::Error& error, const CLI::App& verb) {
+  if (std::string_view(error.what()).starts_with("The following argument")) return not_expected(verb);
   for (const ParserWords& words : kParserWords)
     if (auto ours = translated(error.what(), words)) return *std::move(ours);
   return error.what();

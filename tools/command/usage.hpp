@@ -24,8 +24,8 @@ void refuse_empty_values(CLI::App& app);
 /// A usage error, and where the right usage is told.
 std::string usage_error(const CLI::App* app, const CLI::Error& error);
 
-/// What is wrong with the words of a command line, in our words: what CLI11 says is for programmers. What an option's own
-/// check says stays as it is.
-std::string in_our_words(const CLI::Error& error);
+/// What is wrong with the words that a verb has parsed, in our words: what CLI11 says is for programmers. What an option's
+/// own check says stays as it is.
+std::string in_our_words(const CLI::Error& error, const CLI::App& verb);
 
 }  // namespace s7200::tools
