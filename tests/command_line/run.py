@@ -2,6 +2,7 @@
 """The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme|times|systems"""
 import contextlib
 import csv
+import html
 import itertools
 import json
 import os
@@ -2052,7 +2053,7 @@ lines:
     def test_record_names_the_bytes_that_differ(self):
         shown = self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; send 01 03 00 0a 00 01 crc; continue 5ms; set VW50=77; "
                           f"continue; display VW50; record {self.folder / 'recorded.yaml'}").stdout
-        self.assertIn("VW50 is 16#0000 (0), expected 16#004D; nothing has written it since power-up\n", shown)
+        self.assertIn("VW50 is 16#0000 (0), expected 16#004D; nothing has written it since power-up; ", shown)
 
     def test_the_debugger_steps_and_goes_back_with_all_stations(self):
         system = self.program(self.SYSTEM, "system.yaml")
@@ -3027,16 +3028,87 @@ class Files(Case):
         self.assertEqual((case.get("file"), case.get("line")), (str(typo), "3"))
         self.assertEqual(case.find("error").get("message"), "a step that does nothing")
 
-    def test_send_and_master_say_why_the_first_request_got_no_answer(self):
+    def test_send_and_master_say_why_each_request_got_no_answer(self):
         bad = ["01 03 00 0a 00 01 00 00"]
         done = self.ends(FAILED, "send", SLAVE, *bad)
-        self.assertIn("why the first request without an answer got none:\n  ", done.stdout)
+        self.assertRegex(done.stdout, r"why 01 03 00 0a 00 01 00 00, sent at [0-9.]+ ms, got no answer:\n  ")
         self.assertIn("JMP 255 in line 141 (LDW= AC0, 0: ", done.stdout)
+        self.assertNotIn("what led here", done.stdout)
         self.assertIn("JMP 255 in line 141", self.json(FAILED, "send", SLAVE, *bad, "--json")["why"][0])
-        self.assertNotIn("why the first", self.ends(FINE, "send", SLAVE, "--crc", "0103000a0001").stdout)
+        self.assertNotIn("why ", self.ends(FINE, "send", SLAVE, "--crc", "0103000a0001").stdout)
         done = self.ends(FAILED, "master", SLAVE, "read", "40011", "--station", "9", "--timeout", "200ms")
-        self.assertIn("why the first request without an answer got none:\n", done.stdout)
+        self.assertRegex(done.stdout, r"why 09 03 00 0a 00 01 a5 40, sent at [0-9.]+ ms, got no answer:\n")
+        self.assertIn("the request was for station 9; the program compared its first character with 1", done.stdout)
         self.assertIn("why", self.json(FAILED, "master", SLAVE, "read", "40011", "--station", "9", "--timeout", "200ms", "--json"))
+
+    def test_requests_that_got_no_answer_for_the_same_reason_are_counted(self):
+        frames = ["01 03 00 0a 00 01 00 00", "02 03 00 0a 00 01 a4 3b", "01 06 00 0a 00 01 00 00 00", "00 06 00 0a 00 01 69 d9"]
+        done = self.ends(FAILED, "send", SLAVE, *frames, "--timeout", "200ms")
+        self.assertEqual(done.stdout.count("why "), 2, done.stdout)  # a broadcast has no answer
+        self.assertRegex(done.stdout, r"why 2 requests got no answer, the first 01 03 00 0a 00 01 00 00, sent at [0-9.]+ ms:\n  ")
+        self.assertRegex(done.stdout, r"why 02 03 00 0a 00 01 a4 3b, sent at [0-9.]+ ms, got no answer:\n  ")
+        unanswered = self.json(FAILED, "send", SLAVE, *frames, "--timeout", "200ms", "--json")["unanswered"]
+        self.assertEqual([one["requests"] for one in unanswered], [2, 1])
+        self.assertEqual([one["first"] for one in unanswered], ["0103000a00010000", "0203000a0001a43b"])
+        many = self.ends(FAILED, "send", SLAVE, *["02 03 00 0a 00 01 a4 3b"] * 52, "--timeout", "10ms").stdout
+        self.assertIn("why 50 requests got no answer", many)
+        self.assertIn("2 requests more got no answer, for which no cause was looked for\n", many)
+
+    def test_in_a_system_the_station_concerned_says_why_it_did_not_answer(self):
+        system = self.program(f"plcs: {{slave: {{program: {SLAVE}, station: 1, copies: 3}}}}\n"
+                              "lines: {bus: {stations: [slave]}}\nevents: [{at: 10ms, power_off: slave3}]\n", "bus.yaml")
+        done = self.ends(FAILED, "send", system, "02 03 00 0a 00 01 00 00", "03 03 00 0a 00 01 a5 ea", "09 03 00 0a 00 01 a5 40", "--timeout", "200ms")
+        self.assertRegex(done.stdout, r"why 02 03 00 0a 00 01 00 00, sent at [0-9.]+ ms, got no answer:\n  slave2: [0-9.]+ ms  .*JMP 255 in line 141")
+        self.assertRegex(done.stdout, r"  slave3: [0-9.]+ ms  slave3 has been without power since 10\.[0-9]+ ms: 'slave3: power off', in the system file\n")
+        self.assertIn("the request was for station 9; slave1 is station 1; no S7-200 on this line is station 9\n", done.stdout)
+        done = self.ends(FAILED, "master", system, "read", "40011", "--station", "3", "--timeout", "200ms")
+        self.assertIn("slave3 has been without power since", done.stdout)
+
+    def test_without_an_s7_200_it_is_said_that_causes_cannot_be_told(self):
+        done = self.ends(FAILED, "send", SOURCE / "tests/programs/systems/other_plcs.yaml", "01 03 00 00", "--timeout", "100ms")
+        self.assertIn("why an answer is missing cannot be told: ", done.stderr)
+
+    def test_a_failed_step_of_a_system_has_its_cause_and_opens_in_the_debugger(self):
+        system = self.program(f"plcs: {{slave: {{program: {SLAVE}, station: 1, copies: 2}}}}\nlines: {{bus: {{stations: [slave]}}}}\n", "bus.yaml")
+        scenarios = self.program(f"system: {system}\nstation: 2\ntimeout: 200ms\nscenarios:\n"
+                                 "- name: dark\n  steps:\n  - power_off: slave2\n  - {read: holding 10, expect: [0]}\n"
+                                 "- name: memory\n  steps:\n  - {write: holding 10, values: [7]}\n  - memory: {VW20: 9}\n    on: slave2\n"
+                                 "- name: late\n  steps:\n  - {read: holding 10, latency: ..1ms}\n", "red.yaml")
+        failed = self.ends(FAILED, "test", scenarios).stdout
+        self.assertRegex(failed, r"slave2: [0-9.]+ ms  slave2 has been without power since [0-9.]+ ms: 'slave2: power off', from outside\n")
+        self.assertRegex(failed, r"VW20 of slave2 is 7, expected 9; last written at [0-9.]+ ms by ")
+        self.assertRegex(failed, r"slave2: [0-9.]+ ms  [0-9.]+ ms: until .*came to XMT")
+        commands = [shlex.split(command) for command in re.findall(r"debug     s7200 (debug .*)", failed)]
+        self.assertEqual(len(commands), 3)
+        opened = self.ends(FINE, *commands[1], "-x", "why; station slave1; regs").stdout
+        self.assertIn("'memory' fails in ", opened)
+        self.assertRegex(opened, r"VW20 is .*; last written at [0-9.]+ ms by ")
+        self.assertIn("slave2 has been without power since", self.ends(FINE, *commands[0], "-x", "station slave2; why").stdout)
+        refused = self.ends(UNUSABLE, *commands[0], "-x", f"save {self.folder / 'x.session'}").stderr
+        self.assertIn("cannot save: a step of the scenario did 'slave2: power off'", refused)
+        out = self.folder / "red.xml"
+        data = self.json(FAILED, "test", scenarios, "--json", "--junit", out)
+        whys = ["\n".join(scenario["findings"][0]["why"]) for scenario in data["scenarios"]]
+        text = html.unescape(out.read_text(encoding="utf-8"))
+        for why in whys:
+            self.assertTrue(why)
+            self.assertIn(why.splitlines()[0], text)
+
+    def test_one_dash_or_two_an_option_that_is_none_is_refused_alike(self):
+        self.assertIn("there is no option -jsno; did you mean --json?", self.ends(UNUSABLE, "send", SLAVE, "01", "-jsno").stderr)
+        self.assertIn("there is no option -q\n", self.ends(UNUSABLE, "check", SLAVE, "-q").stderr)
+
+    def test_what_was_looked_at_at_the_instant_of_an_exchange_is_recorded_too(self):
+        recorded = self.folder / "instant.yaml"
+        done = self.ends(FINE, "debug", SLAVE, "-x", "continue 100ms; send 01 06 00 0a 12 34 crc; print VW20; continue; print VW20; "
+                         f"send 01 03 00 0a 00 01 crc; continue; expect VW20 = 16#1234; continue 20ms; record {recorded}")
+        self.assertNotIn("left out", done.stdout + done.stderr)
+        text = recorded.read_text(encoding="utf-8")
+        self.assertEqual(len(re.findall(r"memory:.*VW20", text)), 3, text)
+        self.assertLess(text.index("memory:"), text.index("- send:"))
+        self.assertIn("1 passed", self.ends(FINE, "test", recorded).stdout)
+        other = self.program(text.replace("    steps:", "    times: cpu214_from_22x\n    steps:"), "other.yaml")
+        self.assertIn("1 passed", self.ends(FINE, "test", other).stdout)  # with other execution times, and so latencies
 
     def test_an_option_that_is_nearly_one_is_offered(self):
         self.assertIn("there is no option --cup; did you mean --cpu?", self.ends(UNUSABLE, "check", SLAVE, "--cup", "224").stderr)

@@ -42,7 +42,7 @@ struct Opened {
   ScenarioResult result{};
 };
 
-/// The first that fails; the first one if none does. Nothing if none is about one program in simulation.
+/// The first that fails; the first one if none does. Nothing if none can be run again.
 std::optional<Opened> opened(const std::vector<Scenario>& scenarios, Benches& benches) {
   std::optional<Opened> first;
   for (std::size_t i = 0; i < scenarios.size() && !interrupted(); ++i) {
@@ -64,6 +64,31 @@ PlaceInRun place_of(const ScenarioResult& result) {
   return {result.recordings.size() - 1, result.recordings.back().end};
 }
 
+/// Memory that was not as expected, if that is what it found first.
+std::vector<MemoryRange> failed_memory(const ScenarioResult& result) {
+  const auto first = std::ranges::find_if(result.findings, [](const Finding& finding) { return finding.place.has_value(); });
+  if (first == result.findings.end() || !first->memory) return {};
+  return {*first->memory};
+}
+
+/// The PLC that it looks at then.
+std::size_t station_of(const ScenarioResult& result) {
+  for (const Finding& finding : result.findings)
+    if (finding.place) return finding.station;
+  return 0;
+}
+
+/// The PLCs of its system; none of one program.
+std::vector<DebuggedStation> debugged_stations(const Scenario& scenario) {
+  std::vector<DebuggedStation> stations;
+  if (!scenario.plan) return stations;
+  const std::vector<Spot> spots = spots_of_plcs(*scenario.plan);
+  for (std::size_t plc = 0; plc < spots.size(); ++plc)
+    stations.push_back(
+        {.name = scenario.plan->plcs[plc].name, .master = on_line(scenario.line, scenario.plan->lines[spots[plc].line])});
+  return stations;
+}
+
 std::string heading(const Opened& one) {
   const std::string name = stl::printable(one.scenario->name);
   if (one.result.findings.empty()) return fmt::format("'{}' passes; this is its end\n", name);
@@ -75,13 +100,15 @@ std::string heading(const Opened& one) {
 
 int debug(const Opened& one, const std::string& script, const DebugOptions& options) {
   const PlaceInRun place = place_of(one.result);
-  Plant plant(*one.scenario, one.program);
-  Debugger debugger(plant.simulation(), std::cout,
+  const std::unique_ptr<Plant> plant = new_plant(*one.scenario, one.program);
+  Debugger debugger(plant->stations(), std::cout,
                     {.master = one.scenario->line,
+                     .stations = debugged_stations(*one.scenario),
+                     .station = station_of(one.result),
                      .stop_request = &interruption(),
-                     .history = {.plcs = {}},
+                     .history = plant->history_settings(),
                      .colour = colour_wanted(stdout)});
-  if (!debugger.open(one.result.recordings[place.power_up], place.moment))
+  if (!debugger.open(one.result.recordings[place.power_up], place.moment, failed_memory(one.result)))
     return print_error("the scenario does not run the same way in the debugger; 'test' shows what it found"), kUnusable;
   fmt::print("{}", heading(one));
   std::cout << std::flush;
@@ -122,8 +149,9 @@ int run_debug_scenario(const CLI::App& verb, const DebugOptions& options) {
   if (one) return debug(*one, *script, options);
   print_interruption();
   if (!interrupted())
-    print_error(fmt::format("no scenario of {} can be opened: the debugger opens those of one program in simulation",
-                            options.program.path));
+    print_error(
+        fmt::format("no scenario of {} can be opened: the debugger opens those of programs and systems in simulation",
+                    options.program.path));
   return kUnusable;
 }
 

@@ -1,41 +1,31 @@
 #include "tools/scenario/explanation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <optional>
+#include <utility>
 
-#include "interpreter/trace/statement_text.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/scenario/plant.hpp"
-#include "tools/session/causes/last_decision.hpp"
-#include "tools/session/causes/last_write.hpp"
-#include "tools/session/causes/writer.hpp"
-#include "tools/session/past/past_words.hpp"
-#include "tools/views/listing.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/session/causes/latency_cause.hpp"
+#include "tools/session/causes/memory_cause.hpp"
+#include "tools/session/causes/unanswered_causes.hpp"
 
 namespace s7200::tools {
 namespace {
 
 bool is_about_an_answer(const Finding& finding) { return finding.exchange && !finding.exchange->request.empty(); }
 
-/// `last written at 2100.000000 ms by = Q0.1 in line 42`
-std::string last_write_text(History& history, const Program& program, const MemoryRange& range) {
-  const WriteSearch search = find_last_write(history, 0, range, &interruption());
-  if (search.interrupted) return {};
-  if (!search.write) return fmt::format("nothing has written it {}", since_oldest_text(history));
-  const LastWrite& write = *search.write;
-  const std::string by =
-      write.by ? named_in_sentence(write.by->op, program) : changer_text(history, write.action, write.planned);
-  return fmt::format("last written at {} by {}", moment_text(write.at), by);
+bool is_about_a_time(const Finding& finding) {
+  return finding.what == "latency" && finding.exchange && !finding.exchange->response.empty();
 }
 
-std::vector<std::string> reasons_of(History& history, const Program& program, Time timeout, const Finding& finding) {
-  if (finding.memory) return {last_write_text(history, program, *finding.memory)};
+/// Nothing after an interruption.
+std::optional<std::vector<std::string>> reasons_of(History& history, Time timeout, const Finding& finding) {
+  if (finding.memory) return memory_cause(history, finding.station, *finding.memory, &interruption());
+  if (is_about_a_time(finding)) return latency_cause(history, finding.station, *finding.exchange, &interruption());
   if (!is_about_an_answer(finding)) return {};
-  const DecisionSearch search = find_last_decision(history, 0, timeout, &interruption());
-  if (search.interrupted || search.unanswered.empty()) return {};
-  return to_lines(search, Listing(program));
+  return causes_of_no_answer(history, finding.station, serial::bytes_of(finding.exchange->request), timeout,
+                             &interruption());
 }
 
 }  // namespace
@@ -46,14 +36,16 @@ void explain(const Scenario& scenario, const std::shared_ptr<const Program>& pro
     const auto is_here = [&](const Finding& finding) { return finding.place && finding.place->power_up == power_up; };
     if (std::none_of(result.findings.begin(), result.findings.begin() + static_cast<std::ptrdiff_t>(shown), is_here))
       continue;
-    Plant plant(scenario, program);
-    History history(plant.simulation(), {.stop_request = &interruption()});
+    const std::unique_ptr<Plant> plant = new_plant(scenario, program);
+    History::Settings settings = plant->history_settings();
+    settings.stop_request = &interruption();
+    History history(plant->stations(), std::move(settings));
     if (!history.replay(result.recordings[power_up])) continue;
     for (std::size_t i = 0; i < shown; ++i) {
       Finding& finding = result.findings[i];
       if (!is_here(finding)) continue;
       history.go_to(finding.place->moment);
-      finding.why = reasons_of(history, *program, scenario.line.timeout, finding);
+      finding.why = reasons_of(history, scenario.line.timeout, finding).value_or(std::vector<std::string>());
     }
   }
 }

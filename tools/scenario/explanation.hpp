@@ -9,8 +9,8 @@
 
 namespace s7200::tools {
 
-/// Adds to the findings that are shown why an answer is missing or wrong, and who wrote memory last. Does nothing where the
-/// run has no recordings: it was not about one program in simulation.
+/// Adds to the findings that are shown why an answer is missing or wrong, what it waited for if its latency is wrong, and
+/// who wrote memory last. Does nothing where the run has no recordings.
 void explain(const Scenario& scenario, const std::shared_ptr<const Program>& program, ScenarioResult& result);
 
 }  // namespace s7200::tools

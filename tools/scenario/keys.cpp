@@ -49,7 +49,8 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "after", "", "TIME", "when the first step begins; if left out, when the first scan has ended and the line is quiet"},
     {Where::Scenario, "pause", "", "SPAN", kPause},
     {Where::Scenario, "timeout", "", "TIME", "how long to wait for an answer or a transmission to begin, or for memory; `1s` if left out"},
-    {Where::Scenario, "tolerance", "", "TIME", "by which a latency given as one figure may be missed; `0` if left out"},
+    {Where::Scenario, "tolerance", "", "TIME", "by which a latency given as one figure may be missed, and for each exchange before it `at` and `wait: until`; `0` if left "
+     "out"},
     {Where::Scenario, "needs", "", "LIST", "calculations as inside `${…}`: if one is 0, or has a parameter without a value, the scenario is not applicable"},
     {Where::Scenario, "expected_failure", "", "TEXT", "a known gap, and why: the scenario must fail, is counted apart, and turns red when it passes"},
     {Where::Scenario, "rule", "", "TEXT", "makes it a rule of a conformance suite, with this id"},

@@ -7,6 +7,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "tools/session/causes/memory_cause.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -136,12 +137,6 @@ double value_of(const MemoryRange& range, bool is_signed, const std::vector<std:
 
 std::string real_text(const std::vector<std::uint8_t>& bytes) {
   return stl::to_text(stl::Operand{.value = stl::Real{std::bit_cast<float>(load32(bytes.data()))}});
-}
-
-/// `Conveyor (Q0.1)`, or the address alone.
-std::string named(const Program& program, const MemoryRange& range) {
-  const std::string symbol = symbol_name(program, range);
-  return symbol.empty() ? range.name_of(0) : fmt::format("{} ({})", symbol, range.name_of(0));
 }
 
 /// In the notation of what was expected: hex beside hex, decimal beside decimal.

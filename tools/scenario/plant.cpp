@@ -7,6 +7,7 @@
 
 #include "tools/host/interruption.hpp"
 #include "tools/rig/first_scans.hpp"
+#include "tools/rig/system_trace.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -64,7 +65,32 @@ Plant::Plant(const Scenario& scenario) : scenario_(scenario) {
   rig_->power_up();
   for (std::size_t spot = 0; spot < spots_.size(); ++spot)
     slaves_.push_back(std::make_unique<SimulatedSlave>(rig_->simulation(spot), master_of(spots_[spot]), scenario.system));
+  begin_journal();
 }
+
+/// Of a system, unless a line is seen from no PLC: a recording has a station for each action.
+void Plant::begin_journal() {
+  seen_.emplace(*rig_, spots_);
+  for (const Spot& spot : spots_)
+    if (!seen_->station_on(spot.line)) return;
+  journal_.emplace(rig_->simulation());
+  for (std::size_t spot = 0; spot < spots_.size(); ++spot)
+    slaves_[spot]->when_asked(
+        [this, station = *seen_->station_on(spots_[spot].line)](const SerialFormat& format, const serial::Request& request) {
+          journal_->note(SendFrame{.format = format, .request = request}, station);
+        });
+}
+
+void Plant::carry_out(const EventPlan& event) {
+  note(SystemEvent{event, named_event_text(event, rig_->plan())});
+  rig_->carry_out(event);
+}
+
+std::vector<serial::Simulation*> Plant::stations() {
+  return rig_ ? seen_->stations() : std::vector<serial::Simulation*>{simulation_.get()};
+}
+
+History::Settings Plant::history_settings() { return rig_ ? tools::history_settings(*rig_) : History::Settings{}; }
 
 void Plant::look_at(const Spot& spot) { here_ = static_cast<std::size_t>(std::ranges::find(spots_, spot) - spots_.begin()); }
 
@@ -184,6 +210,10 @@ bool Plant::is_in_stop(std::size_t plc) const { return is_powered(plc) && cpu_of
 std::string Plant::why_stopped(std::size_t plc) const {
   const std::string why = errors_text(cpu_of(plc));
   return why.empty() ? "" : "\n" + why;
+}
+
+std::unique_ptr<Plant> new_plant(const Scenario& scenario, std::shared_ptr<const Program> program) {
+  return scenario.plan ? std::make_unique<Plant>(scenario) : std::make_unique<Plant>(scenario, std::move(program));
 }
 
 }  // namespace s7200::tools

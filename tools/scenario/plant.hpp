@@ -15,6 +15,7 @@
 #include "tools/scenario/result.hpp"
 #include "tools/scenario/scenario.hpp"
 #include "tools/session/past/journal.hpp"
+#include "tools/session/past/seen_rig.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/timeline.hpp"
 
@@ -59,22 +60,30 @@ class Plant {
   /// Does it to the PLC that is looked at, as a programming device or the plant around it does.
   void act(Action action);
 
-  /// Is told of what a step is about to do itself.
+  /// Is told of what a step is about to do itself to the PLC that is looked at.
   void note(Action action) {
-    if (journal_) journal_->note(std::move(action));
+    if (journal_) journal_->note(std::move(action), plc_number());
   }
 
-  /// Of one program: what has been done to it, a recording for each power-up, the last one up to now. Nothing of a system.
+  /// What has been done, a recording for each power-up, the last one up to now. Nothing of a system with a PLC that is asked
+  /// on two lines where no other one is.
   std::vector<Recording> recordings() const;
 
-  /// Where that stands now; nothing of a system.
+  /// Where that stands now; nothing without recordings.
   std::optional<PlaceInRun> place() const;
+
+  /// How a History sees what is to be played again: by PLC, and what it knows by name.
+  std::vector<serial::Simulation*> stations();
+  History::Settings history_settings();
+
+  /// Of those stations, the one from which the line that is looked at is seen.
+  std::size_t station_on_line() const { return rig_ ? seen_->station_on(spots_[here_].line).value_or(plc_number()) : 0; }
 
   /// What follows is about that PLC of the system, and a master on that line.
   void look_at(const Spot& spot);
 
   /// Does it to the system, now.
-  void carry_out(const EventPlan& event) { rig_->carry_out(event); }
+  void carry_out(const EventPlan& event);
 
   /// Power goes off, and comes back after `power_off`: the clock goes on, and memory is kept unless it is lost. Of a
   /// program.
@@ -126,6 +135,7 @@ class Plant {
 
  private:
   void power_up(const RetentiveMemory* memory);
+  void begin_journal();
   /// The CPU does not pause at the ends of its scans any more, and is not paused at the last: no time passes.
   void leave_pause();
   serial::MasterSettings master_of(const Spot& spot) const;
@@ -141,9 +151,13 @@ class Plant {
   std::vector<Spot> spots_{Spot{}};                      // from which it is looked at
   std::vector<std::unique_ptr<SimulatedSlave>> slaves_;  // by spot
   std::size_t here_ = 0;                                 // the spot
-  std::optional<Journal> journal_;                       // of a program, since the last power-up
+  std::optional<SeenRig> seen_;                          // of a system
+  std::optional<Journal> journal_;                       // since the last power-up
   std::vector<Recording> recordings_;                    // what was before that
   Time before_ = 0;                                      // what had passed at the last power cycle
 };
+
+/// Powered up, of the scenario's program or of its system.
+std::unique_ptr<Plant> new_plant(const Scenario& scenario, std::shared_ptr<const Program> program);
 
 }  // namespace s7200::tools

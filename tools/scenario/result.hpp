@@ -31,7 +31,8 @@ struct Finding {
   std::optional<stl::Position> at{};    ///< in the file, of what is about no step
   std::string timeline{};               ///< what the CPU did in that exchange; empty if it cannot be seen, or is not shown
   std::optional<MemoryRange> memory{};  ///< of a program, whose value is not as expected
-  std::optional<PlaceInRun> place{};    ///< of a program in simulation: when it was found
+  std::optional<PlaceInRun> place{};    ///< in simulation: when it was found
+  std::size_t station = 0;              ///< there: the PLC that it is about, or from which its line is seen
   std::vector<std::string> why{};       ///< what led to it, if that is known: a line each
 };
 

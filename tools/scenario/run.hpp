@@ -40,6 +40,11 @@ class Run {
   /// When the scenario began on the slave's clock: `at` counts from there.
   Time begin() const { return begin_; }
 
+  /// By how much `at` and `wait: until` may be missed: each answer since power-up may have come later by the tolerance.
+  Time allowed_delay() const { return allowed_delay_; }
+  void allow_delay() { allowed_delay_ += scenario_.tolerance; }
+  void forget_delay() { allowed_delay_ = 0; }
+
   /// The exchange before, if there was one since power-up.
   struct Before {
     std::optional<Time> end{};
@@ -96,7 +101,7 @@ class Run {
   std::unique_ptr<SlaveInSimulation> own_;  ///< that the bench made, or the lines of a system without an S7-200
   PeerLines* lines_ = nullptr;              ///< those lines; null if the scenario is about something else
   std::size_t step_ = 0, turn_ = 0;
-  Time begin_ = 0;
+  Time begin_ = 0, allowed_delay_ = 0;
   bool lost_ = false;                     ///< the slave
   bool times_unjudged_ = false;           ///< on a slave outside simulation
   std::set<std::size_t> modes_expected_;  ///< of which PLCs

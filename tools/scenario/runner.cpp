@@ -19,7 +19,7 @@ Run::Run(const Scenario& scenario, const Bench& bench) : scenario_(scenario), be
   if (scenario.is_of_peers())
     join_lines();
   else
-    plant_ = scenario.plan ? std::make_unique<Plant>(scenario) : std::make_unique<Plant>(scenario, bench.program);
+    plant_ = new_plant(scenario, bench.program);
 }
 
 void Run::join_lines() {
@@ -95,6 +95,7 @@ void Run::add(Finding finding) {
   if (interrupted()) return;
   if (!scenario_.steps.empty()) finding.step = std::min(step_, scenario_.steps.size() - 1);
   if (plant_) finding.place = plant_->place();
+  if (plant_) finding.station = finding.exchange ? plant_->station_on_line() : plant_->plc_number();
   const bool names_plc = plant_ && finding.what.find(plant_->of_plc("")) != std::string::npos;
   if (step_ < scenario_.steps.size() && !scenario_.steps[step_].on.empty() && !names_plc)
     finding.what += " of " + scenario_.steps[step_].on;

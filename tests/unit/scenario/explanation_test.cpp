@@ -67,8 +67,60 @@ TEST(Explanation, MemoryIsSaidInOneSentenceWithItsLastWriter) {
   EXPECT_TRUE(has(failed.text(), "      VW0 is 7, expected 5; last written at "));
   EXPECT_TRUE(has(failed.text(), " by MOVW 7, VW0 in line 2\n"));
   EXPECT_TRUE(has(failed.text(), "      Q0.1 is 1, expected 0; last written at "));
-  EXPECT_TRUE(has(failed.text(), "      VB9 is 16#00 (0), expected 16#03; nothing has written it since power-up\n"));
-  EXPECT_TRUE(has(finding_line(failed.scenario, failed.report.result.findings[0]), "VW0 is 7, expected 5; last written at "));
+  EXPECT_TRUE(
+      has(failed.text(),
+          "      VB9 is 16#00 (0), expected 16#03; nothing has written it since power-up; MOVB 3, VB9 in line 5 could, "
+          "which had no power flow at "));
+  EXPECT_TRUE(has(failed.text(), " (LD I0.0: I0.0=0)\n"));
+  EXPECT_TRUE(
+      has(finding_line(failed.scenario, failed.report.result.findings[0]), "VW0 is 7, expected 5; last written at "));
+}
+
+TEST(Explanation, MemoryGoesBackToTheInputThatDecidedIt) {
+  const auto program = program_of("LD I0.3\n= M0.0\nLD M0.0\nA SM0.0\n= Q0.1\nMEND\n");
+  const Failed failed("  - wait: 20ms\n  - memory: {Q0.1: 1}\n", program);
+  EXPECT_TRUE(has(failed.text(), " by = Q0.1 in line 5 (LD M0.0: M0.0=0; A SM0.0: SM0.0=1); M0.0 was 0: last written at "));
+  EXPECT_TRUE(has(failed.text(), " by = M0.0 in line 2 (LD I0.3: I0.3=0)\n"));
+}
+
+TEST(Explanation, MemoryThatNoInstructionWritesIsSaidToBeSo) {
+  const auto program = program_of("LD SM0.0\nMEND\n");
+  const Failed failed("  - wait: 20ms\n  - memory: {VB9: 1}\n", program);
+  EXPECT_TRUE(has(failed.text(), "nothing has written it since power-up; no instruction of the program writes it\n"));
+}
+
+/// Answers a character with an XMT in the main program, when INT 0 has noted it; I0.0 makes the scan long.
+constexpr std::string_view kInMain =
+    "LD SM0.1\n"
+    "MOVB 9, SMB30\n"
+    "ATCH 0, 8\n"
+    "ENI\n"
+    "MOVB 1, VB0\n"
+    "LD M0.0\n"  // 6
+    "XMT VB0, 0\n"
+    "R M0.0, 1\n"
+    "LD SM0.0\n"
+    "FOR VW10, 1, 300\n"
+    "NEXT\n"
+    "MEND\n"
+    "INT 0\n"
+    "LD SM0.0\n"
+    "S M0.0, 1\n"
+    "RETI\n";
+
+TEST(Explanation, AWrongLatencySaysThatItWaitedForTheScan) {
+  const Failed failed("  - {send: 41, expect: any, latency: ..1us}\n", program_of(std::string(kInMain)));
+  const std::string text = failed.text();
+  EXPECT_TRUE(has(text, "the last character waited in the interrupt queue for INT 0"));
+  EXPECT_TRUE(
+      has(text, " ms: until the main program came to XMT VB0, 0 in line 7 (LD M0.0: M0.0=1), in the scan that began at "));
+  const auto json = to_json({failed.report});
+  EXPECT_GE(json["scenarios"][0]["findings"][0]["why"].size(), 2U);
+}
+
+TEST(Explanation, AWrongLatencySaysThatItWaitedForSilence) {
+  const Failed failed("  - {read: holding 0, latency: ..1us}\n", slave());
+  EXPECT_TRUE(has(failed.text(), "a timed interrupt of "));
 }
 
 TEST(Explanation, WhatAStepHasSetIsItsWriter) {
@@ -91,7 +143,8 @@ TEST(Explanation, FindingsBeforeAndAfterAPowerCycleHaveTheirOwnPasts) {
 
 TEST(Explanation, WaitsForScansAndFaultsOfTheLineRunTheSameWayAgain) {
   const Failed failed(
-      "  - wait: 3 scans\n  - fault: \"missing:of=answer,character=each\"\n  - {read: holding 0, expect: [0]}\n  - wait_until: {VW20: 1}\n",
+      "  - wait: 3 scans\n  - fault: \"missing:of=answer,character=each\"\n  - {read: holding 0, expect: [0]}\n  - "
+      "wait_until: {VW20: 1}\n",
       slave());
   EXPECT_TRUE(has(failed.text(), "fault missing:character=each,of=answer"));
 }

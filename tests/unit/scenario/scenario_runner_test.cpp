@@ -255,7 +255,8 @@ TEST(ScenarioRunner, EveryExpectationOfTextCanFail) {
   EXPECT_EQ(text_findings(R"(  - {send: {text: 'HELLO\r'}, expect: 01 03})"), "answer:  / 'OK\\r\\n'\n")
       << "no word about a CRC";
   EXPECT_EQ(text_findings("  - memory: {VD4: 1.5, VW0: 5..10}\n"), "VD4: 1.5 / 0.0\nVW0: 5..10 / 0\n");
-  EXPECT_EQ(text_findings("  - set: {VD20: 2.0}\n  - memory: {VD20: 2}\n"), "VD20: 2 / 1073741824, the real 2.0: write 2.0 for it\n");
+  EXPECT_EQ(text_findings("  - set: {VD20: 2.0}\n  - memory: {VD20: 2}\n"),
+            "VD20: 2 / 1073741824, the real 2.0: write 2.0 for it\n");
 }
 
 TEST(ScenarioRunner, WhatCameBeforeARequestIsNotReceivedAndTheFindingSaysSo) {
@@ -282,8 +283,7 @@ TEST(ScenarioRunner, WaitsUntilMemoryIsAsExpected) {
             "");
   EXPECT_EQ(findings("  - {wait_until: {VW0: -1, VW2: 0}, timeout: 20ms}\n", "after: 0\n", counts),
             "VW0 after 20 ms: -1 / 22\n");
-  EXPECT_EQ(findings("  - {wait_until: {VW0: 5000..}, timeout: 0}\n", "after: 0\n", counts),
-            "VW0 after 0 ns: 5000.. / 0\n");
+  EXPECT_EQ(findings("  - {wait_until: {VW0: 5000..}, timeout: 0}\n", "after: 0\n", counts), "VW0 after 0 ns: 5000.. / 0\n");
   EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait_until: {VW0: 60}\n  - mode: stop\n", "after: 0\n", counts),
             "VW0 when the CPU went to STOP, after 46.284 ms: 60 / 50, the CPU is in STOP\n");
   EXPECT_EQ(findings("  - set: {I0.0: 1}\n  - wait_until: {VW0: 50}\n  - mode: stop\n", "after: 0\n", counts), "")
@@ -547,8 +547,10 @@ TEST(ScenarioCompare, TransmissionsAreComparedAndAProgramThatNeverGetsThereDiffe
       << difference(other);
   EXPECT_NE(difference(other).find("b         'HEADY\\r\\n' "), std::string::npos) << difference(other);
   EXPECT_NE(difference(other).find(" ms before it was waited for\n"), std::string::npos) << difference(other);
-  EXPECT_NE(difference(forgetful).find("b could not be asked, file.yaml:5: VW0 after 50 ms is 0, expected 5; nothing has written it since power-up\n"),
-            std::string::npos)
+  EXPECT_NE(
+      difference(forgetful).find(
+          "b could not be asked, file.yaml:5: VW0 after 50 ms is 0, expected 5; nothing has written it since power-up; "),
+      std::string::npos)
       << difference(forgetful);
 }
 
@@ -574,8 +576,12 @@ TEST(ScenarioReport, AFindingIsOneLineForMachines) {
             "01 03 00 00 00 01 84 0a: expected no answer, found 1 register: 16#0000");
   EXPECT_EQ(line("  - {read: holding 0, latency: ..1ms}\n", slave()).substr(0, 62),
             "latency, 01 03 00 00 00 01 84 0a: expected 1 ms or less, found");
-  EXPECT_EQ(line("  - memory: {VW20: 5}\n", slave()), "VW20 is 0, expected 5; nothing has written it since power-up");
-  EXPECT_EQ(line("  - repeat: 2\n    steps: [memory: {VD0: 1.5}]\n", slave()), "VD0 is 0.0, expected 1.5; nothing has written it since power-up (turn 1 of 2)");
+  EXPECT_EQ(line("  - memory: {VW20: 5}\n", slave()),
+            "VW20 is 0, expected 5; nothing has written it since power-up; no instruction names it; one that writes through "
+            "a pointer could");
+  EXPECT_EQ(line("  - repeat: 2\n    steps: [memory: {VD0: 1.5}]\n", slave()),
+            "VD0 is 0.0, expected 1.5; nothing has written it since power-up; no instruction names it; one that writes "
+            "through a pointer could (turn 1 of 2)");
   EXPECT_EQ(line("  - {receive: silence}\n", text_commands()), "transmission: expected nothing, found 'READY\\r\\n'");
 }
 

@@ -28,7 +28,7 @@ bool ExchangeStep::wait_for_begin(Run& run) const {
   else if (run.before.end)
     begin = *run.before.end + pause.value_or(run.scenario().pause).in(run.format());
   const Time now = run.slave().now();
-  if (at && begin < now && run.in_simulation()) {
+  if (at && begin + run.allowed_delay() < now && run.in_simulation()) {
     run.add({.what = "begin",
              .expected = fmt::format("a request at {}", format_duration(begin, 6)),
              .found = fmt::format("it is {} already", format_duration(now, 6)),
@@ -60,6 +60,7 @@ void ExchangeStep::act(Run& run) const {
   run.before = {.end = exchange.response.empty() ? run.slave().now() : exchange.response_end,
                 .remark = run.slave().remark()};
   run.keep(exchange);
+  run.allow_delay();
   judge(run, exchange, line, asked.timeout);
 }
 

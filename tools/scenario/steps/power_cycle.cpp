@@ -15,6 +15,7 @@ struct PowerCycleStep final : StepAction {
   void act(Run& run) const override {
     run.plant()->power_cycle(memory_lost, power_off);
     run.before = {};
+    run.forget_delay();
     run.expect_mode({});
     if (!run.plant()->get_ready())
       run.add({.what = "ready", .expected = "the line quiet after power-up", .found = "that never came", .of_run = true});
