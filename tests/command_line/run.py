@@ -75,7 +75,63 @@ class Verbs(Case):
                 done = self.ends(FINE, verb, "--help")
                 self.assertIn(f"Example: s7200 {verb}", done.stdout)
                 self.assertEqual(done.stderr, "")
-                self.assertTrue(all(len(line) <= 140 for line in done.stdout.split("\n")), "help is too wide")
+
+    @staticmethod
+    def width(text):
+        return max(map(len, text.split("\n")))
+
+    TOPICS = re.findall(r'HelpTopic\{"([\w-]+)"', (SOURCE / "tools/command/help_topics.cpp").read_text(encoding="utf-8"))
+
+    def test_help_fits_a_screen(self):
+        for words in ([], *([verb] for verb in VERBS), ["manual"], ["complete"], ["help"]):
+            with self.subTest(words):
+                shown = self.ends(FINE, *words, "--help").stdout
+                self.assertLessEqual(shown.count("\n"), 40)
+                self.assertLessEqual(self.width(shown), 100)
+
+    def test_help_all_has_every_option_and_no_line_of_more_than_100_columns(self):
+        for verb in VERBS:
+            with self.subTest(verb):
+                shown = self.ends(FINE, verb, "--help-all").stdout
+                self.assertLessEqual(self.width(shown), 100)
+                options = {word.split("\t")[0] for word in s7200("complete", "--", verb, "--").stdout.split("\n") if word}
+                self.assertEqual(set(re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)", shown)), options)
+                short = set(re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)", self.ends(FINE, verb, "--help").stdout))
+                self.assertLessEqual(short, options)
+                self.assertGreater(len(short), 0)
+                if short != options:
+                    self.assertIn(f"s7200 {verb} --help-all shows all {len(options)} options", s7200(verb, "--help").stdout)
+
+    def test_every_topic_is_listed_and_printed_in_lines_that_fit(self):
+        listed = self.ends(FINE, "help").stdout.split("Topics,")[1]
+        self.assertGreater(len(self.TOPICS), 10)
+        for topic in self.TOPICS:
+            with self.subTest(topic):
+                self.assertRegex(listed, rf"(?m)^  {topic} ")
+                shown = self.ends(FINE, "help", topic)
+                self.assertEqual(shown.stderr, "")
+                self.assertLessEqual(self.width(shown.stdout), 100)
+                self.assertGreater(shown.stdout.count("\n"), 3)
+
+    def test_a_topic_that_a_help_names_is_there(self):
+        for verb in VERBS:
+            shown = " ".join(s7200(verb, "--help-all").stdout.split())
+            for list_of in re.findall(r"s7200 help TOPIC has the lists: ([\w, -]+)", shown):
+                self.assertLessEqual(set(list_of.strip().split(", ")), set(self.TOPICS), verb)
+            for topic in re.findall(r"s7200 help (?!TOPIC)([\w-]+)", shown):
+                self.assertIn(topic, self.TOPICS, verb)
+
+    def test_help_is_as_wide_as_its_terminal(self):
+        for columns in (60, 80, 200):
+            with self.subTest(columns):
+                here, there = pty.openpty()
+                termios.tcsetwinsize(there, (40, columns))
+                done = subprocess.run([S7200, "run", "--help"], stdout=there, timeout=60, check=True)
+                shown = os.read(here, 65536).decode().replace("\r\n", "\n")
+                os.close(there)
+                os.close(here)
+                lines = [line for line in shown.split("\n") if not line.startswith(("Usage:", "Example:"))]
+                self.assertLessEqual(max(map(len, lines)), min(columns, 100))
 
     def test_examples_of_our_programs_work(self):
         for verb in VERBS:
@@ -92,10 +148,12 @@ class Verbs(Case):
     def test_help_as_people_type_it(self):
         self.assertEqual(self.ends(FINE, "help").stdout, self.ends(FINE, "--help").stdout)
         for verb in VERBS:
-            self.assertEqual(self.ends(FINE, "help", verb).stdout, self.ends(FINE, verb, "--help").stdout)
+            helped = self.ends(FINE, "help", verb).stdout
+            self.assertEqual(helped[:helped.find("\nTables of execution times") if verb == "times" else None], self.ends(FINE, verb, "--help").stdout)
         for word in ("help", "version"):
             self.assertEqual(self.ends(FINE, "help", word).stdout, self.ends(FINE, "--help").stdout)
-        self.assertIn("'frob' is not a verb", self.ends(UNUSABLE, "help", "frob").stderr)
+        self.assertIn("'frob' is not a verb or a topic; 's7200 help' lists them\n", self.ends(UNUSABLE, "help", "frob").stderr)
+        self.assertIn("'fault' is not a verb or a topic; did you mean faults?\n", self.ends(UNUSABLE, "help", "fault").stderr)
 
     def test_an_unknown_option_before_the_verb_is_named(self):
         for arguments, said in ((["--json"], "a verb is missing, and there is no option --json before one\n"),
@@ -132,7 +190,8 @@ class Verbs(Case):
             self.assertEqual((done.stdout, done.stderr.split("\n")[0]),
                              ("", f"s7200: error: '{word}' is not a verb; did you mean {meant}?"))
         done = self.ends(UNUSABLE, "frobnicate")
-        self.assertIn(f"'frobnicate' is not a verb; there are {', '.join(VERBS)}, help, version\n", done.stderr)
+        self.assertIn(f"'frobnicate' is not a verb; there are {', '.join(VERBS)}, help, version ", " ".join(done.stderr.split()))
+        self.assertLessEqual(self.width(done.stderr), 100)
         self.assertIn(f"'{SLAVE}' is a file, and the verb before it is missing", self.ends(UNUSABLE, SLAVE).stderr)
         self.assertIn("the verb is missing", self.ends(UNUSABLE).stderr)
 
@@ -207,9 +266,6 @@ class Verbs(Case):
                                (["calibrate", system], "is a system file: name the PROGRAM")):
             with self.subTest(arguments):
                 self.assertIn(why, self.ends(UNUSABLE, *arguments).stderr)
-        targets = {verb: re.search(r"(?m)^Targets:\n(?:  .*\n)+", s7200(verb, "--help").stdout).group(0) for verb in ("test", "master", "calibrate")}
-        self.assertEqual(targets["test"], targets["master"])
-        self.assertNotRegex(targets["calibrate"], "SYSTEM|westinghouse|modbus-tcp")
 
     def test_a_register_that_is_not_there_is_not_set(self):
         for setting, why in (("HR9999=1", "HR9999 is not there: holding_registers=2048"), ("HR2048=1,2", "HR2049 is not there"),
@@ -528,9 +584,9 @@ class Verbs(Case):
     def test_a_program_is_no_recording(self):
         self.assertIn("it is a program in STL, not a recording", self.ends(UNUSABLE, "decode", SLAVE).stderr)
 
-    def test_the_help_of_decode_names_every_form_of_recording(self):
-        said = " ".join(self.ends(FINE, "decode", "--help").stdout.split())
-        for part in ("a recording (forms: s7200 decode --help);", "the decoder list that DSView exports", "pcap of a serial line, as --capture writes it (link types 147 to 162)", "or of Modbus TCP", "CSV with a frame or a character in each row",
+    def test_the_topic_of_recordings_names_every_form(self):
+        said = " ".join(self.ends(FINE, "help", "recordings").stdout.split()) + " ".join(s7200("decode", "--help-all").stdout.split())
+        for part in ("a recording (s7200 help recordings);", "the decoder list that DSView exports", "pcap of a serial line, as --capture writes it (link types 147 to 162)", "or of Modbus TCP", "CSV with a frame or a character in each row",
                      "text logs with a frame or a character in each line", "5 ms without it"):
             self.assertIn(part, said)
 
@@ -923,10 +979,11 @@ class Verbs(Case):
         table = (SOURCE / "serial_sim/faults/README.md").read_text(encoding="utf-8").split("| fault |")[1].split("\n\n")[0]
         kinds = re.findall(r"(?m)^\| `(\w+)`", table)
         self.assertGreater(len(kinds), 10)
-        for verb in ("run", "send", "master"):
-            listed = s7200(verb, "--help").stdout
-            for kind in kinds:
-                self.assertRegex(listed, rf"(?m)^  {kind} .* {kind}\b")
+        listed = s7200("help", "faults").stdout
+        for kind in kinds:
+            self.assertRegex(listed, rf"(?m)^  {kind}\b")
+        for verb in ("run", "send", "master", "debug"):
+            self.assertIn("s7200 help faults", s7200(verb, "--help").stdout)
 
     def test_messages_go_to_standard_error(self):
         wrong = self.program("LD SM0.0\nFROB\nMEND\n")
@@ -965,8 +1022,8 @@ class Verbs(Case):
 
     WARNED = "LD I0.0\n= Q0.0\nLD I0.1\n= Q0.0\nLBL 1\nMEND\n"
 
-    def test_help_of_check_lists_every_warning_and_each_can_be_switched_off(self):
-        listed = self.ends(FINE, "check", "--help").stdout.split("Warnings, by the names that switch them off:\n")[1]
+    def test_help_lists_every_warning_and_each_can_be_switched_off(self):
+        listed = self.ends(FINE, "help", "warnings").stdout.split("\n", 1)[1]
         names = re.findall(r"(?m)^  ([a-z-]+)  +[a-zA-Z]", listed)
         self.assertGreater(len(names), 10)
         self.ends(FINE, "check", SLAVE, *(f"--no-warn={name}" for name in names))
@@ -1048,8 +1105,8 @@ class Options(Case):
     @staticmethod
     def listed(verb):
         """[(option, type, help)] of those that take a value."""
-        options = re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)(?: (?!Excludes:|Needs:)(\S+))?(.*(?:\n {30}.*)*)", s7200(verb, "--help").stdout)
-        return [(name, re.split("[:=](?=[{\\d])", kind)[0], text) for name, kind, text in options if kind]
+        options = re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)(?: (\S+))?(.*(?:\n {30}.*)*)", s7200(verb, "--help-all").stdout)
+        return [(name, kind, " ".join(text.split())) for name, kind, text in options if kind]
 
     def refused(self, verb, option, value):
         with self.subTest(f"{verb} {option} '{value}'"):
@@ -1115,7 +1172,7 @@ class Options(Case):
             self.refused("run", "--clock", value)
 
     def test_parameters_of_faults_have_their_ranges(self):
-        examples = re.findall(r"(?m) (\w+:\w+=\S+)$", s7200("run", "--help").stdout.split("Faults:")[1])
+        examples = re.findall(r"(?m)^  (\w+:\w+=\S+) ", s7200("help", "faults").stdout)
         self.assertGreater(len(examples), 10)
         for spec in ("break:from=10001h", "noise:ber=1e-4,for=10001h", "gap:length=2h", "flip:character=1000001"):
             self.refused("run", "--fault", spec)
@@ -3339,7 +3396,7 @@ class Times(Case):
         self.assertEqual(listed("216"), ["cpu215", "cpu214_from_22x"])
         self.assertEqual((listed("224r1"), listed("224")), (["cpu22x_release1"], ["cpu22x"]))
         self.assertIn("cpu214_from_22x", self.ends(FINE, "times").stdout)
-        self.assertRegex(s7200("run", "--help").stdout, r"--times TABLE +table of execution times: a name that `s7200 times` lists")
+        self.assertRegex(s7200("run", "--help-all").stdout, r"--times TABLE +table of execution times: a name \(s7200 help times\) or a CSV file\n")
 
     def test_tables_stand_side_by_side(self):
         mine = self.program("mnemonic,form,base_us,per_unit_us,unit,marker\nMOVB,,37,,,measured\n", "mine.csv")
@@ -3354,7 +3411,7 @@ class Times(Case):
 
     def test_verbs_that_run_nothing_have_no_options_of_running(self):
         for verb, options in (("times", ["--no-skip", "--ppi-baud", "--ppi-station", "--repair"]), ("check", ["--no-skip", "--ppi-baud", "--ppi-station"])):
-            shown = s7200(verb, "--help").stdout
+            shown = s7200(verb, "--help-all").stdout
             for option in options:
                 self.assertNotIn(option, shown)
                 self.ends(UNUSABLE, verb, SLAVE, option, "9600")
@@ -3677,14 +3734,14 @@ class Times(Case):
         for option in (["--times", "cpu214"], ["--no-skip"], ["--ppi-baud", "9600"]):
             self.assertIn(f"{option[0]} needs a PROGRAM to run in simulation", self.ends(UNUSABLE, "calibrate", "tcp://127.0.0.1:1", *option).stderr)
         self.assertNotIn("needs a PROGRAM", self.ends(UNUSABLE, "calibrate", "tcp://127.0.0.1:1", "--cpu", "224", "--each", "1s").stderr)
-        self.assertRegex(s7200("calibrate", "--help").stdout, "--cpu TYPE.* CPU that is measured")
+        self.assertRegex(s7200("calibrate", "--help-all").stdout, "--cpu TYPE.* CPU that is measured")
         self.assertIn("does not go into a table", self.ends(UNUSABLE, "calibrate", MEASURE, "--firmware", "1\n2").stderr)
         quoted = self.folder / "quoted.csv"
         self.ends(FINE, "calibrate", MEASURE, "--each", "1s", "--firmware", 'the "2"', "-o", quoted)
         self.assertIn('firmware the "2")', self.json(FINE, "times", "--times", quoted, "--json")["times"][0]["source"])
         gone = self.ends(UNUSABLE, "calibrate", "tcp://127.0.0.1:1").stderr
         self.assertNotIn("Micro/WIN", gone, "it is not the program that is missing")
-        self.assertNotIn("--baud", self.ends(FINE, "calibrate", "--help").stdout)
+        self.assertNotIn("--baud", self.ends(FINE, "calibrate", "--help-all").stdout)
 
     def measured_cpu(self, cpu):
         """Its pty."""
@@ -3844,7 +3901,7 @@ class Times(Case):
 
 
 class Readme(Case):
-    """Every line `$ …` in a block ```sh of a README is run, in a folder that has what the tree has. What is shown below a
+    """Every line `$ …` in a block ```sh of a README and of the pages in docs/ is run, in a folder that has what the tree has. What is shown below a
     command is what it prints; a line that is `…` stands for anything. A command with `&` runs until the end of its block."""
 
     TOOLS = ("sigrok-cli", "tshark", "mbpoll", "pytest-3")  # of others; skipped where they are not installed
@@ -3853,8 +3910,29 @@ class Readme(Case):
                  "broken.awl", "--fault flip:", "freeport_pc_protocol_zh.txt --cpu 224", "4006381333931",
                  "--only 'wrong quantity'", "--conformance tests/conformance/tip41.yaml")
 
-    def test_why_names_for_each_frame_of_the_readme_what_its_table_says(self):
+    PAGES = sorted((SOURCE / "docs").glob("*.md"))
+
+    def test_the_readme_is_short_and_links_every_page(self):
         readme = (SOURCE / "README.md").read_text(encoding="utf-8")
+        self.assertLessEqual(readme.count("\n"), 200)
+        self.assertLessEqual(len(readme.encode()), 9 * 1024)
+        index = (SOURCE / "docs/README.md").read_text(encoding="utf-8")
+        for page in self.PAGES:
+            self.assertIn(f"docs/{page.name}", readme)
+            if page.name != "README.md":
+                self.assertIn(f"[{page.name}]({page.name})", index)
+
+    def test_links_lead_to_what_is_there(self):
+        for page in [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", SOURCE / "CHANGELOG.md", *self.PAGES]:
+            for link in re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8")):
+                self.assertTrue((page.parent / link).exists(), f"{page.name}: {link}")
+
+    def test_the_picture_is_what_a_run_gives(self):
+        done = subprocess.run([sys.executable, SOURCE / "docs/timeline.py", S7200], capture_output=True, text=True, check=False, timeout=120)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_why_names_for_each_frame_of_the_page_what_its_table_says(self):
+        readme = (SOURCE / "docs/debugger.md").read_text(encoding="utf-8")
         rows = re.findall(r"^\| `([^`]+)` \(.*?\) \| `([^`]+)` in (\w+ \d+).*? \| `([^`]+)` is (\d)", readme, re.M)
         self.assertEqual(len(rows), 8)
         if not TIP.exists():
@@ -3873,7 +3951,7 @@ class Readme(Case):
     def test_commands(self):
         missing = [name for name in self.TOOLS if not shutil.which(name)]
         count = 0
-        for readme in sorted(SOURCE.rglob("README.md")):
+        for readme in sorted({*SOURCE.rglob("README.md"), *self.PAGES}):
             if "build" in readme.relative_to(SOURCE).parts:
                 continue
             for block in self.blocks(readme):
@@ -3897,9 +3975,9 @@ class Readme(Case):
         self.assertGreater(count, 3)
 
     def test_each_row_of_the_tables_of_source_documents_names_a_command_that_works(self):
-        readme = (SOURCE / "README.md").read_text(encoding="utf-8")
-        for title, least in (("**Programs of the source documents**", 3), ("**Protocols of the source documents.**", 10)):
-            table = readme.split(title, 1)[1].split("\n|---", 1)[1].split("\n\n", 1)[0]
+        for page, title, least in (("programs.md", "**Programs of the source documents**", 3),
+                                   ("westinghouse.md", "**Protocols of the source documents.**", 10)):
+            table = (SOURCE / "docs" / page).read_text(encoding="utf-8").split(title, 1)[1].split("\n|---", 1)[1].split("\n\n", 1)[0]
             commands = re.findall(r"\| `(s7200 [^`]+)`", table)
             self.assertGreaterEqual(len(commands), least, title)
             for command in commands:

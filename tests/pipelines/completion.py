@@ -18,6 +18,7 @@ SCRIPTS = SOURCE / "tools/completion"
 LINES = (
     ("s7200 ru", ["run"]),
     ("s7200 help conv", ["convert"]),
+    ("s7200 help west", ["westinghouse"]),
     ("s7200 run --times x --pari", ["--parity"]),
     ("s7200 run --parity ", ["even", "none", "odd"]),
     ("s7200 run --parity e", ["even"]),
@@ -57,14 +58,14 @@ class Candidates(Case):
                 self.assertEqual(found, expected or [])
 
     def test_verbs_are_those_of_the_help(self):
-        helped = re.findall(r"(?m)^  ([\w-]+)  ", run(S7200, "--help").stdout.split("Subcommands:")[1])
+        helped = re.findall(r"(?m)^  ([\w-]+)  ", run(S7200, "--help").stdout.split("Verbs:")[1].split("Topics,")[0])
         self.assertEqual(self.candidates(""), helped)
         self.assertEqual(self.candidates(), helped)
         self.assertGreater(len(helped), 8)
 
     def test_options_are_those_of_the_help_with_what_they_mean(self):
         for verb in listed_verbs():
-            helped = re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)", run(S7200, verb, "--help").stdout)
+            helped = re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+)", run(S7200, verb, "--help-all").stdout)
             self.assertEqual(sorted(self.candidates(verb, "--")), sorted(helped))
         self.assertIn("--json\tprint the results as JSON\n", run(S7200, "complete", "--", "check", "--js").stdout)
 

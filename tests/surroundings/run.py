@@ -51,8 +51,8 @@ def s7200(*arguments, **options):
 
 def file_outputs(verb):
     """Every option of a verb that writes a file, as its help tells."""
-    text = s7200(verb, "--help").stdout.decode()
-    return set(re.findall(r"(?m)^  (-[-\w]+)(?:,--\w+)? FILE\S*(?: \.\.\.)?(?: (?:Excludes|Needs): .*)?\s+.*\b(?:write|written)\b",
+    text = s7200(verb, "--help-all").stdout.decode()
+    return set(re.findall(r"(?m)^  (-[-\w]+)(?:,--\w+)? FILE\S*\s+.*(?:\n {30}.*)?\b(?:write|written)\b",
                           text))
 
 

@@ -24,7 +24,7 @@ def servers():
     """[(its name, the words of a command line that starts it)]"""
     found = []
     for verb, words in (("dap", ["dap"]), ("run", ["run", str(SLAVE)])):
-        text = subprocess.run([S7200, verb, "--help"], capture_output=True, check=True, text=True, timeout=LONG).stdout
+        text = subprocess.run([S7200, verb, "--help-all"], capture_output=True, check=True, text=True, timeout=LONG).stdout
         for option in re.findall(r"(?m)^ +--([-\w]+) \[ADDRESS:\]PORT", text):
             if verb == "run" or option == "listen":
                 found.append((option, [*words, "--" + option]))
@@ -205,8 +205,8 @@ class Dap(Case):
 
     def test_a_launch_writes_and_opens_only_what_the_command_line_allows(self):
         server = self.start(self.LISTEN, "--allow", "trace", folder=self.folder)
-        text = subprocess.run([S7200, "debug", "--help"], capture_output=True, check=True, text=True, timeout=LONG).stdout
-        writing = set(re.findall(r"(?m)^  --([-\w]+) FILE\S*(?: \.\.\.)?(?: (?:Excludes|Needs): .*)?\s+.*\b(?:write|written)\b", text))
+        text = subprocess.run([S7200, "debug", "--help-all"], capture_output=True, check=True, text=True, timeout=LONG).stdout
+        writing = set(re.findall(r"(?m)^  --([-\w]+) FILE\S*\s+.*(?:\n {30}.*)?\b(?:write|written)\b", text))
         opening = set(re.findall(r"(?m)^  --([-\w]+) (?:\[ADDRESS:\]PORT|LINK|DEVICE)", text))
         self.assertGreaterEqual(writing | opening, {"trace", "output", "memory", "capture", "pty", "device", "tcp"})
         for name in sorted((writing | opening) - {"trace"}):

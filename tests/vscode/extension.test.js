@@ -85,7 +85,7 @@ test("every instruction of every one of our programs is coloured", async () => {
 // --- package.json ---
 
 test("each attribute of a launch is an option of debug, or one of the session", () => {
-  const help = s7200("debug", "--help");
+  const help = s7200("debug", "--help-all");
   const readme = fs.readFileSync(path.join(SOURCE, "tools/dap/README.md"), "utf8");
   for (const name of Object.keys(manifest.contributes.debuggers[0].configurationAttributes.launch.properties)) {
     const option = "--" + name.replace(/[A-Z]/g, (letter) => "-" + letter.toLowerCase());
@@ -95,8 +95,8 @@ test("each attribute of a launch is an option of debug, or one of the session", 
 
 test("each option of debug is an attribute of a launch, but for where commands come from and which scenario", () => {
   const { properties } = manifest.contributes.debuggers[0].configurationAttributes.launch;
-  for (const [, option] of s7200("debug", "--help").matchAll(/^ +(?:-.,)?--([a-z-]+) /gm)) {
-    if (["help", "commands", "execute", "interactive", "only", "target"].includes(option)) continue;
+  for (const [, option] of s7200("debug", "--help-all").matchAll(/^ +(?:-.,)?--([a-z-]+) /gm)) {
+    if (["help", "help-all", "commands", "execute", "interactive", "only", "target"].includes(option)) continue;
     assert.ok(option.replace(/-[a-z]/g, (letter) => letter[1].toUpperCase()) in properties, option);
   }
 });

@@ -107,11 +107,10 @@ void add_bench(CLI::App& app, int& exit_code) {
   for (const char* const of_measuring : {"PROGRAM", "--against", "--json"}) save->excludes(verb->get_option(of_measuring));
   verb->footer(
       "'idle scans', 'instruction trace' and the mixed programs always run every scan. 'tip-like' is a slave that makes a "
-      "table in its\nfirst scan and receives each character in an interrupt, as that of Application Tip 41 does. The start "
-      "is the shortest of all that\n"
-      "the time has room for, by the clock.\n"
-      "Example: s7200 bench\n"
-      "Exit code 1 if it was interrupted, with the figures measured until then.");
+      "table in its first scan and receives each character in an interrupt, as that of Application Tip 41 does. The start "
+      "is the shortest of all that the time has room for, by the clock.\n"
+      "Exit code 1 if it was interrupted, with the figures measured until then.\n"
+      "Example: s7200 bench");
   verb->callback([options, &exit_code] { exit_code = run_bench(*options); });
 }
 

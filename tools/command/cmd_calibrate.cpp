@@ -108,11 +108,12 @@ void add_calibrate(CLI::App& app, int& exit_code) {
     if (all[i] != options->cpu) options->of_programs.push_back(all[i]);
   verb->add_flag("--json", options->json, "print what was found as JSON");
   verb->footer(
-      fmt::format("{}\n{}Exit code 1 if it was interrupted, 2 if the CPU does not answer or is not that of --cpu; what was "
-                  "measured until then is kept.\nExample: s7200 calibrate stl_programs/measure_times.stl --each 1s",
-                  how_to_measure("\n"),
-                  slave_targets_help({SlaveTarget::Kind::System, SlaveTarget::Kind::ModbusTcp, SlaveTarget::Kind::Peer},
-                                     "a serial line at 9600 8E1")));
+      how_to_measure("\n") +
+      "\nExit code 1 if it was interrupted, 2 if the CPU does not answer or is not that of --cpu; what was measured until "
+      "then is kept.\n"
+      "Topics: targets, times\n"
+      "Example: s7200 calibrate stl_programs/measure_times.stl --each 1s\n"
+      "Example: s7200 calibrate /dev/ttyUSB0 -o my_cpu.csv");
   verb->callback([options, &exit_code] { exit_code = run_calibrate(*options); });
 }
 

@@ -81,12 +81,6 @@ int run_check(const CheckOptions& options) {
   return interrupted() ? kCheckFailed : exit_code;
 }
 
-std::string warnings_help() {
-  std::string text = "Warnings, by the names that switch them off:\n";
-  for (const WarningInfo& warning : all_warnings()) text += fmt::format("  {:<18}{}\n", warning.name, warning.meaning);
-  return text;
-}
-
 }  // namespace
 
 void add_check(CLI::App& app, int& exit_code) {
@@ -100,17 +94,19 @@ void add_check(CLI::App& app, int& exit_code) {
   add_no_stand_ins_option(*verb, options->cpu.no_stand_ins);
   std::vector<std::string> warnings;
   for (const WarningInfo& warning : all_warnings()) warnings.emplace_back(warning.name);
-  offer(verb->add_option("--no-warn", options->unwanted, "leave out a warning, see below (repeatable)"), warnings)
+  offer(verb->add_option("--no-warn", options->unwanted, "leave out a warning: s7200 help warnings (repeatable)"), warnings)
       ->check([](const std::string& name) {
         return std::ranges::find(all_warnings(), name, &WarningInfo::name) != all_warnings().end()
                    ? std::string()
-                   : fmt::format("there is no warning '{}'; `s7200 check --help` lists them", stl::shortened(name));
+                   : fmt::format("there is no warning '{}'; 's7200 help warnings' lists them", stl::shortened(name));
       })
       ->allow_extra_args(false)
       ->type_name("NAME");
   verb->add_flag("--no-warnings", options->no_warnings, "leave out all warnings");
   verb->add_flag("--json", options->json, "print the results as JSON");
-  verb->footer(warnings_help() + "Example: s7200 check stl_programs/modbus_slave.stl");
+  verb->footer(
+      "Topics: models, programs, times, warnings\n"
+      "Example: s7200 check stl_programs/modbus_slave.stl");
   verb->callback([options, &exit_code] { exit_code = run_check(*options); });
 }
 

@@ -86,7 +86,6 @@ Candidates candidates(CLI::App& app, std::vector<std::string> words) {
   if (words.empty()) words.emplace_back();
   const std::string first = words.front();
   if (words.size() == 1) return first.starts_with('-') ? options_of(app) : verbs_of(app);
-  if (first == "help") return words.size() == 2 ? verbs_of(app) : Candidates{};
   const auto named = app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; });
   words.erase(words.begin());
   return named.empty() ? Candidates{} : candidates_of(*named.front(), words);

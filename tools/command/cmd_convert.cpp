@@ -47,13 +47,13 @@ int run_convert(const ConvertOptions& options) {
 
 void add_convert(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* verb =
-      app.add_subcommand("convert", "print a program in another notation, which reads back as the same program");
+  CLI::App* verb = app.add_subcommand("convert", "print a program in another notation, which reads back as the same");
   options->program.add_files_to(*verb);
   add_cpu_option(*verb, options->program.cpu, fmt::format("CPU that it is for {}", kCpuFound));
   add_repair_option(*verb, options->program.repairs);
-  verb->add_option("--to", options->notation,
-                   "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (blocks of an export, with names), german (E, A, U)")
+  verb->add_option(
+          "--to", options->notation,
+          "iec (one listing, 16#FF), microdos (K4, KHFF), microwin (blocks of an export, with names), german (E, A, U)")
       ->required()
       ->check([](const std::string& name) {
         return notation_named(name)
@@ -66,7 +66,9 @@ void add_convert(CLI::App& app, int& exit_code) {
           "UTF-8, UTF-16, Windows-1250 to -1254, CP437, GBK or Shift-JIS; Micro/WIN reads the code page of its Windows")
       ->capture_default_str()
       ->type_name("NAME");
-  verb->add_option("-o,--output", options->output, "file to write, and FILE_symbols.txt for the symbols of microwin; standard output if not given")->type_name("FILE");
+  verb->add_option("-o,--output", options->output,
+                   "file to write, and FILE_symbols.txt for the symbols of microwin; standard output if not given")
+      ->type_name("FILE");
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was converted as JSON, with the STL if no file is written");
   verb->footer("Example: s7200 convert stl_programs/modbus_slave.stl --to microwin");

@@ -9,6 +9,7 @@
 #include "tools/command/dap_server.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/choices.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/dap/serve.hpp"
 #include "tools/host/interruption.hpp"
@@ -77,13 +78,20 @@ void add_dap(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false)
       ->needs(listen);
   options->debuggee->add_plant_to(*verb);
+  for (CLI::Option* option : verb->get_options())
+    if (!option->get_positional()) option->group(help_group::kMore);  // attributes of a launch say it in an editor
+  for (const char* often : {"--listen", "--token-file", "--allow"}) verb->get_option(often)->group(help_group::kRun);
   verb->footer(
-      R"(An editor starts it and launches a program: the attributes of a launch are the options of 's7200 debug' without their
-dashes. With a PROGRAM here, editors attach to that one, which stays as it stands when they leave, and launch no other.
-Over --listen a launch or an attach needs the token that is printed, as its attribute 'token'. Without a bridge,
---realtime or --speed programs run as fast as the computer can; with one as fast as the clock, and masters outside wait
-while it stands still. tools/dap/README.md lists the requests of our own, tools/vscode-s7200 is the extension for VS Code.
-Example: s7200 dap)");
+      "An editor starts it and launches a program: the attributes of a launch are the options of 's7200 debug' without "
+      "their "
+      "dashes. With a PROGRAM here, editors attach to that one, which stays as it stands when they leave, and launch no "
+      "other.\n"
+      "Over --listen a launch or an attach needs the token that is printed, as its attribute 'token'.\n"
+      "Without a bridge, --realtime or --speed programs run as fast as the computer can; with one as fast as the clock, and "
+      "masters outside wait while it stands still.\n"
+      "tools/dap/README.md lists the requests of our own, tools/vscode-s7200 is the extension for VS Code.\n"
+      "Topics: bridges, debugger, faults, files, programs, systems\n"
+      "Example: s7200 dap");
   verb->callback([options, &exit_code, verb] { exit_code = run_dap(*verb, *options); });
 }
 

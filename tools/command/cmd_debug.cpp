@@ -74,21 +74,26 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
 
 void add_debug(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DebugOptions>();
-  CLI::App* verb =
-      app.add_subcommand("debug", "step through a program: breakpoints, watches, frames on its port, and back again");
+  CLI::App* verb = app.add_subcommand("debug", "step through a program: breakpoints, frames on its port, back again");
   options->add_to(*verb);
   verb->footer(
-      fault_help() +
-      R"(Without --commands and -x the commands come from standard input; 'help' lists them. A wrong command ends a script
-with exit code 2, an 'expect' that does not hold with 1; Ctrl-C ends it too, with exit code 1, or at the prompt with -i.
-A program from standard input, -, needs --commands or -x.
-With a bridge, --realtime or --speed it follows the clock, and masters outside wait while it stands still; their
-time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. A
-new branch goes on in traces after what ran before, and ends captures.
-A file of scenarios (.yaml) instead of a PROGRAM: the first of them that fails, or that of --only, is opened where it failed.
-A system file (.yaml) instead of a PROGRAM: all its PLCs run, and go back, in one time; 'station NAME' goes over from
-one to another.
-Example: s7200 debug stl_programs/modbus_slave.stl -x "continue 2s; send 01 03 00 00 00 02 crc; continue; regs")");
+      "Without --commands and -x the commands come from standard input; 'help' lists them. A program from standard input, "
+      "-, "
+      "needs --commands or -x.\n"
+      "With a bridge, --realtime or --speed it follows the clock, and masters outside wait while it stands still; their "
+      "time-outs are their own affair. Traces and captures get everything once: what is played again is not written again. "
+      "A new branch goes on in traces after what ran before, and ends captures.\n"
+      "A file of scenarios (.yaml) instead of a PROGRAM: the first of them that fails, or that of --only, is opened where "
+      "it "
+      "failed.\n"
+      "A system file (.yaml) instead of a PROGRAM: all its PLCs run, and go back, in one time; 'station NAME' goes over "
+      "from "
+      "one to another.\n"
+      "Exit code 2 after a wrong command in a script, 1 after an 'expect' that does not hold; Ctrl-C ends a script too, "
+      "with "
+      "1, or at the prompt with -i.\n"
+      "Topics: debugger, bridges, faults, files, models, programs, systems\n"
+      "Example: s7200 debug stl_programs/modbus_slave.stl -x \"continue 2s; status NETWORK 2\"");
   verb->callback([options, &exit_code, verb] { exit_code = run_debug(*verb, *options); });
 }
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "interpreter/base/joined.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/recording_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/recordings/decoded.hpp"
@@ -50,7 +50,10 @@ int run_live(const DecodeOptions& options, const SlaveTarget& target) {
   std::fflush(stdout);
   const bool heard = listen(*line, options.recording, [&](const ReadFrame& frame) {
     summary.add(frame);
-    fmt::print("{}", options.json ? results.entry(decoded_json(frame)) : decoded_text(frame, false, colour));
+    if (options.json)
+      fmt::print("{}", results.entry(decoded_json(frame)));
+    else
+      print_report(decoded_text(frame, false, colour));
     std::fflush(stdout);
   });
   fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
@@ -73,10 +76,14 @@ int run_file(const DecodeOptions& options) {
     const bool is_open = frame.direction == Direction::Request && !frame.needs_no_answer;
     const bool unanswered = is_open && number < answered.size() && !answered[number];
     ++number;
-    fmt::print("{}", options.json ? results.entry(decoded_json(frame)) : decoded_text(frame, unanswered, colour));
+    if (options.json)
+      fmt::print("{}", results.entry(decoded_json(frame)));
+    else
+      print_report(decoded_text(frame, unanswered, colour));
   });
   fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
-  if (!options.json && read->line) fmt::print("{}; --baud and --parity say otherwise\n", read->silences_text());
+  if (!options.json && read->line)
+    print_report(fmt::format("{}; --baud and --parity say otherwise\n", read->silences_text()));
   return exit_code_of(options, summary);
 }
 
@@ -89,18 +96,14 @@ int run_decode(const DecodeOptions& options) {
 
 void add_decode(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DecodeOptions>();
-  CLI::App* verb = app.add_subcommand(
-      "decode", "show a recording of a line, or a line itself, as requests and answers, with gaps and latencies");
+  CLI::App* verb = app.add_subcommand("decode", "show a recording of a line, or what is heard, as requests and answers");
   options->recording.add_to(*verb);
-  verb->add_flag("--json", options->json, "print the frames as JSON");
-  verb->footer(fmt::format("Recordings are\n  {}\n", stl::joined(recording_forms(), &RecordingForm::meaning, "\n  ")) +
-               "Nothing is sent to a line. Times are those of arrival: a USB adapter delivers up to 16 ms late. A\n"
-               "pcap does not say which characters had parity errors. Behind a --pty of `s7200 run` only what the\n"
-               "simulated line says is heard, not what others ask it. Messages of Modbus TCP are shown as on a\n"
-               "serial line, with CRCs that are not in the recording.\n" +
-               std::string(kEndOfListening) +
-               "It is also 1 if there were frames and none of them was right.\n"
-               "Example: s7200 decode tests/recordings/plant.log");
+  verb->add_flag("--json", options->json, "print the frames as JSON")->group(help_group::kResults);
+  verb->footer(std::string(kEndOfListening) +
+               "Exit code 1 too if there were frames and none of them was right.\n"
+               "Topics: recordings, protocols\n"
+               "Example: s7200 decode tests/recordings/plant.log\n"
+               "Example: s7200 decode /dev/ttyUSB0 --protocol ppi");
   verb->callback([options, &exit_code] {
     try {
       exit_code = run_decode(*options);

@@ -81,8 +81,7 @@ int run_import(const ImportOptions& options) {
 
 void add_import(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ImportOptions>();
-  CLI::App* verb =
-      app.add_subcommand("import", "write the STL of a published document, or of its ladder drawings, as a clean .stl file");
+  CLI::App* verb = app.add_subcommand("import", "write the STL of a published document, or of its ladder drawings");
   verb->add_option("DOCUMENT", options->document, "document with an STL listing or ladder drawings; - is standard input")
       ->required();
   auto* from =

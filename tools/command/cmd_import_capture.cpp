@@ -85,8 +85,7 @@ int run_import_capture(const ImportCaptureOptions& options) {
 
 void add_import_capture(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ImportCaptureOptions>();
-  CLI::App* verb =
-      app.add_subcommand("import-capture", "write a recording of a line, or what is heard on it, as a scenario for `test`");
+  CLI::App* verb = app.add_subcommand("import-capture", "write a recording, or what is heard on a line, as a scenario");
   options->recording.add_to(*verb);
   verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --target")
       ->type_name("FILE");
@@ -105,6 +104,7 @@ void add_import_capture(CLI::App& app, int& exit_code) {
   verb->add_flag("--force", options->force, "overwrite an existing file");
   verb->add_flag("--json", options->json, "print what was written as JSON, with the scenario if no file is written");
   verb->footer(std::string(kEndOfListening) +
+               "Topics: recordings, protocols\n"
                "Example: s7200 import-capture tests/recordings/plant.log --program stl_programs/modbus_slave.stl");
   verb->callback([options, &exit_code] {
     try {

@@ -59,7 +59,8 @@ void print_table(std::span<const Instruction> instructions, const TimeTable& tim
       continue;
     }
     const TimeRow* row = typical_time(times, instruction);
-    fmt::print("  {:<24} {:>14} us  {}\n", syntax(instruction), row ? time_text(*row) : "-", instruction.meaning);
+    print_report(
+        fmt::format("  {:<24} {:>14} us  {}\n", syntax(instruction), row ? time_text(*row) : "-", instruction.meaning));
   }
 }
 
@@ -94,7 +95,7 @@ int run_instructions(const InstructionsOptions& options) {
     fmt::print("Instructions of CPU {}. Times with power flow, operands in V memory; see `s7200 times`.\n", model->name);
     print_table(all_instructions(), *times);
   } else {
-    for (const Instruction& instruction : chosen) fmt::print("{}", explain(instruction, *times));
+    for (const Instruction& instruction : chosen) print_report(explain(instruction, *times));
   }
   return kFine;
 }

@@ -58,14 +58,14 @@ int run_master(const CLI::App& verb, MasterOptions& options) {
 
 void add_master(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<MasterOptions>();
-  CLI::App* verb = app.add_subcommand(
-      "master", "be a master, of Modbus or another protocol: ask a program, a serial device, or a server on the network");
+  CLI::App* verb = app.add_subcommand("master", "ask a program, a device or a server, as a master of Modbus or others");
   options->add_to(*verb);
   verb->footer(
-      slave_targets_help() + protocols_help() + fault_help() +
-      "menu, alone and on a terminal, is a screen to try a Modbus slave by hand: a key for each function, slave, port,\n"
+      "menu, alone and on a terminal, is a screen to try a Modbus slave by hand: a key for each function, slave, port, "
       "loopbacks and a test without end, with statistics.\n"
-      "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2 read 00001:8");
+      "Topics: protocols, targets, faults, files, systems, times, westinghouse\n"
+      "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2\n"
+      "Example: s7200 master /dev/ttyUSB0 --station 3 read 40001:4 --every 1s");
   verb->callback([options, verb, &exit_code] {
     try {
       exit_code = run_master(*verb, *options);

@@ -85,13 +85,12 @@ int run_run(const CLI::App& verb, RunOptions& options) {
 
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* verb =
-      app.add_subcommand("run", "run a program, as fast as the computer can, or in real time for masters of this computer");
+  CLI::App* verb = app.add_subcommand("run", "run a program, as fast as possible or in real time behind a bridge");
   options->add_to(*verb);
   verb->footer(
-      std::string(BridgeOptions::kAboutPty) + fault_help() + kAboutSystems + kAboutOtherPlcs +
       "Exit code 1 if it was interrupted before its end, be it --for, --scans or a second; a run with a bridge and neither "
-      "of\nthe two serves until Ctrl-C or SIGTERM, and that is 0.\n"
+      "of the two serves until Ctrl-C or SIGTERM, and that is 0.\n"
+      "Topics: bridges, faults, files, models, programs, systems, westinghouse\n"
       "Example: s7200 run stl_programs/modbus_slave.stl --for 2s --set VW100=5 --dump VW100:4");
   verb->callback([options, verb, &exit_code] { exit_code = run_run(*verb, *options); });
 }

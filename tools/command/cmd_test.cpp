@@ -103,15 +103,16 @@ int run_test(TestOptions& options) {
 
 void add_test(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<TestOptions>();
-  CLI::App* verb = app.add_subcommand("test", "run regression tests of a program's protocol: scenarios written in YAML");
+  CLI::App* verb = app.add_subcommand("test", "run regression tests of a program's protocol, written in YAML");
   options->add_to(*verb);
   verb->footer(
-      slave_targets_help() +
       "A SYSTEM.yaml and a westinghouse:MODEL are new for each scenario, and nothing but their line is seen; scenarios that "
-      "set\nmemory are skipped. 's7200 master --help' lists the settings of --plc.\n"
+      "set memory are skipped.\n"
       "With --times-band the table in use decides; the others are counted, and decide where a scenario has 'robust: 95%'.\n"
       "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, or --against found a difference; "
-      "2 nothing could be run,\nor the slave cannot be reached.\nExample: s7200 test tests/programs/modbus_slave --jobs 2");
+      "2 nothing could be run, or the slave cannot be reached.\n"
+      "Topics: keys, targets, faults, times, westinghouse\n"
+      "Example: s7200 test tests/programs/modbus_slave --jobs 2");
   verb->callback([options, &exit_code] { exit_code = run_test(*options); });
 }
 

@@ -33,7 +33,7 @@ int show_side_by_side(const TimesOptions& options, const CpuModel& model) {
     results["side_by_side"] = side_by_side_json(model, *tables);
     fmt::print("{}", lines_of(results));
   } else {
-    fmt::print("{}", side_by_side_text(model, *tables));
+    print_report(side_by_side_text(model, *tables));
   }
   return kFine;
 }
@@ -62,8 +62,8 @@ int show_table(const TimesOptions& options, const CpuModel& model) {
   } else if (options.csv) {
     print_file(cpu_line(model.name) + comment_line(about) + to_csv(times));
   } else {
-    if (!about.empty()) fmt::print("{}\n\n", about);
-    fmt::print("{}\n{}", table_text(model, times), tables_text(model));
+    if (!about.empty()) print_report(about + "\n\n");
+    print_report(fmt::format("{}\n{}", table_text(model, times), tables_text(model)));
   }
   return kFine;
 }
@@ -102,12 +102,11 @@ void add_times(CLI::App& app, int& exit_code) {
       verb->add_flag("--csv", options->csv, "print as CSV, the form --times reads")->excludes(tables)->excludes(check);
   verb->add_flag("--json", options->json, "print as JSON")->excludes(csv);
   verb->footer(
-      "'within 25%': the true time lies between figure / 1.25 and figure × 1.25.\n"
-      "'within ± 0.5, 0.02': it is no farther from the base than 0.5 us, and from the figure per unit than 0.02 us.\n"
+      "Exit code 1 if a statement of --check does not hold.\n"
+      "Topics: times\n"
       "Example: s7200 times --cpu 224 --csv > my_times.csv\n"
-      "         s7200 times cpu214 cpu214_from_22x my_times.csv\n"
-      "         s7200 times --check cpu214_from_22x --tip41 tip41.txt\n"
-      "Exit code 1 if a statement of --check does not hold.");
+      "Example: s7200 times cpu214 cpu214_from_22x my_times.csv\n"
+      "Example: s7200 times --check cpu214_from_22x --tip41 tip41.txt");
   verb->callback([options, &exit_code] { exit_code = run_times(*options); });
 }
 

@@ -254,6 +254,7 @@ DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, Deb
           .pause = &pause,
           .files = options.rig.recorded_files(),
           .colour = colour_wanted(stdout),
+          .width = output_width(),
           .progress = can_redraw(stderr) ? show_progress : std::function<void(std::string_view)>(),
           .written = rig.files(),
           .conditions = conditions(options.rig.settings(), rig.plan().plcs.front()),

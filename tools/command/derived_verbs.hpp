@@ -8,6 +8,9 @@ class App;
 
 namespace s7200::tools {
 
+/// `s7200 help [VERB|TOPIC]`: the help of a verb, or a list of a topic (help_topics.hpp).
+void derive_help(CLI::App& app, int& exit_code);
+
 /// `s7200 manual [VERB]`: the manual page, in roff.
 void derive_manual(CLI::App& app, int& exit_code);
 

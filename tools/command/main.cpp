@@ -13,6 +13,7 @@
 #include "tools/command/commands.hpp"
 #include "tools/command/derived_verbs.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/help_text.hpp"
 #include "tools/command/standard_streams.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/usage.hpp"
@@ -60,21 +61,23 @@ void add_verbs(CLI::App& app, std::string_view asked, int& exit_code) {
 }
 
 int run_command(int argc, char** argv) {
-  CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their Freeport on a simulated line."};
+  CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their ports on simulated lines."};
   app.name("s7200");
   app.require_subcommand(1);
   app.set_version_flag("-V,--version", fmt::format("s7200 {}", version()));
   app.failure_message(usage_error);
   app.footer(
-      "'s7200 help VERB' shows the options of a verb, and an example.\n"
       "Exit codes: 0 fine; 1 what was checked failed, or it was interrupted; 2 wrong usage, unreadable input, or output "
-      "that\n"
-      "cannot be written; 3 the CPU went to STOP on a fatal error. Ctrl-C, SIGTERM and SIGHUP end every wait, and what was\n"
-      "asked for is still written; a second Ctrl-C kills at once.\nExample: s7200 send stl_programs/modbus_slave.stl --crc "
-      "01030000000a");
+      "that cannot be written; 3 the CPU went to STOP on a fatal error. Ctrl-C ends every wait, and what was asked for is "
+      "still written; a second one kills at once.\n"
+      "Example: s7200 send stl_programs/modbus_slave.stl --crc 01030000000a --timeline");
+  app.formatter(help_layout());
+  app.set_help_flag("-h,--help", "show what most users need");
+  app.set_help_all_flag("--help-all", "show all options");
 
   int exit_code = kFine;
   add_verbs(app, argc > 1 ? argv[1] : "", exit_code);
+  derive_help(app, exit_code);
   derive_manual(app, exit_code);
   derive_complete(app, exit_code);
   refuse_empty_values(app);

@@ -6,7 +6,11 @@
 #include <algorithm>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/base/wrapped.hpp"
+#include "tools/command/help_text.hpp"
+#include "tools/command/help_topics.hpp"
 #include "tools/command/usage.hpp"
+#include "tools/command/verb_notes.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -65,54 +69,17 @@ std::string entry(std::string_view head, std::string_view meaning) {
 std::string bold(std::string_view text) { return fmt::format("\\fB{}\\fR", literal(text)); }
 std::string italic(std::string_view text) { return fmt::format("\\fI{}\\fR", literal(text)); }
 
-/// What the help says at its end, by what it is about.
-struct Footer {
-  std::vector<std::string> notes, exit_codes, examples;
-
-  explicit Footer(const std::string& footer) {
-    std::vector<std::string>* part = &notes;
-    for (std::string line : stl::split_lines(footer)) {
-      if (line.starts_with("Exit code")) part = &exit_codes;
-      if (line.starts_with(kExample)) {
-        part = &examples;
-        line.erase(0, kExample.size());
-      }
-      part->push_back(line);
-    }
-  }
-
- private:
-  static constexpr std::string_view kExample = "Example: ";
-};
-
-std::string filled(const std::vector<std::string>& lines) {
+std::string paragraphs(const std::vector<std::string>& lines) {
   std::string page;
-  for (const std::string& line : lines) page += text_line(line);
+  for (const std::string& line : lines) page += (page.empty() ? "" : ".PP\n") + text_line(line);
   return page;
 }
 
-/// `--cpu TYPE=214`, `-o,--output FILE`
+/// `--cpu TYPE`, `-o,--output FILE`
 std::string head_of(const CLI::Option& option) {
   if (option.get_positional()) return italic(option.get_name());
-  std::string head = bold(option.get_name(false, true));
-  if (option.get_items_expected_max() == 0) return head;
-  head += " " + italic(option.get_type_name());
-  if (!option.get_default_str().empty()) head += literal("=" + option.get_default_str());
-  return head;
-}
-
-std::string names_of(const std::set<CLI::Option*>& options) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : options) names.push_back(option->get_name());
-  std::ranges::sort(names);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-std::string meaning_of(const CLI::Option& option) {
-  std::string meaning = option.get_description();
-  if (!option.get_needs().empty()) meaning += "; needs " + names_of(option.get_needs());
-  if (!option.get_excludes().empty()) meaning += "; excludes " + names_of(option.get_excludes());
-  return meaning;
+  const std::string value = value_name(option);
+  return bold(option.get_name(false, true)) + (value.empty() ? "" : " " + italic(value));
 }
 
 std::string entries(const std::vector<const CLI::Option*>& options) {
@@ -121,30 +88,23 @@ std::string entries(const std::vector<const CLI::Option*>& options) {
   return page;
 }
 
-std::string arguments_of(const CLI::App& app) {
-  return entries(app.get_options([](const CLI::Option* option) { return option->get_positional(); }));
-}
-
-/// The groups of the help, those with a heading of their own below it.
 std::string options_of(const CLI::App& app) {
   std::string page;
-  for (const std::string& group : app.get_groups()) {
-    const std::string of_group = entries(app.get_options(
-        [&](const CLI::Option* option) { return option->get_group() == group && !option->get_positional(); }));
-    if (group.empty() || of_group.empty()) continue;
-    if (group != "Options") page += fmt::format(".SS \"{}\"\n", literal(group));
-    page += of_group;
+  for (const OptionGroup& group : option_groups(app)) {
+    const std::string heading = group.heading == "Options" ? "" : fmt::format(".SS \"{}\"\n", literal(group.heading));
+    page += heading + entries(group.options);
   }
   return page;
 }
 
-std::string synopsis(const CLI::App& app) {
-  std::string line = " [" + italic("OPTIONS") + "]";
-  for (const CLI::Option* option : app.get_options([](const CLI::Option* each) { return each->get_positional(); })) {
-    const std::string name = italic(option->get_name()) + (option->get_items_expected_max() > 1 ? "..." : "");
-    line += option->get_required() ? " " + name : " [" + name + "]";
-  }
-  return line;
+/// The lists that the verb refers to, each with its name as a heading.
+std::string topics_of(const VerbNotes& notes) {
+  constexpr std::size_t kColumns = 76;  // in lines of 80, with the indentation of a page
+  std::string page;
+  for (const std::string& name : notes.topics)
+    page += fmt::format(".SS \"{}\"\n", literal(name)) +
+            as_typed(stl::split_lines(stl::wrapped(find_help_topic(name)->text(), kColumns)));
+  return page;
 }
 
 std::string title(std::string_view name, std::string_view meaning) {
@@ -158,27 +118,29 @@ std::string title(std::string_view name, std::string_view meaning) {
 }  // namespace
 
 std::string page_of_command(const CLI::App& app) {
-  const Footer footer(app.get_footer());
-  std::string verbs, pages;
+  const VerbNotes notes(app.get_footer());
+  std::string verbs, topics, pages;
   for (const CLI::App* verb : listed_verbs(app)) {
     verbs += entry(bold(verb->get_name()), verb->get_description());
     pages += fmt::format("{}.BR s7200\\-{} (1)", pages.empty() ? "" : ",\n", verb->get_name());
   }
+  for (const HelpTopic& topic : help_topics()) topics += entry(bold(fmt::format("help {}", topic.name)), topic.meaning);
   return title("s7200", "run SIMATIC S7-200 STL programs in simulated time") +
-         section("SYNOPSIS", bold("s7200") + " " + italic("VERB") + synopsis(app) + "\n") +
-         section("DESCRIPTION", text_line(app.get_description()) + filled(footer.notes)) + section("VERBS", verbs) +
-         section("OPTIONS", options_of(app)) + section("EXIT STATUS", filled(footer.exit_codes)) +
-         section("EXAMPLES", as_typed(footer.examples)) + section("SEE ALSO", pages + "\n");
+         section("SYNOPSIS", bold("s7200") + " " + italic("VERB") + " " + literal(synopsis_of(app)) + "\n") +
+         section("DESCRIPTION", text_line(app.get_description()) + paragraphs(notes.notes)) + section("VERBS", verbs) +
+         section("TOPICS", topics) + section("OPTIONS", options_of(app)) +
+         section("EXIT STATUS", paragraphs(notes.exit_codes)) + section("EXAMPLES", as_typed(notes.examples)) +
+         section("SEE ALSO", pages + "\n");
 }
 
 std::string page_of_verb(const CLI::App& app, const CLI::App& verb) {
-  const Footer footer(verb.get_footer()), common(app.get_footer());
-  const auto& exit_codes = footer.exit_codes.empty() ? common.exit_codes : footer.exit_codes;
+  const VerbNotes notes(verb.get_footer()), common(app.get_footer());
+  const auto& exit_codes = notes.exit_codes.empty() ? common.exit_codes : notes.exit_codes;
   return title("s7200-" + verb.get_name(), verb.get_description()) +
-         section("SYNOPSIS", bold("s7200 " + verb.get_name()) + synopsis(verb) + "\n") +
-         section("ARGUMENTS", arguments_of(verb)) + section("OPTIONS", options_of(verb)) +
-         section("NOTES", as_typed(footer.notes)) + section("EXIT STATUS", filled(exit_codes)) +
-         section("EXAMPLES", as_typed(footer.examples)) + section("SEE ALSO", ".BR s7200 (1)\n");
+         section("SYNOPSIS", bold("s7200 " + verb.get_name()) + " " + literal(synopsis_of(verb)) + "\n") +
+         section("ARGUMENTS", entries(words_of(verb))) + section("OPTIONS", options_of(verb)) +
+         section("NOTES", paragraphs(notes.notes) + topics_of(notes)) + section("EXIT STATUS", paragraphs(exit_codes)) +
+         section("EXAMPLES", as_typed(notes.examples)) + section("SEE ALSO", ".BR s7200 (1)\n");
 }
 
 }  // namespace s7200::tools

@@ -76,7 +76,7 @@ int check_table(const CpuModel& model, const std::string& table, const std::stri
     results["statements"] = statements_json(statements);
     fmt::print("{}", lines_of(results));
   } else {
-    fmt::print("{}", statements_text(model, table, statements));
+    print_report(statements_text(model, table, statements));
   }
   if (statements.empty()) print_note(fmt::format("nothing is known of the times of CPU {}", model.name));
   return any_fails(statements) ? kCheckFailed : kFine;

@@ -1,11 +1,13 @@
 #include "tools/command/terminal.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdlib>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/base/wrapped.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
@@ -37,6 +39,14 @@ bool can_redraw(std::FILE* stream) {
   const char* type = std::getenv("TERM");
   return is_terminal(stream) && type && *type && std::string_view(type) != "dumb";
 }
+
+std::size_t output_width() {
+  winsize size{};
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : stl::kUsualWidth;
+}
+
+void print_report(std::string_view text) { fmt::print("{}", stl::wrapped(text, output_width())); }
 
 void print_file(std::string_view text) {
   fmt::print("{}", is_terminal(stdout) ? stl::printable_lines(text) : std::string(text));

@@ -1,6 +1,7 @@
 // What goes to the person: messages on stderr, colour only where it is wanted.
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -13,6 +14,12 @@ bool colour_wanted(std::FILE* stream);
 
 /// Whether what is on the screen can be written over: a terminal that knows control sequences.
 bool can_redraw(std::FILE* stream);
+
+/// How many characters a line on stdout has room for: as many as its terminal, or stl::kUsualWidth where there is none.
+std::size_t output_width();
+
+/// A report on stdout, in lines that keep to output_width().
+void print_report(std::string_view text);
 
 /// What could be a file, on stdout: as it is, but printable on a terminal.
 void print_file(std::string_view text);

@@ -46,7 +46,7 @@ void TestOutput::heading(const Scenario& scenario) {
 void TestOutput::show(const Report& report) {
   if (json_ || conformance_) return clear_progress();
   heading(*report.scenario);
-  fmt::print("{}", report_text(report, colour_wanted(stdout)));
+  fmt::print("{}", report_text(report, colour_wanted(stdout), output_width()));
   std::fflush(stdout);
 }
 
@@ -84,7 +84,7 @@ void TestOutput::end(const SuiteResult& result) {
     results["not_run"] = result.not_run;
     fmt::print("{}", lines_of(results));
   } else if (conformance_) {
-    fmt::print("{}", conformance_text(result.reports, result.tested, colour_wanted(stdout)));
+    print_report(conformance_text(result.reports, result.tested, colour_wanted(stdout)));
   } else {
     fmt::print("{}", summary_text(result.reports));
   }

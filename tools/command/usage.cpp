@@ -9,6 +9,7 @@
 
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/base/wrapped.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -17,6 +18,14 @@ std::vector<std::string> names_of(const std::vector<const CLI::App*>& verbs) {
   std::vector<std::string> names;
   for (const CLI::App* verb : verbs) names.push_back(verb->get_name());
   return names;
+}
+
+/// `there are` and the verbs, in lines that keep to the usual width.
+std::string there_are(const std::vector<std::string_view>& verbs) {
+  const std::string list = fmt::format("  {}", fmt::join(verbs, ", "));
+  std::string text = "there are\n" + stl::wrapped(list, stl::kUsualWidth);
+  text.pop_back();  // the end of its last line
+  return text;
 }
 
 /// `'chek' is not a verb; is check meant?`
@@ -28,7 +37,7 @@ std::string not_a_verb(const std::string& word, const std::vector<std::string>& 
   known.insert(known.end(), {"help", "version"});
   const std::string_view meant = nearest(CLI::detail::to_lower(word), known);
   const std::string shown = stl::shortened(word);
-  return meant.empty() ? fmt::format("'{}' is not a verb; there are {}", shown, fmt::join(known, ", "))
+  return meant.empty() ? fmt::format("'{}' is not a verb; {}", shown, there_are(known))
                        : fmt::format("'{}' is not a verb; did you mean {}?", shown, meant);
 }
 
@@ -90,7 +99,6 @@ std::optional<std::string> translated(std::string_view text, const ParserWords& 
   return fmt::format(fmt::runtime(words.ours), text.substr(0, place), rest);
 }
 
-bool is_help_word(const std::string& word) { return word == "help" || word == "version"; }
 
 }  // namespace
 
@@ -102,15 +110,8 @@ std::vector<std::string> as_options(const CLI::App& app, std::vector<std::string
   const std::vector<std::string> verbs = names_of(listed_verbs(app)), all = names_of(app.get_subcommands({}));
   const auto is_verb = [&](const std::string& word) { return std::find(all.begin(), all.end(), word) != all.end(); };
   if (arguments.empty())
-    throw CLI::ParseError(fmt::format("the verb is missing; there are {}", fmt::join(verbs, ", ")),
-                          CLI::ExitCodes::RequiredError);
-  if (arguments[0] == "help") {
-    arguments.erase(arguments.begin());
-    if (!arguments.empty() && is_help_word(arguments[0])) arguments.erase(arguments.begin());
-    arguments.insert(arguments.begin() + (arguments.empty() ? 0 : 1), "--help");
-  } else if (arguments[0] == "version") {
-    arguments[0] = "--version";
-  }
+    throw CLI::ParseError("the verb is missing; " + there_are({verbs.begin(), verbs.end()}), CLI::ExitCodes::RequiredError);
+  if (arguments[0] == "version") arguments[0] = "--version";
   if (arguments[0].starts_with('-') && app.get_option_no_throw(arguments[0]) == nullptr) {
     const bool any_verb = std::any_of(arguments.begin(), arguments.end(), is_verb);
     throw CLI::ParseError(not_an_option(arguments[0], app, any_verb), CLI::ExitCodes::ExtrasError);

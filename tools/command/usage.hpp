@@ -14,7 +14,7 @@ namespace s7200::tools {
 /// The verbs that the help lists.
 std::vector<const CLI::App*> listed_verbs(const CLI::App& app);
 
-/// The arguments as CLI11 knows them: `help VERB` is `VERB --help`, `version` is `--version`. Throws a CLI::ParseError, with
+/// The arguments as CLI11 knows them: `version` is `--version`. Throws a CLI::ParseError, with
 /// the verb that was probably meant, if the first is neither an option nor a verb.
 std::vector<std::string> as_options(const CLI::App& app, std::vector<std::string> arguments);
 

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/wrapped.hpp"
 #include "interpreter/trace/trace_lines.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/requester.hpp"
@@ -54,6 +55,7 @@ struct DebuggerOptions {
   std::atomic<bool>* pause = nullptr;
   std::string files{};  ///< that the records and captures write: "the trace"; "" for none
   bool colour = false;  ///< what is forced, and errors, are shown in red, stops in bold, trouble of a trace in yellow
+  std::size_t width = stl::kUsualWidth;  ///< of the lines of a timeline
   /// Shows how far a long command has come, in place of what it showed before; "" takes that away. None: nothing is shown.
   std::function<void(std::string_view text)> progress{};
   Time patience = 2 * kSecond;              ///< of the host: how long a command runs before it is shown
@@ -80,6 +82,9 @@ class Debugger {
 
   /// A message when a command is wrong: what was expected.
   using Error = std::optional<std::string>;
+
+  /// The list of all commands, and what is worth knowing of them, in lines of any length.
+  static std::string commands_help();
 
   /// The simulation has been powered up; `restart` goes back to how it is now. Both must live as long as this.
   Debugger(serial::Simulation& simulation, std::ostream& out, const DebuggerOptions& options);

@@ -7,6 +7,7 @@
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/base/wrapped.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/debugger.hpp"
@@ -19,6 +20,7 @@
 #include "tools/debugger/stop_words.hpp"
 #include "tools/session/causes/two_masters.hpp"
 #include "tools/session/past/past_words.hpp"
+#include "tools/views/faults.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -255,7 +257,7 @@ ready for the next request.)",
       {"fault", "", "fault KIND[:PARAMETER=VALUE,…] [station=NAME] | none",
        "inject a fault on the line, or clear all faults",
        R"(As --fault of 's7200 run': fault flip:character=3,bit=5, fault noise:ber=0.001, fault cut:from=2ms. It counts
-exchanges and times from now; 's7200 run --help' has all parameters. In a system station=NAME says whose characters it
+exchanges and times from now; 's7200 help faults' has all parameters. In a system station=NAME says whose characters it
 strikes, as 'station' of a system file: fault parity:character=2 station=slave2. Going back undoes it. Alone: the
 faults in force, and how often each has happened.)",
        &Debugger::fault, Takes::Faults, false, "none"},
@@ -479,11 +481,16 @@ Debugger::Error Debugger::layout(const Arguments& arguments) {
   return layout_.turn(word == "on");
 }
 
+std::string Debugger::commands_help() {
+  std::string text;
+  for (const Command& command : commands())
+    text += fmt::format("{:<3} {:<33}  {}\n", command.short_form, command.syntax, command.meaning);
+  return text.append(kAboutCommands);
+}
+
 Debugger::Error Debugger::help(const Arguments& arguments) {
   if (arguments.empty()) {
-    for (const Command& command : commands())
-      out_ << fmt::format("{:<3} {:<33} {}\n", command.short_form, command.syntax, command.meaning);
-    out_ << kAboutCommands;
+    out_ << stl::wrapped(commands_help(), stl::kUsualWidth);
     return {};
   }
   std::string why;
@@ -496,8 +503,7 @@ Debugger::Error Debugger::help(const Arguments& arguments) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   if (command->takes == Takes::Faults)
-    for (const serial::FaultKindInfo& kind : serial::fault_kinds())
-      out_ << fmt::format("  {:<10} {:<58} {}\n", kind.name, kind.meaning, kind.example);
+    out_ << stl::wrapped(fault_kinds_text(), stl::kUsualWidth);
   if (!command->short_form.empty()) out_ << fmt::format("  short: {}\n", command->short_form);
   return {};
 }

@@ -191,7 +191,8 @@ Debugger::Error Debugger::timeline(const Arguments& arguments) {
   const std::shared_ptr<const Program> program(std::shared_ptr<void>(), &simulation().cpu().program());  // not owned
   const auto report =
       at_length([&] { return timeline_of_past(history_, focus(), program, exchange.request_start, options_.stop_request); });
-  out_ << (report ? to_text(*report, exchange, options_.colour) : fmt::format("{}\n", interruption_text()));
+  out_ << (report ? stl::wrapped(to_text(*report, exchange, options_.colour), options_.width)
+                  : fmt::format("{}\n", interruption_text()));
   return {};
 }
 

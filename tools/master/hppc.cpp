@@ -477,8 +477,8 @@ const Protocol& hppc_protocol() {
                    .without_first = kNoResync,
                    .repeats = [](std::uint16_t code) { return code == kLinkError; }},
       .choices =
-          "--timeout, --retries, --before-retry, --no-resync [H9],\n"
-          "                                        --read-request [H4], --bit-write [H5], --monitor-address-bytes [H6]",
+          "--timeout, --retries, --before-retry, --no-resync [H9], --read-request [H4], --bit-write [H5], "
+          "--monitor-address-bytes [H6]",
       .plcs = westinghouse::find_plc("hppc")};
   return protocol;
 }

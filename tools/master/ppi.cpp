@@ -552,8 +552,7 @@ const Protocol& ppi_protocol() {
       .actions_help = "Actions of --protocol ppi, to station 2 unless another is given:\n" +
                       verbs_help(std::span<const PpiVerb>(kVerbs)) +
                       "  On the line each but status is two exchanges or more, the request and polls for its answer: "
-                      "exchange=2 of a fault\n"
-                      "  is the first poll.\n",
+                      "exchange=2 of a fault is the first poll.\n",
       .action_words = verb_words(std::span<const PpiVerb>(kVerbs)),
       .actions = actions,
       .is_complete = is_complete,

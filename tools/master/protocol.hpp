@@ -153,8 +153,11 @@ const Protocol* find_protocol(std::string_view name);
 /// The frames of the actions that are raw ones, as they were written.
 std::vector<std::string> raw_frames(const std::vector<MasterAction>& actions);
 
-/// All of them with their actions, for --help.
+/// All of them with their actions, for the help.
 std::string protocols_help();
+
+/// The settings of simulated PLCs of another make, by protocol and model.
+std::string simulated_plcs_help();
 
 const Protocol& modbus_protocol();
 const Protocol& freeport_pc_protocol();

@@ -37,10 +37,15 @@ std::string protocols_help() {
   for (const Protocol* protocol : protocols()) text += fmt::format("  {:<38}{}\n", protocol->name, protocol->meaning);
   for (const Protocol* protocol : protocols()) text += protocol->actions_help;
   text +=
-      "What documents leave open of a master; [M1] and the like mark choices where the document is silent, here and "
-      "below:\n";
+      "What documents leave open of a master; [M1] and the like mark choices where the document is silent, here and in the "
+      "settings of westinghouse:MODEL:\n";
   for (const Protocol* protocol : protocols())
     if (!protocol->choices.empty()) text += fmt::format("  {:<38}{}\n", protocol->name, protocol->choices);
+  return text;
+}
+
+std::string simulated_plcs_help() {
+  std::string text;
   for (const Protocol* protocol : protocols())
     if (protocol->plcs != nullptr)
       text += fmt::format("Settings of westinghouse:MODEL with --protocol {}, {}:\n{}", protocol->name,

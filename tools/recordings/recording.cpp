@@ -19,8 +19,8 @@ namespace {
 constexpr std::array kForms{
     RecordingForm{
         "pcap",
-        "pcap of a serial line, as --capture writes it (link types 147 to 162), of an RTAC (250), of a USB adapter\n"
-        "    (189, 220, 249: FTDI, CP210x, CH340, PL2303, CDC-ACM), or of Modbus TCP",
+        "pcap of a serial line, as --capture writes it (link types 147 to 162), of an RTAC (250), of a USB adapter "
+        "(189, 220, 249: FTDI, CP210x, CH340, PL2303, CDC-ACM), or of Modbus TCP",
         false, looks_like_pcap, read_pcap},
     RecordingForm{"VCD", "VCD with the levels of a line, as --capture and logic analysers write it", false, looks_like_vcd,
                   read_vcd},

@@ -25,7 +25,7 @@ inline constexpr std::array kBridges{
     BridgeRow{BridgeKind::Tcp, "--tcp", kPortPlace,
               "raw bytes over TCP, clients share the line; without ADDRESS for this computer only"},
     BridgeRow{BridgeKind::Rfc2217, "--rfc2217", kPortPlace,
-              "a serial port over TCP whose rate, parity, data bits and break the client sets"},
+              "a serial port over TCP; the client sets its rate, parity, data bits and break"},
     BridgeRow{BridgeKind::RtuOverTcp, "--rtu-over-tcp", kPortPlace, "Modbus RTU frames over TCP; clients take turns"},
     BridgeRow{BridgeKind::ModbusTcp, "--modbus-tcp", kPortPlace, "a gateway from Modbus TCP; unit 0 is broadcast"},
     BridgeRow{BridgeKind::Device, "--device", "DEVICE",

@@ -7,6 +7,7 @@
 
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/base/wrapped.hpp"
 #include "tools/scenario/bytes_diff.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/text_frame.hpp"
@@ -17,6 +18,9 @@ namespace {
 using Outcome = ScenarioResult::Outcome;
 
 constexpr const char* kIndent = "      ";
+
+/// Where the text of a field begins.
+constexpr std::size_t kFieldColumn = 16;
 
 std::string indented(const std::string& text, const std::string& indent) {
   std::string result;
@@ -77,14 +81,14 @@ std::string field_lines(std::string_view text) {
   return result;
 }
 
-std::string finding_text(const Scenario& scenario, const Finding& finding, bool colour) {
+std::string finding_text(const Scenario& scenario, const Finding& finding, bool colour, std::size_t width) {
   const Step* step = step_of(scenario, finding);
   const stl::Position position = position_of(scenario, finding);
   const std::string loop = step && !step->loop.empty() ? fmt::format("   (with {})", stl::printable(step->loop)) : "";
   std::string text = fmt::format("    {} {}{}\n", painted(place_of(scenario, position) + ":", kBold, colour),
                                  line_of(scenario, position), loop);
   if (step && !step->note.empty()) text += kIndent + stl::printable(step->note) + '\n';
-  if (is_one_value(finding)) return text + field_lines(value_sentence(finding));
+  if (is_one_value(finding)) return text + stl::wrapped(field_lines(value_sentence(finding)), width);
   text += fmt::format("{}{} is not what was expected\n", kIndent, finding.what);
   if (finding.exchange && !finding.exchange->request.empty())
     text += field("request", shortened_hex(serial::bytes_of(finding.exchange->request)));
@@ -97,8 +101,8 @@ std::string finding_text(const Scenario& scenario, const Finding& finding, bool 
   }
   if (!finding.expected.empty()) text += field("expected", finding.expected);
   if (!finding.found.empty()) text += field("found", finding.found);
-  for (const std::string& why : finding.why) text += field("why", why);
-  if (!finding.timeline.empty()) text += painted(indented(finding.timeline, kIndent), kDim, colour);
+  for (const std::string& why : finding.why) text += stl::wrapped(field("why", why), width, kFieldColumn);
+  if (!finding.timeline.empty()) text += painted(stl::wrapped(indented(finding.timeline, kIndent), width), kDim, colour);
   return text;
 }
 
@@ -159,11 +163,11 @@ std::size_t count(const std::vector<Report>& reports, Outcome outcome) {
 
 std::string_view severity_text(Rule::Severity severity) { return severity == Rule::Severity::Must ? "must" : "should"; }
 
-std::string findings_text(const Report& report, bool colour, std::size_t most) {
+std::string findings_text(const Report& report, bool colour, std::size_t most, std::size_t width) {
   std::string text;
   const std::vector<Finding>& findings = report.result.findings;
   for (std::size_t i = 0; i < std::min(most, findings.size()); ++i)
-    text += finding_text(*report.scenario, findings[i], colour);
+    text += finding_text(*report.scenario, findings[i], colour, width);
   if (findings.size() > most) text += fmt::format("    and {} more\n", findings.size() - most);
   return text;
 }
@@ -211,7 +215,7 @@ static std::string debug_text(const Report& report) {
   return command.empty() || report.result.outcome != Outcome::Failed ? "" : field("debug", command);
 }
 
-std::string report_text(const Report& report, bool colour, std::size_t most) {
+std::string report_text(const Report& report, bool colour, std::size_t width) {
   const ScenarioResult& result = report.result;
   std::string remark;
   if (!result.reason.empty()) remark = fmt::format("   ({})", reason_text(result));
@@ -223,7 +227,8 @@ std::string report_text(const Report& report, bool colour, std::size_t most) {
   const std::string time = result.outcome == Outcome::Skipped ? "" : format_duration(result.time, 1);
   return fmt::format("  {}  {:>10}  {}{}\n", outcome_text(result.outcome, colour), time,
                      stl::printable(report.scenario->name), stl::printable(remark)) +
-         (result.outcome == Outcome::ExpectedFailure ? "" : findings_text(report, colour, most)) + debug_text(report);
+         (result.outcome == Outcome::ExpectedFailure ? "" : findings_text(report, colour, kFindingsShown, width)) +
+         debug_text(report);
 }
 
 std::string summary_text(const std::vector<Report>& reports) {

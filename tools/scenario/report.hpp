@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/wrapped.hpp"
 #include "tools/scenario/result.hpp"
 #include "tools/scenario/scenario.hpp"
 
@@ -35,11 +36,12 @@ std::string band_text(const BandResult& band);
 /// Why it was skipped, or that it failed as was expected.
 std::string reason_text(const ScenarioResult& result);
 
-/// `  pass     52.3 ms  reads coils from any bit on`, and below it what was found instead, up to `most` findings.
-std::string report_text(const Report& report, bool colour, std::size_t most = kFindingsShown);
+/// `  pass     52.3 ms  reads coils from any bit on`, and below it what was found instead, in lines of `width` characters as
+/// far as they are sentences and timelines.
+std::string report_text(const Report& report, bool colour, std::size_t width = stl::kUsualWidth);
 
-/// What was found instead.
-std::string findings_text(const Report& report, bool colour, std::size_t most);
+/// What was found instead, up to `most` findings.
+std::string findings_text(const Report& report, bool colour, std::size_t most, std::size_t width = stl::kUsualWidth);
 
 /// `s7200 debug tests/pump.yaml --only 'it starts'`, which opens a scenario that failed at what it found; empty of one that
 /// cannot be opened: it is not about one program in simulation.

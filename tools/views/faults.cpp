@@ -63,6 +63,13 @@ bool still_cuts(const Faults::Injected& injected, Time now) {
 
 }  // namespace
 
+std::string fault_kinds_text() {
+  std::string text;
+  for (const serial::FaultKindInfo& kind : serial::fault_kinds())
+    text += fmt::format("  {:<43} {}\n", kind.example, kind.meaning);
+  return text;
+}
+
 std::string described(const serial::Fault& fault) {
   const serial::FaultKindInfo& kind = serial::info_of(fault.kind);
   const std::string written = serial::to_text(fault);

@@ -17,6 +17,9 @@ std::string described(const serial::Fault& fault);
 using StationName = std::function<std::string(int driver)>;
 inline std::string without_names(int) { return {}; }
 
+/// The kinds of faults, an example and its meaning for each, one a line.
+std::string fault_kinds_text();
+
 /// What has happened so far, a line for each fault.
 std::vector<std::string> fault_notes(const serial::Faults& faults, const StationName& station = without_names);
 

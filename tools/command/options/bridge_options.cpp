@@ -9,15 +9,11 @@
 #include "tools/bridge/device_bridge.hpp"
 #include "tools/bridge/pty_bridge.hpp"
 #include "tools/bridge/tcp_bridges.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/terminal.hpp"
 
 namespace s7200::tools {
-namespace {
-
-constexpr const char* kBridgeGroup = "Bridges: join the line to masters outside, in real time, one of";
-
-}  // namespace
 
 std::unique_ptr<Bridge> make_bridge(BridgeKind kind, const std::string& where, const serial::LineSettings& line,
                                     Time timeout, std::string& why) {
@@ -46,23 +42,22 @@ LiveMessages print_live_messages() {
 
 void BridgeOptions::add_bridges(CLI::App& app) {
   for (const BridgeRow& row : kBridges) {
-    std::string meaning(row.meaning);
-    if (row.kind == BridgeKind::Pty) meaning += " (see the end about parity)";
-    app.add_option(std::string(row.option), where_[static_cast<std::size_t>(row.kind)], meaning)
+    app.add_option(std::string(row.option), where_[static_cast<std::size_t>(row.kind)], std::string(row.meaning))
         ->type_name(std::string(row.place))
-        ->group(kBridgeGroup);
+        ->group(help_group::kBridge);
   }
 }
 
 void BridgeOptions::add_pace(CLI::App& app) {
-  app.add_flag("--realtime", realtime_, "as fast as the clock; with a bridge that is so of itself");
+  app.add_flag("--realtime", realtime_, "as fast as the clock; with a bridge that is so of itself")->group(help_group::kRun);
   add_real_number(
       app, "--speed",
       [this](double speed) {
         speed_ = speed;
         speed_given_ = true;
       },
-      {0.001, 1000}, "how many times as fast as the clock, for example 20 or 0.5, with a bridge too", "1");
+      {0.001, 1000}, "times as fast as the clock, with a bridge too", "1")
+      ->group(help_group::kRun);
 }
 
 void BridgeOptions::add_to(CLI::App& app) {

@@ -42,11 +42,6 @@ class BridgeOptions {
   void add_bridges(CLI::App& app);
   void set_line(const serial::LineSettings& line) { line_ = line; }
 
-  /// For the end of the help.
-  static constexpr const char* kAboutPty =
-      "A pty shows the rate, stop bits and odd parity of its client, but none and even parity only if the client sets\n"
-      "INPCK, and never 7 data bits: otherwise these are the program's, or what --parity and --data-bits say.\n";
-
   /// Makes the bridge asked for. False after a message: more than one, or an address that is not one.
   bool prepare();
 

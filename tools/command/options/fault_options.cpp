@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "interpreter/base/text.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/terminal.hpp"
 
 namespace s7200::tools {
@@ -20,9 +21,10 @@ std::size_t columns(std::string_view text) {
 }  // namespace
 
 void FaultOptions::add_to(CLI::App& app) {
-  app.add_option("--fault", texts_, "a fault of the line, see below (repeatable)")
+  app.add_option("--fault", texts_, "a fault of the line: s7200 help faults (repeatable)")
       ->type_name("KIND:PARAMETER=VALUE,...")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group(help_group::kLine);
 }
 
 bool FaultOptions::prepare() {
@@ -44,16 +46,6 @@ void print_fault_error(const serial::FaultError& error, std::string_view text) {
   print_error(fmt::format("--fault, column {}: {}", error.column, error.message));
   fmt::print(stderr, "  {}\n  {}^{}\n", stl::printable(text), std::string(columns(text.substr(0, before)), ' '),
              std::string(width - 1, '~'));
-}
-
-std::string fault_help() {
-  std::string text = "Faults: KIND or KIND:PARAMETER=VALUE,PARAMETER=VALUE...\n";
-  for (const serial::FaultKindInfo& kind : serial::fault_kinds())
-    text += fmt::format("  {:<10} {:<58} {}\n", kind.name, kind.meaning, kind.example);
-  text += "Their parameters, each where it makes sense; a wrong one is answered with those that a fault has:\n";
-  for (const serial::FaultParameter& parameter : serial::fault_parameters())
-    text += fmt::format("  {:<12} {:<24} {}\n", parameter.name, parameter.values, parameter.meaning);
-  return text;
 }
 
 }  // namespace s7200::tools

@@ -34,7 +34,4 @@ class FaultOptions {
 ///                ^
 void print_fault_error(const serial::FaultError& error, std::string_view text);
 
-/// The kinds of faults with their parameters, one a line, for --help.
-std::string fault_help();
-
 }  // namespace s7200::tools

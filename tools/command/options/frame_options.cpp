@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {
@@ -31,10 +32,12 @@ void FrameOptions::add_to(CLI::App& app) {
                      "frames in hex, each in quotes if it has blanks: '01 03 …'; p after a byte sends it with wrong parity");
   text_ = app.add_option("--text", texts_, "frame of ASCII text, with \\r \\n \\t \\\\ \\' \\\" and \\xHH (repeatable)")
               ->type_name("TEXT")
-              ->allow_extra_args(false);
+              ->allow_extra_args(false)
+              ->group(help_group::kRequests);
   app.add_option("--frames", file_, "file with one frame a line, in hex, or as text in quotation marks; # begins a comment")
-      ->type_name("FILE");
-  app.add_flag("--crc", crc_, "append the Modbus CRC to each frame");
+      ->type_name("FILE")
+      ->group(help_group::kRequests);
+  app.add_flag("--crc", crc_, "append the Modbus CRC to each frame")->group(help_group::kRequests);
 }
 
 std::optional<std::vector<serial::Frame>> FrameOptions::read(std::string& why) const {

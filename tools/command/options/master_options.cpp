@@ -10,6 +10,7 @@
 
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tools/command/options/choices.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 
@@ -58,21 +59,29 @@ bool has_option(const Protocol& protocol, std::string_view name) {
 
 void MasterOptions::add_to(CLI::App& app) {
   offer_other_plcs(
-      app.add_option("TARGET", target, "a PROGRAM to run in simulation, a device, or an address; see below")->required());
+      app.add_option("TARGET", target, "a PROGRAM to run in simulation, a serial device, or an address: s7200 help targets")
+          ->required());
   std::vector<OfferedWith> actions;
   for (const Protocol* one : protocols()) actions.push_back({std::string(one->name), one->action_words});
-  offer_with(app.add_option("ACTION", words, "what to do, see below"), "--protocol", actions);
-  add_protocol_option(app, protocol, {protocols().begin(), protocols().end()}, "what to speak");
+  offer_with(
+      app.add_option("ACTION", words, "what to do, such as read 40001:4 write 40011=5 slave-id: s7200 help protocols"),
+      "--protocol", actions);
+  add_protocol_option(app, protocol, {protocols().begin(), protocols().end()}, "what to speak")
+      ->group(help_group::kRequests);
   add_whole_number(
       app, "--station", [this](std::uint64_t given) { station_ = static_cast<std::uint8_t>(given); }, {0, UINT8_MAX},
       "station to ask; in Modbus 0 is all, 248 on TCP, other makes",
-      usual([](const Protocol& one) { return one.station ? std::to_string(*one.station) : std::string(); }));
+      usual([](const Protocol& one) { return one.station ? std::to_string(*one.station) : std::string(); }))
+      ->group(help_group::kRequests);
   add_protocol_options(app);
   auto* interval = add_duration(app, "--every", every, "repeat all actions at this interval, in a table",
-                                {kMicrosecond, kLongestDuration});
+                                {kMicrosecond, kLongestDuration})
+                       ->group(help_group::kRequests);
   app.add_flag("--continuous", continuous, "repeat all actions without a pause; only failures and statistics are shown")
-      ->excludes(interval);
-  add_whole_number(app, "--count", count, {1, UINT64_MAX}, "how often to repeat", "until Ctrl-C");
+      ->excludes(interval)
+      ->group(help_group::kRequests);
+  add_whole_number(app, "--count", count, {1, UINT64_MAX}, "how often to repeat", "until Ctrl-C")
+      ->group(help_group::kRequests);
   add_whole_number(
       app, "--retries", [this](std::uint64_t given) { retries_ = static_cast<int>(given); }, {0, 1'000'000},
       "repeat after silence, wrong answer, lost connection",
@@ -82,9 +91,9 @@ void MasterOptions::add_to(CLI::App& app) {
                            usual([](const Protocol& one) { return format_duration(one.patience.pause); })));
   const std::string quiet = serial::default_quiet_text();
   add_duration(app, "--pause", pause, fmt::format("pause between an answer and the next request [in simulation {}]", quiet));
-  app.add_flag("-v,--verbose", verbose,
-               "show requests and answers in hex, over Modbus TCP too as they are on a serial line");
-  app.add_flag("--json", json, "print all exchanges and the statistics as JSON");
+  app.add_flag("-v,--verbose", verbose, "show requests and answers in hex, over Modbus TCP too as they are on a serial line")
+      ->group(help_group::kResults);
+  app.add_flag("--json", json, "print all exchanges and the statistics as JSON")->group(help_group::kResults);
 
   const auto line = added_by(app, [&] { add_master_options(app, master); });
   for (CLI::Option* option : line) {
@@ -107,6 +116,7 @@ void MasterOptions::add_to(CLI::App& app) {
     add_duration(app, "--after", after,
                  fmt::format("when to send the first request [after the first scan and {} of silence]", quiet));
   });
+  for (const char* rare : {"--strict", "--output", "--memory", "--with"}) app.get_option(rare)->group(help_group::kMore);
 }
 
 /// Those of all protocols. What several have means the same to each of them.

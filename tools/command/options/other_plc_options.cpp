@@ -8,6 +8,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/choices.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/rig/other_plc.hpp"
 #include "tools/slave/slave_target.hpp"
 
@@ -41,9 +42,10 @@ std::vector<const Protocol*> protocols_of_other_plcs() {
 }
 
 CLI::Option* OtherPlcOptions::add_to(CLI::App& app) {
-  return app.add_option("--plc", settings_, "setting of a simulated PLC of another make, see below (repeatable)")
+  return app.add_option("--plc", settings_, "setting of westinghouse:MODEL: s7200 help westinghouse (repeatable)")
       ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group(help_group::kLine);
 }
 
 void offer_other_plcs(CLI::Option* target) {

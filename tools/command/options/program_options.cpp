@@ -12,6 +12,7 @@
 #include "interpreter/program/load_times.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/choices.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
@@ -36,7 +37,8 @@ void add_cpu_option(CLI::App& app, std::string& cpu, const std::string& text) {
   for (const CpuModel* each : all_cpus()) names.emplace_back(each->name);
   offer(app.add_option("--cpu", cpu, text), names)
       ->check([](const std::string& name) { return find_cpu(name) ? "" : unknown_cpu(name); })
-      ->type_name("TYPE");
+      ->type_name("TYPE")
+      ->group(help_group::kProgram);
 }
 
 void add_no_skip_option(CLI::App& app, bool& every_scan) {
@@ -75,10 +77,7 @@ void CpuOptions::add_cpu_and_times_to(CLI::App& app, const std::string& meaning)
   std::vector<std::string> tables;
   for (const NamedTimes& times : named_times()) tables.emplace_back(times.name);
   offer_beside_files(
-      app.add_option(
-          "--times", times_table,
-          "table of execution times: a name that `s7200 times` lists, or a CSV file; what it leaves out is as usual"),
-      tables)
+      app.add_option("--times", times_table, "table of execution times: a name (s7200 help times) or a CSV file"), tables)
       ->type_name("TABLE");
 }
 
@@ -163,14 +162,15 @@ void ProgramOptions::add_files_to(CLI::App& app) {
            path = files.front();
            parts.insert(parts.end(), std::next(files.begin()), files.end());
          },
-         "STL file (.stl, .awl, .txt) or published document, and the other files of its project; - is standard input")
+         "STL file or published document, and the other files of its project; - is standard input")
       ->required();
 }
 
 void ProgramOptions::add_parts_to(CLI::App& app) {
   app.add_option("--with", parts, "another file of the program's project: symbol table, data block, block (repeatable)")
       ->type_name("FILE")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group(help_group::kProgram);
 }
 
 std::shared_ptr<const Program> ProgramOptions::load(int& exit_code) const {

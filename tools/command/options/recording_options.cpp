@@ -8,6 +8,7 @@
 
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/input.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
@@ -50,12 +51,13 @@ void RecordingOptions::add_to(CLI::App& verb) {
   std::vector<std::string> names;
   for (const RecordedProtocol& each : recorded_protocols()) names.emplace_back(each.name);
   verb.add_option("FILE", file,
-                  "a recording (forms: s7200 decode --help); - is standard input; or a line: a device, tcp://HOST:PORT")
+                  "a recording (s7200 help recordings); - is standard input; or a line: a device, tcp://HOST:PORT")
       ->required();
   verb.add_option("--protocol", protocol, "what was spoken")
       ->check(CLI::IsMember(names))
       ->capture_default_str()
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->group(help_group::kLine);
   add_reader_options(verb, chosen);
   add_line_options(verb, line, "as the protocol has it");
   for_files_.push_back(verb.add_option("--stamps", stamps, "which instant of a frame its time is, in a recording")
@@ -86,6 +88,7 @@ void RecordingOptions::add_to(CLI::App& verb) {
                                "of a recording that counts samples and does not say how many there are in a second")
                            ->type_name("RATE"));
   for_lines_.push_back(add_duration(verb, "--for", duration, "how long to listen to a line [until Ctrl-C]"));
+  for (const char* often : {"--timeout", "--for"}) verb.get_option(often)->group(help_group::kLine);
 }
 
 std::optional<SlaveTarget> RecordingOptions::live() const {

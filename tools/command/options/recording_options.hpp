@@ -76,8 +76,8 @@ bool listen(LineListener& line, const RecordingOptions& options, const std::func
 
 /// What the help says of how listening ends.
 inline constexpr std::string_view kEndOfListening =
-    "Exit code 1 if --for was interrupted before its end; without it a line is listened to until Ctrl-C\n"
-    "or SIGTERM, and that is 0.\n";
+    "Exit code 1 if --for was interrupted before its end; without it a line is listened to until Ctrl-C or "
+    "SIGTERM, and that is 0.\n";
 
 /// A file without its frames, which tell_frames() has. Nothing after a message; nothing is in it if an interruption came
 /// while it was read. Notes are printed. Interruptions are noted from here on.

@@ -10,6 +10,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/system_options.hpp"
 #include "tools/command/terminal.hpp"
@@ -26,25 +27,29 @@
 namespace s7200::tools {
 
 void RigOptions::add_to(CLI::App& app) {
-  app.add_option("--set", set_, "memory or inputs before the first scan: VW100=5, I0.3=1, Speed=7, SM0.7=0 (repeatable)")
+  app.add_option("--set", set_,
+                 "memory or inputs before the first scan: VW100=5, I0.3=1; symbols too, Speed=7; SM0.7=0 (repeatable)")
       ->type_name("ADDRESS=VALUE")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group(help_group::kMemory);
   app.add_option("--dump", settings_.dump_names,
-                 "memory to show at the end: VB0:16, VW100, AC0, VD20:real, Speed (repeatable)")
+                 "memory to show at the end: VB0:16, VW100, AC0, VD20:real; symbols too, Speed (repeatable)")
       ->type_name("ADDRESS[:COUNT]")
-      ->allow_extra_args(false);
-  app.add_option(
-         "--input", settings_.input,
-         "I, AIW, SMB28, SMB29 and SM0.7 over time, CSV rows such as 10ms,I0.3,1  1s,SM0.7,0  1s,I0.6,pulses,5kHz,200ms")
-      ->type_name("FILE");
+      ->allow_extra_args(false)
+      ->group(help_group::kMemory);
+  app.add_option("--input", settings_.input, "inputs over time: CSV rows such as 10ms,I0.3,1 (s7200 help files)")
+      ->type_name("FILE")
+      ->group(help_group::kMemory);
   app.add_option("--output", settings_.output,
-                 "write each change of an output (Q, AQ) to FILE: CSV, or waves if it ends in .vcd; - is standard output")
-      ->type_name("FILE");
+                 "write each change of an output (Q, AQ): CSV, or waves in FILE.vcd; - is standard output")
+      ->type_name("FILE")
+      ->group(help_group::kMemory);
   MemorySettings& memory = settings_.memory;
   auto* file =
       app.add_option("--memory", memory.path,
-                     "retentive memory, EEPROM and clock: read from FILE at power-up if it exists, written at the end")
-          ->type_name("FILE");
+                     "keep retentive memory and EEPROM; with the clock, read at power-up if FILE exists, written at the end")
+          ->type_name("FILE")
+          ->group(help_group::kMemory);
   auto* lost =
       app.add_flag("--ram-lost", memory.ram_lost, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1");
   auto* off = add_duration(app, "--power-off", memory.power_off, "how long power was off since --memory was written [0s]");
@@ -62,13 +67,16 @@ void RigOptions::add_to(CLI::App& app) {
          },
          "time of day at the start")
       ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
-  app.add_flag("--strict", strict_, "end with exit code 1 at the first run-time error of the program");
+  app.add_flag("--strict", strict_, "end with exit code 1 at the first run-time error of the program")
+      ->group(help_group::kRun);
   add_whole_number(app, "--port", settings_.port, {0, 1}, "the port of the PLC that all this is about", "0");
   faults_.add_to(app);
-  auto* trace = app.add_option("--trace", settings_.trace,
-                               "write interrupts, characters, attachments, errors and the main program's way to FILE; - is "
-                               "standard output")
-                    ->type_name("FILE");
+  auto* trace =
+      app.add_option("--trace", settings_.trace,
+                     "write what happens in the CPU; interrupts, characters, attachments, errors and the main program's "
+                     "way; - is standard output")
+          ->type_name("FILE")
+          ->group(help_group::kResults);
   auto* all =
       app.add_flag_callback(
              "--trace-instructions", [this] { settings_.trace_detail = TraceDetail::Instructions; },
@@ -80,10 +88,10 @@ void RigOptions::add_to(CLI::App& app) {
       ->needs(trace)
       ->excludes(all);
   app.add_option("--capture", settings_.captures,
-                 "write the line to FILE.vcd (levels, for sigrok) or FILE.pcap (frames, for Wireshark); "
-                 "repeatable")
+                 "write the line to FILE.vcd (levels) or FILE.pcap (frames); for sigrok and Wireshark (repeatable)")
       ->type_name("FILE")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group(help_group::kResults);
 }
 
 std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& program, bool json,

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/rig/system_keys.hpp"
 
@@ -13,8 +14,10 @@ void RunOptions::add_to(CLI::App& app) {
   program.add_files_to(app);
   offer_other_plcs(app.get_option("PROGRAM"));
   program.CpuOptions::add_to(app);
-  add_duration(app, "--for", duration, "how long, in simulated time [1s; with a bridge until Ctrl-C]");
-  add_whole_number(app, "--scans", scans, {1, UINT64_MAX}, "how many scans; with --for whichever comes first ends the run");
+  add_duration(app, "--for", duration, "how long, in simulated time [1s; with a bridge until Ctrl-C]")
+      ->group(help_group::kRun);
+  add_whole_number(app, "--scans", scans, {1, UINT64_MAX}, "how many scans; with --for whichever comes first ends the run")
+      ->group(help_group::kRun);
   bridge.add_to(app);
   rig.add_to(app);
   for_other_plcs = {add_protocol_option(app, protocol, protocols_of_other_plcs(), "what westinghouse:MODEL speaks"),
@@ -26,7 +29,7 @@ void RunOptions::add_to(CLI::App& app) {
         throw CLI::Success();
       },
       "print what a system file may contain, as Markdown");
-  app.add_flag("--json", json, "print the results as JSON");
+  app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
 }
 
 }  // namespace s7200::tools

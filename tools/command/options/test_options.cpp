@@ -7,6 +7,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
@@ -26,15 +27,20 @@ void refuse_if(bool condition, const char* why) {
 
 void TestOptions::add_to(CLI::App& app) {
   app.add_option("FILE", suite.files, "scenarios, or folders with .yaml files");
-  app.add_option("--with", suite.with, "values for the parameters of the scenarios, a YAML map")->type_name("FILE");
+  app.add_option("--with", suite.with, "values for the parameters of the scenarios, a YAML map")
+      ->type_name("FILE")
+      ->group(help_group::kRun);
   app.add_option("--conformance", suite.conformance,
                  "look whether a slave keeps the rules of Modbus RTU; the file describes the slave")
-      ->type_name("DESCRIPTION");
-  app.add_option("--target", suite.target, "what is tested, instead of the program a scenario names; see below")
-      ->type_name("TARGET");
+      ->type_name("DESCRIPTION")
+      ->group(help_group::kRun);
+  app.add_option("--target", suite.target, "what is tested, instead of the program a scenario names: s7200 help targets")
+      ->type_name("TARGET")
+      ->group(help_group::kRun);
   app.add_option("--against", against,
                  "send the same to another program and show where the answers or their times differ first")
-      ->type_name("TARGET");
+      ->type_name("TARGET")
+      ->group(help_group::kRun);
   app.add_option(
          "--at", suite.at,
          "where the master joins a target that is a system: a line or a PLC on it, gateway.1 for port 1 [the only line]")
@@ -45,25 +51,29 @@ void TestOptions::add_to(CLI::App& app) {
   add_duration(
       app, "--tolerance", tolerance,
       "by which times may differ: with --against, or in a replay of --record [0; 50ms if the target is not a program]");
-  add_whole_number(app, "--random", suite.random, {1, 100'000}, "send so many random requests to the --target");
+  add_whole_number(app, "--random", suite.random, {1, 100'000}, "send so many random requests to the --target")
+      ->group(help_group::kRun);
   add_whole_number(app, "--seed", suite.seed, {0, UINT32_MAX}, "seed of the random requests", "1");
   add_whole_number(app, "--station", suite.station, {1, 247}, "station that most random requests go to", "1");
   add_cpu_option(app, suite.random_cpu, "CPU of a program that gets random requests [214]; scenarios say theirs themselves");
   app.add_option("--record", record, "write what went over the line as a transcript, which is a scenario again")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->group(help_group::kResults);
   app.add_flag("--force", force, "overwrite an existing transcript");
   add_line_options(app, suite.line, "as scenarios and programs say");
   app.add_option("--only", suite.only, "scenarios with PATTERN in their name, file or rule; * is anything")
-      ->type_name("PATTERN");
-  app.add_flag("--list", list, "name the scenarios and run none");
-  app.add_flag("--fail-fast", suite.fail_fast, "end at the first failure");
+      ->type_name("PATTERN")
+      ->group(help_group::kRun);
+  app.add_flag("--list", list, "name the scenarios and run none")->group(help_group::kRun);
+  app.add_flag("--fail-fast", suite.fail_fast, "end at the first failure")->group(help_group::kRun);
   band.add_tables_to(app);
   add_whole_number(app, "--jobs", jobs, {1, 64}, "scenarios, or tables of --times-band, at a time",
-                   "1; with --times-band every core");
+                   "1; with --times-band every core")
+      ->group(help_group::kRun);
   add_no_stand_ins_option(app, suite.no_stand_ins);
   add_no_skip_option(app, suite.every_scan);
-  app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE");
-  app.add_flag("--json", json, "print the results as JSON");
+  app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE")->group(help_group::kResults);
+  app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
   app.add_flag("--keys", keys, "print what a scenario may contain, as Markdown")->excludes("--json");
 }
 
