@@ -2,7 +2,7 @@
 """The page of choices: what no manual says, and how it is modelled.
 
 The choices stand where they are made, in comments that begin with "Not documented, modelled so:". Each ends with the test
-that pins it, in brackets. This script puts them together as MODELLED_SO.md. Choices about the Westinghouse PLCs are settings and
+that pins it, in brackets. This script puts them together as docs/MODELLED_SO.md. Choices about the Westinghouse PLCs are settings and
 options with the mark of their reference, `L7`: the name of a test that pins one begins with it.
 
     tests/modelled_so.py          compare the committed page with the comments, and look for each test; exit code 1 if either fails
@@ -13,7 +13,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGE = ROOT / "MODELLED_SO.md"
+PAGE = ROOT / "docs/MODELLED_SO.md"
 MARK = "Not documented, modelled so:"
 HEAD = """# Not documented, modelled so
 

@@ -614,6 +614,6 @@ test("the README lists every request that the protocol has not", () => {
 });
 
 test("the session in the README is one of the transcripts", () => {
-  const shown = /```text\n(-> launch[^]*?)```/.exec(fs.readFileSync(path.join(SOURCE, "README.md"), "utf8"))[1];
+  const shown = /```text\n(-> launch[^]*?)```/.exec(fs.readFileSync(path.join(SOURCE, "docs/debugger.md"), "utf8"))[1];
   assert.ok(fs.readFileSync(path.join(SOURCE, "tests/dap/unanswered_frame.transcript"), "utf8").includes(shown));
 });
