@@ -109,7 +109,8 @@ std::string help_of_verb(const CLI::App& verb, bool all, std::size_t width) {
   if (const auto words = words_of(verb); !words.empty()) text += "\n" + lines_of(words, all, width);
   for (const OptionGroup& group : option_groups(verb))
     if (all || group.often)
-      text += fmt::format("{}{}:\n{}", all ? "\n" : "", group.heading, lines_of(group.options, all, width));
+      text += fmt::format("{}{}{}", all ? "\n" : "", stl::wrapped(group.heading + ":\n", width),
+                          lines_of(group.options, all, width));
   text += "\n";
   if (all) text += paragraphs(notes.notes, width) + paragraphs(notes.exit_codes, width);
   return text + where_more_is(verb, notes, all, width);
