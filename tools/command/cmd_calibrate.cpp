@@ -112,8 +112,7 @@ void add_calibrate(CLI::App& app, int& exit_code) {
       "\nExit code 1 if it was interrupted, 2 if the CPU does not answer or is not that of --cpu; what was measured until "
       "then is kept.\n"
       "Topics: targets, times\n"
-      "Example: s7200 calibrate stl_programs/measure_times.stl --each 1s\n"
-      "Example: s7200 calibrate /dev/ttyUSB0 -o my_cpu.csv");
+      "Example: s7200 calibrate stl_programs/measure_times.stl --each 1s");
   verb->callback([options, &exit_code] { exit_code = run_calibrate(*options); });
 }
 

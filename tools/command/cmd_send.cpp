@@ -102,19 +102,16 @@ void add_send(CLI::App& app, int& exit_code) {
   options->rig.add_to(*verb);
   options->rig.add_place_to(*verb);
   options->band.add_to(*verb);
-  for (const char* rare : {"--strict", "--output", "--memory"}) verb->get_option(rare)->group(help_group::kMore);
   verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT")
       ->excludes(verb->get_option("--times-band"))
       ->group(help_group::kResults);
   verb->add_flag("--json", options->json, "print the exchanges and the results as JSON")->group(help_group::kResults);
   verb->footer(
       "A system file (.yaml) instead of a PROGRAM: the frames go onto one of its lines, beside everybody who is there.\n"
-      "Exit code 1 if a frame was not answered or the answer was damaged: parity or framing errors, or a wrong CRC in "
-      "answer to a right one. What an answer says is not judged here but by 's7200 master'. With --times-band it is 0 only "
-      "if all were answered with every table; it is for one PROGRAM.\n"
+      "Exit code 1 if a frame was not answered, or with parity or framing errors or a wrong CRC; what an answer says is "
+      "judged by 's7200 master'. With --times-band, for one PROGRAM, it is 0 only if every table answered all.\n"
       "Topics: faults, files, models, programs, systems, times\n"
-      "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001\n"
-      "Example: s7200 send stl_programs/systems/faults.yaml --crc 0103000a0001");
+      "Example: s7200 send stl_programs/modbus_slave.stl --crc 0106000a1234 0103000a0001");
   verb->callback([options, verb, &exit_code] { exit_code = run_send(*verb, *options); });
 }
 

@@ -145,7 +145,8 @@ std::string systems() {
          "  test    has it as --target, and 'system:' names it in a scenario; it is new for each scenario, and scenarios "
          "that set memory are skipped\n"
          "  debug   steps all PLCs in one time; 'station NAME' goes over from one to another\n"
-         "Example: s7200 run stl_programs/systems/two_masters.yaml --for 2s\n";
+         "Example: s7200 run stl_programs/systems/two_masters.yaml --for 2s\n"
+         "Example: s7200 send stl_programs/systems/faults.yaml --crc 0103000a0001\n";
 }
 
 std::string targets() { return slave_targets_help(); }

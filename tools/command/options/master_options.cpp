@@ -116,7 +116,7 @@ void MasterOptions::add_to(CLI::App& app) {
     add_duration(app, "--after", after,
                  fmt::format("when to send the first request [after the first scan and {} of silence]", quiet));
   });
-  for (const char* rare : {"--strict", "--output", "--memory", "--with"}) app.get_option(rare)->group(help_group::kMore);
+  app.get_option("--with")->group(help_group::kMore);
 }
 
 /// Those of all protocols. What several have means the same to each of them.

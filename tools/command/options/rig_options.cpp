@@ -130,6 +130,7 @@ void RigOptions::add_place_to(CLI::App& app) {
   app.add_option("--at", at_,
                  "where the master joins a system: a line, or a PLC on it, gateway.1 for its port 1 [the only line]")
       ->type_name("NAME");
+  for (const char* rare : {"--strict", "--output", "--memory"}) app.get_option(rare)->group(help_group::kMore);
 }
 
 void RigOptions::add_first_station_to(CLI::App& app) {
