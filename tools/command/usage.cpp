@@ -99,7 +99,6 @@ std::optional<std::string> translated(std::string_view text, const ParserWords& 
   return fmt::format(fmt::runtime(words.ours), text.substr(0, place), rest);
 }
 
-
 }  // namespace
 
 std::vector<const CLI::App*> listed_verbs(const CLI::App& app) {
