@@ -33,6 +33,16 @@ struct Failed {
     report = {&scenario, run_scenario(scenario, {.program = std::move(program)})};
   }
   std::string text() const { return report_text(report, false); }
+
+  /// What was found and why, a line each, however wide a report is.
+  std::string lines() const {
+    std::string lines;
+    for (const Finding& finding : report.result.findings) {
+      lines += finding_line(scenario, finding) + '\n';
+      for (const std::string& why : finding.why) lines += why + '\n';
+    }
+    return lines;
+  }
 };
 
 testing::AssertionResult has(const std::string& text, std::string_view part) {
@@ -45,7 +55,7 @@ std::shared_ptr<const Program> slave() { return test::compile(test::slave_text()
 TEST(Explanation, AMissingAnswerHasItsCauseInReportJsonAndJunit) {
   const Failed failed("  - {send: 01 03 00 0a 00 01 00 00, expect: [0]}\n", slave());
   EXPECT_TRUE(has(failed.text(), "why       "));
-  EXPECT_TRUE(has(failed.text(), "JMP 255 in line 141 (LDW= AC0, 0: "));
+  EXPECT_TRUE(has(failed.lines(), "JMP 255 in line 141 (LDW= AC0, 0: "));
   const auto json = to_json({failed.report});
   const std::string why = json["scenarios"][0]["findings"][0]["why"][0];
   EXPECT_TRUE(has(why, "JMP 255 in line 141"));
@@ -64,14 +74,13 @@ TEST(Explanation, TheCommandThatOpensItIsPrinted) {
 TEST(Explanation, MemoryIsSaidInOneSentenceWithItsLastWriter) {
   const auto program = program_of("LD SM0.0\nMOVW 7, VW0\n= Q0.1\nLD I0.0\nMOVB 3, VB9\nMEND\n");
   const Failed failed("  - wait: 20ms\n  - memory: {VW0: 5, Q0.1: 0, VB9: 16#03}\n", program);
-  EXPECT_TRUE(has(failed.text(), "      VW0 is 7, expected 5; last written at "));
-  EXPECT_TRUE(has(failed.text(), " by MOVW 7, VW0 in line 2\n"));
-  EXPECT_TRUE(has(failed.text(), "      Q0.1 is 1, expected 0; last written at "));
-  EXPECT_TRUE(
-      has(failed.text(),
-          "      VB9 is 16#00 (0), expected 16#03; nothing has written it since power-up; MOVB 3, VB9 in line 5 could, "
-          "which had no power flow at "));
-  EXPECT_TRUE(has(failed.text(), " (LD I0.0: I0.0=0)\n"));
+  EXPECT_TRUE(has(failed.lines(), "VW0 is 7, expected 5; last written at "));
+  EXPECT_TRUE(has(failed.lines(), " by MOVW 7, VW0 in line 2\n"));
+  EXPECT_TRUE(has(failed.lines(), "Q0.1 is 1, expected 0; last written at "));
+  EXPECT_TRUE(has(failed.lines(),
+                  "VB9 is 16#00 (0), expected 16#03; nothing has written it since power-up; MOVB 3, VB9 in line 5 could, "
+                  "which had no power flow at "));
+  EXPECT_TRUE(has(failed.lines(), " (LD I0.0: I0.0=0)\n"));
   EXPECT_TRUE(
       has(finding_line(failed.scenario, failed.report.result.findings[0]), "VW0 is 7, expected 5; last written at "));
 }
@@ -79,14 +88,14 @@ TEST(Explanation, MemoryIsSaidInOneSentenceWithItsLastWriter) {
 TEST(Explanation, MemoryGoesBackToTheInputThatDecidedIt) {
   const auto program = program_of("LD I0.3\n= M0.0\nLD M0.0\nA SM0.0\n= Q0.1\nMEND\n");
   const Failed failed("  - wait: 20ms\n  - memory: {Q0.1: 1}\n", program);
-  EXPECT_TRUE(has(failed.text(), " by = Q0.1 in line 5 (LD M0.0: M0.0=0; A SM0.0: SM0.0=1); M0.0 was 0: last written at "));
-  EXPECT_TRUE(has(failed.text(), " by = M0.0 in line 2 (LD I0.3: I0.3=0)\n"));
+  EXPECT_TRUE(has(failed.lines(), " by = Q0.1 in line 5 (LD M0.0: M0.0=0; A SM0.0: SM0.0=1); M0.0 was 0: last written at "));
+  EXPECT_TRUE(has(failed.lines(), " by = M0.0 in line 2 (LD I0.3: I0.3=0)\n"));
 }
 
 TEST(Explanation, MemoryThatNoInstructionWritesIsSaidToBeSo) {
   const auto program = program_of("LD SM0.0\nMEND\n");
   const Failed failed("  - wait: 20ms\n  - memory: {VB9: 1}\n", program);
-  EXPECT_TRUE(has(failed.text(), "nothing has written it since power-up; no instruction of the program writes it\n"));
+  EXPECT_TRUE(has(failed.lines(), "nothing has written it since power-up; no instruction of the program writes it\n"));
 }
 
 /// Answers a character with an XMT in the main program, when INT 0 has noted it; I0.0 makes the scan long.
@@ -110,7 +119,7 @@ constexpr std::string_view kInMain =
 
 TEST(Explanation, AWrongLatencySaysThatItWaitedForTheScan) {
   const Failed failed("  - {send: 41, expect: any, latency: ..1us}\n", program_of(std::string(kInMain)));
-  const std::string text = failed.text();
+  const std::string text = failed.lines();
   EXPECT_TRUE(has(text, "the last character waited in the interrupt queue for INT 0"));
   EXPECT_TRUE(
       has(text, " ms: until the main program came to XMT VB0, 0 in line 7 (LD M0.0: M0.0=1), in the scan that began at "));
@@ -120,7 +129,7 @@ TEST(Explanation, AWrongLatencySaysThatItWaitedForTheScan) {
 
 TEST(Explanation, AWrongLatencySaysThatItWaitedForSilence) {
   const Failed failed("  - {read: holding 0, latency: ..1us}\n", slave());
-  EXPECT_TRUE(has(failed.text(), "a timed interrupt of "));
+  EXPECT_TRUE(has(failed.lines(), "a timed interrupt of "));
 }
 
 TEST(Explanation, WhatAStepHasSetIsItsWriter) {
