@@ -1,6 +1,6 @@
 #include "tools/master/block_request.hpp"
 
-#include "tools/views/register_text.hpp"
+#include "tools/master/written_values.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include "serial_sim/pc_protocol/answer.hpp"
 #include "serial_sim/pc_protocol/command.hpp"
 #include "tools/master/words.hpp"
-#include "tools/views/register_text.hpp"
+#include "tools/master/written_values.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "serial_sim/westinghouse/hppc_message.hpp"
 #include "tools/master/words.hpp"
-#include "tools/views/register_text.hpp"
+#include "tools/master/written_values.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -10,6 +10,7 @@
 #include "serial_sim/modbus/line_turns.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/master/words.hpp"
+#include "tools/master/written_values.hpp"
 #include "tools/views/register_text.hpp"
 #include "tools/views/report.hpp"
 

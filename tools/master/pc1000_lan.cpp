@@ -1,7 +1,7 @@
 // The PC1000 LAN: six-byte messages with a sync signal beside the data.
 #include "serial_sim/westinghouse/block_message.hpp"
 #include "tools/master/block_request.hpp"
-#include "tools/views/register_text.hpp"
+#include "tools/master/written_values.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/westinghouse/loader_session.hpp"
 #include "tools/master/words.hpp"
-#include "tools/views/register_text.hpp"
+#include "tools/master/written_values.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -6,9 +6,9 @@
 #include "interpreter/model/s7_pdu.hpp"
 #include "interpreter/program/address.hpp"
 #include "tools/master/words.hpp"
+#include "tools/master/written_values.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/views/ppi_text.hpp"
-#include "tools/views/register_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,7 +1,7 @@
 // Westnet II: the commands of the data highway, and blocks of the PLC that is addressed.
 #include "serial_sim/westinghouse/block_message.hpp"
 #include "tools/master/block_request.hpp"
-#include "tools/views/register_text.hpp"
+#include "tools/master/written_values.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,7 +1,7 @@
 #include "tools/master/words.hpp"
 
 #include "interpreter/base/numbers.hpp"
-#include "tools/views/register_text.hpp"
+#include "tools/master/written_values.hpp"
 
 namespace s7200::tools {
 

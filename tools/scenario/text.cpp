@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/line/frame.hpp"
-#include "tools/views/register_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -46,11 +44,8 @@ bool Window::has(Time time, const SerialFormat& format) const { return time >= f
 
 std::optional<std::int64_t> parse_number(std::string_view text) {
   constexpr std::int64_t kLargest = 0xFFFF'FFFF;
-  try {
-    return parse_number(stl::trim(text), -kLargest, kLargest, "number");
-  } catch (const std::invalid_argument&) {
-    return {};
-  }
+  const auto number = parse_integer(stl::trim(text));
+  return number && Between{-kLargest, kLargest}.has(*number) ? number : std::nullopt;
 }
 
 Sides sides(std::string_view text) {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
-#include <stdexcept>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -30,32 +29,6 @@ constexpr std::array kForms{
     ValueFormName{"float", Form::Float},
     ValueFormName{"text", Form::Text},
 };
-
-std::vector<std::string_view> split(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    parts.push_back(text.substr(0, comma));
-    if (comma == std::string_view::npos) return parts;
-    text.remove_prefix(comma + 1);
-  }
-}
-
-std::uint32_t float_bits(std::string_view text) {
-  const std::string number(text);
-  char* end = nullptr;
-  const float value = std::strtof(number.c_str(), &end);
-  if (number.empty() || *end != '\0' || !std::isfinite(value) || std::isspace(static_cast<unsigned char>(number[0])))
-    throw std::invalid_argument(
-        fmt::format("'{}' is not a number that a float can hold; write for example 1.5 or -2e3", stl::shortened(text)));
-  return std::bit_cast<std::uint32_t>(value);
-}
-
-void put_double(std::vector<std::uint16_t>& registers, std::uint32_t value, const ValueFormat& format) {
-  const auto high = static_cast<std::uint16_t>(value >> 16), low = static_cast<std::uint16_t>(value & 0xFFFF);
-  registers.push_back(format.low_word_first ? low : high);
-  registers.push_back(format.low_word_first ? high : low);
-}
 
 std::uint32_t get_double(std::span<const std::uint16_t> registers, const ValueFormat& format) {
   const std::uint32_t first = registers[0], second = registers[1];
@@ -146,44 +119,6 @@ std::size_t ValueFormat::registers() const {
 
 std::span<const ValueFormName> value_forms() { return kForms; }
 
-std::int64_t parse_number(std::string_view text, std::int64_t least, std::int64_t most, std::string_view what) {
-  const auto value = parse_integer(text);
-  if (!value)
-    throw std::invalid_argument(
-        fmt::format("{} '{}' is not a number; write for example 10 or 16#0A", what, stl::shortened(text)));
-  if (*value < least || *value > most)
-    throw std::invalid_argument(fmt::format("{} {} is not from {} to {}", what, text, least, most));
-  return *value;
-}
-
-std::vector<std::uint16_t> parse_bits(std::string_view text) {
-  std::vector<std::uint16_t> bits;
-  for (const std::string_view part : split(text)) {
-    if (part != "on" && part != "off" && part != "1" && part != "0")
-      throw std::invalid_argument(
-          fmt::format("'{}' is not the state of a coil; write on, off, 1 or 0", stl::shortened(part)));
-    bits.push_back(part == "on" || part == "1" ? 1 : 0);
-  }
-  return bits;
-}
-
-std::vector<std::uint16_t> parse_registers(std::string_view text, const ValueFormat& format) {
-  std::vector<std::uint16_t> registers;
-  for (const std::string_view part : split(text)) {
-    if (format.form == Form::Float) {
-      put_double(registers, float_bits(part), format);
-    } else if (format.registers() == 2) {
-      put_double(registers, static_cast<std::uint32_t>(parse_number(part, INT32_MIN, UINT32_MAX, "value")), format);
-    } else if (part.find('.') != std::string_view::npos) {
-      throw std::invalid_argument(fmt::format(
-          "value {} is not a whole number; --as float writes it as a number of 32 bits into two registers", part));
-    } else {
-      registers.push_back(static_cast<std::uint16_t>(parse_number(part, INT16_MIN, UINT16_MAX, "value")));
-    }
-  }
-  return registers;
-}
-
 std::vector<std::string> value_lines(std::span<const std::uint16_t> registers, const ValueFormat& format) {
   std::vector<std::string> lines;
   const std::size_t size = format.registers() == 0 ? std::max<std::size_t>(registers.size(), 1) : format.registers();
@@ -207,15 +142,7 @@ nlohmann::ordered_json values_json(std::span<const std::uint16_t> registers, con
     const std::string text = characters(registers);
     // JSON is UTF-8: each byte becomes the character of that number.
     std::string encoded;
-    for (const char c : text) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte < 0x80) {
-        encoded += c;
-      } else {
-        encoded += static_cast<char>(0xC0 | byte >> 6);
-        encoded += static_cast<char>(0x80 | (byte & 0x3F));
-      }
-    }
+    for (const char c : text) encoded += stl::to_utf8(static_cast<unsigned char>(c));
     return encoded;
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::array();

@@ -1,4 +1,4 @@
-// Values of coils and registers as people write and read them.
+// Values of coils and registers as people read them.
 #pragma once
 
 #include <cstdint>
@@ -26,16 +26,6 @@ struct ValueFormName {
   ValueForm form;
 };
 std::span<const ValueFormName> value_forms();
-
-/// `on,off,1,0`. Throws std::invalid_argument.
-std::vector<std::uint16_t> parse_bits(std::string_view text);
-
-/// `1234,-5,16#04D2,2#1010`: registers from -32768 to 65535. In a form of 32 bits each value takes two registers, and the
-/// form float takes 1.5e3 too. Throws std::invalid_argument.
-std::vector<std::uint16_t> parse_registers(std::string_view text, const ValueFormat& format);
-
-/// A number from `least` to `most`, in the notations above. Throws std::invalid_argument naming it by `what`.
-std::int64_t parse_number(std::string_view text, std::int64_t least, std::int64_t most, std::string_view what);
 
 /// A line for each value. Registers that are left over after the last value of 32 bits are shown in hex.
 std::vector<std::string> value_lines(std::span<const std::uint16_t> registers, const ValueFormat& format);
