@@ -102,7 +102,7 @@ def sources():
 
 
 def exists(name):
-    return (TOP / name).is_file() or (TOP / (name + ".in")).is_file()
+    return any(path.is_file() for path in (TOP / name, TOP / (name + ".in"), (TOP / name).with_suffix(".py")))
 
 
 def offences_of_include(name, bracket, included):

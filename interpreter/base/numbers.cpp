@@ -2,12 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <string>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
 
 namespace s7200 {
+
+#ifdef __cpp_lib_to_chars
+std::from_chars_result read_number(std::string_view text, float& value) {
+  return std::from_chars(text.data(), text.data() + text.size(), value);
+}
+std::from_chars_result read_number(std::string_view text, double& value) {
+  return std::from_chars(text.data(), text.data() + text.size(), value);
+}
+#else
+namespace {
+
+float to_real(const char* text, char** end, float) { return std::strtof(text, end); }
+double to_real(const char* text, char** end, double) { return std::strtod(text, end); }
+
+/// strtof() and strtod() also read what from_chars() does not: blanks and a plus sign in front, and hexadecimal.
+template <class Real>
+std::from_chars_result read_real(std::string_view text, Real& value) {
+  const std::string digits(text.substr(0, text.find_first_of("xX")));
+  const bool other = digits.empty() || std::string_view("+ \t\n\v\f\r").find(digits.front()) != std::string_view::npos;
+  char* end = nullptr;
+  const Real read = other ? Real{} : to_real(digits.c_str(), &end, Real{});
+  if (other || end == digits.c_str()) return {text.data(), std::errc::invalid_argument};
+  const char* const stopped = text.data() + (end - digits.c_str());
+  const bool any_digit = digits.find_first_of("123456789") < digits.find_first_of("eE");
+  if ((read == 0 && any_digit) || (std::isinf(read) && std::isdigit(static_cast<unsigned char>(end[-1]))))
+    return {stopped, std::errc::result_out_of_range};
+  value = read;
+  return {stopped, std::errc{}};
+}
+
+}  // namespace
+
+std::from_chars_result read_number(std::string_view text, float& value) { return read_real(text, value); }
+std::from_chars_result read_number(std::string_view text, double& value) { return read_real(text, value); }
+#endif
 
 std::optional<std::int64_t> parse_integer(std::string_view text) {
   const bool negative = !text.empty() && text.front() == '-';
@@ -34,9 +72,8 @@ bool is_whole_number(std::string_view text) {
 
 bool is_real_number(std::string_view text) {
   double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, value);
-  return error != std::errc::invalid_argument && stopped == end && !std::isnan(value);
+  const auto [stopped, error] = read_number(text, value);
+  return error != std::errc::invalid_argument && stopped == text.data() + text.size() && !std::isnan(value);
 }
 
 std::optional<std::uint8_t> hex_digit(char c) {

@@ -21,14 +21,21 @@ struct Between {
   bool has(Number value) const { return value >= least && value <= most; }
 };
 
+/// Reads a number from the beginning of a text as std::from_chars does, which some standard libraries lack for reals.
+std::from_chars_result read_number(std::string_view text, float& value);
+std::from_chars_result read_number(std::string_view text, double& value);
+template <class Integer>
+std::from_chars_result read_number(std::string_view text, Integer& value) {
+  return std::from_chars(text.data(), text.data() + text.size(), value);
+}
+
 /// All of `text` as a number in decimal, without blanks or a plus sign. Returns nothing for anything else, and for one that
 /// the type cannot hold.
 template <class Number>
 std::optional<Number> parse_decimal(std::string_view text) {
   Number value{};
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stopped != end) return {};
+  const auto [stopped, error] = read_number(text, value);
+  if (error != std::errc{} || stopped != text.data() + text.size()) return {};
   return value;
 }
 

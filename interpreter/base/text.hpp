@@ -19,6 +19,9 @@ struct Character {
 /// The first character of a text that is not empty. A byte that is not UTF-8 is a character of its own, kReplacement.
 Character first_character(std::string_view text);
 
+/// A character as UTF-8.
+std::string to_utf8(char32_t code);
+
 /// A view of the characters of a text: `for (const Character c : characters(text))`.
 class CharacterIterator {
  public:

@@ -34,7 +34,7 @@ const s7::WireArea* area_of(std::uint32_t pointer) {
   const auto found = std::ranges::find_if(s7::kWireAreas, [&](const s7::WireArea& wire) {
     return std::ranges::count(kShown, wire.area) != 0 && info(wire.area).pointer_code == pointer >> 24;
   });
-  return found == s7::kWireAreas.end() ? nullptr : found;
+  return found == s7::kWireAreas.end() ? nullptr : &*found;
 }
 
 bool is_possible(const Core& core, std::uint8_t port, const NetworkPort::Job& job) {

@@ -1,8 +1,8 @@
 #include "interpreter/cpu/steady_scans.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
-#include <stdexcept>
 
 #include "interpreter/cpu/clock.hpp"
 #include "interpreter/cpu/scan.hpp"
@@ -149,7 +149,7 @@ Time SteadyScans::pass(Core& core, Time horizon) {
 void SteadyScans::check(const Core& core) {
   if (!core.touched && core.s.time < expected_->time) return;
   if (!core.touched && !(core.s == *expected_))
-    throw std::logic_error("steady scans: the prediction is not what the CPU does");
+    std::abort();  // a bug of ours: the prediction is not what the CPU does; also where assertions are off
   expected_.reset();
 }
 

@@ -30,7 +30,7 @@ enum class SteadyScansUse : std::uint8_t {
   Off,
   On,     ///< where it pays
   Eager,  ///< wherever it is possible: for real time, and for tests
-  Check   ///< passes over nothing: predicts the state, runs every scan, and compares. A difference is a std::logic_error
+  Check   ///< passes over nothing: predicts the state, runs every scan, and compares. A difference ends the process
 };
 
 /// If nothing else is asked for: the dev build checks what the release build does.

@@ -17,13 +17,13 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/instructions/compare.hpp"
 
 namespace s7200::bodies {
@@ -194,7 +194,7 @@ void text_to_number(Core& core, const Op& op) {
   const auto text = number_in(core, op, std::is_floating_point_v<Number>);
   if (!text) return;
   Number value{};
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  const auto [end, error] = read_number(*text, value);
   if (error != std::errc{} || end != text->data() + text->size()) return core.set_flags(kOverflow, kOverflow);
   core.put(op[2], value);
   core.set_flags(kOverflow, 0);

@@ -138,7 +138,7 @@ std::string read_row(std::string_view line, TimeRow& row) {
   row.per_unit = *per_unit;
   row.unit = field[kUnit];
   row.marker = field[kMarker];
-  const auto* const marker = std::ranges::find(kMarkers, row.marker, &Marker::name);
+  const auto marker = std::ranges::find(kMarkers, row.marker, &Marker::name);
   if (marker == kMarkers.end()) return unknown_marker(row.marker);
   row.source = field.size() > kSource ? field[kSource] : "";
   const auto given = [&](Column column) { return field.size() > column && !field[column].empty(); };

@@ -252,9 +252,10 @@ class Repetition {
   /// Whether an event may occur again: that of a message or a transmission only if RCV or XMT is executed again.
   bool event_occurs_again(std::uint32_t event) const {
     for (std::size_t number = 0; number < program_.model->ports; ++number)
-      for (const auto& [own, effect] :
+      for (const auto& wait :
            {std::pair{kPorts[number].received_message, Effect::Receives}, std::pair{kPorts[number].sent, Effect::Transmits}})
-        if (own == event) return any([&](std::uint32_t i) { return uses(program_.ops[i], effect, number) && again(i); });
+        if (wait.first == event)
+          return any([&](std::uint32_t i) { return uses(program_.ops[i], wait.second, number) && again(i); });
     return true;
   }
 

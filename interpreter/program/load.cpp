@@ -1,17 +1,9 @@
 #include "interpreter/program/load.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <iterator>
-#include <span>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/cpu_choice.hpp"
@@ -28,9 +20,6 @@
 
 namespace s7200 {
 namespace {
-
-/// Larger than any program; a pipe may never end.
-constexpr std::size_t kLargestFile = 64 << 20;
 
 const stl::InstructionSet& instruction_set() {
   static const stl::InstructionSet kInstructions{
@@ -101,76 +90,6 @@ bool can_be_stl(const std::vector<std::string>& text) {
   }
   return code == 0;
 }
-
-/// A file or a pipe, and nothing else: reading from a serial port would wait for ever, and steal another program's data.
-struct OpenFile {
-  // Otherwise opening a serial port would wait for its carrier, and opening a pipe for its writer.
-  explicit OpenFile(const std::string& path) : fd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
-  ~OpenFile() {
-    if (fd >= 0) close(fd);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  bool can_be_read(std::string& why) const {
-    struct stat status {};
-    if (fd < 0 || fstat(fd, &status) != 0) {
-      why = std::strerror(errno);
-      return false;
-    }
-    if (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)) return true;
-    why = S_ISDIR(status.st_mode) ? "it is a folder" : "it is a device, not a file";
-    return false;
-  }
-
-  const int fd;
-};
-
-/// Also waits for a writer. Returns -1 with EINTR after a signal, so that Ctrl-C ends the wait for a pipe without a writer.
-ssize_t read_some(int fd, std::span<char> piece) {
-  pollfd written{fd, POLLIN, 0};
-  return poll(&written, 1, -1) < 0 ? -1 : read(fd, piece.data(), piece.size());
-}
-
-std::optional<std::string> read_all(int fd, std::string& why) {
-  std::string bytes;
-  std::array<char, 65536> piece{};
-  for (;;) {
-    const ssize_t count = read_some(fd, piece);
-    if (count == 0) return bytes;
-    if (count < 0) {
-      why = std::strerror(errno);
-      return {};
-    }
-    bytes.append(piece.data(), static_cast<std::size_t>(count));
-    if (bytes.size() > kLargestFile) {
-      why = fmt::format("it is larger than {} MB", kLargestFile >> 20);
-      return {};
-    }
-  }
-}
-
-}  // namespace
-
-std::optional<std::string> read_file(const std::string& path, std::string& why) {
-  const OpenFile file(path);
-  if (!file.can_be_read(why)) return {};
-  return read_all(file.fd, why);
-}
-
-std::optional<std::string> read_text(const std::string& path, std::string& why) {
-  auto text = read_file(path, why);
-  if (text) text->erase(0, text->size() - stl::without_byte_order_mark(*text).size());
-  return text;
-}
-
-bool is_standard_input(std::string_view path) {
-  return path == "-" || path == "/dev/stdin" || path == "/dev/fd/0" || path == "/proc/self/fd/0";
-}
-
-std::optional<std::string> read_standard_input(std::string& why) { return read_all(STDIN_FILENO, why); }
-
-namespace {
 
 bool is_mnemonic(std::string_view word) {
   return word == "NETWORK" || find_instruction(word) || !unknown_mnemonic(word).what.empty();

@@ -1,4 +1,4 @@
-// From a file to a checked program, whether the file is an STL file or a published document.
+// From the bytes of a file to a checked program, whether they are an STL file or a published document.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,6 @@
 #include "interpreter/program/checker.hpp"
 
 namespace s7200 {
-
-/// The bytes of a file, or of a pipe up to its end. Returns nothing and sets `why` if it cannot be read, is larger than 64
-/// MB or is a device: naming a serial port instead of a program is an immediate error.
-std::optional<std::string> read_file(const std::string& path, std::string& why);
-
-/// The same of a text in UTF-8, without the byte order mark that some editors put before it.
-std::optional<std::string> read_text(const std::string& path, std::string& why);
-
-/// Whether a path means standard input: "-" and its names in Linux. What comes through a pipe can be read only once.
-bool is_standard_input(std::string_view path);
-
-/// The bytes of standard input up to its end, with the same limit.
-std::optional<std::string> read_standard_input(std::string& why);
 
 /// What is in a file.
 enum class SourceKind : std::uint8_t { Listing, Document, Blocks, SymbolTable, DataBlock, StatusChart };

@@ -9,7 +9,7 @@
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/model/times_file.hpp"
-#include "interpreter/program/load.hpp"
+#include "interpreter/program/checker.hpp"
 
 namespace s7200 {
 namespace {
@@ -118,20 +118,24 @@ std::vector<std::string> slips_in(const TimesFile& file, const std::string& name
 
 }  // namespace
 
-std::optional<TimeTable> load_times(const CpuModel& model, const std::string& table, std::vector<std::string>& errors) {
+TimeTable times_named(const CpuModel& model, std::string_view name) {
   TimeTable times = default_times(model);
-  if (table.empty()) return times;
+  if (name.empty()) return times;
+  times.add(find_times(name)->table());
+  return in_use(times);
+}
+
+std::optional<TimeTable> load_times(const CpuModel& model, const std::string& table, const FileSource& files,
+                                    std::vector<std::string>& errors) {
+  if (table.empty()) return times_named(model, table);
   if (const NamedTimes* named = find_times(table)) {
-    if (named->cpus & model.self) {
-      times.add(named->table());
-      return in_use(times);
-    }
+    if (named->cpus & model.self) return times_named(model, table);
     errors.push_back(fmt::format("{} has times of {}; tables for CPU {}: {}", table, to_text(named->cpus), model.name,
                                  names_of_times(model)));
     return {};
   }
   std::string why;
-  const auto csv = read_text(table, why);
+  const auto csv = files.read_text(table, why);
   if (!csv) {
     errors.push_back(fmt::format("cannot read {}: {}; tables for CPU {} that have a name: {}", table, why, model.name,
                                  names_of_times(model)));
@@ -143,6 +147,7 @@ std::optional<TimeTable> load_times(const CpuModel& model, const std::string& ta
   if (wrong.empty()) wrong = hidden_lines(file, table);
   errors.insert(errors.end(), wrong.begin(), wrong.end());
   if (!wrong.empty()) return {};
+  TimeTable times = default_times(model);
   times.add(*csv, table);
   return in_use(times);
 }

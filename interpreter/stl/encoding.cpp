@@ -1,14 +1,13 @@
 #include "interpreter/stl/encoding.hpp"
 
 #include <fmt/format.h>
-#include <iconv.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdint>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/stl/code_pages.hpp"
 
 namespace s7200::stl {
 
@@ -58,31 +57,6 @@ std::string not_text(std::string_view bytes) {
   });
   if (static_cast<std::size_t>(controls) * 10 > bytes.size()) return "binary data (it is full of control characters)";
   return {};
-}
-
-/// Converts with iconv(3); bytes that the encoding does not have become U+FFFD.
-std::optional<std::string> converted(std::string_view bytes, const char* encoding) {
-  const iconv_t converter = iconv_open("UTF-8", encoding);
-  if (converter == iconv_t(-1)) return std::nullopt;
-  std::string text;
-  std::string input(bytes);
-  char* from = input.data();
-  std::size_t left = input.size();
-  std::array<char, 4096> buffer;
-  while (left > 0) {
-    char* to = buffer.data();
-    std::size_t room = buffer.size();
-    const bool complete = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1);
-    const int trouble = complete ? 0 : errno;
-    text.append(buffer.data(), buffer.size() - room);
-    if (trouble == EILSEQ || trouble == EINVAL) {
-      text += kReplacementText;
-      ++from;
-      --left;
-    }
-  }
-  iconv_close(converter);
-  return text;
 }
 
 /// UTF-8 with every unreadable byte replaced.
@@ -193,26 +167,12 @@ bool has_cp437_words(std::string_view bytes) {
   return dos > windows;
 }
 
-struct Encoding {
-  std::string_view name;
-  const char* iconv_name;
-};
-constexpr Encoding kWindows1252{"Windows-1252", "WINDOWS-1252"};
-constexpr Encoding kWindows1250{"Windows-1250", "WINDOWS-1250"};
-constexpr Encoding kWindows1251{"Windows-1251", "WINDOWS-1251"};
-constexpr Encoding kWindows1253{"Windows-1253", "WINDOWS-1253"};
-constexpr Encoding kWindows1254{"Windows-1254", "WINDOWS-1254"};
-constexpr Encoding kShiftJis{"Shift-JIS", "CP932"};
-constexpr Encoding kCp437{"CP437", "CP437"};
-constexpr Encoding kGbk{"GBK", "GBK"};
-constexpr Encoding kUtf16Little{"UTF-16", "UTF-16LE"};
-constexpr Encoding kUtf16Big{"UTF-16", "UTF-16BE"};
-constexpr Encoding kUtf8{"UTF-8", "UTF-8"};
-constexpr std::array kAllEncodings{kUtf8,        kUtf16Little, kWindows1250, kWindows1251, kWindows1252,
-                                   kWindows1253, kWindows1254, kCp437,       kGbk,         kShiftJis};
+constexpr std::string_view kUtf8 = "UTF-8", kUtf16 = "UTF-16", kCp437 = "CP437", kGbk = "GBK", kShiftJis = "Shift-JIS",
+                           kWindows1250 = "Windows-1250", kWindows1251 = "Windows-1251", kWindows1252 = "Windows-1252",
+                           kWindows1253 = "Windows-1253", kWindows1254 = "Windows-1254";
 
 /// Of the Windows code pages by letters that the others do not have, or that are common in only one language.
-Encoding guess_windows(std::string_view bytes) {
+std::string_view guess_windows(std::string_view bytes) {
   if (has_runs_of_letters(bytes)) {
     const auto count = [&](char letter) { return std::count(bytes.begin(), bytes.end(), letter); };
     const auto cyrillic = count('\xE0') + count('\xEE'), greek = count('\xE1') + count('\xEF');  // а о, α ο
@@ -223,7 +183,7 @@ Encoding guess_windows(std::string_view bytes) {
   return kWindows1252;
 }
 
-Encoding guess_8_bit(std::string_view bytes) {
+std::string_view guess_8_bit(std::string_view bytes) {
   if (has_box_drawing(bytes)) return kCp437;
   if (looks_like_shift_jis(bytes)) return kShiftJis;
   if (looks_like_gbk(bytes)) return kGbk;
@@ -231,53 +191,47 @@ Encoding guess_8_bit(std::string_view bytes) {
   return guess_windows(bytes);
 }
 
-std::optional<DecodedText> decode_from(std::string_view bytes, Encoding encoding, std::string& why) {
-  auto text = converted(bytes, encoding.iconv_name);
-  if (!text) {
-    why = fmt::format("text in {}, which this system cannot convert; save it as UTF-8", encoding.name);
-    return std::nullopt;
-  }
-  if (text->find('\0') != std::string::npos) {
+std::optional<DecodedText> decoded(std::string text, std::string_view encoding, std::string& why) {
+  if (text.find('\0') != std::string::npos) {
     why = "binary data, or UTF-32 text; save it as UTF-8";
     return std::nullopt;
   }
-  return DecodedText{std::move(*text), std::string(encoding.name)};
+  return DecodedText{std::move(text), std::string(encoding)};
 }
 
 }  // namespace
 
 std::optional<DecodedText> decode(std::string_view bytes, std::string& why) {
-  if (bytes.starts_with("\xFF\xFE"sv)) return decode_from(bytes.substr(2), kUtf16Little, why);
-  if (bytes.starts_with("\xFE\xFF"sv)) return decode_from(bytes.substr(2), kUtf16Big, why);
+  if (bytes.starts_with("\xFF\xFE"sv)) return decoded(utf16_to_utf8(bytes.substr(2), ByteOrder::Little), kUtf16, why);
+  if (bytes.starts_with("\xFE\xFF"sv)) return decoded(utf16_to_utf8(bytes.substr(2), ByteOrder::Big), kUtf16, why);
   why = not_text(bytes);
   if (!why.empty()) return std::nullopt;
   if (bytes.ends_with('\x1A')) bytes.remove_suffix(1);  // the end mark of a DOS text
   const bool marked = bytes.starts_with("\xEF\xBB\xBF"sv);
   if (marked) bytes.remove_prefix(3);
-  if (is_valid_utf8(bytes)) return DecodedText{std::string(bytes), "UTF-8"};
-  if (marked || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), "UTF-8"};
-  return decode_from(bytes, guess_8_bit(bytes), why);
+  if (is_valid_utf8(bytes)) return DecodedText{std::string(bytes), std::string(kUtf8)};
+  if (marked || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), std::string(kUtf8)};
+  const std::string_view encoding = guess_8_bit(bytes);
+  return decoded(to_utf8(bytes, *find_code_page(encoding)), encoding, why);
 }
 
 std::optional<std::string> encode(std::string_view utf8, std::string_view encoding, std::string& why) {
-  const auto found = std::ranges::find(kAllEncodings, encoding, &Encoding::name);
-  const iconv_t converter = found == kAllEncodings.end() ? iconv_t(-1) : iconv_open(found->iconv_name, "UTF-8");
-  if (converter == iconv_t(-1)) {
-    why = fmt::format("this system cannot write {}", encoding);
+  if (encoding == kUtf8) return std::string(utf8);
+  const CodePage* const page = find_code_page(encoding);
+  if (page == nullptr && encoding != kUtf16) {
+    why = fmt::format("{} is not an encoding that can be written", encoding);
     return std::nullopt;
   }
-  std::string input(utf8), bytes(4 * utf8.size(), '\0');  // no encoding needs more than four bytes for one
-  char *from = input.data(), *to = bytes.data();
-  std::size_t left = input.size(), room = bytes.size();
-  const bool complete = iconv(converter, &from, &left, &to, &room) == 0;
-  iconv_close(converter);
-  if (!complete) {
-    const auto code = static_cast<std::uint32_t>(first_character(utf8.substr(utf8.size() - left)).code);
-    why = fmt::format("the character U+{:04X} does not exist in {}", code, encoding);
-    return std::nullopt;
+  std::string bytes = page ? "" : "\xFF\xFE";
+  for (const Character c : characters(utf8)) {
+    const std::string written = page ? from_character(c.code, *page) : to_utf16(c.code);
+    if (written.empty()) {
+      why = fmt::format("the character U+{:04X} does not exist in {}", static_cast<std::uint32_t>(c.code), encoding);
+      return std::nullopt;
+    }
+    bytes += written;
   }
-  bytes.resize(bytes.size() - room);
-  return std::string(found->name == kUtf16Little.name ? "\xFF\xFE" : "") + bytes;
+  return bytes;
 }
 
 }  // namespace s7200::stl

@@ -18,7 +18,7 @@ struct DecodedText {
 std::optional<DecodedText> decode(std::string_view bytes, std::string& why);
 
 /// The same text in one of the encodings that decode() names. Returns nothing if the text has a character that the encoding
-/// lacks, or the system lacks the encoding, and says so in `why`.
+/// lacks, or there is no such encoding, and says so in `why`.
 std::optional<std::string> encode(std::string_view utf8, std::string_view encoding, std::string& why);
 
 }  // namespace s7200::stl

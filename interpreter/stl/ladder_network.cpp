@@ -35,16 +35,6 @@ bool is_name_cell(char32_t cell) {
                          std::string_view("_+-*/<>=").find(static_cast<char>(cell)) != std::string_view::npos);
 }
 
-std::string utf8(char32_t c) {
-  if (c < 0x80) return {static_cast<char>(c)};
-  if (c < 0x800) return {static_cast<char>(0xC0 | (c >> 6)), static_cast<char>(0x80 | (c & 0x3F))};
-  if (c < 0x10000)
-    return {static_cast<char>(0xE0 | (c >> 12)), static_cast<char>(0x80 | ((c >> 6) & 0x3F)),
-            static_cast<char>(0x80 | (c & 0x3F))};
-  return {static_cast<char>(0xF0 | (c >> 18)), static_cast<char>(0x80 | ((c >> 12) & 0x3F)),
-          static_cast<char>(0x80 | ((c >> 6) & 0x3F)), static_cast<char>(0x80 | (c & 0x3F))};
-}
-
 struct Span {
   std::size_t row = 0, from = 0, to = 0;  // columns from `from` until before `to`
 };
@@ -491,7 +481,7 @@ std::string text_of(const LadderRow& row, std::size_t from, std::size_t to) {
   while (from < to && is_blank_cell(row.cells[from])) ++from;
   while (to > from && is_blank_cell(row.cells[to - 1])) --to;
   std::string text;
-  for (; from < to; ++from) text += utf8(row.cells[from]);
+  for (; from < to; ++from) text += to_utf8(row.cells[from]);
   return text;
 }
 

@@ -8,17 +8,27 @@
 #include <boost/range/iterator_range.hpp>
 #include <boost/spirit/home/x3.hpp>
 #include <boost/spirit/home/x3/support/ast/variant.hpp>
+#include <boost/throw_exception.hpp>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <functional>
 #include <optional>
 #include <system_error>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/block_words.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "interpreter/stl/german_letters.hpp"
 #include "interpreter/stl/headings.hpp"
 #include "interpreter/stl/look_alikes.hpp"
+
+#ifdef BOOST_NO_EXCEPTIONS
+// Nothing here makes Boost throw; a build without exceptions must say what would happen.
+void boost::throw_exception(const std::exception&) { std::abort(); }
+void boost::throw_exception(const std::exception&, const boost::source_location&) { std::abort(); }
+#endif
 
 namespace s7200::stl {
 namespace {
@@ -79,6 +89,49 @@ BOOST_FUSION_ADAPT_STRUCT(s7200::stl::RawLine, statement, comment)
 
 namespace s7200::stl {
 namespace {
+
+/// The first place at which a part that a line must have is missing, and its name. Then the line is wrong, whatever other
+/// way of reading it there is.
+struct Missing {
+  Place where = nullptr;
+  std::string part;
+};
+
+struct MustDirective {
+  /// A part that must follow what has been read.
+  template <class Part>
+  struct Parser : x3::unary_parser<Part, Parser<Part>> {
+    using x3::unary_parser<Part, Parser<Part>>::unary_parser;
+    static constexpr bool is_pass_through_unary = true;
+
+    template <class Context, class RuleContext, class Attribute>
+    bool parse(Place& first, const Place& last, const Context& context, RuleContext& rule, Attribute& attribute) const {
+      if (this->subject.parse(first, last, context, rule, attribute)) return true;
+      Missing& missing = x3::get<Missing>(context).get();
+      if (missing.where == nullptr) missing = {first, x3::what(this->subject)};
+      return false;
+    }
+  };
+
+  template <class Part>
+  constexpr Parser<typename x3::extension::as_parser<Part>::value_type> operator[](const Part& part) const {
+    return {x3::as_parser(part)};
+  }
+};
+constexpr MustDirective must;
+
+/// Whether a text begins with what a grammar describes. `at` is then where it ends; `missing` is where it must go on and
+/// does not.
+template <class Grammar, class Attribute>
+bool parse_beginning(Place& at, Place end, const Grammar& described, Attribute& attribute, Missing& missing) {
+  return x3::parse(at, end, x3::with<Missing>(std::ref(missing))[described], attribute) && missing.where == nullptr;
+}
+
+template <class Grammar, class Attribute>
+bool parse_beginning(Place& at, Place end, const Grammar& described, Attribute& attribute) {
+  Missing missing;
+  return parse_beginning(at, end, described, attribute, missing);
+}
 
 namespace grammar {
 
@@ -173,15 +226,15 @@ const auto real_digits = named<struct RealDigits, Range>("digits") =
 
 const auto limit = no_case[size_prefixes] | attr(Size::None);
 const auto hexadecimal = named<struct Hexadecimal, RawWord>("a constant") =
-    (limit >> attr(Kind::Hex) >> lit("16#")) > hex_digits > end_of_constant;
+    (limit >> attr(Kind::Hex) >> lit("16#")) >> must[hex_digits] >> must[end_of_constant];
 const auto binary = named<struct Binary, RawWord>("a constant") =
-    (limit >> attr(Kind::Binary) >> lit("2#")) > binary_digits > end_of_constant;
+    (limit >> attr(Kind::Binary) >> lit("2#")) >> must[binary_digits] >> must[end_of_constant];
 const auto real = named<struct Real, RawWord>("a constant") =
-    (attr(Size::None) >> attr(Kind::Real) >> real_digits) > end_of_constant;
+    (attr(Size::None) >> attr(Kind::Real) >> real_digits) >> must[end_of_constant];
 const auto decimal = named<struct Decimal, RawWord>("a constant") =
-    (limit >> attr(Kind::Decimal) >> decimal_digits) > end_of_constant;
+    (limit >> attr(Kind::Decimal) >> decimal_digits) >> must[end_of_constant];
 const auto ascii = named<struct Ascii, RawWord>("a constant") =
-    (limit >> attr(Kind::Ascii) >> lit('\'')) > ascii_text > closing_quote;
+    (limit >> attr(Kind::Ascii) >> lit('\'')) >> must[ascii_text] >> must[closing_quote];
 
 // S7-Micro/DOS: K4, K-5, KHFF. Other letters after the K are not known.
 const auto k_decimal = named<struct KDecimal, RawWord>("a constant") =
@@ -194,7 +247,7 @@ const auto k_unknown = named<struct KUnknown, RawWord>("a constant") =
 const auto bit_number = named<struct BitNumber, Range>("a bit number") = raw[+digit];
 const auto address = named<struct AddressRule, RawAddress>("an address") = (char_("&*") | attr('\0')) >>
                                                                            no_case[address_letters] >> raw[+digit] >>
-                                                                           -(lit('.') > bit_number) >> end_of_address;
+                                                                           -(lit('.') >> must[bit_number]) >> end_of_address;
 
 // "Pump 1", Motor_On, #count, and as Micro/WIN prints symbol and address together: "Pump 1":Q0.0, #count:LW2, *#next:*LD4;
 // a symbol may stand for a constant, too: Request_Error:4
@@ -215,7 +268,7 @@ const auto operand = named<OperandRule, RawOperand>("an operand") =
     ascii | hexadecimal | binary | real | decimal | k_decimal | k_hexadecimal | k_unknown | address | name;
 
 const auto next_operand = named<struct NextOperand, RawOperand>("an operand") =
-    ((blanks >> lit(',') >> blanks) > operand) | (x3::omit[+char_(" \t\f")] >> operand);
+    (blanks >> lit(',') >> blanks >> must[operand]) | (x3::omit[+char_(" \t\f")] >> operand);
 const auto operands = named<struct Operands, std::vector<RawOperand>>("operands") = operand >> *next_operand;
 
 // =I is a mnemonic of its own, but =I0.0 assigns to I0.0. After a comparator the first operand may follow directly.
@@ -226,8 +279,8 @@ const auto mnemonic = named<struct Mnemonic, Range>("a mnemonic") =
 const auto statement = named<struct StatementRule, RawStatement>("a statement") = mnemonic >> blanks >> -operands;
 const auto comment = named<struct Comment, Range>("a comment") = lit("//") >> raw[*char_];
 const auto end_of_line = named<struct EndOfLine>("the end of the line") = x3::eoi;
-const auto line = named<struct LineRule, RawLine>("a line") =
-    (blanks >> -statement >> blanks >> -lit(';') >> blanks >> -comment) > end_of_line;
+const auto line = named<struct LineRule, RawLine>("a line") = blanks >> -statement >> blanks >> -lit(';') >> blanks >>
+                                                              -comment >> must[end_of_line];
 
 const auto further_operands = named<struct FurtherOperands, std::vector<RawOperand>>("operands") = *(blanks >> lit(',') >>
                                                                                                      blanks >> operand) >>
@@ -445,22 +498,19 @@ class LineReader {
   std::optional<Operand> read_operand() {
     RawOperand raw;
     Place at = begin();
-    try {
-      if (!x3::parse(at, end(), grammar::operand, raw) || at != end()) {
-        report_unexpected(at, "the end of the operand");
-        return std::nullopt;
-      }
-    } catch (const x3::expectation_failure<Place>& failure) {
-      report_unexpected(failure.where(), failure.which());
-      return std::nullopt;
-    }
-    return operand_of(raw);
+    Missing missing{};
+    const bool read = parse_beginning(at, end(), grammar::operand, raw, missing);
+    if (read && at == end()) return operand_of(raw);
+    const bool incomplete = missing.where != nullptr;
+    report_unexpected(incomplete ? missing.where : at, incomplete ? missing.part : "the end of the operand");
+    return std::nullopt;
   }
 
  private:
   std::optional<Range> block_keyword() const {
     Range keyword;
-    if (!x3::parse(begin(), end(), grammar::block_line, keyword)) return std::nullopt;
+    Place at = begin();
+    if (!parse_beginning(at, end(), grammar::block_line, keyword)) return std::nullopt;
     return keyword;
   }
 
@@ -487,12 +537,9 @@ class LineReader {
 
   void read_line() {
     RawLine line;
-    try {
-      x3::parse(begin(), end(), grammar::line, line);
-    } catch (const x3::expectation_failure<Place>& failure) {
-      report_unexpected(failure.where(), failure.which());
-      return;
-    }
+    Place at = begin();
+    Missing missing;
+    if (!parse_beginning(at, end(), grammar::line, line, missing)) return report_unexpected(missing.where, missing.part);
     const std::string comment =
         lines_.comments + std::string(line.comment ? trim_end(view(*line.comment)) : std::string_view{});
     if (line.statement) {
@@ -558,7 +605,7 @@ class LineReader {
     const std::size_t colon = name_end == std::string_view::npos ? name_end : text.find(':', name_end);
     RawAddress address;
     Place at = text.data() + (colon == std::string_view::npos ? text.size() : colon + 1);
-    if (x3::parse(at, end_of(text), grammar::address >> x3::eoi, address)) {
+    if (parse_beginning(at, end_of(text), grammar::address >> x3::eoi, address)) {
       if (address.mark == 0 && (text.front() == '&' || text.front() == '*')) address.mark = text.front();
       auto value = address_value(address, range);
       if (!value) return std::nullopt;
@@ -576,7 +623,7 @@ class LineReader {
     if (colon == std::string_view::npos) return std::nullopt;
     RawOperand operand;
     Place at = text.data() + colon + 1;
-    if (!x3::parse(at, end_of(text), grammar::operand >> x3::eoi, operand)) return std::nullopt;
+    if (!parse_beginning(at, end_of(text), grammar::operand >> x3::eoi, operand)) return std::nullopt;
     const auto* word = boost::get<RawWord>(&operand.get());
     return word && word->kind != Kind::Name ? std::optional(operand) : std::nullopt;
   }
@@ -619,7 +666,7 @@ class LineReader {
   std::optional<OperandValue> real_value(const RawWord& word, const Range& text) {
     const std::string_view digits = without_plus(view(word.text));
     float value = 0;
-    const bool fits = std::from_chars(digits.data(), digits.data() + digits.size(), value).ec == std::errc{};
+    const bool fits = read_number(digits, value).ec == std::errc{};
     if (!fits || std::fpclassify(value) == FP_SUBNORMAL) {
       return refuse(text, fmt::format("{} does not fit in a 32-bit real", shown(text)),
                     "a real is 0.0, or 1.175495E-38 to 3.402823E+38 or its negative");
@@ -726,11 +773,7 @@ class LineReader {
       return false;
     RawStatement second;
     Place at = start;
-    try {
-      if (!x3::parse(at, end(), grammar::statement, second)) return false;
-    } catch (const x3::expectation_failure<Place>&) {
-      return false;
-    }
+    if (!parse_beginning(at, end(), grammar::statement, second)) return false;
     const std::string_view mnemonic = view(second.mnemonic);
     if (before.ends_with(',') && is_letter(mnemonic.front())) return false;  // an operand
     if (second.operands.empty() && !(before.ends_with(';') && std::ranges::all_of(mnemonic, is_upper))) return false;
@@ -792,12 +835,8 @@ bool goes_on(std::string_view line, bool after_comma, bool call) {
   const Place end = code.data() + code.size();
   RawOperand first;
   std::vector<RawOperand> others;
-  try {
-    if (!x3::parse(at, end, grammar::operand, first)) return false;
-    x3::parse(at, end, grammar::further_operands, others);
-  } catch (const x3::expectation_failure<Place>&) {
-    return false;
-  }
+  if (!parse_beginning(at, end, grammar::operand, first)) return false;
+  if (!parse_beginning(at, end, grammar::further_operands, others)) return false;
   const auto* word = boost::get<RawWord>(&first.get());
   const bool plain_word = word && word->kind == Kind::Name && is_letter(view(word->text).front());
   return at == end && (after_comma || !plain_word || code_of(line).starts_with(','));

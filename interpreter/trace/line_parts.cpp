@@ -7,8 +7,10 @@ namespace s7200 {
 
 void append_hex(fmt::memory_buffer& text, std::uint32_t number, std::size_t digits) {
   std::array<char, 11> hex{'1', '6', '#'};
-  const auto begin = hex.begin(), first = begin + 3, end = first + digits;
-  for (auto place = end; place != first; number >>= 4) *--place = "0123456789ABCDEF"[number & 15];
+  char* const begin = hex.data();
+  char* const first = begin + 3;
+  char* const end = first + digits;
+  for (char* place = end; place != first; number >>= 4) *--place = "0123456789ABCDEF"[number & 15];
   text.append(begin, end);
 }
 
@@ -19,12 +21,13 @@ void append_clock(fmt::memory_buffer& text, Time at, std::size_t spaces) {
   constexpr int kDecimals = 6, kWhole = 7;
   std::array<char, 32> digits{};
   digits.fill(' ');
-  const auto end = digits.end(), point = end - static_cast<std::ptrdiff_t>(spaces) - kDecimals - 1;
+  char* const end = digits.data() + digits.size();
+  char* const point = end - spaces - kDecimals - 1;
   auto decimals = static_cast<std::uint32_t>(at % kMillisecond);
-  for (auto place = point + kDecimals; place != point; --place, decimals /= 10)
+  for (char* place = point + kDecimals; place != point; --place, decimals /= 10)
     *place = static_cast<char>('0' + decimals % 10);
   *point = '.';
-  auto place = point;
+  char* place = point;
   for (auto whole = static_cast<std::uint64_t>(at / kMillisecond); whole != 0 || place == point; whole /= 10)
     *--place = static_cast<char>('0' + whole % 10);
   text.append(std::min(place, point - kWhole), end);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -25,7 +26,7 @@ template <class Value, std::size_t N>
 consteval Words<N> words_of(const Named<Value> (&rows)[N]) {
   Words<N> words;
   for (std::size_t place = 0; place < N; ++place) {
-    if (static_cast<std::size_t>(rows[place].value) != place) throw "a value stands at another's place";
+    if (static_cast<std::size_t>(rows[place].value) != place) std::abort();
     words[place] = rows[place].word;
   }
   return words;

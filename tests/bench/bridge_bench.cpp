@@ -25,6 +25,7 @@
 #include "tests/support/source_path.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/bridge/pty_bridge.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace {
@@ -156,7 +157,7 @@ int main(int argc, char** argv) {
   const int exchanges = argc > 1 ? std::atoi(argv[1]) : 1000;
   const std::string path = test::source_path("stl_programs/modbus_slave.stl");
   std::string why;
-  const auto text = read_file(path, why);
+  const auto text = tools::read_file(path, why);
   const CpuModel& model = *find_cpu("214");
   const auto program = check_text(*text, path, model, default_times(model)).program;
   const std::string link =

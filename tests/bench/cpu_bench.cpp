@@ -8,6 +8,7 @@
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
+#include "tools/host/files.hpp"
 #include "tools/measuring/mixed_program.hpp"
 
 namespace s7200 {
@@ -22,7 +23,7 @@ std::shared_ptr<const Program> load(std::string_view text, const CpuModel& model
 const std::shared_ptr<const Program>& slave() {
   static const auto kSlave = [] {
     std::string why;
-    const auto text = read_file(test::source_path("stl_programs/modbus_slave.stl"), why);
+    const auto text = tools::read_file(test::source_path("stl_programs/modbus_slave.stl"), why);
     if (!text) throw std::runtime_error(why);
     return load(*text);
   }();

@@ -11,6 +11,7 @@
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/debugger/stepper.hpp"
+#include "tools/host/files.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace {
@@ -51,7 +52,7 @@ int main(int argc, char** argv) {
   const double minutes = argc > 1 ? std::atof(argv[1]) : 10;
   const Time end = static_cast<Time>(minutes * 60 * static_cast<double>(kSecond));
   std::string why;
-  const auto text = read_file(test::source_path("stl_programs/modbus_slave.stl"), why);
+  const auto text = tools::read_file(test::source_path("stl_programs/modbus_slave.stl"), why);
   if (!text) return fmt::print(stderr, "{}\n", why), 2;
   serial::Simulation simulation(check_text(*text, "slave", cpu214(), default_times(cpu214())).program);
   simulation.power_up();

@@ -10,6 +10,7 @@
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
+#include "tools/host/files.hpp"
 
 namespace s7200::faults {
 namespace {
@@ -471,7 +472,7 @@ std::shared_ptr<const Program> program_of(const std::string& text, const std::st
 
 std::shared_ptr<const Program> load_program(const std::string& path) {
   std::string why;
-  const auto bytes = read_file(path, why);
+  const auto bytes = tools::read_file(path, why);
   if (!bytes) throw std::runtime_error(fmt::format("cannot read {}: {}", path, why));
   return program_of(*bytes, path);
 }

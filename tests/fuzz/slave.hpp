@@ -10,6 +10,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/host/files.hpp"
 
 namespace s7200 {
 
@@ -46,7 +47,7 @@ class Input {
 
 inline std::shared_ptr<const Program> program_at(const std::string& path, std::string_view cpu) {
   std::string why;
-  const auto bytes = read_file(path, why);
+  const auto bytes = tools::read_file(path, why);
   auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
   require(text.has_value(), "the program can be read");
   const CpuModel& model = *find_cpu(cpu);

@@ -16,13 +16,14 @@
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
+#include "tools/host/files.hpp"
 
 namespace s7200::test {
 
 /// The text of a file as UTF-8; empty, and the test fails, when it cannot be read.
 inline std::string text_of(const std::string& path) {
   std::string why;
-  auto bytes = read_file(path, why);
+  auto bytes = tools::read_file(path, why);
   EXPECT_TRUE(bytes) << path << ": " << why;
   return bytes ? *bytes : std::string{};
 }

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "interpreter/base/text.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/files.hpp"
 #include "tools/json/json.hpp"
 
 namespace s7200::tools {

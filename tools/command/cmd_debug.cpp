@@ -15,6 +15,7 @@
 #include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "interpreter/base/file_source.hpp"
 #include "interpreter/base/text.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"

@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/base/file_source.hpp"
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/command/debuggee_run.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/rig_output.hpp"

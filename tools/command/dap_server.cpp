@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include "interpreter/base/text.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/dap/serve.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/host/server_rules.hpp"
 #include "tools/host/tcp_listener.hpp"

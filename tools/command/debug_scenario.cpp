@@ -15,6 +15,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/command/test_output.hpp"
 #include "tools/debugger/debugger.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/scenario/benches.hpp"
 #include "tools/scenario/collection.hpp"

@@ -6,10 +6,10 @@
 
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/debugger/debugger.hpp"
 #include "tools/debugger/session_file.hpp"
 #include "tools/debugger/words.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/session/past/digest.hpp"
 #include "tools/session/past/past_words.hpp"

@@ -19,18 +19,17 @@ std::vector<std::string> names_in_band(const CpuModel& model, const std::string&
   return names;
 }
 
-std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
-                                   std::vector<std::string>& errors) {
-  auto times = load_times(model, table, errors);
+std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const FileSource& files,
+                                   const BandSettings& settings, std::vector<std::string>& errors) {
+  auto times = load_times(model, table, files, errors);
   if (!times) return {};
   return band_around(model, table, std::move(*times), settings);
 }
 
 TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable times, const BandSettings& settings) {
   std::vector<TimesBand::Named> tables;
-  std::vector<std::string> errors;  // there are none in tables that have a name
   for (const std::string& name : names_in_band(model, table))
-    tables.push_back({name, name == table ? std::move(times) : *load_times(model, name, errors)});
+    tables.push_back({name, name == table ? std::move(times) : times_named(model, name)});
   return TimesBand(std::move(tables), settings);
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/file_source.hpp"
 #include "interpreter/model/times_band.hpp"
 #include "interpreter/program/checker.hpp"
 #include "interpreter/trace/trace.hpp"
@@ -21,8 +22,8 @@ namespace s7200::tools {
 std::vector<std::string> names_in_band(const CpuModel& model, const std::string& table);
 
 /// These, of a table as load_times() takes it, and random ones. Nothing, with errors, as load_times().
-std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const BandSettings& settings,
-                                   std::vector<std::string>& errors);
+std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const FileSource& files,
+                                   const BandSettings& settings, std::vector<std::string>& errors);
 
 /// The same of a table that has been read already, as `times`.
 TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable times, const BandSettings& settings);

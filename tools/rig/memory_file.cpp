@@ -10,7 +10,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/cpu/forcing.hpp"
 #include "interpreter/program/address.hpp"
-#include "interpreter/program/load.hpp"
+#include "tools/host/files.hpp"
 #include "tools/json/json.hpp"
 #include "tools/views/report.hpp"
 

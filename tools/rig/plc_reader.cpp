@@ -19,6 +19,7 @@
 #include "interpreter/program/slips.hpp"
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
+#include "tools/host/files.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/program_cpu.hpp"
 #include "tools/rig/system_block_reader.hpp"
@@ -173,7 +174,7 @@ class PlcReader {
                             !written               ? ""
                             : find_times(*written) ? *written
                                                    : beside(reading_.path, *written),
-                            errors);
+                            host_files(), errors);
     if (!times) values_.wrong(*map.find("times"), errors.empty() ? "no such table" : errors.front());
     return times;
   }

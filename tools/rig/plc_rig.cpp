@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "interpreter/base/text.hpp"
-#include "interpreter/program/load.hpp"
 #include "interpreter/trace/output_record.hpp"
 #include "interpreter/trace/output_waves.hpp"
 #include "interpreter/trace/text_trace.hpp"
+#include "tools/host/files.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {

@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/cpu_choice.hpp"
 #include "interpreter/stl/symbols.hpp"
+#include "tools/host/files.hpp"
 #include "tools/yaml/values.hpp"
 
 namespace s7200::tools {

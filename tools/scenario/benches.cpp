@@ -8,6 +8,7 @@
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
 #include "interpreter/program/stand_ins.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/other_plc.hpp"
 #include "tools/rig/system_reader.hpp"
@@ -89,7 +90,7 @@ Programs::Loaded Programs::load(const std::vector<std::string>& files, const std
   auto parsed = read(files, repairs, loaded.messages);
   if (!parsed) return loaded;
   std::vector<std::string> errors;
-  auto times = load_times(model, times_table, errors);
+  auto times = load_times(model, times_table, host_files(), errors);
   for (const std::string& error : errors) add_error(loaded.messages, error);
   if (!times) return loaded;
   for (const std::string& note : parsed->notes) loaded.messages.push_back({.kind = Message::Kind::Note, .text = note});

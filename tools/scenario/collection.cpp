@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "interpreter/program/load.hpp"
+#include "tools/host/files.hpp"
 #include "tools/rig/program_cpu.hpp"
 #include "tools/scenario/conformance_suite.hpp"
 #include "tools/scenario/reader.hpp"

@@ -10,6 +10,7 @@
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
 #include "serial_sim/modbus/functions.hpp"
+#include "tools/host/files.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/program_cpu.hpp"
 #include "tools/rig/rig.hpp"
@@ -159,7 +160,7 @@ class HeadReader {
     std::error_code none;
     if (std::filesystem::is_fifo(scenario.times, none)) return;
     std::vector<std::string> errors;
-    load_times(*find_cpu(scenario.cpu), scenario.times, errors);
+    load_times(*find_cpu(scenario.cpu), scenario.times, host_files(), errors);
     for (const std::string& error : errors) values_.wrong(node, error);
   }
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "interpreter/base/file_source.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/scenario/transcript_writer.hpp"
 #include "tools/views/escapes.hpp"
 #include "tools/views/memory.hpp"

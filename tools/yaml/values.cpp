@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
+#include "interpreter/base/file_source.hpp"
 #include "interpreter/base/numbers.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/yaml/names.hpp"
 
 namespace s7200::tools {

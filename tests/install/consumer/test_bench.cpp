@@ -13,6 +13,7 @@
 #include "interpreter/program/load.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/bridge/pty_bridge.hpp"
+#include "tools/host/files.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/runner.hpp"
 
@@ -82,7 +83,7 @@ bool serves_behind_a_pty(const std::shared_ptr<const Program>& program) {
 
 int main() {
   std::string why;
-  const auto bytes = read_file(STL_PROGRAMS "/modbus_slave.stl", why);
+  const auto bytes = tools::read_file(STL_PROGRAMS "/modbus_slave.stl", why);
   if (!bytes) return std::fprintf(stderr, "%s\n", why.c_str()), 2;
   const CheckResult checked = check_text(*bytes, "modbus_slave.stl", cpu214(), default_times(cpu214()));
   if (!checked.program) return 2;

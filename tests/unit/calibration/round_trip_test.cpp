@@ -13,6 +13,7 @@
 #include "interpreter/program/load_times.hpp"
 #include "tools/calibration/fit.hpp"
 #include "tools/calibration/measure_protocol.hpp"
+#include "tools/host/files.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -126,7 +127,7 @@ std::vector<TimeTable> truths(std::uint32_t random) {
   std::vector<TimeTable> tables;
   std::vector<std::string> errors;
   for (const char* name : {"cpu214", "cpu214_from_22x"}) {
-    const TimeTable named = *load_times(cpu214(), name, errors);
+    const TimeTable named = *load_times(cpu214(), name, tools::host_files(), errors);
     tables.push_back(named);
     for (std::uint32_t number = 0; number < random; ++number) tables.push_back(random_times(named, 1, number));
   }
@@ -170,7 +171,7 @@ TEST(RoundTrip, ATableIsReadAsItIsWritten) {
   const auto path = std::filesystem::temp_directory_path() / ("s7200_round_trip_" + std::to_string(getpid()));
   std::ofstream(path) << cpu_line("214") << to_csv(table);
   std::vector<std::string> errors;
-  const auto loaded = load_times(cpu214(), path.string(), errors);
+  const auto loaded = load_times(cpu214(), path.string(), tools::host_files(), errors);
   std::filesystem::remove(path);
   ASSERT_EQ(errors, std::vector<std::string>{});
   expect_sums_within(*loaded, table);

@@ -3,6 +3,11 @@
 #include <gtest/gtest.h>
 #include <iconv.h>
 
+#include <utility>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/stl/code_pages.hpp"
+
 namespace s7200::stl {
 namespace {
 
@@ -57,16 +62,16 @@ TEST(Encoding, RecognisesCp437ByItsDrawingsAndItsUmlauts) {
   EXPECT_EQ(words.text, "LD I0.0 // Störung löschen, Tür auf\n");
 }
 
-/// A text in another encoding.
-std::string encoded(std::string text, const char* encoding) {
-  const iconv_t converter = iconv_open(encoding, "UTF-8");
-  std::string bytes(4 * text.size(), '\0');
-  char *from = text.data(), *to = bytes.data();
-  std::size_t left = text.size(), room = bytes.size();
-  EXPECT_NE(iconv(converter, &from, &left, &to, &room), static_cast<std::size_t>(-1)) << encoding;
+/// A text in another encoding, by the converter of the system.
+std::string converted(std::string bytes, const char* from, const char* to) {
+  const iconv_t converter = iconv_open(to, from);
+  std::string text(4 * bytes.size(), '\0');
+  char *source = bytes.data(), *target = text.data();
+  std::size_t left = bytes.size(), room = text.size();
+  EXPECT_NE(iconv(converter, &source, &left, &target, &room), static_cast<std::size_t>(-1)) << from;
   iconv_close(converter);
-  bytes.resize(bytes.size() - room);
-  return bytes;
+  text.resize(text.size() - room);
+  return text;
 }
 
 TEST(Encoding, RecognisesTheCodePagesOfWindowsAndShiftJis) {
@@ -83,7 +88,7 @@ TEST(Encoding, RecognisesTheCodePagesOfWindowsAndShiftJis) {
            Row{"Shift-JIS", "CP932", "LD I0.0 // ポンプ運転中、水位が高い\n"},
            Row{"GBK", "GBK", "LD I0.0 // 水泵运行,高水位开关\n"},
        }) {
-    const DecodedText result = decoded(encoded(row.text, row.iconv_name));
+    const DecodedText result = decoded(converted(row.text, "UTF-8", row.iconv_name));
     EXPECT_EQ(result.encoding, row.name);
     EXPECT_EQ(result.text, row.text);
   }
@@ -140,12 +145,40 @@ TEST(Encoding, WritesWhatItReads) {
   }
 }
 
+TEST(Encoding, UnpairedSurrogatesOfUtf16BecomeReplacements) {
+  EXPECT_EQ(decoded("\xFF\xFE\x3D\xD8\x00\xDE!\0"s).text, "\U0001F600!");
+  EXPECT_EQ(decoded("\xFF\xFE\x3D\xD8!\0"s).text, "\uFFFD!");
+  EXPECT_EQ(decoded("\xFF\xFE\x00\xDE!\0"s).text, "\uFFFD!");
+  std::string why;
+  EXPECT_EQ(encode("\U0001F600", "UTF-16", why), "\xFF\xFE\x3D\xD8\x00\xDE"s);
+}
+
+// The tables are Python's; the system's converter is another source. Shift-JIS has some characters twice.
+TEST(Encoding, CodePagesAreThoseOfTheSystemsConverter) {
+  std::size_t compared = 0;
+  for (const auto& [name, iconv_name] :
+       {std::pair{"Windows-1250", "WINDOWS-1250"}, std::pair{"Windows-1251", "WINDOWS-1251"},
+        std::pair{"Windows-1252", "WINDOWS-1252"}, std::pair{"Windows-1253", "WINDOWS-1253"},
+        std::pair{"Windows-1254", "WINDOWS-1254"}, std::pair{"CP437", "CP437"}, std::pair{"GBK", "GBK"},
+        std::pair{"Shift-JIS", "CP932"}}) {
+    const CodePage& page = *find_code_page(name);
+    for (char32_t c = 0x80; c < 0xFFFD; ++c) {
+      const std::string bytes = from_character(c, page);
+      if (bytes.empty()) continue;
+      EXPECT_EQ(to_utf8(bytes, page), to_utf8(c)) << name;
+      EXPECT_EQ(converted(bytes, iconv_name, "UTF-8"), to_utf8(c)) << name << " U+" << std::hex << static_cast<unsigned>(c);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 29'000U);
+}
+
 TEST(Encoding, ACharacterThatTheEncodingLacksIsNamed) {
   std::string why;
   EXPECT_FALSE(encode("NOT // \u4E2D\n", "Windows-1252", why));
   EXPECT_EQ(why, "the character U+4E2D does not exist in Windows-1252");
   EXPECT_FALSE(encode("NOT", "EBCDIC", why));
-  EXPECT_EQ(why, "this system cannot write EBCDIC");
+  EXPECT_EQ(why, "EBCDIC is not an encoding that can be written");
 }
 
 }  // namespace

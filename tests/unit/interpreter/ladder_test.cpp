@@ -8,6 +8,7 @@
 #include "interpreter/program/ladder_compare.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tests/support/source_path.hpp"
+#include "tools/host/files.hpp"
 
 namespace s7200 {
 namespace {
@@ -284,7 +285,7 @@ class DrawnTip : public testing::Test {
     const std::string path = test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no " << path;
     std::string why;
-    bytes_ = read_file(path, why).value_or("");
+    bytes_ = tools::read_file(path, why).value_or("");
   }
   std::string bytes_;
 };

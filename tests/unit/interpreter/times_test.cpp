@@ -12,6 +12,7 @@
 #include "interpreter/model/times_file.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/load_times.hpp"
+#include "tools/host/files.hpp"
 
 namespace s7200 {
 namespace {
@@ -218,13 +219,13 @@ TEST(NamedTimes, EachFigureOfTheCpu214IsAsUnsureAsTheRememberedOneIsFarFromIt) {
 
 TEST(NamedTimes, ATableIsForItsOwnCpus) {
   std::vector<std::string> errors;
-  EXPECT_FALSE(load_times(cpu224(), "cpu214_from_22x", errors));
+  EXPECT_FALSE(load_times(cpu224(), "cpu214_from_22x", tools::host_files(), errors));
   EXPECT_EQ(errors, Errors{"cpu214_from_22x has times of CPU 212, 214, 215 or 216; tables for CPU 224: cpu22x"});
   errors.clear();
-  EXPECT_FALSE(load_times(cpu214(), "cpu214_from_23x", errors));
+  EXPECT_FALSE(load_times(cpu214(), "cpu214_from_23x", tools::host_files(), errors));
   EXPECT_EQ(errors, Errors{"cannot read cpu214_from_23x: No such file or directory; tables for CPU 214 that have a name: "
                            "cpu214, cpu214_from_22x"});
-  const auto times = load_times(cpu214(), "cpu214_from_22x", errors = {});
+  const auto times = load_times(cpu214(), "cpu214_from_22x", tools::host_files(), errors = {});
   ASSERT_TRUE(times);
   EXPECT_EQ(times->find("MOVB", {})->marker, "remembered");
   EXPECT_EQ((*times)[SystemTime::ScanOverhead], default_times(cpu214())[SystemTime::ScanOverhead]) << "not remembered";
@@ -247,7 +248,7 @@ class WrittenFile {
 Errors slips_in(const std::string& lines, const CpuModel& model, const std::string& before = "") {
   const WrittenFile file(before + kHeader + lines);
   Errors errors;
-  const bool loaded = load_times(model, file.path(), errors).has_value();
+  const bool loaded = load_times(model, file.path(), tools::host_files(), errors).has_value();
   EXPECT_EQ(loaded, errors.empty());
   for (std::string& error : errors) error.erase(0, file.path().size());
   return errors;
@@ -301,8 +302,8 @@ TEST(LoadTimes, EachTableWithANameReadsBackFromAFile) {
     for (const NamedTimes& named : named_times())
       if (named.cpus & model->self) {
         Errors errors;
-        const WrittenFile file(to_csv(*load_times(*model, std::string(named.name), errors)));
-        EXPECT_TRUE(load_times(*model, file.path(), errors)) << named.name;
+        const WrittenFile file(to_csv(*load_times(*model, std::string(named.name), tools::host_files(), errors)));
+        EXPECT_TRUE(load_times(*model, file.path(), tools::host_files(), errors)) << named.name;
         EXPECT_EQ(errors, Errors{});
       }
 }

@@ -11,6 +11,7 @@
 #include "interpreter/program/lint.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/support/source_path.hpp"
+#include "tools/host/files.hpp"
 
 namespace s7200 {
 namespace {
@@ -43,7 +44,7 @@ TEST(Warnings, ProgramsThatWorkWellHaveNone) {
   for (const auto& entry : std::filesystem::directory_iterator(test::source_path("stl_programs"))) {
     if (entry.path().extension() != ".stl") continue;
     std::string why;
-    const auto bytes = read_file(entry.path().string(), why);
+    const auto bytes = tools::read_file(entry.path().string(), why);
     ASSERT_TRUE(bytes) << why;
     EXPECT_EQ(warnings_of(*bytes, *find_cpu(test::cpu_named_in(*bytes))), "") << entry.path();
   }
@@ -53,7 +54,7 @@ TEST(Warnings, ApplicationTip41HasNone) {
   const std::string path = test::source_path("../shared/seeds/tip41_modbus_rtu_slave.txt");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   std::string why;
-  const auto bytes = read_file(path, why);
+  const auto bytes = tools::read_file(path, why);
   ASSERT_TRUE(bytes) << why;
   auto text = read_source(*bytes, path, why);
   ASSERT_TRUE(text) << why;

@@ -9,6 +9,7 @@
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/model/times_file.hpp"
 #include "interpreter/program/load.hpp"
+#include "tools/host/files.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -106,7 +107,7 @@ TEST(TimesBand, NoFigureIsDrawnBeyondTheLongestThatATableMayHave) {
 
 TEST(TimesBand, TheTableInUseComesFirstThenTheOthersOfTheCpuThenRandomOnes) {
   std::vector<std::string> errors;
-  const auto band = load_band(cpu214(), "", {.random = 3, .seed = 1}, errors);
+  const auto band = load_band(cpu214(), "", host_files(), {.random = 3, .seed = 1}, errors);
   ASSERT_TRUE(band);
   ASSERT_EQ(band->size(), 5U);
   EXPECT_EQ(to_csv((*band)[0]), to_csv(default_times(cpu214())));
@@ -115,20 +116,20 @@ TEST(TimesBand, TheTableInUseComesFirstThenTheOthersOfTheCpuThenRandomOnes) {
 
 TEST(TimesBand, ATableThatIsAskedForComesFirstAndWithoutTheOthersIfItIsNoneOfTheCpus) {
   std::vector<std::string> errors;
-  const auto band = load_band(cpu214(), "cpu214_from_22x", {.random = 3, .seed = 1}, errors);
+  const auto band = load_band(cpu214(), "cpu214_from_22x", host_files(), {.random = 3, .seed = 1}, errors);
   ASSERT_TRUE(band);
   EXPECT_EQ(band->size(), 5U);
   EXPECT_EQ(band->name(0), "cpu214_from_22x");
   EXPECT_EQ((*band)[0].find("MOVB", {})->marker, "remembered");
   EXPECT_EQ(band->name(1), "cpu214");
   EXPECT_EQ(band_around(cpu214(), "measured.csv", default_times(cpu214()), {.random = 3, .seed = 1}).size(), 4U);
-  EXPECT_FALSE(load_band(cpu214(), "no such file", {.random = 3, .seed = 1}, errors));
+  EXPECT_FALSE(load_band(cpu214(), "no such file", host_files(), {.random = 3, .seed = 1}, errors));
   EXPECT_EQ(errors.size(), 1U);
 }
 
 TEST(ProgramBand, KeepsTheProgramsOfTheFirstTablesAndMakesTheOthersAnewAlike) {
   std::vector<std::string> errors;
-  auto tables = load_band(cpu214(), "", {.random = 1000, .seed = 1}, errors);
+  auto tables = load_band(cpu214(), "", host_files(), {.random = 1000, .seed = 1}, errors);
   ASSERT_TRUE(tables);
   const ProgramBand band(stl::parse("LD I0.0\nMOVB 1, VB0\nMEND\n", "band.stl"), cpu214(), *tables, {});
   EXPECT_EQ(band.size(), 1002U);

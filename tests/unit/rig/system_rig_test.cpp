@@ -5,10 +5,10 @@
 #include <array>
 #include <fstream>
 
-#include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_path.hpp"
+#include "tools/host/files.hpp"
 #include "tools/rig/rig.hpp"
 #include "tools/rig/system_reader.hpp"
 

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "interpreter/base/text.hpp"
-#include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/command/options/help_groups.hpp"
+#include "tools/host/files.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {

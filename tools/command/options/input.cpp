@@ -6,6 +6,7 @@
 
 #include "interpreter/program/ladder.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {

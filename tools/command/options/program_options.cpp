@@ -16,6 +16,7 @@
 #include "tools/command/options/input.hpp"
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/files.hpp"
 #include "tools/measuring/band.hpp"
 #include "tools/recordings/recording.hpp"
 #include "tools/rig/program_cpu.hpp"
@@ -120,14 +121,14 @@ const CpuModel* CpuOptions::model_for(const SourceText& text, const std::string&
 
 std::optional<TimeTable> CpuOptions::times(const CpuModel& model) const {
   std::vector<std::string> errors;
-  auto times = load_times(model, times_table, errors);
+  auto times = load_times(model, times_table, host_files(), errors);
   for (const std::string& error : errors) print_error(error);
   return times;
 }
 
 std::optional<TimesBand> CpuOptions::band(const CpuModel& model, const BandSettings& settings) const {
   std::vector<std::string> errors;
-  auto tables = load_band(model, times_table, settings, errors);
+  auto tables = load_band(model, times_table, host_files(), settings, errors);
   for (const std::string& error : errors) print_error(error);
   return tables;
 }
@@ -210,7 +211,7 @@ std::optional<std::vector<TitledTimes>> load_all(const std::vector<std::string>&
   std::vector<TitledTimes> loaded;
   std::vector<std::string> errors;
   for (const std::string& table : tables)
-    if (auto times = load_times(model, table, errors)) loaded.push_back({table, std::move(*times)});
+    if (auto times = load_times(model, table, host_files(), errors)) loaded.push_back({table, std::move(*times)});
   for (const std::string& error : errors) print_error(error);
   return errors.empty() ? std::optional(loaded) : std::nullopt;
 }

@@ -13,6 +13,7 @@
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/master/protocol.hpp"
 #include "tools/recordings/samplerate.hpp"

@@ -7,13 +7,13 @@
 #include <set>
 #include <utility>
 
-#include "interpreter/program/load.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/band_options.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/rig_options.hpp"
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/files.hpp"
 #include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {

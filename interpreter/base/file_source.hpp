@@ -1,0 +1,25 @@
+// Where the bytes of a named file come from: the host's files, or those that someone dropped on a page. The libraries have
+// no files of their own; who starts them hands a source in.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace s7200 {
+
+class FileSource {
+ public:
+  virtual ~FileSource() = default;
+
+  /// The bytes of a file. Returns nothing and sets `why` if it cannot be read.
+  virtual std::optional<std::string> read(const std::string& path, std::string& why) const = 0;
+
+  /// A text in UTF-8, without the byte order mark that some editors put before it. Returns nothing and sets `why` as read().
+  std::optional<std::string> read_text(const std::string& path, std::string& why) const;
+};
+
+/// Whether a path means standard input: "-" and its names in Linux. What comes through a pipe can be read only once.
+bool is_standard_input(std::string_view path);
+
+}  // namespace s7200

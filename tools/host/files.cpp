@@ -1,0 +1,90 @@
+#include "tools/host/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <span>
+
+namespace s7200::tools {
+namespace {
+
+/// Larger than any program; a pipe may never end.
+constexpr std::size_t kLargestFile = 64 << 20;
+
+/// A file or a pipe, and nothing else: reading from a serial port would wait for ever, and steal another program's data.
+struct OpenFile {
+  // Otherwise opening a serial port would wait for its carrier, and opening a pipe for its writer.
+  explicit OpenFile(const std::string& path) : fd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (fd >= 0) close(fd);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool can_be_read(std::string& why) const {
+    struct stat status {};
+    if (fd < 0 || fstat(fd, &status) != 0) {
+      why = std::strerror(errno);
+      return false;
+    }
+    if (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)) return true;
+    why = S_ISDIR(status.st_mode) ? "it is a folder" : "it is a device, not a file";
+    return false;
+  }
+
+  const int fd;
+};
+
+/// Also waits for a writer. Returns -1 with EINTR after a signal, so that Ctrl-C ends the wait for a pipe without a writer.
+ssize_t read_some(int fd, std::span<char> piece) {
+  pollfd written{fd, POLLIN, 0};
+  return poll(&written, 1, -1) < 0 ? -1 : read(fd, piece.data(), piece.size());
+}
+
+std::optional<std::string> read_all(int fd, std::string& why) {
+  std::string bytes;
+  std::array<char, 65536> piece{};
+  for (;;) {
+    const ssize_t count = read_some(fd, piece);
+    if (count == 0) return bytes;
+    if (count < 0) {
+      why = std::strerror(errno);
+      return {};
+    }
+    bytes.append(piece.data(), static_cast<std::size_t>(count));
+    if (bytes.size() > kLargestFile) {
+      why = fmt::format("it is larger than {} MB", kLargestFile >> 20);
+      return {};
+    }
+  }
+}
+
+class HostFiles final : public FileSource {
+ public:
+  std::optional<std::string> read(const std::string& path, std::string& why) const override { return read_file(path, why); }
+};
+
+}  // namespace
+
+std::optional<std::string> read_file(const std::string& path, std::string& why) {
+  const OpenFile file(path);
+  if (!file.can_be_read(why)) return {};
+  return read_all(file.fd, why);
+}
+
+std::optional<std::string> read_text(const std::string& path, std::string& why) { return host_files().read_text(path, why); }
+
+std::optional<std::string> read_standard_input(std::string& why) { return read_all(STDIN_FILENO, why); }
+
+const FileSource& host_files() {
+  static const HostFiles kFiles;
+  return kFiles;
+}
+
+}  // namespace s7200::tools
