@@ -21,10 +21,14 @@ class EventText {
   /// Appends `INT 122 begins: event 8 (…), waited 12 us`.
   void append_to(fmt::memory_buffer& text, const TraceRecord& record);
 
- private:
+  /// `event 8 (…)`
   const std::string& event(std::uint8_t number);
+  /// `12 us`
   const std::string& duration(Time time);
+  /// `line 42: MOVW VW0, AC0`, the statement of an instruction; `between two scans` for kNoRoutine.
+  std::string place(std::uint32_t op) const;
 
+ private:
   struct Duration {
     Time time = -1;
     std::string text;

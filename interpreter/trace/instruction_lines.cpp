@@ -40,8 +40,8 @@ void InstructionLines::append_what(fmt::memory_buffer& text, const OpText& op, c
 }
 
 void InstructionLines::append_values(fmt::memory_buffer& text, const OpText& op, const InstructionRecord& record) {
-  for (const Value& value : op.values) {
-    append(text, value.name);
+  for (const WatchedValue& value : op.values) {
+    append(text, " ", value.name, "=");
     const auto number = record.value[value.operand];
     if (!number) {
       append(text, "?");
@@ -52,21 +52,26 @@ void InstructionLines::append_values(fmt::memory_buffer& text, const OpText& op,
   }
 }
 
-InstructionLines::OpText InstructionLines::make(const Program& program, std::uint32_t number) {
+std::vector<WatchedValue> watched_values(const Program& program, std::uint32_t number) {
   const Op& op = program.ops[number];
   const stl::Statement& statement = program.statement(number);
-  OpText text{.made = true,
-              .head = fmt::format("line {:<5} {:<28} S0=", statement.position.line, stl::to_text(statement)),
-              .values = {},
-              .duration = {}};
+  std::vector<WatchedValue> values;
   const auto rules = op.instruction->rules();  // parameters of a CALL have none: their values are not recorded
   for (std::size_t i = 0; i < std::min(statement.operands.size(), rules.size()); ++i) {
     const OperandRule& rule = rules[i];
     if (rule.kind != OperandKind::Memory || is_constant(statement.operands[i])) continue;
     const bool real = rule.real || (rule.width == Width::Double && !op[i].pointer && program.is_real(op[i].at));
-    text.values.push_back({i, fmt::format(" {}=", stl::to_text(statement.operands[i])), rule.width, real});
+    values.push_back({i, stl::to_text(statement.operands[i]), rule.width, real});
   }
-  return text;
+  return values;
+}
+
+InstructionLines::OpText InstructionLines::make(const Program& program, std::uint32_t number) {
+  const stl::Statement& statement = program.statement(number);
+  return {.made = true,
+          .head = fmt::format("line {:<5} {:<28} S0=", statement.position.line, stl::to_text(statement)),
+          .values = watched_values(program, number),
+          .duration = {}};
 }
 
 std::string describe(const InstructionRecord& record, const Program& program) {

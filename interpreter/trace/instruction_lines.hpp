@@ -13,6 +13,16 @@
 
 namespace s7200 {
 
+/// An operand of an instruction whose value is recorded.
+struct WatchedValue {
+  std::size_t operand = 0;  ///< its place in InstructionRecord::value
+  std::string name;         ///< as the program writes it: `VW3300`
+  Width width = Width::Byte;
+  bool real = false;
+};
+
+std::vector<WatchedValue> watched_values(const Program& program, std::uint32_t op);
+
 class InstructionLines {
  public:
   /// The program must live as long as this.
@@ -22,17 +32,10 @@ class InstructionLines {
   void append_line(fmt::memory_buffer& text, const InstructionRecord& record);
 
  private:
-  struct Value {
-    std::size_t operand = 0;
-    std::string name;  ///< ` VW3300=`
-    Width width = Width::Byte;
-    bool real = false;
-  };
-
   struct OpText {
     bool made = false;
     std::string head;  ///< `line 42    MOVW    VW3300, AC0   S0=`
-    std::vector<Value> values;
+    std::vector<WatchedValue> values;
     Time took = -1;
     std::string duration;  ///< of `took`: it is nearly always the same
   };

@@ -12,19 +12,14 @@ TextTrace::TextTrace(std::ostream& out, std::shared_ptr<const Program> program, 
 }
 
 TextTrace::TextTrace(TakeLine take, std::shared_ptr<const Program> program, TraceDetail detail)
-    : take_(std::move(take)),
+    : TraceWriter(detail),
+      take_(std::move(take)),
       program_(std::move(program)),
-      detail_(detail),
       lines_(*program_),
       instruction_lines_(*program_) {}
 
-bool TextTrace::wants(const TraceRecord& record) const {
-  if (record.kind == TraceKind::ScanBegin) return detail_ == TraceDetail::Instructions;
-  return is_shown(record);
-}
-
 void TextTrace::record(const TraceRecord& record) {
-  if (wants(record)) {
+  if (has(record)) {
     line_.clear();
     begin_line(line_, record.at);
     lines_.append_to(line_, record);
@@ -35,7 +30,7 @@ void TextTrace::record(const TraceRecord& record) {
 }
 
 void TextTrace::instruction(const InstructionRecord& record) {
-  if (detail_ == TraceDetail::Instructions) {
+  if (has_instructions()) {
     line_.clear();
     instruction_lines_.append_line(line_, record);
     put_line(record.end);

@@ -10,37 +10,37 @@
 
 namespace s7200 {
 
+/// What a record is about. What its members mean for each kind is in the rows of trace_rows.cpp, by name.
 enum class TraceKind : std::uint8_t {
-  ScanBegin,          ///< count: number of the scan
-  ModeChange,         ///< code: 1 RUN, 0 STOP
-  EventOccurred,      ///< event, attached to routine
-  EventLost,          ///< event: its queue was full
-  EventDropped,       ///< event: queued, then detached
-  ServiceBegin,       ///< event, routine; since: when it occurred
-  ServiceEnd,         ///< event, routine; since: when its service began
-  Attach,             ///< event, routine; interval: of a timed interrupt
-  Detach,             ///< event
-  Transmit,           ///< count: characters to send, 0 a break
-  TransmitEnd,        ///<
-  CharacterSent,      ///< byte; at: end of its stop bit
-  CharacterReceived,  ///< byte, parity_error, framing_error; since: its start edge
-  CharacterIgnored,   ///< like received; code: Ignored
-  CharacterDropped,   ///< like received, but RCV is still waiting for the start of its message
-  Receive,            ///< RCV begins its search; count: the most characters
-  ReceiveEnd,         ///< byte: status SMB86 or SMB186; count: characters stored
-  PortControl,        ///< byte: SMB30 or SMB130
-  OutputChanged,      ///< byte: new value of the output points; op: number of the byte
-  AnalogChanged,      ///< count: new value; op: number of the AQ word
-  RuntimeError,       ///< code; op: where
-  FatalError,         ///< code; op: where
-  Enable,             ///< code: 1 ENI, 0 DISI
-  NetworkJob,         ///< byte: the status in the table of NETR, or of NETW if routine is 1; op: its place in the image
-  PpiService,         ///< event: the master's station; code: error of the answer, 0 if it was carried out; op: s7::Kind;
-                      ///< byte: S7 function, or of user data the service, of the group `routine`; count: 0 if it names none
-  PpiAccess,       ///< a variable of a master's request: event: its station; byte: PpiVerb; routine, type, op, count: area,
-                   ///< type, address and count as in the request; code: s7::ReturnCode
-  PpiIgnored,      ///< a frame with a wrong check sum or end; count: its characters
-  PpiNotModelled,  ///< a right frame from station `event` to `byte` of which nothing comes here; code: PpiUnmodelled
+  ScanBegin,
+  ModeChange,
+  EventOccurred,  ///< an interrupt event, with a routine attached
+  EventLost,      ///< its queue was full
+  EventDropped,   ///< it was queued, and then detached
+  ServiceBegin,   ///< of an interrupt routine
+  ServiceEnd,
+  Attach,
+  Detach,
+  Transmit,  ///< XMT
+  TransmitEnd,
+  CharacterSent,
+  CharacterReceived,
+  CharacterIgnored,  ///< why: Ignored
+  CharacterDropped,  ///< RCV still waits for the start of its message
+  Receive,           ///< RCV begins its search
+  ReceiveEnd,
+  PortControl,  ///< SMB30 or SMB130 is written
+  OutputChanged,
+  AnalogChanged,
+  RuntimeError,
+  FatalError,
+  Enable,          ///< ENI or DISI
+  NetworkJob,      ///< of NETR or NETW
+  PpiService,      ///< what a master asks for, besides variables: op is an s7::Kind, routine the group of user data
+  PpiAccess,       ///< a variable of a master's request: byte is a PpiVerb, code an s7::ReturnCode; routine, type, op and
+                   ///< count are area, type, address and count as in the request
+  PpiIgnored,      ///< a frame with a wrong check sum or end
+  PpiNotModelled,  ///< a right frame of which nothing comes here; why: PpiUnmodelled
 };
 
 /// What a master does with a variable.
@@ -74,8 +74,8 @@ struct TraceRecord {
   std::uint8_t port = 0;  ///< of characters, messages and the control byte
   std::uint8_t type = 0;  ///< of PpiAccess
   std::uint16_t code = 0;
-  std::uint32_t op = 0;  ///< of Attach, Detach, Enable, Transmit, Receive, PortControl too: the instruction, kNoRoutine for
-                         ///< none; of ServiceBegin the one that was executed before it
+  std::uint32_t op = 0;  ///< mostly the instruction that did it, kNoRoutine for none; of some kinds a place
+                         ///< or a number, as the rows of trace_rows.cpp name it
   std::uint64_t count = 0;
   Time since = 0;
   Time interval = 0;

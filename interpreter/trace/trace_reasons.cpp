@@ -135,9 +135,7 @@ TraceReasons::TraceReasons(const Program& program) : program_(program) {
       reads_character_.set(number, reads_character(program, program.interrupt[number]));
 }
 
-std::string TraceReasons::line_of(std::uint32_t op) const {
-  return s7200::line_of(op, program_);
-}
+std::string TraceReasons::line_of(std::uint32_t op) const { return s7200::line_of(op, program_); }
 
 /// Where the program did it.
 const std::string& TraceReasons::place_of(std::uint32_t op) {

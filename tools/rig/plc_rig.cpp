@@ -9,8 +9,8 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/output_record.hpp"
 #include "interpreter/trace/output_waves.hpp"
-#include "interpreter/trace/text_trace.hpp"
 #include "tools/host/files.hpp"
+#include "tools/record/trace_formats.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
@@ -39,8 +39,11 @@ PlcRig::PlcRig(std::shared_ptr<const Program> program, const PlcSettings& settin
 bool PlcRig::claim(WrittenFiles& files, std::string& why) {
   files.reads(program_->source.name);
   for (const stl::FurtherFile& file : program_->source.further_files) files.reads(file.name);
-  const auto trace = [this](std::ostream& out) {
-    auto made = std::make_unique<TextTrace>(out, program_, settings_.trace_detail);
+  const TraceFormat& format = trace_format_of(settings_.trace);
+  const auto trace = [this, &format](std::ostream& out) {
+    out << format.first_line;
+    const auto take = [&out](Time, std::string_view line) { out << line; };
+    auto made = format.writer(take, program_, settings_.trace_detail, {});
     trace_ = made.get();
     return made;
   };
@@ -52,8 +55,7 @@ bool PlcRig::claim(WrittenFiles& files, std::string& why) {
     return std::make_unique<OutputRecord>(out);
   };
   return memory_.claim(files, settings_.memory, why) &&
-         traces_.claim(files, "--trace", settings_.trace, {"a trace", fmt::format("{}\n", TextTrace::kFirstLine)}, trace,
-                       why) &&
+         traces_.claim(files, "--trace", settings_.trace, {"a trace", std::string(format.first_line)}, trace, why) &&
          traces_.claim(files, "--output", settings_.output, waves ? dump : rows, output, why);
 }
 

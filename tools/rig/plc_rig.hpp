@@ -67,7 +67,7 @@ class PlcRig {
   PlcSettings settings_;
   MemoryFile memory_;
   TraceFiles traces_;
-  TextTrace* trace_ = nullptr;  // null: none is written
+  TraceWriter* trace_ = nullptr;  // null: none is written
 };
 
 }  // namespace s7200::tools

@@ -6,13 +6,10 @@
 #include <ostream>
 
 #include "interpreter/base/joined.hpp"
-#include "interpreter/trace/line_parts.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
 namespace {
-
-constexpr std::string_view kFirstLine = "# station, time in ms, what\n";
 
 /// By then whatever a CPU has run ahead of the others has been told.
 constexpr Time kTold = kSecond;
@@ -68,16 +65,17 @@ SystemTrace::SystemTrace(const SystemPlan& plan, const serial::System& system, T
 SystemTrace::~SystemTrace() = default;
 
 bool SystemTrace::claim(WrittenFiles& files, const std::string& path, std::string& why) {
-  return file_.claim(files, "--trace", path, {"a trace of a system", std::string(kFirstLine)}, why);
+  format_ = &trace_format_of(path);
+  return file_.claim(files, "--trace", path, {"a trace of a system", std::string(format_->first_line_of_system)}, why);
 }
 
 bool SystemTrace::open(std::string& why) {
   out_ = file_.open(why);
   if (!out_) return false;
-  *out_ << kFirstLine;
+  *out_ << format_->first_line_of_system;
   for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) {
     const auto take = [this, plc](Time at, std::string_view line) { add(plan_.plcs[plc].name, at, line); };
-    stations_.push_back(std::make_unique<TextTrace>(take, plan_.plcs[plc].program, detail_));
+    stations_.push_back(format_->writer(take, plan_.plcs[plc].program, detail_, plan_.plcs[plc].name));
   }
   return true;
 }
@@ -97,14 +95,12 @@ TraceSink& SystemTrace::station(std::size_t plc) { return *stations_[plc]; }
 void SystemTrace::note(std::size_t plc, Time at, std::string_view what) { stations_[plc]->note(at, what); }
 
 void SystemTrace::tell(const EventPlan& event, Time at, std::string_view what) {
-  fmt::memory_buffer line;
-  begin_line(line, at);
-  append(line, what, "\n");
-  add(name_of_subject(event, plan_), at, {line.data(), line.size()});
+  const std::string& subject = name_of_subject(event, plan_);
+  add(subject, at, format_->note(at, subject, what));
 }
 
 void SystemTrace::add(std::string_view name, Time at, std::string_view text) {
-  waiting_.push_back({at, fmt::format("{:<{}}  {}", name, width_, text)});
+  waiting_.push_back({at, format_->station_column ? fmt::format("{:<{}}  {}", name, width_, text) : std::string(text)});
   if (waiting_.size() % kMostWaiting == 0) write_until(system_.time() - kTold);
 }
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/system/system.hpp"
 #include "tools/host/record_file.hpp"
+#include "tools/record/trace_formats.hpp"
 #include "tools/rig/system_plan.hpp"
 
 namespace s7200::tools {
@@ -53,10 +53,11 @@ class SystemTrace final {
   const SystemPlan& plan_;
   const serial::System& system_;
   TraceDetail detail_;
-  std::size_t width_ = 0;  // of the column of names
+  const TraceFormat* format_ = nullptr;  // of the file that is claimed
+  std::size_t width_ = 0;                // of the column of names
   RecordFile file_;
   std::ostream* out_ = nullptr;
-  std::vector<std::unique_ptr<TextTrace>> stations_;  // by PLC
+  std::vector<std::unique_ptr<TraceWriter>> stations_;  // by PLC
   std::vector<Line> waiting_;
 };
 

@@ -1,0 +1,43 @@
+// A trace that is written line by line.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "interpreter/trace/trace.hpp"
+#include "interpreter/trace/trace_lines.hpp"
+
+namespace s7200 {
+
+/// How much a trace says.
+enum class TraceDetail : std::uint8_t {
+  Events,       ///< what happened, without looking at instructions: fast
+  Way,          ///< and the way that the main program takes, when it changes
+  Instructions  ///< and every instruction
+};
+
+/// Takes a line of a trace, with its end, and the instant that it is about.
+using TakeLine = std::function<void(Time at, std::string_view line)>;
+
+class TraceWriter : public TraceSink {
+ public:
+  explicit TraceWriter(TraceDetail detail) : detail_(detail) {}
+
+  /// Writes what is done to the PLC from outside, in words.
+  virtual void note(Time at, std::string_view what) = 0;
+
+  bool wants_instructions() const override { return detail_ != TraceDetail::Events; }
+  Watch watch() const override { return has_instructions() ? Watch::Values : Watch::Flow; }
+  bool wants_scans() const override { return has_instructions(); }
+
+ protected:
+  bool has_instructions() const { return detail_ == TraceDetail::Instructions; }
+  bool has(const TraceRecord& record) const {
+    return record.kind == TraceKind::ScanBegin ? has_instructions() : is_shown(record);
+  }
+
+ private:
+  TraceDetail detail_;
+};
+
+}  // namespace s7200
