@@ -1,5 +1,5 @@
-// Where the bytes of a named file come from: the host's files, or those that someone dropped on a page. The libraries have
-// no files of their own; who starts them hands a source in.
+// The libraries open no files. Whoever calls them passes a source that reads a file by its name: the host's files, or those
+// that were dropped on a page.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 namespace s7200 {
 
+/// Reads files by their names.
 class FileSource {
  public:
   virtual ~FileSource() = default;
@@ -15,7 +16,7 @@ class FileSource {
   /// The bytes of a file. Returns nothing and sets `why` if it cannot be read.
   virtual std::optional<std::string> read(const std::string& path, std::string& why) const = 0;
 
-  /// A text in UTF-8, without the byte order mark that some editors put before it. Returns nothing and sets `why` as read().
+  /// A text in UTF-8, without the byte order mark that some editors put before it. Returns nothing and sets `why` like read().
   std::optional<std::string> read_text(const std::string& path, std::string& why) const;
 };
 

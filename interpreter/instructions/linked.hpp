@@ -6,12 +6,14 @@
 // left, op by op: it decides what happens at a deadline, and nothing here knows of deadlines inside a chain.
 //
 // A build that does not make jumps of these calls would run out of stack, so it has no links and only the plain loop: GCC
-// without optimisation. [FastLoop.NeedsNoMoreStackForMoreInstructions]
+// without optimisation, and WebAssembly without tail calls. [FastLoop.NeedsNoMoreStackForMoreInstructions]
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
 
-#if defined(__clang__)
+#if defined(__wasm__) && !defined(__wasm_tail_call__)
+#define S7200_TAIL_CALL return
+#elif defined(__clang__)
 #define S7200_TAIL_CALL [[clang::musttail]] return
 #else
 #define S7200_TAIL_CALL return
@@ -19,7 +21,9 @@
 
 namespace s7200::linked {
 
-#if defined(__clang__) || defined(__OPTIMIZE__)
+#if defined(__wasm__) && !defined(__wasm_tail_call__)
+inline constexpr bool kTailCalls = false;
+#elif defined(__clang__) || defined(__OPTIMIZE__)
 inline constexpr bool kTailCalls = true;
 #else
 inline constexpr bool kTailCalls = false;

@@ -48,7 +48,7 @@ bool ends_in_for(std::string_view before) {
 int take_release(std::string_view& rest) {
   std::string_view text = rest;
   text.remove_prefix(std::min(text.find_first_not_of(" \t,("), text.size()));
-  const auto* const word = std::ranges::find_if(kWordsOfRelease, [&](std::string_view each) { return text.starts_with(each); });
+  const auto word = std::ranges::find_if(kWordsOfRelease, [&](std::string_view each) { return text.starts_with(each); });
   if (word == kWordsOfRelease.end()) return 0;
   text.remove_prefix(word->size());
   text.remove_prefix(std::min(text.find_first_not_of(" \t.:"), text.size()));

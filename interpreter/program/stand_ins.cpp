@@ -478,7 +478,7 @@ class Linker {
 
 /// The routine of its library that a program calls before the others.
 std::string initial_routine(const StandIn& stand_in) {
-  const auto* const library = std::ranges::find(kLibraries, stand_in.file, name_of);
+  const auto library = std::ranges::find(kLibraries, stand_in.file, name_of);
   return fmt::format("{}{}", library->routines.front(), library->suffix);
 }
 

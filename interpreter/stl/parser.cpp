@@ -25,7 +25,7 @@
 #include "interpreter/stl/look_alikes.hpp"
 
 #ifdef BOOST_NO_EXCEPTIONS
-// Nothing here makes Boost throw; a build without exceptions must say what would happen.
+// Boost calls these instead of throwing; nothing here makes it throw.
 void boost::throw_exception(const std::exception&) { std::abort(); }
 void boost::throw_exception(const std::exception&, const boost::source_location&) { std::abort(); }
 #endif
@@ -90,15 +90,16 @@ BOOST_FUSION_ADAPT_STRUCT(s7200::stl::RawLine, statement, comment)
 namespace s7200::stl {
 namespace {
 
-/// The first place at which a part that a line must have is missing, and its name. Then the line is wrong, whatever other
-/// way of reading it there is.
+/// The first place at which a part that a line must have is missing, and the name of that part. Once it is set, the line is
+/// wrong, even if another alternative of the grammar matches.
 struct Missing {
   Place where = nullptr;
   std::string part;
 };
 
+/// must[part] is a part that must follow what has been read. It is like x3::expect, but notes in Missing what is not there
+/// instead of throwing it: WebAssembly has no exceptions.
 struct MustDirective {
-  /// A part that must follow what has been read.
   template <class Part>
   struct Parser : x3::unary_parser<Part, Parser<Part>> {
     using x3::unary_parser<Part, Parser<Part>>::unary_parser;
@@ -120,8 +121,8 @@ struct MustDirective {
 };
 constexpr MustDirective must;
 
-/// Whether a text begins with what a grammar describes. `at` is then where it ends; `missing` is where it must go on and
-/// does not.
+/// Reads a text from `at` on by a grammar, and moves `at` to where that ends. Returns false if the text does not match, or if
+/// a part that must be there is not; `missing` then names it.
 template <class Grammar, class Attribute>
 bool parse_beginning(Place& at, Place end, const Grammar& described, Attribute& attribute, Missing& missing) {
   return x3::parse(at, end, x3::with<Missing>(std::ref(missing))[described], attribute) && missing.where == nullptr;
@@ -498,7 +499,7 @@ class LineReader {
   std::optional<Operand> read_operand() {
     RawOperand raw;
     Place at = begin();
-    Missing missing{};
+    Missing missing;
     const bool read = parse_beginning(at, end(), grammar::operand, raw, missing);
     if (read && at == end()) return operand_of(raw);
     const bool incomplete = missing.where != nullptr;

@@ -1,12 +1,15 @@
 // The files that a user names. How files are written is in written_files.hpp.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "interpreter/base/file_source.hpp"
 
 namespace s7200::tools {
 
 /// The bytes of a file, or of a pipe up to its end. Returns nothing and sets `why` if it cannot be read, is larger than 64
-/// MB or is a device: naming a serial port instead of a program is an immediate error.
+/// MB or is a device: naming a serial port instead of a program fails at once.
 std::optional<std::string> read_file(const std::string& path, std::string& why);
 
 /// A text in UTF-8, without the byte order mark that some editors put before it. Returns nothing and sets `why` as
