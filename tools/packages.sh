@@ -52,6 +52,15 @@ needed_to_test=(
   /usr/lib/python3/dist-packages/yaml:python3-yaml
   node:nodejs
   npm:npm
+  clang++-19:clang-19
+  wasm-ld-19:lld-19
+  llvm-ar-19:llvm-19
+  /usr/include/wasm32-wasi/stdio.h:wasi-libc
+  /usr/lib/llvm-19/lib/wasm32-wasi/libc++.a:libc++-19-dev-wasm32
+  /usr/lib/llvm-19/lib/wasm32-wasi/libc++abi.a:libc++abi-19-dev-wasm32
+  /usr/lib/llvm-19/lib/clang/19/lib/wasi/libclang_rt.builtins-wasm32.a:libclang-rt-19-dev-wasm32
+  x86_64-w64-mingw32-g++-posix:g++-mingw-w64-x86-64-posix
+  /usr/lib/wine/wine64:wine64
 )
 
 # install_missing_packages COMMAND:PACKAGE...

@@ -13,5 +13,4 @@ string(JOIN " " CMAKE_CXX_FLAGS_INIT
   -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION  # Boost 1.74 still uses std::unary_function
   -Wno-sign-conversion)  # its ptrdiff_t is long, where the native one warns of the same
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,-z,stack-size=1048576")  # as much as threads have elsewhere; 64 KB by default
-set(CMAKE_EXECUTABLE_SUFFIX .wasm)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

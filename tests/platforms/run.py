@@ -15,6 +15,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 SKIPPED = 77
+WINE = "/usr/lib/wine/wine64"  # Debian has no link to it in /usr/bin
 NODE = """
 const {WASI} = require('wasi'), fs = require('fs');
 const wasi = new WASI({version: 'preview1'});
@@ -33,7 +34,7 @@ class System:
 
 
 def node(program):
-    return ["node", "--no-warnings", "--experimental-wasi-unstable-preview1", "-e", NODE, program]
+    return ["node", "--no-warnings", "--single-threaded", "--experimental-wasi-unstable-preview1", "-e", NODE, program]
 
 
 def lacks_tail_calls():
@@ -47,8 +48,8 @@ def lacks_tail_calls():
 SYSTEMS = {
     "wasm": System("wasm", {"clang++-19": FOR_WASM, "node": FOR_WASM}, node),
     "wasm-tail-calls": System("wasm-tail-calls", {"clang++-19": FOR_WASM, "node": FOR_WASM}, node, lacks_tail_calls),
-    "mingw": System("mingw", {"x86_64-w64-mingw32-g++-posix": "g++-mingw-w64-x86-64-posix", "wine64": "wine64"},
-                    lambda program: ["wine64", program]),
+    "mingw": System("mingw", {"x86_64-w64-mingw32-g++-posix": "g++-mingw-w64-x86-64-posix", WINE: "wine64"},
+                    lambda program: [WINE, program]),
 }
 
 
@@ -81,8 +82,8 @@ def build(preset, source, build_folder):
         result = subprocess.run(command, cwd=source, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         if result.returncode != 0:
             sys.exit(f"{' '.join(map(str, command))}:\n{result.stdout.decode()[-6000:]}")
-    built = [path for path in (folder / "tests/platforms").glob("conversation*") if path.suffix in (".wasm", ".exe")]
-    return built[0] if built else sys.exit(f"{folder} has no program")
+    built = [path for path in (folder / "tests/platforms").glob("conversation*") if path.is_file()]
+    return built[0] if len(built) == 1 else sys.exit(f"{folder} has {len(built)} programs")
 
 
 def skip(why):
