@@ -43,14 +43,14 @@ Unanswered::Unanswered(Rig& rig, const Spot& spot)
 
 void Unanswered::listen_to(SimulatedSlave& slave) {
   slave.when_asked([this](const SerialFormat& format, const serial::Request& request) {
-    if (++asked_ <= kMostRequests) journal_.note(SendFrame{.format = format, .request = request}, station_);
+    journal_.note(SendFrame{.format = format, .request = request}, station_);
   });
 }
 
 void Unanswered::note(const serial::Exchange& exchange) {
   const Bytes frame = serial::bytes_of(exchange.request);
   if (!exchange.timed_out || interrupted() || is_broadcast(frame)) return;
-  if (asked_ > kMostRequests || unanswered_.size() == kMostExplained) return void(++not_explained_);
+  if (journal_.is_over() || unanswered_.size() == kMostExplained) return void(++not_explained_);
   recording_ = journal_.recording();
   unanswered_.push_back({frame, exchange.request_start, recording_->end});
 }

@@ -31,8 +31,7 @@ struct UnansweredRequests {
 
 class Unanswered {
  public:
-  static constexpr std::size_t kMostRequests = 2000;  ///< that are kept: what comes after them is not explained
-  static constexpr std::size_t kMostExplained = 50;   ///< each of them takes a part of the run once more
+  static constexpr std::size_t kMostExplained = 50;  ///< each of them takes a part of the run once more
 
   /// Of a rig that has just been powered up, with an S7-200 at `spot`, where the requests are asked.
   Unanswered(Rig& rig, const Spot& spot);
@@ -58,7 +57,6 @@ class Unanswered {
   std::size_t station_;  ///< beside which the master stands
   serial::System::Snapshot begin_;
   Journal journal_;
-  std::size_t asked_ = 0;
   std::optional<Recording> recording_{};  ///< up to the last of those that are to be explained
   std::vector<Request> unanswered_{};
   std::size_t not_explained_ = 0;

@@ -110,7 +110,7 @@ std::vector<Recording> Plant::recordings() const {
 }
 
 std::optional<PlaceInRun> Plant::place() const {
-  return journal_ ? std::optional(PlaceInRun{recordings_.size(), journal_->now()}) : std::nullopt;
+  return journal_ && !journal_->is_over() ? std::optional(PlaceInRun{recordings_.size(), journal_->now()}) : std::nullopt;
 }
 
 void Plant::power_up(const RetentiveMemory* memory) {

@@ -69,7 +69,7 @@ class Plant {
   /// on two lines where no other one is.
   std::vector<Recording> recordings() const;
 
-  /// Where that stands now; nothing without recordings.
+  /// Where that stands now; nothing without recordings, and where more has been done than they keep.
   std::optional<PlaceInRun> place() const;
 
   /// How a History sees what is to be played again: by PLC, and what it knows by name.

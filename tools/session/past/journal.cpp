@@ -10,6 +10,12 @@ Journal::Journal(serial::Simulation& simulation, std::vector<RetentiveMemory> me
 }
 
 void Journal::note(Action action, std::size_t station) {
+  if (over_) return;
+  if (recording_.actions.size() == kMostActions) {
+    recording_.end = now();
+    over_ = true;
+    return;
+  }
   recording_.moments.push_back(now());
   recording_.actions.push_back(std::move(action));
   recording_.stations.push_back(station);
@@ -24,7 +30,8 @@ Moment Journal::now() const {
 
 Recording Journal::recording() const {
   Recording recording = recording_;
-  recording.end = recording.now = now();
+  if (!over_) recording.end = now();
+  recording.now = recording.end;
   return recording;
 }
 

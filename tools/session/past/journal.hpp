@@ -10,9 +10,15 @@ namespace s7200::tools {
 
 class Journal {
  public:
+  /// How many actions are kept, so that a run of any length needs constant memory.
+  static constexpr std::size_t kMostActions = 1000;
+
   /// The simulation has just been powered up, with `memory` if it is not empty. It must live as long as this. Of a system it
   /// is any of its PLCs.
   explicit Journal(serial::Simulation& simulation, std::vector<RetentiveMemory> memory = {});
+
+  /// Whether more has been done than is kept: the run can be played again only up to there.
+  bool is_over() const { return over_; }
 
   /// What is about to be done to a station, or on its line.
   void note(Action action, std::size_t station = 0);
@@ -20,13 +26,14 @@ class Journal {
   /// Where it stands.
   Moment now() const;
 
-  /// All that has been noted, up to now.
+  /// All that is kept, up to now or to where the journal was over.
   Recording recording() const;
 
  private:
   serial::Simulation& simulation_;
   bool is_alone_;  ///< nothing but the PLC's own clock tells one moment from another
   Recording recording_{};
+  bool over_ = false;
 };
 
 }  // namespace s7200::tools
