@@ -36,6 +36,14 @@ bool write_transcript(const Destination& to, const TestOptions& options, const S
   return interrupted();
 }
 
+/// What kept anything from being run. After an interruption, what could not be read is no news.
+int nothing_run(const Messages& messages, const std::optional<Destination>& junit) {
+  if (!interrupted()) print_messages(messages);
+  print_interruption();
+  write(junit, to_junit(messages));
+  return interrupted() ? kCheckFailed : kUnusable;
+}
+
 int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destinations& to) {
   TestOutput output(suite.scenarios().size(), options.json, !options.suite.conformance.empty());
   Messages messages;
@@ -49,8 +57,8 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
       if (growing) growing->add(so_far, scenario, seen);
     };
   const auto result = suite.run(watcher, messages);
+  if (!result) return nothing_run(messages, to.junit);
   print_messages(messages);
-  if (!result) return write(to.junit, to_junit(messages)), kUnusable;
   output.end(*result);
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
@@ -58,7 +66,7 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
   if (to.record) all_written &= growing->any() ? growing->complete() : write_transcript(*to.record, options, *result);
   print_interruption();
   if (!result->unreachable.empty()) print_error(result->unreachable);
-  if (!all_written || !result->unreachable.empty() || !result->any_had_a_program()) return kUnusable;
+  if (!all_written || !result->unreachable.empty() || (!interrupted() && !result->any_had_a_program())) return kUnusable;
   return interrupted() || !result->passed() ? kCheckFailed : kFine;
 }
 
@@ -69,8 +77,8 @@ int run_against(Suite& suite, const TestOptions& options) {
       options.against, options.tolerance, options.ignore_timing, colour_wanted(stdout) && !options.json,
       {[&](const Compared& compared) { output.show(compared); }, [&](std::size_t done) { output.show_progress(done); }},
       messages);
+  if (!result) return nothing_run(messages, {});
   print_messages(messages);
-  if (!result) return kUnusable;
   output.end(*result);
   print_interruption();
   return result->same() && !interrupted() ? kFine : kCheckFailed;
@@ -90,8 +98,8 @@ int run_test(TestOptions& options) {
   options.suite.exchanges_wanted = options.json || to.record || !options.against.empty();
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);
+  if (!suite) return nothing_run(messages, to.junit);
   print_messages(messages);
-  if (!suite) return print_interruption(), write(to.junit, to_junit(messages)), interrupted() ? kCheckFailed : kUnusable;
   if (options.list) {
     print_list(suite->scenarios(), options.json);
     return kFine;

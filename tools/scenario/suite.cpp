@@ -59,7 +59,8 @@ std::optional<Suite> Suite::collect(const SuiteSettings& settings, Messages& mes
 }
 
 std::optional<Benches> Suite::benches_on(const std::string& target, Messages& messages) {
-  return make_benches(scenarios_, target, settings_, programs_, messages);
+  auto benches = make_benches(scenarios_, target, settings_, programs_, messages);
+  return interrupted() ? std::nullopt : std::move(benches);  // a program may have been cut off while it was read
 }
 
 namespace {
