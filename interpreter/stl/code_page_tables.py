@@ -16,7 +16,9 @@ def character(codec, *octets):
         text = bytes(octets).decode(codec)
     except UnicodeDecodeError:
         return UNDEFINED
-    return ord(text) if len(text) == 1 else UNDEFINED
+    # Python fills gaps with control characters and characters of private use, which Windows and iconv do not.
+    gap = len(text) != 1 or 0x80 <= ord(text) <= 0x9F or 0xE000 <= ord(text) <= 0xF8FF or text == "\xa0" and codec == "cp932"
+    return UNDEFINED if gap else ord(text)
 
 
 def table(name, codes):
