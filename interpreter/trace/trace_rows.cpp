@@ -7,6 +7,7 @@
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/model/special_bits.hpp"
+#include "interpreter/program/operands.hpp"
 #include "interpreter/trace/event_lines.hpp"
 #include "interpreter/trace/line_parts.hpp"
 #include "interpreter/trace/ppi_words.hpp"

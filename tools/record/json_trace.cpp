@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 
 ordered_json statement_json(std::uint32_t op, const Program& program) {
   if (op == kNoRoutine) return nullptr;
-  return {{"line", program.statement(op).position.line}, {"statement", short_text(program.statement(op))}};
+  return {{"place", line_of(op, program)}, {"statement", short_text(program.statement(op))}};
 }
 
 /// Times have their unit in their name.
@@ -47,7 +47,7 @@ ordered_json begun(Time at, std::string_view station, std::string_view kind) {
   return line;
 }
 
-std::string ended(const ordered_json& line) { return line_of(line) + "\n"; }
+std::string ended(const ordered_json& line) { return tools::line_of(line) + "\n"; }
 
 }  // namespace
 

@@ -626,7 +626,7 @@ TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
 
 TEST(Debugger, HelpOnFaultListsTheKinds) {
   Session session(kEcho);
-  for (const char* kind : {"  flip ", "  noise ", "  cut "}) EXPECT_TRUE(has(session("help fault"), kind));
+  for (const char* kind : {"  flip:", "  noise:", "  cut:"}) EXPECT_TRUE(has(session("help fault"), kind));
 }
 
 TEST(Debugger, WhatAFaultMakesOfThePortsOwnCharactersIsNotLost) {

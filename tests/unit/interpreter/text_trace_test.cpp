@@ -96,7 +96,7 @@ TEST(TextTrace, ReportsOutputsAndErrors) {
   EXPECT_EQ(told({.kind = TraceKind::RuntimeError, .code = 0x94, .op = kNoRoutine}),
             "run-time error 0094 (the V address to save is outside the EEPROM) in between two scans");
   EXPECT_EQ(told({.kind = TraceKind::FatalError, .code = 0x03, .op = 0}),
-            "FATAL error 0003 (scan watchdog: the scan took longer than 300 ms without WDR) in line 1: LD      SM0.0");
+            "FATAL error 0003 (scan watchdog: the scan took longer than 300 ms (CPU 22x of release 2: 500 ms) without WDR) in line 1: LD      SM0.0");
 }
 
 TEST(TextTrace, AnInstructionIsShownWithTheValuesOfItsOperands) {

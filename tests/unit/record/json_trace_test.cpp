@@ -57,7 +57,7 @@ TEST(JsonTrace, AnInterruptHasItsEventRoutineAndTimes) {
 TEST(JsonTrace, AStatementHasItsLineAndItsText) {
   const auto attached = of_kind(lines_of_run(TraceDetail::Events), "attach");
   ASSERT_EQ(attached.size(), 1U);
-  EXPECT_EQ(attached[0]["by"], (json{{"line", 5}, {"statement", "ATCH 5, 8"}}));
+  EXPECT_EQ(attached[0]["by"], (json{{"place", "line 5"}, {"statement", "ATCH 5, 8"}}));
 }
 
 TEST(JsonTrace, ACharacterHasItsPortByteAndErrors) {
