@@ -18,20 +18,12 @@
 namespace s7200::tools {
 namespace {
 
-/// False after a message.
-bool write(const std::optional<Destination>& to, const std::string& text) {
-  std::string why;
-  if (!to || write_result(*to, text, why)) return true;
-  print_error(why);
-  return false;
-}
-
 /// False after a message, but for an interruption, which is said besides.
 bool write_transcript(const Destination& to, const TestOptions& options, const SuiteResult& result) {
   const Time tolerance = tolerance_for(options.tolerance, result.live);
   const std::string text = transcript_text(result.reports, {options.record, result.tested, tolerance, result.live});
   const std::string why = why_not_recorded(result.reports, text.size());
-  if (why.empty()) return write(to, text);
+  if (why.empty()) return write_result(to, text);
   print_error(fmt::format("cannot write {}: {}", options.record, why));
   return interrupted();
 }
@@ -40,7 +32,7 @@ bool write_transcript(const Destination& to, const TestOptions& options, const S
 int nothing_run(const Messages& messages, const std::optional<Destination>& junit) {
   if (!interrupted()) print_messages(messages);
   print_interruption();
-  write(junit, to_junit(messages));
+  write_result(junit, to_junit(messages));
   return interrupted() ? kCheckFailed : kUnusable;
 }
 
@@ -62,7 +54,7 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
   output.end(*result);
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
-  bool all_written = !to.junit || write(to.junit, to_junit(result->reports));
+  bool all_written = !to.junit || write_result(to.junit, to_junit(result->reports));
   if (to.record) all_written &= growing->any() ? growing->complete() : write_transcript(*to.record, options, *result);
   print_interruption();
   if (!result->unreachable.empty()) print_error(result->unreachable);

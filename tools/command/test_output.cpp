@@ -133,4 +133,11 @@ void print_messages(const Messages& messages) {
   }
 }
 
+bool write_result(const std::optional<Destination>& to, const std::string& text) {
+  std::string why;
+  if (!to || write_result(*to, text, why)) return true;
+  print_error(why);
+  return false;
+}
+
 }  // namespace s7200::tools

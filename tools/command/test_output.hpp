@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/host/written_files.hpp"
 #include "tools/scenario/suite.hpp"
 #include "tools/views/streamed_results.hpp"
 
@@ -48,5 +49,8 @@ void print_list(const std::vector<Scenario>& scenarios, bool json);
 
 /// On stderr.
 void print_messages(const Messages& messages);
+
+/// False after a message. Writes nothing where nothing was asked for.
+bool write_result(const std::optional<Destination>& to, const std::string& text);
 
 }  // namespace s7200::tools
