@@ -28,7 +28,7 @@ bool write_transcript(const Destination& to, const TestOptions& options, const S
   return interrupted();
 }
 
-/// What kept anything from being run. After an interruption, what could not be read is no news.
+/// Says why nothing was run, and returns the exit code. An interruption explains by itself what could not be read.
 int nothing_run(const Messages& messages, const std::optional<Destination>& junit) {
   if (!interrupted()) print_messages(messages);
   print_interruption();

@@ -56,7 +56,7 @@ std::string files() {
          "  --memory FILE   retentive memory, EEPROM and clock: read at power-up if the file exists, written at the end; "
          "--power-off says how long power was off, --ram-lost that it was too long\n"
          "  --trace FILE    what happens in the CPU, with its time: interrupts, characters, attachments, errors, the way "
-         "of the main program; with --trace-instructions each instruction\n"
+         "of the main program; with --trace-instructions each instruction. FILE.jsonl gets JSON lines for other programs\n"
          "  --capture FILE  the line: levels in FILE.vcd, for sigrok and waveform viewers; frames in FILE.pcap, for "
          "Wireshark and 's7200 decode'\n"
          "An existing file is replaced only if the same option wrote it; links are not followed. You can read a record "

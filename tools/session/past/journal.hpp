@@ -10,7 +10,7 @@ namespace s7200::tools {
 
 class Journal {
  public:
-  /// How many actions are kept, so that a run of any length needs constant memory.
+  /// How many actions a journal keeps, so that a run of any length needs constant memory.
   static constexpr std::size_t kMostActions = 1000;
 
   /// The simulation has just been powered up, with `memory` if it is not empty. It must live as long as this. Of a system it
