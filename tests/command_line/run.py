@@ -534,6 +534,22 @@ class Verbs(Case):
         self.assertEqual(done.stdout.count("- send:"), 1)
         self.assertIn("expect: 01 03 02 12 34 b5 33\n", done.stdout)
 
+    def test_a_row_of_a_recording_that_is_not_read_is_named_and_is_no_missing_answer(self):
+        asked, said = "TX 01 03 00 00 00 01 84 0a\n", "RX 01 03 02 12 34 b5 33"
+        log = self.program(f"0.000 {asked}0.020 {said} ok\n1.000 {asked}1.020 RX 01 03 02 1? 34 b5 33\n", "unread.log")
+        decoded = self.json(FINE, "decode", log, "--json")
+        self.assertEqual([frame["kind"] for frame in decoded["frames"]], ["request", "answer", "request", "unread"])
+        self.assertEqual([decoded["summary"][key] for key in ("answered", "wrong", "not_read", "possible_answers_not_read")], [1, 0, 1, 1])
+        shown = self.ends(FINE, "decode", log)
+        self.assertIn("line 4: left out: '1?' beside its bytes is not understood", shown.stderr)
+        self.assertIn("line 2: 'ok' beside the bytes: not read, as the bytes are a right frame without it", shown.stderr)
+        self.assertIn("rows not read: 1 (1 may be the answer to a request)", shown.stdout)
+        done = self.ends(FINE, "import-capture", log)
+        self.assertNotIn("silence\n", done.stdout)
+        self.assertEqual(done.stdout.count("- send:"), 1)
+        for text in (done.stdout, done.stderr):
+            self.assertIn("line 3: left out: what follows it (line 4) may be its answer", text)
+
     def test_pieces_and_echoes_of_a_recording_are_said_and_played_as_whole_answers(self):
         log = self.folder / "two_wires.log"
         log.write_text("10:00:00.000 TX 01 03 00 0a 00 02 e4 09\n10:00:00.040 RX 01 03 00 0a 00 02 e4 09 01 03\n"

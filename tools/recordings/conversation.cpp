@@ -70,7 +70,7 @@ RecordedFrame part_of(const RecordedFrame& frame, std::size_t begin, std::size_t
 }
 
 bool may_be_divided(const RecordedFrame& before, const RecordedFrame& after) {
-  return before.direction == after.direction && before.stream == after.stream;
+  return before.direction == after.direction && before.stream == after.stream && !before.doubt && !after.doubt;
 }
 
 /// So that a log may have divided a frame there: programs are told late of what has come, and in pieces. In a capture no
@@ -326,10 +326,47 @@ std::size_t Conversation::close_rows(const Stream& stream, RecordedFrame whole, 
   return 1;
 }
 
+std::optional<RecordedFrame> Conversation::settled(const Stream& stream, const RecordedFrame& row,
+                                                   bool& without_word) const {
+  if (row.stream != 0) return {};  // its messages have been told apart already
+  const OpenRequest* const open = stream.request_of(row);
+  RecordedFrame frame = row;
+  frame.doubt.reset();
+  for (const Reading& reading : row.doubt->readings) {
+    frame.bytes = reading.bytes;
+    without_word = reading.without_word;
+    if (is_echo(stream, frame) || stream.reader->judge(frame, open != nullptr ? &open->frame : nullptr).right) return frame;
+  }
+  if (row.bytes.empty()) return {};
+  frame.bytes = row.bytes;
+  without_word = false;
+  return frame;
+}
+
+/// Whatever a request before it got for an answer may be in the row. Answers of Modbus TCP name their request.
+ReadFrame Conversation::not_read(Stream& stream, RecordedFrame row) {
+  ReadFrame read{.text = "not read: " + row.doubt->why, .not_read = true};
+  read.may_be_answer = !stream.open.empty();
+  if (row.stream == 0) stream.open.clear();
+  last_.reset();
+  ++count_;
+  read.frame = std::move(row);
+  return read;
+}
+
 std::vector<ReadFrame> Conversation::take(std::span<const RecordedFrame>& rows) {
   RecordedFrame frame = rows.front();
   frame.direction = taken_as(frame.direction, taken_);
-  const Stream& stream = stream_of(frame);
+  Stream& stream = stream_of(frame);
+  if (frame.doubt) {
+    rows = rows.subspan(1);
+    bool without_word = false;
+    auto read = settled(stream, frame, without_word);
+    if (!read) return {not_read(stream, std::move(frame))};
+    std::vector<ReadFrame> all = add(*std::move(read));
+    if (without_word) all.back().ignored = frame.doubt->word;
+    return all;
+  }
   const bool may_go_on = rows.size() > 1 && may_be_divided(rows[0], rows[1]) && !stream.reader->messages_share_frames();
   std::size_t count = may_go_on ? announced_rows(stream, frame, rows) : 1;
   if (count == 1 && may_go_on && follows_closely(rows[0], rows[1], stamps_)) count = close_rows(stream, frame, rows);
@@ -389,15 +426,19 @@ void ConversationNotes::add(const ReadFrame& frame) {
                                                                        : "a frame";
   if (frame.pieces > 1 && in_pieces_.count++ == 0)
     in_pieces_.first = fmt::format("{}: {} in {} pieces", frame.frame.place, kind, frame.pieces);
+  if (!frame.ignored.empty() && ignored_.count++ == 0)
+    ignored_.first = fmt::format("{}: '{}' beside the bytes", frame.frame.place, frame.ignored);
+  if (frame.not_read && !frame.frame.doubt->readings.empty()) not_read_.add(frame.frame);
   if (frame.echo && echoes_.count++ == 0) echoes_.first = fmt::format("{}: the echo of a request", frame.frame.place);
 }
 
 std::vector<std::string> ConversationNotes::list() const {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = not_read_.notes();
   const auto add = [&](const Frames& frames, std::string_view why) {
     const std::string more = frames.count > 1 ? fmt::format(", and {} more", frames.count - 1) : "";
     if (frames.count > 0) notes.push_back(fmt::format("{}{}: {}", frames.first, more, why));
   };
+  add(ignored_, "not read, as the bytes are a right frame without it");
   add(in_pieces_, "joined, as only the whole is right");
   add(echoes_, "an adapter for two wires hears what it sends; that is not an answer");
   return notes;

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/recordings/left_out.hpp"
 #include "tools/recordings/stamps.hpp"
 
 namespace s7200::tools {
@@ -24,6 +25,9 @@ struct ReadFrame {
   std::optional<std::uint8_t> station{};  ///< of a request: who is asked
   bool needs_no_answer = false;           ///< of a request: to all stations, a token, or the last word of a session
   bool puts_off = false;                  ///< of an answer: there is none yet, and the master is to ask again
+  bool not_read = false;                  ///< a row of which it is not known what its bytes are
+  bool may_be_answer = false;             ///< of such a row: a request waits for its answer there
+  std::string ignored{};                  ///< a word beside its bytes that was not read
   bool echo = false;                      ///< the request once more, as an adapter for two wires hears itself
   std::size_t pieces = 1;                 ///< rows or packets of the recording that it was put together from
   std::optional<std::size_t> other{};     ///< of an answer its request, of a request its answer: number in the conversation
@@ -151,6 +155,9 @@ class Conversation {
   std::size_t announced_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   std::size_t close_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   ReadFrame read(Stream& stream, RecordedFrame frame, bool echo);
+  /// The row with its bytes, if it is not in doubt, or if one reading of it is a right frame.
+  std::optional<RecordedFrame> settled(const Stream& stream, const RecordedFrame& row, bool& without_word) const;
+  ReadFrame not_read(Stream& stream, RecordedFrame row);
   /// As an answer to the request that is open, or as a request.
   ReadFrame what_it_says(const Stream& stream, const RecordedFrame& frame) const;
   ReadFrame what_reader_says(const Stream& stream, const RecordedFrame& frame, const RecordedFrame* open) const;
@@ -193,7 +200,8 @@ class ConversationNotes {
     std::string first{};  ///< `line 2: an answer in 2 pieces`
     std::size_t count = 0;
   };
-  Frames in_pieces_{}, echoes_{};
+  Frames in_pieces_{}, echoes_{}, ignored_{};
+  NamedRows not_read_{};
 };
 
 /// The protocol that most of a recording can be read in, and half of it at least, if hardly anything can be in `chosen`;

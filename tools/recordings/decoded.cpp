@@ -18,6 +18,7 @@ constexpr const char *kDim = "2", *kYellow = "33";
 
 std::string_view kind_of(const ReadFrame& frame, std::string_view unknown) {
   if (frame.echo) return "echo";
+  if (frame.not_read) return "unread";
   return frame.direction == Direction::Request ? "request" : frame.direction == Direction::Answer ? "answer" : unknown;
 }
 
@@ -51,6 +52,9 @@ nlohmann::ordered_json microseconds(std::optional<Time> time) {
 
 void DecodedSummary::add(const ReadFrame& frame) {
   ++frames_;
+  not_read_ += frame.not_read ? 1U : 0U;
+  may_be_answers_ += frame.may_be_answer ? 1U : 0U;
+  if (frame.not_read) return;
   requests_ += frame.direction == Direction::Request ? 1U : 0U;
   need_no_answer_ += frame.needs_no_answer ? 1U : 0U;
   echoes_ += frame.echo ? 1U : 0U;
@@ -68,8 +72,11 @@ std::string DecodedSummary::text() const {
       shortest_ ? fmt::format(" after {} to {}", format_duration(*shortest_), format_duration(*longest_)) : "";
   const std::string none = need_no_answer_ == 0 ? "" : fmt::format(", {} need no answer", need_no_answer_);
   const std::string echoes = echoes_ == 0 ? "" : fmt::format(", echoes: {}", echoes_);
-  return fmt::format("requests: {}, answered: {}{}{}; wrong frames: {}, frames of no request: {}{}\n", requests_, answered_,
-                     times, none, wrong_, strays_, echoes);
+  const std::string answers =
+      may_be_answers_ == 0 ? "" : fmt::format(" ({} may be the answer to a request)", may_be_answers_);
+  const std::string not_read = not_read_ == 0 ? "" : fmt::format(", rows not read: {}{}", not_read_, answers);
+  return fmt::format("requests: {}, answered: {}{}{}; wrong frames: {}, frames of no request: {}{}{}\n", requests_,
+                     answered_, times, none, wrong_, strays_, echoes, not_read);
 }
 
 nlohmann::ordered_json DecodedSummary::json() const {
@@ -79,6 +86,8 @@ nlohmann::ordered_json DecodedSummary::json() const {
           {"wrong", wrong_},
           {"strays", strays_},
           {"echoes", echoes_},
+          {"not_read", not_read_},
+          {"possible_answers_not_read", may_be_answers_},
           {"shortest_latency_us", microseconds(shortest_)},
           {"longest_latency_us", microseconds(longest_)}};
 }

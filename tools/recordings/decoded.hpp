@@ -15,7 +15,7 @@ class DecodedSummary {
   void add(const ReadFrame& frame);
 
   /// Whether there were frames, and none of them was right.
-  bool all_wrong() const { return frames_ > 0 && wrong_ == frames_; }
+  bool all_wrong() const { return frames_ > 0 && wrong_ + not_read_ == frames_; }
 
   /// `requests: 5, answered: 3 after 15.833 ms to 16.833 ms; wrong frames: 1, frames of no request: 0`
   std::string text() const;
@@ -23,6 +23,7 @@ class DecodedSummary {
 
  private:
   std::size_t frames_ = 0, requests_ = 0, answered_ = 0, need_no_answer_ = 0, wrong_ = 0, strays_ = 0, echoes_ = 0;
+  std::size_t not_read_ = 0, may_be_answers_ = 0;
   std::optional<Time> shortest_{}, longest_{};
 };
 

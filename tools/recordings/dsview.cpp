@@ -47,14 +47,14 @@ std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingCh
   const Notation* const notation = finder.found(why);
   if (notation == nullptr) return {};
   LineRecording recording;
-  LeftOut left_out;
   for_each_cell([&](const TableRow& row, const auto& fields, std::size_t column, std::string_view cell) {
     const Remark remark = remark_of(cell);
     if (remark == Remark::Damage && !recording.frames.empty()) recording.frames.back().damaged = {0};
     if (remark != Remark::None) return;
     const auto time = parse_decimal<long double>(stl::trim(fields[kTime]));
     if (!time || !(*time >= 0 && *time < static_cast<long double>(kFurthestTime)))
-      return left_out.not_understood(row.number, fields[kTime]);
+      return recording.frames.push_back(
+          row_not_read(row.number, not_understood(fields[kTime]), {}, direction_of(names[column])));
     recording.frames.push_back({.at = static_cast<Time>(*time),
                                 .direction = direction_of(names[column]),
                                 .bytes = *notation->read(cell),
@@ -62,7 +62,6 @@ std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingCh
   });
   count_from_first(recording);
   join_characters(recording, choices);
-  left_out.tell(recording);
   return recording;
 }
 

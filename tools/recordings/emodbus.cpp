@@ -99,7 +99,7 @@ class Reader {
  private:
   void take(const DumpRow& row, std::string_view line) {
     if (heading_ == 0 || row.offset != open_.bytes.size())
-      left_out_.not_understood(number_, stl::trim(line));
+      recording_.frames.push_back(row_not_read(number_, not_understood(stl::trim(line)), open_.at, open_.direction));
     else
       open_.bytes.insert(open_.bytes.end(), row.bytes.begin(), row.bytes.end());
   }
@@ -108,7 +108,9 @@ class Reader {
     if (heading_ != 0 && open_.bytes.size() == length_ && length_ != 0)
       recording_.frames.push_back(std::move(open_));
     else if (heading_ != 0)
-      left_out_.add(heading_, fmt::format("it says {} bytes, and {} are below it", length_, open_.bytes.size()));
+      recording_.frames.push_back(
+          row_not_read(heading_, fmt::format("it says {} bytes, and {} are below it", length_, open_.bytes.size()), open_.at,
+                       open_.direction));
     heading_ = 0;
     open_ = {};
   }

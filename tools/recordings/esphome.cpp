@@ -95,7 +95,9 @@ std::optional<LineRecording> read_esphome(std::string_view bytes, const ReadingC
     if (is_literal(logged.written)) {
       const auto literal = bytes_of_literal(logged.written.substr(1, logged.written.size() - 2));
       if (!literal) {
-        left_out.not_understood(logged.number, logged.written);
+        recording.frames.push_back(row_not_read(
+            logged.number, not_understood(logged.written),
+            logged.time ? std::optional(days.since_first_midnight(*logged.time)) : std::nullopt, logged.direction));
         continue;
       }
       frame = *literal;

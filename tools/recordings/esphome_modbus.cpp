@@ -70,10 +70,6 @@ std::optional<LineRecording> read_esphome_modbus(std::string_view bytes, const R
       continue;
     }
     auto frame = written ? written_bytes(*written) : received_byte(*received);
-    if (!frame) {
-      left_out.not_understood(number, written ? *written : *received);
-      continue;
-    }
     const std::size_t head = line.find('[');
     const auto time = head == std::string_view::npos ? std::nullopt : leading_time(line.substr(head));
     const auto at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt;
@@ -81,9 +77,14 @@ std::optional<LineRecording> read_esphome_modbus(std::string_view bytes, const R
     const bool goes_on = received && !recording.frames.empty() && recording.frames.back().direction == direction &&
                          (!at || !last || *at - *last <= kReceivingEnds);
     last = at;
-    if (goes_on)
+    const auto lost = [&] { return row_not_read(number, not_understood(written ? *written : *received), at, direction); };
+    if (goes_on && !frame)
+      recording.frames.back() = lost();
+    else if (goes_on && !recording.frames.back().doubt)
       recording.frames.back().bytes.push_back(frame->front());
-    else
+    else if (!frame)
+      recording.frames.push_back(lost());
+    else if (!goes_on)
       recording.frames.push_back(
           {.at = at, .direction = direction, .bytes = std::move(*frame), .place = fmt::format("line {}", number)});
   }

@@ -303,6 +303,14 @@ constexpr std::array kBeforeNumbers{NumberName{"LENGTH", true}, NumberName{"LEN"
 constexpr std::array<std::string_view, 10> kAfterNumbers{"BYTE",    "BYTES", "CHARS",   "CHARACTERS", "OCTETS",
                                                          "SECONDS", "BAUD",  "RETRIES", "REGISTERS",  "COILS"};
 
+/// `slave 1 01 03`: of a number that is no pair of digits.
+constexpr std::array<std::string_view, 8> kStations{"SLAVE", "MASTER", "STATION", "UNIT",
+                                                    "NODE",  "DEVICE", "ADDRESS", "ADDR"};
+
+bool is_name_of_station(std::string_view word) {
+  return std::ranges::find(kStations, stl::upper_case(word.substr(0, word.find_last_not_of(":=#") + 1))) != kStations.end();
+}
+
 bool is_name_of_number(std::string_view word) {
   if (!is_letter(word.front())) return false;
   const bool colon = word.ends_with(':');
@@ -357,6 +365,7 @@ void take_numbers_out(std::vector<Word>& words) {
     if (i > 0 && is_marked(inner) && say_the_same(words[i - 1].text, inner)) is_number(words[i - 1]);
     const std::size_t begin = std::min(text.find_first_not_of(kAround), text.size());
     const std::string_view digits = text.substr(begin, text.find_last_not_of(kAround) + 1 - begin);
+    if (i > 0 && words[i].bytes == 0 && is_decimal(digits) && is_name_of_station(words[i - 1].text)) is_number(words[i]);
     if (words[i].bytes == 0 || !(is_decimal(digits) || is_marked(digits))) continue;
     const bool named = i > 0 && is_name_of_number(words[i - 1].text);
     const bool after_bytes = i > 0 && words[i - 1].bytes > 0 && begin == 0;
@@ -412,6 +421,9 @@ bool has_mark(const Word& word) {
   return is_marked(word.text.substr(std::min(word.text.find_first_not_of("[<(\""), word.text.size())));
 }
 
+/// `01 03 04 12 34 81 07 4660`: a number of several digits after pairs of them.
+bool ends_with_number(Words run) { return run.size() > 2 && run[0].bytes == 1 && run[1].bytes == 1 && run.back().bytes > 1; }
+
 /// A word of the bytes that may be something else; null if there is none. A number before pairs of digits counts lines or
 /// seconds; and no tool writes `0x` before some bytes only.
 const Word* what_is_no_byte(Words run) {
@@ -420,9 +432,10 @@ const Word* what_is_no_byte(Words run) {
   const auto other_mark =
       std::ranges::find_if(run, [&](const Word& word) { return has_mark(word) != has_mark(run.front()); });
   if (other_mark != run.end()) return &*other_mark;
-  const bool before_pairs = run.size() > 2 && run.front().bytes > 1 &&
+  const bool before_pairs = run.size() > 1 && run.front().bytes > 1 &&
                             std::ranges::all_of(run.subspan(1), [](const Word& word) { return word.bytes == 1; });
-  return before_pairs ? &run.front() : nullptr;
+  if (before_pairs) return &run.front();
+  return ends_with_number(run) ? &run.back() : nullptr;  // last: all but it may be a frame
 }
 
 /// Of what stands before the bytes and after them; null if all is well. Bytes before them may be a number or a date in
@@ -447,6 +460,66 @@ const Word* what_is_doubtful(Words before, Words run, Words after) {
   return is_comment && (run.size() > 1 || run.front().bytes > 1) ? nullptr : &after.front();
 }
 
+/// `3`, `3G`, `7?`, `123` after bytes: what is left of one. `ok` is none.
+bool may_be_a_damaged_byte_after(const Word& word) {
+  const bool is_short = word.text.size() <= 2 && is_hex_digit(word.text.front());
+  return word.text.find_first_of("?*") != std::string_view::npos ||
+         (word.bytes == 0 && (is_short || std::ranges::all_of(word.text, is_hex_digit)));
+}
+
+/// `value 4660` after bytes.
+bool is_a_number(const Word& word) { return word.bytes == 0 || is_decimal(word.text); }
+
+/// `8 01 03`: how many bytes follow.
+bool counts_bytes(const Word& word, Words after) {
+  constexpr std::size_t kMostDigits = 3;
+  if (after.empty() || word.text.size() > kMostDigits || !is_decimal(word.text)) return false;
+  const std::size_t bytes = after.back().first_byte + after.back().bytes - after.front().first_byte;
+  return static_cast<std::size_t>(decimal_number(word.text)) == bytes;
+}
+
+/// The words of a run that are bytes for sure if any of them are: without those of another form at its end.
+Words without_number(Words run) {
+  if (ends_with_number(run)) {
+    const auto last = std::find_if(run.rbegin(), run.rend(), [](const Word& word) { return word.bytes == 1; }).base();
+    return {run.begin(), last};
+  }
+  return has_both_cases(run) ? run.first(run.size() - 1) : run;
+}
+
+/// The runs of words that may be all the bytes of a doubtful line, the likelier first. There are none if a byte may be
+/// damaged, or if the line has several runs of bytes.
+std::vector<Words> possible_runs(Words words) {
+  const auto has_bytes = [](const Word& word) { return word.bytes > 0 && word.number != Word::Number::Yes; };
+  const auto first = std::ranges::find_if(words, has_bytes);
+  const auto last = std::find_if_not(first, words.end(), has_bytes);
+  const Words before{words.begin(), first}, run{first, last}, after{last, words.end()};
+  if (run.empty() || !std::ranges::all_of(after, is_a_number)) return {};
+  const bool is_counted = !before.empty() && counts_bytes(before.back(), run);
+  if (!is_counted && !before.empty() && (may_be_a_damaged_byte(before.back()) || ends_with_digits(before.back()))) return {};
+  if (!after.empty() && after.front().number != Word::Number::Yes && may_be_a_damaged_byte_after(after.front())) return {};
+  if (what_is_no_byte(without_number(run)) != nullptr) return {};
+  std::vector<Words> runs{run};
+  if (const Words surely = without_number(run); surely.size() < run.size()) runs.push_back(surely);
+  if (counts_bytes(run.front(), run.subspan(1))) runs.push_back(run.subspan(1));
+  return runs;
+}
+
+/// What the bytes are if all of them are no right frame: without the number that counts them, `8 01 03 …`, or the word with
+/// which the comment begins, `… be careful`.
+struct OtherRun {
+  Words words{};
+  std::string_view without{};
+};
+std::optional<OtherRun> other_run(Words run, Words after) {
+  if (run.size() < 2) return {};
+  if (counts_bytes(run.front(), run.subspan(1))) return OtherRun{run.subspan(1), run.front().text};
+  const bool begins_comment =
+      !after.empty() && is_letter(after.front().text.front()) && std::ranges::all_of(run.back().text, is_letter);
+  if (!begins_comment) return {};
+  return OtherRun{run.first(run.size() - 1), run.back().text};
+}
+
 /// `|....4...|` of hexdump -C.
 std::string_view without_bars(std::string_view text) {
   const bool barred = text.size() > 2 && text.front() == '|' && text.back() == '|';
@@ -461,14 +534,41 @@ std::string in_single_bytes(std::string_view text) {
   return single;
 }
 
-/// `slave 10`, `waiting for 50`: a number at the end of words, not a byte.
-bool is_number_of_a_sentence(Words before, Words run) {
-  if (run.size() != 1 || before.empty() || !is_decimal(run.front().text)) return false;
-  const std::string_view word = before.back().text;
-  const std::string capitals = stl::upper_case(word);
+bool is_plain_word(const Word& word) {
+  return word.bytes == 0 && word.text.size() > 1 && std::ranges::all_of(word.text, is_letter) && !names_a_direction(word);
+}
+
+/// `slave 10`, `waiting for 50`, `warte ab`, `de facto`: a number at the end of words, or one of the words, not a byte.
+bool is_of_a_sentence(Words before, Words run, Words after) {
+  if (run.size() != 1) return false;
+  const std::string_view text = run.front().text;
+  const bool is_number = is_decimal(text), is_word = std::ranges::all_of(text, is_letter);
+  if (before.empty()) return is_word && !after.empty() && is_plain_word(after.front());
+  const std::string capitals = stl::upper_case(before.back().text);
   const bool names_a_station = capitals == "SLAVE" || capitals == "MASTER";
-  const bool says_nothing = !names_a_direction(before.back()) && std::ranges::all_of(word, is_letter);
-  return names_a_station || (says_nothing && word.size() > 1);
+  const bool is_prose = is_number || (is_word && std::ranges::none_of(before, names_a_direction));
+  return (is_number && names_a_station) || (is_prose && is_plain_word(before.back()));
+}
+
+/// `01 03 …`, two of them at least.
+bool has_pairs(Words words) {
+  const auto is_pair = [](const Word& word) { return word.bytes == 1; };
+  return std::ranges::adjacent_find(words, [&](const Word& a, const Word& b) { return is_pair(a) && is_pair(b); }) !=
+         words.end();
+}
+
+/// `RX 0103041234567`, `RX 001 003`: digits at the end of a line that are not pairs.
+std::optional<BytesInLine> cut_off_bytes(Words words) {
+  constexpr std::size_t kFewestDigits = 5;
+  const auto is_hex = [](const Word& word) { return std::ranges::all_of(word.text, is_hex_digit); };
+  const auto first = std::find_if_not(words.rbegin(), words.rend(), is_hex).base();
+  const Words digits{first, words.end()};
+  if (digits.empty() || digits.front().number == Word::Number::Yes) return {};
+  const bool many = digits.size() > 2 || digits.front().text.size() >= kFewestDigits;
+  const bool has_digit = std::ranges::any_of(digits.front().text, stl::is_digit);
+  const bool named = first == words.begin() || names_a_direction(*std::prev(first)) || digits.size() > 2;
+  if (!many || !has_digit || !named) return {};
+  return BytesInLine{.begin = digits.front().begin, .not_understood = digits.front().text};
 }
 
 /// The last run of bytes among words.
@@ -560,6 +660,12 @@ std::string without_signs(std::string_view text) {
   return letters;
 }
 
+/// `slave 1 TX`: whose line it is, not who speaks.
+bool is_station_with_number(std::string_view word, std::string_view after) {
+  const std::size_t next = after.find_first_not_of(kAllBlanks);
+  return (word == "SLAVE" || word == "MASTER") && next != 0 && next != std::string_view::npos && stl::is_digit(after[next]);
+}
+
 struct Unit {
   std::string_view word;
   Time time;
@@ -616,6 +722,7 @@ Direction direction_of(std::string_view written) {
     const auto length = static_cast<std::size_t>(after - begin);
     if (length < kShortest || length > kLongestDirection) continue;
     const std::string word = stl::upper_case({begin, after});
+    if (is_station_with_number(word, {after, text.end()})) continue;
     request = request || std::ranges::find(kRequestWords, word) != kRequestWords.end();
     answer = answer || std::ranges::find(kAnswerWords, word) != kAnswerWords.end();
   }
@@ -646,19 +753,38 @@ std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
   const std::size_t end_of_row = end_of_hex(line);
   if (end_of_row < line.size()) take_apart(without_comment(line.substr(0, end_of_row)));
   const auto run = last_run(words_);
-  if (!run || is_number_of_a_sentence(run->before, run->words)) return {};
-  const Word &first = run->words.front(), &last = run->words.back();
-  BytesInLine found{.begin = first.begin, .has_characters = end_of_row < line.size()};
+  if (!run) return cut_off_bytes(words_);
   const Words after = Words(words_).subspan(run->before.size() + run->words.size());
-  if (const Word* const doubtful = what_is_doubtful(run->before, run->words, after)) {
+  const bool is_sentence = is_of_a_sentence(run->before, run->words, after);
+  if (is_sentence && !has_pairs(run->before)) return {};
+  BytesInLine found{.begin = run->words.front().begin, .has_characters = end_of_row < line.size()};
+  const Word* const doubtful = is_sentence ? &run->before.back() : what_is_doubtful(run->before, run->words, after);
+  if (doubtful != nullptr) {
     found.not_understood = doubtful->text;
-    return found;
+    return take_readings(found), found;
   }
-  const auto bytes = bytes_.begin();
   if (!after.empty() && after.front().text == "|") found.next_cell = after.front().begin + 1;
-  found.bytes.assign(bytes + static_cast<std::ptrdiff_t>(first.first_byte),
-                     bytes + static_cast<std::ptrdiff_t>(last.first_byte + last.bytes));
+  found.bytes = bytes_of(run->words);
+  if (const auto other = other_run(run->words, after)) {
+    found.not_understood = other->without;
+    found.readings = {{found.bytes, false}, {bytes_of(other->words), true}};
+  }
   return found;
+}
+
+Bytes BytesOfLines::bytes_of(std::span<const Word> run) const {
+  const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(run.front().first_byte);
+  return {begin, bytes_.begin() + static_cast<std::ptrdiff_t>(run.back().first_byte + run.back().bytes)};
+}
+
+void BytesOfLines::take_readings(BytesInLine& found) const {
+  const auto runs = possible_runs(words_);
+  const auto has_word = [&](Words run) {
+    return std::ranges::find(run, found.not_understood.data(), [](const Word& word) { return word.text.data(); }) !=
+           run.end();
+  };
+  for (const Words run : runs) found.readings.push_back({bytes_of(run), !has_word(run)});
+  if (!runs.empty()) found.begin = runs.front().front().begin;
 }
 
 void BytesOfLines::take_apart(std::string_view line) {
@@ -721,6 +847,10 @@ bool is_column_of_characters(std::string_view text, std::span<const std::uint8_t
 }
 
 void CharacterJoiner::add(const RecordedFrame& row, std::vector<RecordedFrame>& frames) {
+  if (row.doubt) {
+    last_.reset();
+    return frames.push_back(row);
+  }
   const bool joins =
       !frames.empty() && frames.back().direction == row.direction && last_ && row.at && *row.at - *last_ <= gap_;
   last_ = row.at;

@@ -60,7 +60,8 @@ struct BytesInLine {
   std::size_t begin = 0;              ///< of the run
   std::size_t next_cell = 0;          ///< after a bar that ends the bytes; 0: there is none
   bool has_characters = false;        ///< they stand once more as characters behind it
-  std::string_view not_understood{};  ///< what makes it doubtful which bytes there were; then there are none
+  std::string_view not_understood{};  ///< what makes it doubtful which bytes there were; empty: nothing does
+  std::vector<Reading> readings{};    ///< what the bytes of a doubtful line may be, the likelier first
 };
 
 /// Finds the bytes of lines, one after the other.
@@ -73,6 +74,8 @@ class BytesOfLines {
  private:
   void take_apart(std::string_view line);
   std::size_t end_of_hex(std::string_view line) const;
+  Bytes bytes_of(std::span<const Word> run) const;
+  void take_readings(BytesInLine& found) const;
 
   std::vector<Word> words_;
   Bytes bytes_;  // of all words, one after the other

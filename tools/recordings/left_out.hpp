@@ -2,28 +2,48 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "tools/recordings/recording.hpp"
 
 namespace s7200::tools {
 
+/// A row whose bytes are not known, in its place among the frames: a request before it may have got it for an answer.
+/// `why`: `it says 9 bytes, and 3 are below it`.
+RecordedFrame row_not_read(std::size_t number, std::string why, std::optional<Time> at, Direction direction);
+
+/// `'0x1 0x' is not understood`
+std::string not_understood(std::string_view what);
+
+/// The notes name the rows that are not read, the first ten of them, before all else. Not those of which a reading may be
+/// right: ConversationNotes names them if none is.
+void name_rows_not_read(LineRecording& recording);
+
+/// Lines that have nothing to do with frames.
 class LeftOut {
  public:
-  /// `what`: the words of line `number` that are not understood.
-  void not_understood(std::size_t number, std::string_view what);
-  /// `why`: `8 bytes, 4 below it`. The first ten lines with a reason of their own are named, the others counted.
-  void add(std::size_t number, std::string_view why);
   void without_bytes(std::size_t number);
 
-  /// The notes come after those of `recording`.
-  void tell(LineRecording& recording);
+  /// The note comes after those of `recording`.
+  void tell(LineRecording& recording) const;
+
+ private:
+  std::size_t first_without_bytes_ = 0, without_bytes_ = 0;
+};
+
+/// The first ten notes of a kind; the others are counted.
+class NamedRows {
+ public:
+  void add(const RecordedFrame& row);
+  std::vector<std::string> notes() const;
 
  private:
   static constexpr std::size_t kMostNamed = 10;
 
   std::vector<std::string> named_;
-  std::size_t with_reason_ = 0, first_without_bytes_ = 0, without_bytes_ = 0;
+  std::size_t count_ = 0;
 };
 
 }  // namespace s7200::tools

@@ -47,19 +47,19 @@ bool looks_like_libmodbus(std::string_view bytes) {
 
 std::optional<LineRecording> read_libmodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
-  LeftOut left_out;
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes)) {
     ++number;
     auto frame = frame_in(line);
     if (!frame) {
-      if (begins_frame(line)) left_out.not_understood(number, stl::trim(line));
+      if (begins_frame(line))
+        recording.frames.push_back(
+            row_not_read(number, not_understood(stl::trim(line)), {}, direction_of_brackets(stl::trim(line))));
       continue;
     }
     frame->place = fmt::format("line {}", number);
     recording.frames.push_back(std::move(*frame));
   }
-  left_out.tell(recording);
   if (recording.frames.empty()) read_values_of_mbpoll(bytes, choices, recording);
   return recording;
 }

@@ -51,7 +51,7 @@ WholeMessages first_messages(Rows rows) {
   modbus::MbapReader reader;
   for (whole.rows = 1; whole.rows <= std::min(rows.size(), kMostRows); ++whole.rows) {
     const RecordedFrame& row = rows[whole.rows - 1];
-    if (row.direction != rows.front().direction) return {};
+    if (row.direction != rows.front().direction || row.doubt) return {};
     reader.take(row.bytes);
     while (auto message = reader.next()) whole.messages.push_back(std::move(*message));
     if (!reader.error().empty()) return {};
@@ -67,6 +67,26 @@ RecordedFrame on_a_line(const RecordedFrame& frame, const modbus::TcpMessage& me
           .place = frame.place,
           .stream = 1,
           .exchange = modbus::exchange_of(message)};
+}
+
+/// What it is, is not known: a request before it may have got it for an answer.
+RecordedFrame not_a_message(const RecordedFrame& row) {
+  return {.at = row.at,
+          .direction = row.direction,
+          .place = row.place,
+          .stream = 1,
+          .doubt = row.doubt ? row.doubt : std::make_shared<Doubt>(Doubt{.why = "it is not a whole message of Modbus TCP"})};
+}
+
+/// A row in doubt with the reading that is one message, if there is one.
+RecordedFrame settled(const RecordedFrame& row) {
+  const auto reading = std::ranges::find_if(
+      row.doubt->readings, [](const Reading& each) { return may_begin_message(each.bytes) && is_one_message(each.bytes); });
+  RecordedFrame frame = row;
+  if (reading == row.doubt->readings.end()) return frame;
+  frame.bytes = reading->bytes;
+  frame.doubt.reset();
+  return frame;
 }
 
 /// Rows of which the same is to be said.
@@ -85,17 +105,20 @@ struct Counted {
 
 void read_modbus_tcp(LineRecording& recording) {
   std::vector<RecordedFrame> frames;
-  Counted others, joined;
+  Counted others, joined, ignored;
   std::size_t over_tcp = 0;
   frames.reserve(recording.frames.size());
   for (Rows rows = recording.frames; !rows.empty();) {
-    const auto [count, may_be_serial, messages] = first_messages(rows);
     const RecordedFrame& first = rows.front();
+    const RecordedFrame row = first.doubt ? settled(first) : RecordedFrame{};
+    const auto [count, may_be_serial, messages] = first_messages(first.doubt ? Rows(&row, 1) : rows);
     rows = rows.subspan(count);
     if (messages.empty()) {
-      others.add(first.place);
+      if (!first.doubt) others.add(first.place);
+      frames.push_back(not_a_message(first));
       continue;
     }
+    if (first.doubt) ignored.add(fmt::format("{}: '{}' beside the bytes", first.place, first.doubt->word));
     over_tcp += may_be_serial ? 0U : 1U;  // however many rows it took: those of other protocols may fit together by chance
     if (count > 1) joined.add(fmt::format("{}: a message of Modbus TCP in {}", first.place, counted(count, "row")));
     for (const modbus::TcpMessage& message : messages) frames.push_back(on_a_line(first, message));
@@ -105,6 +128,9 @@ void read_modbus_tcp(LineRecording& recording) {
   recording.notes.emplace_back("the frames are messages of Modbus TCP: each is shown as on a serial line, with its CRC");
   if (joined.count > 0)
     recording.notes.push_back(fmt::format("{}{}: joined, as only the whole is one", joined.first, joined.more()));
+  if (ignored.count > 0)
+    recording.notes.push_back(
+        fmt::format("{}{}: not read, as the bytes are a message without it", ignored.first, ignored.more()));
   if (others.count > 0)
     recording.notes.push_back(
         fmt::format("{}: left out{}: it is not a whole message of Modbus TCP", others.first, others.more()));

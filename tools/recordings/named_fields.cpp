@@ -147,7 +147,9 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
     const bool should_hold = meaning.holds == Holds::Data && !field.value.empty();
     has_data |= should_hold;
     if (!bytes) {
-      if (should_hold) left_out_.not_understood(number, fmt::format("{}: {}", field.name, field.value));
+      if (should_hold)
+        recording_.frames.push_back(
+            row_not_read(number, not_understood(fmt::format("{}: {}", field.name, field.value)), at, said));
       continue;
     }
     recording_.frames.push_back({.at = frames++ == 0 ? at : std::nullopt,  // a request with its answer has one time

@@ -34,7 +34,9 @@ class NamedFieldsReader {
   /// The record of line `number`; `before`: what stands in the line before it, a time perhaps.
   void take(const NamedFields& fields, std::string_view before, std::size_t number);
   void take_other(std::size_t number) { left_out_.without_bytes(number); }
-  void take_unreadable(std::size_t number, std::string_view text) { left_out_.not_understood(number, text); }
+  void take_unreadable(std::size_t number, std::string_view text) {
+    recording_.frames.push_back(row_not_read(number, not_understood(text), {}, Direction::Unknown));
+  }
 
   LineRecording finish();
 

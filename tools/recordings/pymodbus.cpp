@@ -89,7 +89,6 @@ bool looks_like_pymodbus(std::string_view bytes) {
 /// middle: then the frames have to say it themselves.
 std::optional<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices&, std::string&) {
   LineRecording recording;
-  LeftOut left_out;
   DayCounter days;
   std::optional<bool> is_client;
   std::size_t number = 0;
@@ -97,7 +96,8 @@ std::optional<LineRecording> read_pymodbus(std::string_view bytes, const Reading
     ++number;
     auto moved = moved_in(line);
     if (!moved) {
-      if (const auto damaged = damaged_in(line)) left_out.not_understood(number, *damaged);
+      if (const auto damaged = damaged_in(line))
+        recording.frames.push_back(row_not_read(number, not_understood(*damaged), {}, Direction::Unknown));
       continue;
     }
     if (!is_client) is_client = moved->sent;
@@ -115,7 +115,6 @@ std::optional<LineRecording> read_pymodbus(std::string_view bytes, const Reading
                                 .place = fmt::format("line {}", number)});
   }
   count_from_first(recording);
-  left_out.tell(recording);
   return recording;
 }
 

@@ -63,15 +63,16 @@ std::optional<LineRecording> read_python_bytes(std::string_view bytes, const Rea
       if (!stl::trim(line).empty()) left_out.without_bytes(number);
       continue;
     }
+    const auto time = leading_time(line);
+    const auto at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt;
+    const Direction direction = direction_of(shown->before.substr(time ? time->length : 0));
     if (!shown->bytes) {
-      left_out.not_understood(number, line.substr(shown->before.size()));
+      const std::string why = not_understood(line.substr(shown->before.size()));
+      recording.frames.push_back(row_not_read(number, why, at, direction));
       continue;
     }
-    const auto time = leading_time(line);
-    recording.frames.push_back({.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
-                                .direction = direction_of(shown->before.substr(time ? time->length : 0)),
-                                .bytes = std::move(*shown->bytes),
-                                .place = fmt::format("line {}", number)});
+    recording.frames.push_back(
+        {.at = at, .direction = direction, .bytes = std::move(*shown->bytes), .place = fmt::format("line {}", number)});
   }
   count_from_first(recording);
   left_out.tell(recording);

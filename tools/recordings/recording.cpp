@@ -10,6 +10,7 @@
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/left_out.hpp"
 #include "tools/recordings/lines.hpp"
 
 namespace s7200::tools {
@@ -117,10 +118,13 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   if (!recording) return {};
   recording->form = form->name;
   recording->is_log |= form->is_log;
+  name_rows_not_read(*recording);
   if (form->is_log) read_modbus_tcp(*recording);
   recording->over_tcp = std::ranges::any_of(recording->frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
   note_times_that_run_backwards(*recording);
-  if (recording->frames.empty()) {
+  if (std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) {
+        return frame.doubt && frame.bytes.empty() && frame.doubt->readings.empty();
+      })) {
     why = "no frame in it";
     for (const std::string& note : recording->notes) why += "; " + note;
     return {};

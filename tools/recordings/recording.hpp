@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,20 @@ namespace s7200::tools {
 
 enum class Direction : std::uint8_t { Unknown, Request, Answer };
 
+/// What the bytes of a row may be.
+struct Reading {
+  Bytes bytes{};
+  bool without_word = true;  ///< the word that is in doubt is none of them
+};
+
+/// A row of which some words may be bytes or not. Only the protocol can tell: a reading of the row is accepted if it is a
+/// right frame.
+struct Doubt {
+  std::string why{};                ///< `'7?' beside its bytes is not understood`
+  std::string word{};               ///< `7?`
+  std::vector<Reading> readings{};  ///< the likelier first; none: some of the bytes are lost
+};
+
 struct RecordedFrame {
   std::optional<Time> at{};  ///< when it began, since the first frame; nothing if the recording does not say
   Direction direction = Direction::Unknown;
@@ -27,7 +42,8 @@ struct RecordedFrame {
   std::vector<Time> times{};   ///< of each character, if the recording says; the first is `at`
   /// Which of the bytes had a parity or framing error, from 0; all if the recording says it of the frame as a whole.
   std::vector<std::size_t> damaged{};
-  bool more_was_lost = false;  ///< what came after it on its line or connection is missing
+  std::shared_ptr<const Doubt> doubt{};  ///< null: none. `bytes` hold if no reading is right; empty: the row is not read
+  bool more_was_lost = false;            ///< what came after it on its line or connection is missing
 };
 
 struct LineRecording {

@@ -166,10 +166,14 @@ class Reader {
 
   std::optional<LineRecording> finish(std::string& why) {
     if (std::ranges::any_of(moved_, [](const Moved& each) { return each.kind == Kind::Line; }))
-      std::erase_if(moved_, [](const Moved& each) { return each.kind != Kind::Line; });
+      std::erase_if(moved_, [](const Moved& each) { return each.kind != Kind::Line && each.descriptor != kNotKnown; });
     std::set<int> descriptors;
-    for (const Moved& each : moved_) descriptors.insert(each.descriptor);
-    const bool known = !moved_.empty() && moved_.front().kind == Kind::Line;
+    bool known = false;
+    for (const Moved& each : moved_) {
+      if (each.descriptor == kNotKnown) continue;
+      descriptors.insert(each.descriptor);
+      known = each.kind == Kind::Line;
+    }
     if (!known && descriptors.size() > 1) {
       why = fmt::format("it has calls of the descriptors {}; which of them is the line is not in it: trace with strace -y",
                         fmt::join(descriptors, ", "));
@@ -182,6 +186,8 @@ class Reader {
   }
 
  private:
+  static constexpr int kNotKnown = -1;
+
   struct Moved {
     RecordedFrame frame{};
     int descriptor = 0;
@@ -218,12 +224,17 @@ class Reader {
     }
   }
 
+  /// Of which descriptor the bytes are is not known.
+  void not_read(std::string_view what) {
+    moved_.push_back({.frame = {.at = now_}, .descriptor = kNotKnown, .number = number_, .doubt = not_understood(what)});
+  }
+
   void move(const Call& call, const Mover& mover) {
     std::string_view rest = call.rest;
     Descriptor descriptor;
     if (call.resumed) {
       const auto begun = unfinished_.find(call.process);
-      if (begun == unfinished_.end()) return left_out_.not_understood(number_, call.name);
+      if (begun == unfinished_.end()) return not_read(call.name);
       const Unfinished unfinished = begun->second;
       unfinished_.erase(begun);
       if (unfinished.had_bytes) return;
@@ -231,7 +242,7 @@ class Reader {
     } else if (const auto read = take_descriptor(rest)) {
       descriptor = *read;
     } else {
-      return left_out_.not_understood(number_, call.rest);
+      return not_read(call.rest);
     }
     const Kind kind = kind_of(descriptor);
     if (kind == Kind::Other) return;
@@ -271,10 +282,9 @@ class Reader {
 
   void add_frames() {
     for (Moved& each : moved_)
-      if (each.doubt.empty())
-        recording_.frames.push_back(std::move(each.frame));
-      else
-        left_out_.add(each.number, each.doubt);
+      recording_.frames.push_back(each.doubt.empty()
+                                      ? std::move(each.frame)
+                                      : row_not_read(each.number, each.doubt, each.frame.at, each.frame.direction));
   }
 
   LineRecording recording_;

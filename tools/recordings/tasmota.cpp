@@ -54,15 +54,14 @@ std::optional<LineRecording> read_tasmota(std::string_view bytes, const ReadingC
       continue;
     }
     auto frame = bytes_of_text(moved->written);
+    const auto time = leading_time(line);
+    const auto at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt;
     if (!frame) {
-      left_out.not_understood(number, stl::trim(moved->written));
+      recording.frames.push_back(row_not_read(number, not_understood(stl::trim(moved->written)), at, moved->direction));
       continue;
     }
-    const auto time = leading_time(line);
-    recording.frames.push_back({.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
-                                .direction = moved->direction,
-                                .bytes = std::move(*frame),
-                                .place = fmt::format("line {}", number)});
+    recording.frames.push_back(
+        {.at = at, .direction = moved->direction, .bytes = std::move(*frame), .place = fmt::format("line {}", number)});
   }
   count_from_first(recording);
   left_out.tell(recording);

@@ -93,11 +93,15 @@ class LogReader {
     if (time) line.remove_prefix(length + time->length);
     const std::optional<Time> at = time ? std::optional(days_.since_first_midnight(*time)) : std::nullopt;
     const std::string_view whole = line;
-    if (!at && offset_is_wrong(line)) {
+    const bool may_be_row = !at && (heading_ || goes_on_ || has_offsets_ || is_dump(line));
+    const Offset offset = may_be_row ? offset_of(line) : Offset{};
+    const bool is_of_dump = is_dump(line) || has_offsets_;
+    if (!offset.digits.empty() && !is_right(offset) && is_of_dump) {
       in_dump_ = true;
-      return leave_out(line.substr(0, line.find(' ')), true);
+      return leave_out({.not_understood = offset.digits}, {}, Direction::Unknown);
     }
-    if (!at) line.remove_prefix(length_of_offset(line));
+    has_offset_ = !offset.digits.empty() && is_right(offset);
+    if (has_offset_) line.remove_prefix(offset.length);
     const std::size_t counter = length_of_counter(line);
     in_characters_ = false;
     const std::string_view rest = stl::trim_end(line.substr(counter));
@@ -106,16 +110,14 @@ class LogReader {
     in_dump_ = !at && (rest.size() < whole.size() || (found && found->has_characters)) && is_dump(whole);
     if (!found)
       take_heading(at, direction(direction_of_heading(line)));
-    else if (!found->not_understood.empty())
-      leave_out(found->not_understood, !at);
+    else if (found->bytes.empty())
+      leave_out(*found, at, direction(direction_of(line.substr(0, counter + found->begin))));
     else
       take_with_cells(std::move(*found), rest, direction(direction_of(line.substr(0, counter + found->begin))), at);
   }
 
   LineRecording finish(const ReadingChoices& choices) {
     drop_heading();
-    if (in_doubt_ > kMostNamed)
-      recording_.notes.push_back(fmt::format("{} more lines were left out for such a reason", in_doubt_ - kMostNamed));
     note(left_out_, "left out", "no bytes in it");
     note(not_understood_, "read without its time", "the form of that is not understood");
     count_from_first(recording_);
@@ -147,18 +149,34 @@ class LogReader {
     recording_.notes.push_back(fmt::format("line {}: {}{}: {}", lines.first, what, more, why));
   }
 
-  /// `0010  ` before a row: how many bytes of the frame stand above it.
-  std::size_t length_of_offset(std::string_view line) const {
-    if (!heading_ && !goes_on_ && !is_dump(line)) return 0;
+  /// `0010  ` before a row.
+  struct Offset {
+    std::string_view digits{};  ///< empty: there is none
+    std::size_t length = 0;
+  };
+  static Offset offset_of(std::string_view line) {
+    constexpr std::size_t kFewestBeforeColon = 2, kFewest = 4, kMost = 8;
     Scan scan(line);
-    scan.skip(kAllBlanks, 9);
-    const std::string_view digits = scan.take_hex(8);
-    const bool is_offset = digits.size() == 8 || digits.size() == 4;
-    const bool ends = scan.take(":") != '\0' ? scan.skip(kAllBlanks, 1) == 1 : scan.skip(kAllBlanks, 2) == 2;
-    return is_offset && ends && hex_number(digits) == bytes_above() ? scan.at() : 0;
+    scan.skip(kAllBlanks);
+    scan.take_word("0x");
+    const std::string_view digits = scan.take_hex(kMost);
+    const bool colon = scan.take(":") != '\0';
+    const std::size_t blanks = scan.skip(kAllBlanks);
+    const std::size_t begin = scan.at();
+    const bool before_pair = scan.take_hex(3).size() == 2 && (scan.at_end() || scan.skip(kAllBlanks, 1) == 1);
+    const bool is_offset = digits.size() >= (colon ? kFewestBeforeColon : kFewest) && digits.size() % 2 == 0;
+    return is_offset && blanks > 0 && (colon || blanks > 1 || before_pair) ? Offset{digits, begin} : Offset{};
   }
 
-  std::size_t bytes_above() const { return goes_on_ ? recording_.frames.back().bytes.size() : 0; }
+  /// Offsets count in hex, rarely in decimal.
+  bool is_right(const Offset& offset) const {
+    const bool decimal = std::ranges::all_of(offset.digits, stl::is_digit);
+    return hex_number(offset.digits) == bytes_above() ||
+           (decimal && static_cast<std::size_t>(decimal_number(offset.digits)) == bytes_above());
+  }
+
+  /// How many bytes of the frame stand above the row.
+  std::size_t bytes_above() const { return goes_on_ || has_offsets_ ? recording_.frames.back().bytes.size() : 0; }
 
   /// `00000010  01 03 …` of hexdump: eight digits, two blanks, and pairs of digits.
   static bool is_dump(std::string_view line) {
@@ -185,11 +203,6 @@ class LogReader {
     characters_ = false;
   }
 
-  /// Rows of a dump are missing above it: nobody knows of which frame it is.
-  bool offset_is_wrong(std::string_view line) const {
-    return is_dump(line) && hex_number(line.substr(0, 8)) != bytes_above();
-  }
-
   /// What is not said before the bytes may stand in the cells after them: `01 03 | TX | 10:00:00.000`.
   void take_with_cells(BytesInLine found, std::string_view line, Direction direction, std::optional<Time> at) {
     for (std::size_t begin = found.next_cell; begin != 0 && begin < line.size();) {
@@ -208,7 +221,7 @@ class LogReader {
     lost_row_ = lost_row_ && is_row;
     row_left_out_ = lost_row_;
     if (lost_row_) return;
-    if (is_row && goes_on_) {
+    if (is_row && (goes_on_ || (has_offsets_ && has_offset_))) {
       Bytes& bytes = recording_.frames.back().bytes;
       bytes.insert(bytes.end(), found.bytes.begin(), found.bytes.end());
       goes_on_ = found.bytes.size() >= kFullRow;
@@ -216,9 +229,13 @@ class LogReader {
     }
     if (is_row && heading_) {
       at = heading_->at;
-      direction = heading_->direction;
+      direction = below_ = heading_->direction;
       heading_.reset();
       goes_on_ = found.bytes.size() >= kFullRow;
+      has_offsets_ = has_offset_;
+    } else if (is_row && below_ != Direction::Unknown) {
+      direction = below_;
+      goes_on_ = has_offsets_ = false;
     } else {
       drop_heading();
       if (!at && has_clock(line.substr(0, found.begin))) not_understood_.add(number_);
@@ -230,18 +247,37 @@ class LogReader {
     characters_ = characters_ && found.bytes.size() == 1 && at.has_value();
     recording_.frames.push_back(
         {.at = at, .direction = direction, .bytes = std::move(found.bytes), .place = fmt::format("line {}", number_)});
+    if (!found.not_understood.empty()) recording_.frames.back().doubt = doubt_of(found, std::move(found.readings));
   }
 
-  /// A part of a frame would be one that nobody sent.
-  void leave_out(std::string_view not_understood, bool may_be_row) {
-    if (may_be_row && goes_on_) recording_.frames.pop_back();
-    lost_row_ = may_be_row && (goes_on_ || heading_ || lost_row_);
+  /// A part of a frame would be one that nobody sent. The place where it was is kept: a request before it may have got it
+  /// for an answer.
+  void leave_out(const BytesInLine& found, std::optional<Time> at, Direction direction) {
+    RecordedFrame frame{.at = at, .direction = direction, .place = fmt::format("line {}", number_)};
+    const bool goes_on = goes_on_ || has_offsets_;
+    const bool is_row = !at && (goes_on || heading_ || lost_row_);
+    if (is_row && goes_on) {
+      frame = std::move(recording_.frames.back());
+      recording_.frames.pop_back();
+      frame.bytes.clear();
+    } else if (is_row && heading_) {
+      frame.at = heading_->at;
+      frame.direction = heading_->direction;
+    }
+    if (!is_row || !lost_row_) {
+      frame.doubt = doubt_of(found, is_row ? std::vector<Reading>{} : found.readings);
+      recording_.frames.push_back(std::move(frame));
+    }
+    lost_row_ = is_row;
     heading_.reset();
-    goes_on_ = false;
+    goes_on_ = has_offsets_ = false;
     row_left_out_ = true;
-    if (++in_doubt_ <= kMostNamed)
-      recording_.notes.push_back(fmt::format("line {}: left out: '{}' beside its bytes is not understood", number_,
-                                             stl::shortened(not_understood)));
+  }
+
+  static std::shared_ptr<const Doubt> doubt_of(const BytesInLine& found, std::vector<Reading> readings) {
+    const std::string word = stl::shortened(found.not_understood);
+    return std::make_shared<Doubt>(
+        Doubt{fmt::format("'{}' beside its bytes is not understood", word), word, std::move(readings)});
   }
 
   void take_heading(std::optional<Time> at, Direction direction) {
@@ -256,23 +292,25 @@ class LogReader {
   void drop_heading() {
     if (heading_) left_out_.add(heading_->number);
     heading_.reset();
-    goes_on_ = false;
+    goes_on_ = has_offsets_ = false;
+    below_ = Direction::Unknown;
   }
-
-  static constexpr std::size_t kMostNamed = 10;
 
   LineRecording recording_;
   BytesOfLines bytes_of_lines_;
   DayCounter days_;
-  std::size_t number_ = 0, in_doubt_ = 0;
+  std::size_t number_ = 0;
   Lines left_out_, not_understood_;
   bool characters_ = true;
   std::optional<Heading> heading_;
-  bool in_dump_ = false;        // the line before was a row of one
-  bool row_left_out_ = false;   // and is not in the last frame
-  bool in_characters_ = false;  // it was one character, as interceptty has it
-  bool lost_row_ = false;       // a row of the frame was left out, and so are those below it
-  bool goes_on_ = false;        // the row before was full, and has a heading
+  bool in_dump_ = false;                  // the line before was a row of one
+  bool row_left_out_ = false;             // and is not in the last frame
+  bool in_characters_ = false;            // it was one character, as interceptty has it
+  bool lost_row_ = false;                 // a row of the frame was left out, and so are those below it
+  bool goes_on_ = false;                  // the row before was full, and has a heading
+  bool has_offset_ = false;               // this row has one, and it is right
+  bool has_offsets_ = false;              // those of the last frame have them, so that one more row has one, too
+  Direction below_ = Direction::Unknown;  // of the heading above the rows; unless the file says another
 };
 
 }  // namespace

@@ -185,7 +185,9 @@ TEST(ModbusTcpInALog, ARowOfTheOtherDirectionOrTheNextMessageCompletesNone) {
   const std::string request = "00 01 00 00 00 06 01 03 00 0a 00 02", part = "00 01 00 00 00 07 01 03 04 12 34 56";
   for (const std::string& log :
        {"TX " + request + "\nRX " + part + "\nTX " + request + "\n", request + "\n" + part + "\n" + request + "\n"}) {
-    EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kAsked})) << log;
+    EXPECT_EQ(texts(read(log)),
+              (std::vector<std::string>{kAsked, "not read: it is not a whole message of Modbus TCP", kAsked}))
+        << log;
     EXPECT_EQ(recording_of(log).notes.back(), "line 2: left out: it is not a whole message of Modbus TCP") << log;
   }
 }
@@ -247,10 +249,126 @@ TEST(ColumnsOfALog, ARowOfAFrameThatIsNotUnderstoodIsNamedInEachForm) {
 
 TEST(ColumnsOfALog, AnObjectOfJsonWithoutItsEndIsNamedAndHidesNothingBelowIt) {
   const std::string request = R"({"tx":"01 03 00 0a 00 02 e4 09"})", answer = R"({"rx":"01 03 04 12 34 56 78 81 07"})";
-  const std::string log = request + "\n{\"tx\":\"01 03\n{\"tx\": 1,\n" + answer + "\n";
-  EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kSaid}));
-  EXPECT_EQ(recording_of(log).notes, (std::vector<std::string>{R"(line 2: left out: '{"tx":"01 03' is not understood)",
-                                                               R"(line 3: left out: '{"tx": 1,' is not understood)"}));
+  const std::string log = "{\"tx\":\"01 03\n{\"tx\": 1,\n" + request + "\n" + answer + "\n";
+  EXPECT_EQ(texts(read(log)), (std::vector<std::string>{R"(not read: '{"tx":"01 03' is not understood)",
+                                                        R"(not read: '{"tx": 1,' is not understood)", kAsked, kSaid}));
+  EXPECT_EQ(recording_of(log).notes, (std::vector<std::string>{R"(line 1: left out: '{"tx":"01 03' is not understood)",
+                                                               R"(line 2: left out: '{"tx": 1,' is not understood)"}));
+}
+
+// --- rows that are not read ---
+
+const std::string kRequestRow = "10:00:00.000 TX 01 03 00 0a 00 02 e4 09\n";
+const std::string kAnswerRow = "10:00:00.030 RX 01 03 04 12 34 56 78 81 07";
+
+TEST(RowsThatAreNotRead, AWordAfterTheBytesIsACommentOnlyIfTheyAreARightFrame) {
+  for (const char* const comment : {" ok", " OK!", " = 4660 22136", " value 4660 22136", " value: 4660", " value 18",
+                                    " 4660", " -> 2 values", " be careful", " crc ok"}) {
+    const auto frames = read(kRequestRow + kAnswerRow + comment + "\n");
+    EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid})) << comment;
+    EXPECT_EQ(frames[1].frame.bytes.size(), 9U) << comment;
+  }
+  EXPECT_EQ(notes(read(kRequestRow + kAnswerRow + " ok\n")),
+            std::vector<std::string>{"line 2: 'ok' beside the bytes: not read, as the bytes are a right frame without it"});
+  for (const char* const row :
+       {"RX 01 03 04 12 34 56 78 81 08 ok", "RX 01 03 04 12 34 56 78 81 07 3", "RX 01 03 04 12 34 56 7? 81 07",
+        "RX 01 03 04 12 34 5G 78 81 07", "RX 01 03 04 12 34 56 78 lost 81 07", "RX 0103041234567"}) {
+    const auto frames = read(kRequestRow + "10:00:00.030 " + row + "\n");
+    ASSERT_EQ(frames.size(), 2U) << row;
+    EXPECT_TRUE(frames[1].not_read) << row;
+    EXPECT_EQ(frames[1].frame.bytes, Bytes{}) << row;
+    EXPECT_EQ(frames[0].other, std::nullopt) << row;
+  }
+}
+
+TEST(RowsThatAreNotRead, TheExchangeThatOneMayBelongToIsNotImported) {
+  const std::string damaged = "10:00:00.030 RX 01 03 04 12 34 5G 78 81 07\n",
+                    later = "10:00:01.000 TX 01 03 00 0a 00 02 e4 09\n";
+  const auto frames = read(kRequestRow + damaged + later + "10:00:01.030 RX 01 03 04 12 34 56 78 81 07\n");
+  EXPECT_EQ(
+      summary(frames),
+      "requests: 2, answered: 1 after 20.833 ms to 20.833 ms; wrong frames: 0, frames of no request: 0, rows not read: "
+      "1 (1 may be the answer to a request)\n");
+  const auto [scenario, said] = playback(frames, {.character = 1'145'833}, {});
+  EXPECT_EQ(said, std::vector<std::string>{"line 1: left out: what follows it (line 2) may be its answer: not read: '5G' "
+                                           "beside its bytes is not understood"});
+  EXPECT_EQ(scenario.find("silence"), std::string::npos) << scenario;
+  EXPECT_NE(scenario.find("# line 1: left out"), std::string::npos) << scenario;
+  EXPECT_NE(scenario.find("# line 3: station 1"), std::string::npos) << scenario;
+}
+
+TEST(RowsThatAreNotRead, TheAnswerBelowOneBelongsToNoRequestAboveIt) {
+  const auto frames = read(kRequestRow + "10:00:00.020 01 03 00 0a ?? 02 e4 09\n" + kAnswerRow + "\n");
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[2].text, "an answer without its request");
+  EXPECT_TRUE(playback(frames, {}, {}).scenario.empty());
+}
+
+TEST(RowsThatAreNotRead, EachFormKeepsThePlaceOfARowThatIsNotUnderstood) {
+  const std::string json = R"({"t":0.5,"tx":"01 03 00 0a 00 02 e4 09"})",
+                    damaged = R"({"t":0.53,"dir":"rx","data":"0103041234567"})";
+  for (const std::string& log :
+       {json + "\n" + damaged + "\n", "t=0.5 n=8 tx=0103000a0002e409\nt=0.53 dir=rx data=0103041234567\n" + std::string(),
+        std::string("[01][03][00][0A][00][02][E4][09]\nWaiting for a confirmation...\n<01><03><0\n"),
+        std::string("send b'\\x01\\x03\\x00\\x0a\\x00\\x02\\xe4\\x09'\nrecv b'\\x01\\q'\n"),
+        std::string("write(3, \"\\1\\3\\0\\n\\0\\2\\344\\t\", 8) = 8\nread(3, \"\\1\\3\"..., 99) = 9\n")}) {
+    const auto frames = read(log);
+    ASSERT_EQ(frames.size(), 2U) << log;
+    EXPECT_TRUE(frames[1].not_read && frames[1].may_be_answer) << log;
+    EXPECT_EQ(playback(frames, {}, {}).scenario, "") << log;
+  }
+}
+
+TEST(RowsThatAreNotRead, AnUnansweredRequestOfModbusTcpBeforeOneIsNotImportedAsSuch) {
+  const std::string asked = "0.0 TX 00 01 00 00 00 06 01 03 00 0a 00 02\n",
+                    next = "9.0 TX 00 02 00 00 00 06 01 03 00 0a 00 02\n",
+                    said = "9.1 RX 00 02 00 00 00 07 01 03 04 12 34 56 78\n";
+  const auto frames = read(asked + "0.1 RX 00 01 00 00 00 07 01 03 04 12 5? 56 78\n" + next + said, {});
+  ASSERT_EQ(frames.size(), 4U);
+  EXPECT_EQ(
+      playback(frames, {}, {}).notes,
+      std::vector<std::string>{"line 1: left out: what follows it (line 2) may be its answer: not read: '5?' beside its "
+                               "bytes is not understood"});
+  EXPECT_EQ(texts(read(asked + "0.1 RX 00 01 00 00 00 07 01 03 04 12 34 56 78 ok\n", {})), (std::vector{kAsked, kSaid}));
+}
+
+TEST(RowsThatAreNotRead, WordsOfASentenceAreNoBytes) {
+  for (const char* const line :
+       {"10:00:00 warte ab", "10:00:00 de facto offline", "10:00:00 BAD FACE", "10:00:00 slave 2 timeout, retry 1"})
+    EXPECT_EQ(refusal_of(line), "no frame in it; line 1: left out: no bytes in it") << line;
+}
+
+// --- dumps ---
+
+TEST(RowsOfADump, RowsBelowAHeadingAreOneFrameHoweverLongTheyAre) {
+  for (const char* const log :
+       {"10:00:00.000 TX 8 bytes\n0000: 01 03 00 0a 00 02 e4 09  |........|\n10:00:00.030 RX 9 bytes\n"
+        "0000: 01 03 04 12 34 56 78 81  |...4Vx..|\n0008: 07  |.|\n",
+        "10:00:00.000 TX\n  0000  01 03 00 0a 00 02 e4 09\n10:00:00.030 RX\n  0000  01 03 04 12 34 56 78 81\n  0008  07\n",
+        "10:00:00.000 TX\n0x0000: 01 03 00 0a\n0x0004: 00 02 e4 09\n10:00:00.030 RX\n0x0000: 01 03 04 12\n0x0004: 34 56 78 "
+        "81\n"
+        "0x0008: 07\n",
+        "10:00:00.000 TX\n0000 01 03 00 0a 00 02 e4 09\n10:00:00.030 RX\n0000 01 03 04 12 34 56 78 81\n0008 07\n",
+        "10:00:00.000 TX\n01 03 00 0a 00 02 e4 09\n10:00:00.030 RX\n01 03 04 12\n34 56 78 81\n07\n"}) {
+    const auto frames = read(log);
+    EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid})) << log;
+    EXPECT_EQ(recording_of(log).notes, std::vector<std::string>{}) << log;
+  }
+}
+
+TEST(RowsOfADump, OffsetsMayCountInDecimal) {
+  std::string rows = "10:00:00.000 RX\n";
+  for (int row = 0; row < 3; ++row) rows += fmt::format("{:04}: 00 01 02 03 04 05 06 07 08 09\n", 10 * row);
+  const auto frames = recording_of(rows).frames;
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].bytes.size(), 30U);
+}
+
+TEST(RowsOfADump, AnOffsetThatIsNotRightIsNoByteAndTheFrameIsNotRead) {
+  const auto frames = recording_of(kRequestRow + "10:00:00.030 RX\n  0000  01 03 04 12 34 56 78 81\n  0010  07\n").frames;
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_TRUE(frames[1].doubt);
+  EXPECT_EQ(frames[1].bytes, Bytes{});
 }
 
 // --- Modbus TCP ---
@@ -306,6 +424,7 @@ TEST(NumbersInALog, NumbersThatWordsNameAreNoBytes) {
        {"0.0 TX length 08 01 03 00 0a 00 02 e4 09", "0.0 TX 08 bytes 01 03 00 0a 00 02 e4 09",
         "0.0 plc7:5020 TX 01 03 00 0a 00 02 e4 09", "0.0 TX 01 03 00 0a 00 02 e4 09 (08 bytes)",
         "0.0 127.0.0.1:5020 > 01 03 00 0a 00 02 e4 09", "0.0 TX (08 bytes): 01 03 00 0a 00 02 e4 09",
+        "0.0 TX slave 1 01 03 00 0a 00 02 e4 09", "0.0 station: 1 TX 01 03 00 0a 00 02 e4 09",
         "0.0 COM3:01 03 00 0a 00 02 e4 09", "0.0 [::1]:5020 01 03 00 0a 00 02 e4 09"}) {
     const LineRecording recording = recording_of(line);
     ASSERT_EQ(recording.frames.size(), 1U) << line;
