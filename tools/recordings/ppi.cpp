@@ -332,9 +332,10 @@ class PpiReader final : public FrameReader {
     ReadFrame read;
     if (bytes.size() == 1 && bytes[0] == ppi::kAccepted) {
       read.direction = open != nullptr ? Direction::Answer : Direction::Unknown;
-      read.right = true;
+      read.right = open == nullptr || !asks_for_status(open->bytes);
       read.puts_off = open != nullptr && polls(open->bytes);
       read.text = read.puts_off ? "no answer yet" : "accepted";
+      if (!read.right) read.text += ": a station answers a request for its status with its state";
       return read;
     }
     if (const auto token = ppi::token_of(bytes)) {
@@ -353,7 +354,7 @@ class PpiReader final : public FrameReader {
     read.direction = request ? Direction::Request : open != nullptr ? Direction::Answer : Direction::Unknown;
     if (request) read.station = body->destination;
     read.needs_no_answer = request && body->destination == ppi::kEveryStation;
-    std::string wrong;
+    std::string wrong = read.direction == Direction::Answer ? why_not_the_answer(*body, open->bytes) : "";
     const std::string text =
         body->data.empty() ? std::string(function_text(body->function)) : text_of(*body, request, wrong);
     read.right = wrong.empty();
@@ -382,7 +383,25 @@ class PpiReader final : public FrameReader {
 
   static bool polls(Data frame) {
     const auto body = ppi::body_of(frame);
-    return body && body->data.empty();
+    return body && body->data.empty() && !asks_for_status(frame);
+  }
+
+  static bool asks_for_status(Data frame) {
+    const auto body = ppi::body_of(frame);
+    return body && (body->function & ppi::kIsRequest) != 0 && (body->function & ppi::kService) == ppi::kStatus;
+  }
+
+  /// Empty if a frame may be the answer to a request. EN 50170: the station that is asked answers, a request for its status
+  /// with a frame without data.
+  static std::string why_not_the_answer(const ppi::Body& answer, Data request) {
+    const auto asked = ppi::body_of(request);
+    if (!asked) return {};
+    const auto station = [](std::uint8_t address) { return static_cast<std::uint8_t>(address & ~ppi::kExtension); };
+    if (station(answer.source) != station(asked->destination))
+      return fmt::format("answer of station {}, not {}", station(answer.source), station(asked->destination));
+    return asks_for_status(request) && !answer.data.empty()
+               ? "data: a station answers a request for its status with its state"
+               : "";
   }
 
   std::string text_of(const ppi::Body& body, bool request, std::string& wrong) {

@@ -371,6 +371,31 @@ TEST(RowsOfADump, AnOffsetThatIsNotRightIsNoByteAndTheFrameIsNotRead) {
   EXPECT_EQ(frames[1].bytes, Bytes{});
 }
 
+// --- PPI ---
+
+TEST(PpiInALog, AStationAnswersARequestForItsStatusWithItsStateOnly) {
+  const std::string asked = "0.0 10 02 00 49 4b 16\n";
+  const auto answered = [&](const std::string& answer) { return read(asked + "0.1 " + answer + "\n", {}, "ppi"); };
+  const auto state = answered("10 00 02 00 02 16"), accepted = answered("e5");
+  EXPECT_TRUE(state[1].right) << state[1].text;
+  EXPECT_EQ(accepted[1].text, "accepted: a station answers a request for its status with its state");
+  EXPECT_EQ(accepted[1].direction, Direction::Answer);
+  EXPECT_FALSE(accepted[1].right || accepted[1].puts_off);
+  EXPECT_EQ(summary(accepted), "requests: 1, answered: 0; wrong frames: 1, frames of no request: 0\n");
+  EXPECT_EQ(playback(accepted, {}, {}).scenario, "");
+  EXPECT_EQ(answered("10 00 03 00 03 16")[1].text, "3 to 0, function 00: answer of station 3, not 2");
+}
+
+TEST(PpiInALog, AShortAcknowledgementAnswersARequestWithDataAndPutsOffAPoll) {
+  const auto frames = read(
+      "0.0 68 1b 1b 68 02 00 6c 32 01 00 00 00 00 00 0e 00 00 04 01 12 0a 10 02 00 01 00 01 84 00 03 20 8b 16\n0.1 e5\n"
+      "0.2 10 02 00 5c 5e 16\n0.3 e5\n",
+      {}, "ppi");
+  ASSERT_EQ(frames.size(), 4U);
+  EXPECT_TRUE(frames[1].right && !frames[1].puts_off);
+  EXPECT_TRUE(frames[3].right && frames[3].puts_off);
+}
+
 // --- Modbus TCP ---
 
 TEST(ModbusTcpInALog, UnitZeroIsAnAddressLikeAnyOther) {
