@@ -2705,6 +2705,10 @@ class Files(Case):
                 said = self.ends(UNUSABLE, *verb, recording).stderr
                 self.assertIn(f"not a program: s7200 decode {recording}", said)
             self.ends(FINE, "decode", recording)
+        for separator, point in ((",", "."), (";", ",")):
+            levels = "".join(f"{i}{point}0{separator}{level}\n" for i, level in enumerate("1010"))
+            self.assertIn("it is a recording of a line (levels), not a program",
+                          self.ends(UNUSABLE, "check", self.program(f"Zeit [s]{separator}Kanal 0\n{levels}", "levels.csv")).stderr)
         table = self.program("Symbol,Address,Data\nPump,Q0.0,01\nLamp,Q0.1,02\n", "table.csv")
         self.ends(FINE, "check", self.program("LD Pump\n= Lamp\nMEND\n"), table)
 

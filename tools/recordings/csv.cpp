@@ -69,7 +69,7 @@ Columns columns_of(std::string_view line) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (contains(names[i], {"ERROR"})) {
       columns.errors.push_back(i);
-    } else if (!columns.time && (contains(names[i], {"TIME", "START"}) || is_unit(names[i]))) {
+    } else if (!columns.time && (is_name_of_time(names[i]) || is_unit(names[i]))) {
       columns.time = i;
       if (const auto unit = unit_of(names[i]))
         columns.unit = *unit;
@@ -77,7 +77,8 @@ Columns columns_of(std::string_view line) {
         columns.unknown_unit = names[i];
     } else if (!columns.direction && contains(names[i], {"DIR", "SIDE", "CHANNEL", "PORT", "NAME"})) {
       columns.direction = i;
-    } else if (!columns.data && contains(names[i], {"DATA", "VALUE", "HEX", "BYTES", "FRAME", "PAYLOAD", "RESULT"})) {
+    } else if (!columns.data &&
+               contains(names[i], {"DATA", "VALUE", "HEX", "BYTES", "FRAME", "PAYLOAD", "RESULT", "WERT", "DATEN"})) {
       columns.data = i;
     }
   }

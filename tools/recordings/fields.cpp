@@ -689,6 +689,18 @@ std::optional<LeadingTime> leading_time(std::string_view text) {
   return time_since(text);
 }
 
+std::size_t length_of_index(std::string_view text) {
+  constexpr std::size_t kMostDigits = 9;
+  Scan scan(text);
+  scan.skip(kAllBlanks);
+  scan.take("#");
+  if (scan.take_digits(kMostDigits).empty()) return 0;
+  const bool divided = scan.take(".):;,|") != '\0';
+  if (scan.skip(kAllBlanks) == 0 && !divided) return 0;
+  const auto time = leading_time(text.substr(scan.at()));
+  return time && (time->of_day || !divided) && !leading_time(text) ? scan.at() : 0;
+}
+
 std::optional<Time> unit_of(std::string_view name) {
   const std::string capitals = stl::upper_case(name);
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; };
@@ -700,6 +712,12 @@ std::optional<Time> unit_of(std::string_view name) {
     begin = end;
   }
   return {};
+}
+
+bool is_name_of_time(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kTimes{"TIME", "ZEIT", "TEMPS", "TIEMPO", "TEMPO", "START"};
+  const std::string capitals = stl::upper_case(name);
+  return std::ranges::any_of(kTimes, [&](std::string_view time) { return capitals.find(time) != std::string::npos; });
 }
 
 Direction direction_of_brackets(std::string_view bytes) {

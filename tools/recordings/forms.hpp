@@ -30,6 +30,10 @@ void read_values_of_mbpoll(std::string_view bytes, const ReadingChoices& choices
 bool looks_like_pymodbus(std::string_view bytes);
 std::optional<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
+/// By names or escapes of characters that cannot be printed: `<CR>`, `\r`.
+bool looks_like_character_log(std::string_view bytes);
+std::optional<LineRecording> read_character_log(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
 std::optional<LineRecording> read_text_log(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
 /// Frames of a log that are messages of Modbus TCP, with their heads, become frames as on a serial line; then a note says

@@ -149,17 +149,23 @@ std::vector<NamedFields> records_of(const Piece& piece) {
   return records;
 }
 
+/// Whether a record at the beginning is so.
+bool any_record(std::string_view bytes, bool (*is_so)(const NamedFields& fields)) {
+  Pieces pieces(beginning_of(bytes));
+  while (const auto piece = pieces.next())
+    if (std::ranges::any_of(records_of(*piece), is_so)) return true;
+  return false;
+}
+
 }  // namespace
 
 bool looks_like_json_lines(std::string_view bytes) {
-  Pieces pieces(beginning_of(bytes));
-  while (const auto piece = pieces.next())
-    if (std::ranges::any_of(records_of(*piece), has_frame)) return is_text(bytes);
-  return false;
+  return is_text(bytes) && (any_record(bytes, has_frame) || any_record(bytes, has_characters));
 }
 
 std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices&, std::string&) {
   NamedFieldsReader reader;
+  if (any_record(bytes, has_characters)) reader.take_characters();
   Pieces pieces(bytes);
   while (const auto piece = pieces.next()) {
     const auto records = records_of(*piece);

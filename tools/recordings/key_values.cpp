@@ -6,20 +6,24 @@
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/lines.hpp"
 #include "tools/recordings/named_fields.hpp"
+#include "tools/recordings/notation.hpp"
 
 namespace s7200::tools {
 namespace {
 
 bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '@'; }
 
-/// A value in quotation marks to the next mark, any other to the next blank.
-std::string_view take_value(std::string_view& rest) {
+/// A value in quotation marks to the next mark, with its escapes read; any other to the next blank.
+std::string take_value(std::string_view& rest) {
   const bool quoted = rest.starts_with('"');
   if (quoted) rest.remove_prefix(1);
-  const std::size_t end = std::min(rest.find_first_of(quoted ? "\"" : " \t"), rest.size());
+  std::size_t end = std::min(rest.find_first_of(quoted ? "\"" : " \t"), rest.size());
+  while (quoted && end > 0 && end < rest.size() && rest[end - 1] == '\\')
+    end = std::min(rest.find('"', end + 1), rest.size());
   const std::string_view value = rest.substr(0, end);
   rest.remove_prefix(std::min(end + 1, rest.size()));
-  return value;
+  const auto characters = quoted && value.find('\\') != std::string_view::npos ? bytes_of_literal(value) : std::nullopt;
+  return characters ? std::string(characters->begin(), characters->end()) : std::string(value);
 }
 
 struct Pairs {
@@ -37,23 +41,29 @@ Pairs pairs_of(std::string_view line) {
     if (pairs.fields.empty()) pairs.before = line.substr(0, static_cast<std::size_t>(rest.data() - line.data()) + begin);
     const std::string name(rest.substr(begin, equals - begin));
     rest.remove_prefix(equals + 1);
-    const std::string_view value = take_value(rest);
-    if (!name.empty()) pairs.fields.push_back({.name = name, .value = std::string(value)});
+    std::string value = take_value(rest);
+    if (!name.empty()) pairs.fields.push_back({.name = name, .value = std::move(value)});
   }
+}
+
+/// Whether the pairs of a line at the beginning are so.
+bool any_line(std::string_view bytes, bool (*is_so)(const NamedFields& fields)) {
+  constexpr std::size_t kFewest = 2;  // pairs of a line with a frame: `tx=0103` alone may stand in any log
+  return std::ranges::any_of(Lines(beginning_of(bytes)), [&](std::string_view line) {
+    const Pairs pairs = pairs_of(line);
+    return pairs.fields.size() >= kFewest && is_so(pairs.fields);
+  });
 }
 
 }  // namespace
 
 bool looks_like_key_values(std::string_view bytes) {
-  constexpr std::size_t kFewest = 2;  // pairs of a line with a frame: `tx=0103` alone may stand in any log
-  return is_text(bytes) && std::ranges::any_of(Lines(beginning_of(bytes)), [](std::string_view line) {
-           const Pairs pairs = pairs_of(line);
-           return pairs.fields.size() >= kFewest && has_frame(pairs.fields);
-         });
+  return is_text(bytes) && (any_line(bytes, has_frame) || any_line(bytes, has_characters));
 }
 
 std::optional<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices&, std::string&) {
   NamedFieldsReader reader;
+  if (any_line(bytes, has_characters)) reader.take_characters();
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes)) {
     ++number;

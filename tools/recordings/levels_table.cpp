@@ -64,7 +64,7 @@ bool take_names(std::string_view line, Head& head) {
   for (std::string& name : names) name = stl::trim(name);
   if (std::ranges::all_of(names, is_level)) return false;
   const auto unit = unit_of(names.front());
-  head.has_time = unit.has_value() || stl::lower_case(names.front()).find("time") != std::string::npos;
+  head.has_time = unit.has_value() || is_name_of_time(names.front());
   head.unit = unit.value_or(kSecond);
   const std::size_t channels = names.size() - head.first_channel();
   if (head.names.size() == channels && channels > 0 && names.back() == "logic")
@@ -125,8 +125,15 @@ class Reader {
   }
 
  private:
+  /// A comma is that of a decimal only where none divides the columns.
+  std::optional<long double> figure_in(std::string_view cell) const {
+    std::string figure(stl::trim(cell));
+    if (head_.separator != ',') std::ranges::replace(figure, ',', '.');
+    return parse_decimal<long double>(figure);
+  }
+
   std::optional<Time> time_of(std::string_view cell) {
-    const auto figure = head_.has_time ? parse_decimal<long double>(stl::trim(cell)) : std::nullopt;
+    const auto figure = head_.has_time ? figure_in(cell) : std::nullopt;
     if (head_.has_time && !figure) return {};
     long double time = head_.has_time ? *figure * static_cast<long double>(head_.unit)
                                       : static_cast<long double>(sample_) / static_cast<long double>(samplerate_) * kSecond;

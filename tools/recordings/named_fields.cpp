@@ -88,11 +88,20 @@ std::optional<Bytes> bytes_of(const NamedField& field) {
   return bytes ? bytes : bytes_with_signs_between(field.value);
 }
 
+bool may_hold_frame(const FieldMeaning& meaning) {
+  return meaning.holds == Holds::Data || (meaning.holds == Holds::Nothing && meaning.direction != Direction::Unknown);
+}
+
 /// `data`, and `tx` where that is no count: `tx=8`. Nothing if it holds no frame.
 std::optional<Bytes> frame_in(const NamedField& field, const FieldMeaning& meaning) {
-  const bool may_hold =
-      meaning.holds == Holds::Data || (meaning.holds == Holds::Nothing && meaning.direction != Direction::Unknown);
-  return may_hold ? bytes_of(field) : std::nullopt;
+  return may_hold_frame(meaning) ? bytes_of(field) : std::nullopt;
+}
+
+/// The text itself, of a field that is called as bytes are.
+std::optional<Bytes> characters_in(const NamedField& field, const FieldMeaning& meaning) {
+  if (field.bytes) return field.bytes;
+  const bool holds = meaning.holds == Holds::Data && !field.value.empty();
+  return holds ? std::optional(Bytes(field.value.begin(), field.value.end())) : std::nullopt;
 }
 
 /// A time of day with or without a date, a number in the unit of its name, or seconds since 1970; milliseconds and finer
@@ -121,6 +130,13 @@ bool has_frame(const NamedFields& fields) {
                              [](const NamedField& field) { return frame_in(field, meaning_of(field.name)).has_value(); });
 }
 
+bool has_characters(const NamedFields& fields) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' '; };
+  return std::ranges::any_of(fields, [&](const NamedField& field) {
+    return meaning_of(field.name).holds == Holds::Data && std::ranges::any_of(field.value, is_control) && !bytes_of(field);
+  });
+}
+
 const FieldMeaning& NamedFieldsReader::meaning_of(std::size_t place, const std::string& name) {
   if (place >= known_.size()) known_.resize(place + 1);
   KnownName& known = known_[place];
@@ -143,7 +159,7 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const NamedField& field = fields[i];
     const FieldMeaning& meaning = meaning_of(i, field.name);
-    auto bytes = frame_in(field, meaning);
+    auto bytes = are_characters_ ? characters_in(field, meaning) : frame_in(field, meaning);
     const bool should_hold = meaning.holds == Holds::Data && !field.value.empty();
     has_data |= should_hold;
     if (!bytes) {

@@ -21,6 +21,9 @@ using NamedFields = std::vector<NamedField>;
 /// Whether one of the fields is called as bytes are, `data`, `tx`, `SerialReceived`, and holds some.
 bool has_frame(const NamedFields& fields);
 
+/// Whether one of them holds characters of a text, with a line end or another one that cannot be printed.
+bool has_characters(const NamedFields& fields);
+
 /// What the name of a field says of it.
 struct FieldMeaning {
   enum class Holds : std::uint8_t { Nothing, Time, Direction, Data } holds = Holds::Nothing;
@@ -31,6 +34,9 @@ struct FieldMeaning {
 /// Makes frames of records.
 class NamedFieldsReader {
  public:
+  /// From now on what the fields hold is characters, not bytes in hex.
+  void take_characters() { are_characters_ = true; }
+
   /// The record of line `number`; `before`: what stands in the line before it, a time perhaps.
   void take(const NamedFields& fields, std::string_view before, std::size_t number);
   void take_other(std::size_t number) { left_out_.without_bytes(number); }
@@ -52,6 +58,7 @@ class NamedFieldsReader {
   LeftOut left_out_;
   DayCounter days_;
   std::vector<KnownName> known_;
+  bool are_characters_ = false;
 };
 
 }  // namespace s7200::tools

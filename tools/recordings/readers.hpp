@@ -17,7 +17,8 @@ inline bool fits(const serial::Answer& answer) {
 std::unique_ptr<FrameReader> modbus_reader(const ChosenWords& chosen);
 std::unique_ptr<FrameReader> ppi_reader(const ChosenWords& chosen);
 std::unique_ptr<FrameReader> freeport_pc_reader(const ChosenWords& chosen);
-/// Lines of ASCII with CR, LF or both at their ends. Who asks is for the recording to say.
+/// Lines of ASCII with CR, LF or both at their ends, texts between STX and ETX, and ENQ, ACK, NAK and their like. Who asks
+/// is for the recording to say.
 std::unique_ptr<FrameReader> text_reader(const ChosenWords& chosen);
 
 /// Of a protocol whose frames say all by themselves: it keeps nothing from frame to frame.

@@ -51,6 +51,8 @@ constexpr std::array kForms{
     RecordingForm{"pymodbus", "what pymodbus logs at the level DEBUG", true, looks_like_pymodbus, read_pymodbus},
     RecordingForm{"Python", "logs with bytes as Python shows them: b'\\x01\\x03', as of Home Assistant", true,
                   looks_like_python_bytes, read_python_bytes},
+    RecordingForm{"characters", "text logs with the characters themselves: ?W<CR><LF>, \"?W\\r\\n\"", true,
+                  looks_like_character_log, read_character_log},
     RecordingForm{"text", "text logs with a frame or a character in each line", true, is_text, read_text_log},
 };
 

@@ -136,7 +136,9 @@ std::optional<LineRecording> read_sigrok_session(std::string_view bytes, const R
   Sampler sampler(device, samplerate);
   why = "it is longer than a recording can be";
   for (const std::string& file : files)
-    if (!zip->read(file, [&](std::string_view piece) { return sampler.take(piece); }, why)) return {};
+    if (!zip->read(
+            file, [&](std::string_view piece) { return sampler.take(piece); }, why))
+      return {};
   why.clear();
   return frames_of(sampler.finish(), choices, why);
 }

@@ -4,6 +4,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/left_out.hpp"
 #include "tools/recordings/lines.hpp"
 #include "tools/recordings/scan.hpp"
 
@@ -61,6 +62,18 @@ LeadingDirection leading_direction(std::string_view line) {
   return {named, scan.at()};
 }
 
+/// `RX: 12.5`: what has come is not in hex. Empty for a remark, `RX: timeout`, and for a head, `RX 8 bytes`, `RX len=8`.
+std::string figure_after_direction(std::string_view line) {
+  const std::vector<std::string> words = stl::split_words(line);
+  const auto direction =
+      std::ranges::find_if(words, [](const std::string& word) { return direction_of(word) != Direction::Unknown; });
+  if (direction == words.end() || std::next(direction) == words.end()) return {};
+  const std::string& figure = *std::next(direction);
+  const bool is_last = std::next(direction, 2) == words.end();
+  const bool has_digit = std::ranges::any_of(figure, stl::is_digit);
+  return is_last && has_digit && figure.find_first_of("=:([") == std::string::npos ? figure : std::string();
+}
+
 constexpr std::size_t kFullRow = 16;
 
 struct RecordedCharacter {
@@ -88,6 +101,7 @@ class LogReader {
     if (const std::string_view rest = stl::trim(line); rest.empty() || rest.front() == '#') return;
     if (ends_dump(line)) return;
     if (const auto character = character_of_interceptty(line)) return take(*character);
+    line.remove_prefix(length_of_index(line));
     const auto [said, length] = leading_direction(line);
     const auto time = leading_time(line.substr(length));
     if (time) line.remove_prefix(length + time->length);
@@ -109,7 +123,7 @@ class LogReader {
     auto found = bytes_of_lines_.in(rest);
     in_dump_ = !at && (rest.size() < whole.size() || (found && found->has_characters)) && is_dump(whole);
     if (!found)
-      take_heading(at, direction(direction_of_heading(line)));
+      take_heading(at, direction(direction_of_heading(line)), line);
     else if (found->bytes.empty())
       leave_out(*found, at, direction(direction_of(line.substr(0, counter + found->begin))));
     else
@@ -131,6 +145,7 @@ class LogReader {
     Time at = 0;
     Direction direction = Direction::Unknown;
     std::size_t number = 0;
+    std::string not_bytes{};  ///< what it says instead of bytes; empty: a remark
   };
 
   /// Lines of which the same is to be said.
@@ -280,17 +295,21 @@ class LogReader {
         Doubt{fmt::format("'{}' beside its bytes is not understood", word), word, std::move(readings)});
   }
 
-  void take_heading(std::optional<Time> at, Direction direction) {
+  void take_heading(std::optional<Time> at, Direction direction, std::string_view line) {
     drop_heading();
     lost_row_ = false;
     if (at)
-      heading_ = {*at, direction, number_};
+      heading_ = {*at, direction, number_, figure_after_direction(line)};
     else
       left_out_.add(number_);
   }
 
   void drop_heading() {
-    if (heading_) left_out_.add(heading_->number);
+    if (heading_ && !heading_->not_bytes.empty())
+      recording_.frames.push_back(
+          row_not_read(heading_->number, not_understood(heading_->not_bytes), heading_->at, heading_->direction));
+    else if (heading_)
+      left_out_.add(heading_->number);
     heading_.reset();
     goes_on_ = has_offsets_ = false;
     below_ = Direction::Unknown;

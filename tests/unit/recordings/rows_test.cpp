@@ -332,6 +332,14 @@ TEST(RowsThatAreNotRead, AnUnansweredRequestOfModbusTcpBeforeOneIsNotImportedAsS
   EXPECT_EQ(texts(read(asked + "0.1 RX 00 01 00 00 00 07 01 03 04 12 34 56 78 ok\n", {})), (std::vector{kAsked, kSaid}));
 }
 
+TEST(RowsThatAreNotRead, WhatHasComeAsATextAmongBytesIsNoSilence) {
+  const auto frames = read(kRequestRow + "10:00:00.030 RX: 12.5\n");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].text, "not read: '12.5' is not understood");
+  for (const char* const remark : {"RX: timeout", "RX: no answer after 500 ms", "RX 8 bytes", "RX len=8"})
+    EXPECT_EQ(read(kRequestRow + "10:00:00.030 " + remark + "\n").size(), 1U) << remark;
+}
+
 TEST(RowsThatAreNotRead, WordsOfASentenceAreNoBytes) {
   for (const char* const line :
        {"10:00:00 warte ab", "10:00:00 de facto offline", "10:00:00 BAD FACE", "10:00:00 slave 2 timeout, retry 1"})
@@ -369,6 +377,71 @@ TEST(RowsOfADump, AnOffsetThatIsNotRightIsNoByteAndTheFrameIsNotRead) {
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_TRUE(frames[1].doubt);
   EXPECT_EQ(frames[1].bytes, Bytes{});
+}
+
+// --- characters ---
+
+const std::vector<std::string> kWeighed{R"("?W\r\n")", R"("+0012.40 kg\r\n")", "ENQ", "NAK", R"("AB 12\r\n")"};
+
+TEST(CharactersInALog, NamesEscapesAndFieldsAreTheCharactersThemselves) {
+  for (const char* const log :
+       {"[10:00:00.000] -> ?W<CR><LF>\n[10:00:00.050] <- +0012.\n[10:00:00.158] <- 40 kg<CR><LF>\n[10:00:01.000] -> <ENQ>\n"
+        "[10:00:01.040] <- <nak>\n[10:00:02.000] -> AB 12<0D><0A>\n",
+        "10:00:00.000 COM1 TX: \"?W\\r\\n\"\n10:00:00.050 COM1 RX: \"+0012.40 kg\\r\\n\"\n10:00:01.000 COM1 TX: \"\\x05\"\n"
+        "10:00:01.040 COM1 RX: \"\\x15\"\n10:00:02.000 COM1 TX: \"AB 12\\r\\n\"\n",
+        "1 10:00:00.000 > ?W\\r\\n\n2 10:00:00.050 < +0012.40 kg\\r\\n\n3 10:00:01.000 > \\x05\n4 10:00:01.040 < \\x15\n"
+        "5 10:00:02.000 > AB 12\\r\\n\n",
+        "{\"t\":0.0,\"dir\":\"tx\",\"data\":\"?W\\r\\n\"}\n{\"t\":0.05,\"dir\":\"rx\",\"data\":\"+0012.\"}\n"
+        "{\"t\":0.16,\"dir\":\"rx\",\"data\":\"40 kg\\r\\n\"}\n{\"t\":1.0,\"dir\":\"tx\",\"data\":\"\\u0005\"}\n"
+        "{\"t\":1.04,\"dir\":\"rx\",\"data\":\"\\u0015\"}\n{\"t\":2.0,\"dir\":\"tx\",\"data\":\"AB 12\\r\\n\"}\n",
+        "t=0.0 dir=tx data=\"?W\\r\\n\"\nt=0.05 dir=rx data=\"+0012.40 kg\\r\\n\"\nt=1.0 dir=tx data=\"\\x05\"\n"
+        "t=1.04 dir=rx data=\"\\x15\"\nt=2.0 dir=tx data=\"AB 12\\r\\n\"\n"}) {
+    const auto frames = read(log, {.character = 1'145'833}, "text");
+    EXPECT_EQ(texts(frames), kWeighed) << log;
+    EXPECT_EQ(frames.front().direction, Direction::Request) << log;
+    EXPECT_EQ(frames.front().frame.at, 0) << log;
+  }
+}
+
+TEST(CharactersInALog, ALogInHexWithRemarksStaysOne) {
+  const auto frames = read(kRequestRow + "10:00:00.010 TX done<CR>\n" + kAnswerRow + "\n");
+  EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid}));
+}
+
+TEST(CharactersInALog, AnEscapeThatIsNotKnownIsNotRead) {
+  const auto frames = read("0.0 TX: \"?W\\r\"\n0.1 RX: \"1\\q\\r\"\n", {}, "text");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_TRUE(frames[1].not_read);
+}
+
+TEST(TextInALog, TextsBetweenStxAndEtxAndSignalsAreMessages) {
+  const auto frames = read(
+      "0.0 TX 05\n0.1 RX 06\n0.2 TX 02 3f 57 03\n0.3 RX 02 2b 31 32 2e 35 03 33\n0.4 TX 02 41 17 0d\n0.5 RX 15\n0.6 TX 04\n"
+      "0.7 TX 02 41 03 31 32 33\n0.8 RX 02 80 03\n",
+      {.character = 1'145'833}, "text");
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{"ENQ", "ACK", R"(STX "?W" ETX)", R"(STX "+12.5" ETX, check 33)", R"(STX "A" ETB)",
+                                      "NAK", "EOT", R"("\x02A\x03123"; character 1 is not of a text)",
+                                      R"("\x02\x80\x03"; character 2 is not of a text)"}));
+  EXPECT_EQ(summary(frames).substr(0, 26), "requests: 5, answered: 3 a");
+}
+
+TEST(TextInALog, ABlockOrALineInSeveralRowsIsOneWhateverLiesBetweenThem) {
+  EXPECT_EQ(texts(read("0.0 TX 02 3f\n0.5 TX 57\n0.9 TX 03\n1.0 RX 2b 31\n1.2 RX 32 0d 0a\n", {}, "text")),
+            (std::vector<std::string>{R"(STX "?W" ETX)", R"("+12\r\n")"}));
+}
+
+TEST(ColumnsOfALog, ANumberBeforeTheTimeCountsTheRows) {
+  for (const char* const log :
+       {"1 10:00:00.000 Write 01 03 00 0a 00 02 e4 09\n2 10:00:00.030 Read 01 03 04 12 34 56 78 81 07\n",
+        "17; 10:00:00.000; TX; 01 03 00 0a 00 02 e4 09\n18; 10:00:00.030; RX; 01 03 04 12 34 56 78 81 07\n",
+        "Nr. Zeit Daten\n1 31.000 01 03 00 0a 00 02 e4 09\n2 31.030 01 03 04 12 34 56 78 81 07\n",
+        "001: 2026-11-27 10:00:00.000 > 01 03 00 0a 00 02 e4 09\n002: 2026-11-27 10:00:00.030 < 01 03 04 12 34 56 78 81 "
+        "07\n"}) {
+    const auto frames = read(log);
+    EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid})) << log;
+    EXPECT_EQ(frames[1].frame.at, 30 * kMillisecond) << log;
+  }
 }
 
 // --- PPI ---

@@ -223,14 +223,25 @@ bool has_statements(const SourceText& text) {
                              [](const stl::Line& line) { return std::holds_alternative<stl::Statement>(line); });
 }
 
-/// What `s7200 decode` reads a file as that has no statements; empty if it reads no frame in it. Any text with a few numbers may
-/// be a log, a table only if it has columns of one.
+/// The levels of a line, or packets, in a text: no program looks like them, even if there is no frame in them.
+std::string form_of_capture(std::string_view bytes) {
+  const auto form = std::ranges::find_if(recording_forms(),
+                                         [&](const RecordingForm& each) { return !each.is_log && each.looks_like(bytes); });
+  return form != recording_forms().end() && bytes.find('\0') == std::string_view::npos ? std::string(form->name)
+                                                                                       : std::string();
+}
+
+/// What `s7200 decode` reads a file as that has no statements; empty if it reads no frame in it. Any text with a few numbers
+/// may be a log, a table only if it has columns of one.
 std::string form_of_recording(std::string_view bytes, const std::optional<SourceText>& text) {
   constexpr std::string_view kPlainLog = "text";
   std::string why;
   const auto recording = read_recording(bytes, {}, why);
+  if (!recording) return form_of_capture(bytes);
+  const bool any =
+      !std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.doubt != nullptr; });
   const bool table = text && text->kind != SourceKind::Listing && text->kind != SourceKind::Document;
-  return recording && !recording->frames.empty() && !(table && recording->form == kPlainLog) ? recording->form : std::string();
+  return any && !(table && recording->form == kPlainLog) ? recording->form : std::string();
 }
 
 }  // namespace
@@ -248,7 +259,8 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
   auto text = read_source(*bytes, name, why, force_document);
   const bool program = text && (text->kind == SourceKind::Blocks || has_statements(*text));
   if (const std::string form = program ? std::string() : form_of_recording(*bytes, text); !form.empty()) {
-    print_error(fmt::format("cannot read {0}: it is a recording of a line ({1}), not a program: s7200 decode {0}", name, form));
+    print_error(
+        fmt::format("cannot read {0}: it is a recording of a line ({1}), not a program: s7200 decode {0}", name, form));
     return {};
   }
   if (!text) print_error(fmt::format("cannot read {}: {}", name, why));
