@@ -10,9 +10,9 @@
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/debugger/stepper.hpp"
 #include "tools/host/files.hpp"
 #include "tools/session/past/history.hpp"
+#include "tools/session/stops/stepper.hpp"
 
 namespace {
 

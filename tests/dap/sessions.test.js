@@ -604,7 +604,7 @@ for (const { name: of, program } of PROGRAMS)
 
 test("the README lists every request that the protocol has not", () => {
   const words = (text, pattern) => [...text.matchAll(pattern)].map(([, word]) => word);
-  const source = (file) => fs.readFileSync(path.join(SOURCE, "tools/dap", file), "utf8");
+  const source = (file) => fs.readFileSync(path.join(SOURCE, "tools/faces/dap", file), "utf8");
   const of_protocol = words(fs.readFileSync(require.resolve("@vscode/debugprotocol/lib/debugProtocol.d.ts"), "utf8"), /command: '(\w+)'/g);
   const offered = words(source("session.cpp"), /\{"(\w+)", &Session::/g);
   const rows = /\| request \|[^]*?\n\n/.exec(source("README.md"))[0].split("\n").slice(2);

@@ -7,8 +7,8 @@
 
 #include "interpreter/program/load.hpp"
 #include "tests/fuzz/promise.hpp"
-#include "tools/debugger/session_file.hpp"
 #include "tools/json/json.hpp"
+#include "tools/session/commands/session_file.hpp"
 #include "tools/session/past/digest.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/views/results_json.hpp"

@@ -86,7 +86,7 @@ test("every instruction of every one of our programs is coloured", async () => {
 
 test("each attribute of a launch is an option of debug, or one of the session", () => {
   const help = s7200("debug", "--help-all");
-  const readme = fs.readFileSync(path.join(SOURCE, "tools/dap/README.md"), "utf8");
+  const readme = fs.readFileSync(path.join(SOURCE, "tools/faces/dap/README.md"), "utf8");
   for (const name of Object.keys(manifest.contributes.debuggers[0].configurationAttributes.launch.properties)) {
     const option = "--" + name.replace(/[A-Z]/g, (letter) => "-" + letter.toLowerCase());
     assert.ok(help.includes(`  ${option} `) || readme.includes(`\`${name}\``), name);
@@ -234,7 +234,7 @@ test("every command of package.json does what the session offers", async () => {
   const commands = manifest.contributes.commands.map((one) => one.command);
   assert.deepEqual(Object.keys(registered.commands).sort(), commands.sort());
   for (const { command, enablement } of manifest.contributes.commands) assert.equal(enablement, "debugType == s7200", command);
-  const offered = fs.readFileSync(path.join(SOURCE, "tools/dap/session.cpp"), "utf8");
+  const offered = fs.readFileSync(path.join(SOURCE, "tools/faces/dap/session.cpp"), "utf8");
   for (const [name, run] of Object.entries(registered.commands)) {
     await run();
     const [request, args] = registered.asked.pop();

@@ -11,7 +11,7 @@
 #include "tools/command/options/choices.hpp"
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/dap/serve.hpp"
+#include "tools/faces/dap/serve.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
@@ -89,7 +89,7 @@ void add_dap(CLI::App& app, int& exit_code) {
       "Over --listen a launch or an attach needs the token that is printed, as its attribute 'token'.\n"
       "Without a bridge, --realtime or --speed programs run as fast as the computer can; with one as fast as the clock, and "
       "masters outside wait while it stands still.\n"
-      "tools/dap/README.md lists the requests of our own, tools/vscode-s7200 is the extension for VS Code.\n"
+      "tools/faces/dap/README.md lists the requests of our own, tools/vscode-s7200 is the extension for VS Code.\n"
       "Topics: bridges, debugger, faults, files, programs, systems\n"
       "Example: s7200 dap");
   verb->callback([options, &exit_code, verb] { exit_code = run_dap(*verb, *options); });

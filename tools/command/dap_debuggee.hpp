@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tools/command/options/debug_options.hpp"
-#include "tools/dap/session.hpp"
+#include "tools/faces/dap/session.hpp"
 
 namespace s7200::tools {
 

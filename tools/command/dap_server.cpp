@@ -6,7 +6,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/dap/serve.hpp"
+#include "tools/faces/dap/serve.hpp"
 #include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/host/server_rules.hpp"

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <string>
 
-#include "tools/dap/session.hpp"
+#include "tools/faces/dap/session.hpp"
 
 namespace s7200::tools {
 

@@ -9,17 +9,17 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/base/wrapped.hpp"
 #include "interpreter/trace/text_trace.hpp"
-#include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/debugger.hpp"
-#include "tools/debugger/fault_words.hpp"
-#include "tools/debugger/force_words.hpp"
-#include "tools/debugger/frame_words.hpp"
-#include "tools/debugger/goals.hpp"
-#include "tools/debugger/line_words.hpp"
-#include "tools/debugger/mode_words.hpp"
-#include "tools/debugger/stop_words.hpp"
 #include "tools/session/causes/two_masters.hpp"
+#include "tools/session/commands/bad_pointers.hpp"
+#include "tools/session/commands/fault_words.hpp"
+#include "tools/session/commands/force_words.hpp"
+#include "tools/session/commands/frame_words.hpp"
+#include "tools/session/commands/line_words.hpp"
+#include "tools/session/commands/mode_words.hpp"
 #include "tools/session/past/past_words.hpp"
+#include "tools/session/stops/goals.hpp"
+#include "tools/session/stops/stop_words.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
@@ -502,8 +502,7 @@ Debugger::Error Debugger::help(const Arguments& arguments) {
     out_ << fmt::format("  {}\n", rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  if (command->takes == Takes::Faults)
-    out_ << stl::wrapped(fault_kinds_text(), stl::kUsualWidth);
+  if (command->takes == Takes::Faults) out_ << stl::wrapped(fault_kinds_text(), stl::kUsualWidth);
   if (!command->short_form.empty()) out_ << fmt::format("  short: {}\n", command->short_form);
   return {};
 }

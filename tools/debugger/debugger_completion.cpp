@@ -7,10 +7,10 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/cpu/forcing.hpp"
-#include "tools/debugger/address_words.hpp"
 #include "tools/debugger/debugger.hpp"
-#include "tools/debugger/force_words.hpp"
-#include "tools/debugger/stop_words.hpp"
+#include "tools/session/commands/address_words.hpp"
+#include "tools/session/commands/force_words.hpp"
+#include "tools/session/stops/stop_words.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "tools/debugger/debugger.hpp"
-#include "tools/debugger/force_words.hpp"
+#include "tools/session/commands/force_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 

@@ -7,10 +7,10 @@
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/ports.hpp"
-#include "tools/debugger/bad_pointers.hpp"
 #include "tools/debugger/debugger.hpp"
-#include "tools/debugger/element_text.hpp"
-#include "tools/debugger/print_forms.hpp"
+#include "tools/session/commands/bad_pointers.hpp"
+#include "tools/session/commands/element_text.hpp"
+#include "tools/session/commands/print_forms.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 

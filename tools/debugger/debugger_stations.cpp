@@ -6,7 +6,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/debugger/debugger.hpp"
-#include "tools/debugger/words.hpp"
+#include "tools/session/stops/words.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {

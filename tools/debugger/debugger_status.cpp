@@ -7,7 +7,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/debugger/debugger.hpp"
-#include "tools/debugger/last_executions.hpp"
+#include "tools/session/observers/last_executions.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
 

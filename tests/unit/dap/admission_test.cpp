@@ -1,9 +1,9 @@
-#include "tools/dap/admission.hpp"
+#include "tools/faces/dap/admission.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tools/dap/framing.hpp"
-#include "tools/dap/inbox.hpp"
+#include "tools/faces/dap/framing.hpp"
+#include "tools/faces/dap/inbox.hpp"
 
 namespace s7200::tools::dap {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "interpreter/program/load.hpp"
-#include "tools/dap/session.hpp"
+#include "tools/faces/dap/session.hpp"
 
 namespace s7200::tools::dap {
 

@@ -1,8 +1,8 @@
-#include "tools/dap/framing.hpp"
+#include "tools/faces/dap/framing.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tools/dap/base64.hpp"
+#include "tools/faces/dap/base64.hpp"
 
 namespace s7200::tools::dap {
 namespace {

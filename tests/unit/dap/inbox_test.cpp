@@ -1,4 +1,4 @@
-#include "tools/dap/inbox.hpp"
+#include "tools/faces/dap/inbox.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/dap/editor.hpp"
-#include "tools/dap/base64.hpp"
+#include "tools/faces/dap/base64.hpp"
 
 namespace s7200::tools::dap {
 namespace {

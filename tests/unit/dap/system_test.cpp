@@ -6,7 +6,7 @@
 
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/debugger/system_bench.hpp"
-#include "tools/dap/session.hpp"
+#include "tools/faces/dap/session.hpp"
 
 namespace s7200::tools::dap {
 namespace {

@@ -9,8 +9,8 @@
 #include "tests/support/slave_bench.hpp"
 #include "tests/support/source_path.hpp"
 #include "tests/unit/debugger/session.hpp"
-#include "tools/debugger/call_stack.hpp"
 #include "tools/host/files.hpp"
+#include "tools/session/observers/call_stack.hpp"
 #include "tools/session/past/past_words.hpp"
 
 namespace s7200::tools {

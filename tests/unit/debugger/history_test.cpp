@@ -13,10 +13,10 @@
 #include "serial_sim/field/field_script.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/slave_bench.hpp"
-#include "tools/debugger/goals.hpp"
-#include "tools/debugger/stepper.hpp"
 #include "tools/session/causes/last_write.hpp"
 #include "tools/session/past/past_words.hpp"
+#include "tools/session/stops/goals.hpp"
+#include "tools/session/stops/stepper.hpp"
 #include "tools/views/listing.hpp"
 #include "tools/views/machine_text.hpp"
 

@@ -1,5 +1,5 @@
 // Saved sessions, and power that goes off and comes back.
-#include "tools/debugger/session_file.hpp"
+#include "tools/session/commands/session_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/debugger/session.hpp"
-#include "tools/debugger/stop_words.hpp"
+#include "tools/session/stops/stop_words.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "tests/unit/debugger/system_bench.hpp"
-#include "tools/debugger/goals.hpp"
-#include "tools/debugger/stepper.hpp"
 #include "tools/session/causes/last_write.hpp"
 #include "tools/session/past/history.hpp"
+#include "tools/session/stops/goals.hpp"
+#include "tools/session/stops/stepper.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/debugger/system_session.hpp"
-#include "tools/debugger/stop_words.hpp"
+#include "tools/session/stops/stop_words.hpp"
 
 namespace s7200::tools {
 namespace {

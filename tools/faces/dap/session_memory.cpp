@@ -1,0 +1,211 @@
+// Reading and writing memory, and what the client is told when it changes.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "tools/faces/dap/addresses.hpp"
+#include "tools/faces/dap/base64.hpp"
+#include "tools/faces/dap/session.hpp"
+#include "tools/session/commands/force_words.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools::dap {
+namespace {
+
+MemoryPlace memory_at(const Json& arguments, const Program& program) {
+  const auto reference = text_at(arguments, "memoryReference");
+  const auto place = find_memory(reference, program);
+  if (!place)
+    throw Refused(fmt::format("'{}' is not memory of this CPU; write for example V, VB100, AC0", stl::shortened(reference)));
+  return *place;
+}
+
+/// Timers, counters and accumulators are set as a whole: bytes that are not written stay as they are.
+std::vector<Assignment> assignments_of(const AreaInfo& area, std::uint32_t first, const std::vector<std::uint8_t>& bytes,
+                                       const State& state) {
+  const std::uint32_t step = area.step(), end = first + static_cast<std::uint32_t>(bytes.size());
+  const Width width = step == 4 ? Width::Double : step == 2 ? Width::Word : Width::Byte;
+  std::vector<Assignment> all;
+  for (std::uint32_t at = first - (first - area.base) % step; at < end; at += step) {
+    std::uint32_t value = 0;
+    for (std::uint32_t i = at; i < at + step; ++i)
+      value = value << 8 | (i >= first && i < end ? bytes[i - first] : state.image[i]);
+    all.push_back({{.area = area.area, .width = width, .number = (at - area.base) / step, .at = at}, value});
+  }
+  return all;
+}
+
+}  // namespace
+
+Json Session::read_memory(const Json& arguments) {
+  const MemoryPlace place = memory_at(arguments, cpu().program());
+  const std::vector<std::uint8_t> all = bytes_of(place, cpu().state());
+  const std::int64_t area_end = place.begin + static_cast<std::int64_t>(all.size());
+  const std::int64_t count = amount_in(arguments, "count", 0);
+  if (count < 0) throw Refused(fmt::format("count: {} is less than 0", count));
+  const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
+  const std::int64_t begin = std::clamp<std::int64_t>(first, place.begin, area_end);
+  const std::int64_t end = std::clamp<std::int64_t>(first + count, begin, area_end);
+  Json body{{"address", at_station(address_text(begin), looks_at())}};
+  if (first + count > end) body["unreadableBytes"] = std::max<std::int64_t>(0, first + count - end);
+  if (begin == end) return body;
+  body["data"] = to_base64(
+      std::span(all).subspan(static_cast<std::size_t>(begin - place.begin), static_cast<std::size_t>(end - begin)));
+  // to tell when it changes, an area is looked at as a whole
+  ReadArea& area = read_.try_emplace({looks_at(), place.begin}, ReadArea{.bytes = all}).first->second;
+  area.references.insert(at_station(text_at(arguments, "memoryReference"), looks_at()));
+  return body;
+}
+
+void Session::write_image(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes) {
+  const auto area = std::ranges::find(all_areas(), place.begin, &AreaInfo::base);
+  SetMemory set{assignments_of(*area, first, bytes, cpu().state())};
+  for (const Assignment& assignment : set.assignments)
+    if (const std::string refused = not_settable(assignment.place); !refused.empty()) throw Refused(refused);
+  act(std::move(set));
+}
+
+/// Of the logic stack: a byte is a level.
+void Session::write_levels(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes) {
+  if (place.open != 0) throw Refused("only the logic stack of the routine that runs can be set; the others wait");
+  if (!standing_at(cpu().state())) throw Refused("no program runs now whose logic stack could be set");
+  std::uint16_t bits = cpu().state().stack.bits();
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (bytes[i] > 1) throw Refused(fmt::format("a level of the logic stack is 0 or 1, not {}", bytes[i]));
+    const unsigned level = first - place.begin + static_cast<unsigned>(i);
+    bits = static_cast<std::uint16_t>((bits & ~(1u << level)) | static_cast<unsigned>(bytes[i]) << level);
+  }
+  act(SetStack{LogicStack::from_bits(bits)});
+}
+
+Json Session::write_memory(const Json& arguments) {
+  const MemoryPlace place = memory_at(arguments, cpu().program());
+  auto bytes = from_base64(text_at(arguments, "data"));
+  if (!bytes) throw Refused("data is not base64");
+  if (place.owner == Owner::SavedAccumulators)
+    throw Refused("the accumulators that an interrupted routine will find again cannot be set");
+  const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
+  const std::int64_t room = first < place.begin ? 0 : std::max<std::int64_t>(0, place.end - first);
+  if (static_cast<std::int64_t>(bytes->size()) > room) {
+    if (!truth_at(arguments, "allowPartial", false))
+      throw Refused(fmt::format("{} bytes from there run past the end of the area", bytes->size()));
+    bytes->resize(static_cast<std::size_t>(room));
+  }
+  if (place.owner == Owner::LogicStack)
+    write_levels(place, static_cast<std::uint32_t>(first), *bytes);
+  else
+    write_image(place, static_cast<std::uint32_t>(first), *bytes);
+  return {{"bytesWritten", bytes->size()}};
+}
+
+MemoryRange Session::range_for(const std::string& expression) const {
+  std::string why;
+  const auto place = parse_place(expression, cpu().program(), why);
+  if (!place) throw Refused(why);
+  const auto range = range_now(*place, cpu());
+  if (!range) throw Refused(fmt::format("{} points nowhere", expression));
+  return *range;
+}
+
+Json Session::assign(const std::string& expression, const std::string& value) {
+  const MemoryRange range = range_for(expression);
+  const auto assignment = parse_value(range, value);
+  if (range.count != 1) throw Refused(fmt::format("'{}' is not one value but {}", stl::shortened(expression), range.count));
+  if (!assignment)
+    throw Refused(
+        fmt::format("'{}' is not a value that fits {}: {}", stl::shortened(value), expression, values_text(range)));
+  if (const std::string refused = not_settable(range); !refused.empty()) throw Refused(refused);
+  act(SetMemory{{*assignment}});
+  const Variable variable = variable_of(cpu(), range, expression);
+  Json body{
+      {"value", variable.value}, {"type", variable.type}, {"memoryReference", at_station(variable.memory, looks_at())}};
+  if (range.area == Area::I && standing_at(cpu().state()))
+    print("the input points are set; the program finds them in I when the next scan reads its inputs");
+  return body;
+}
+
+Json Session::set_level(const Variable& level, const std::string& value) {
+  const auto bit = parse_decimal<std::uint8_t>(stl::trim(value));
+  if (!bit || *bit > 1) throw Refused(fmt::format("'{}' is not a level of the logic stack: 0 or 1", stl::shortened(value)));
+  const auto place = find_memory(level.memory, cpu().program());
+  write_levels(*place, place->at, {*bit});
+  return {{"value", std::to_string(*bit)}, {"type", level.type}, {"memoryReference", at_station(level.memory, looks_at())}};
+}
+
+Json Session::set_variable(const Json& arguments) {
+  const auto name = text_at(arguments, "name");
+  const auto container = number_at<Container>(arguments, "variablesReference");
+  for (const Variable& variable : variables_of(simulation(), debuggee_->history(), container))
+    if (variable.name == name && variable.settable) {
+      const auto value = text_at(arguments, "value");
+      return variable.expression.empty() ? set_level(variable, value) : assign(variable.expression, value);
+    }
+  throw Refused(fmt::format("'{}' cannot be set", stl::shortened(name)));
+}
+
+Json Session::set_expression(const Json& arguments) {
+  return assign(text_at(arguments, "expression"), text_at(arguments, "value"));
+}
+
+std::string Session::without_power() const {
+  return simulation().plc().powered()
+             ? std::string()
+             : said_of(looks_at()) + "the PLC is without power; 'power on' in the console brings it back";
+}
+
+/// In the past it begins a new branch, and says so.
+void Session::act(Action action) {
+  const bool reaches_it = std::holds_alternative<SendFrame>(action) || std::holds_alternative<CancelRequest>(action) ||
+                          std::holds_alternative<InjectFault>(action) || std::holds_alternative<SetPower>(action);
+  if (const std::string why = without_power(); !reaches_it && !why.empty()) throw Refused(why);
+  History& history = debuggee_->history();
+  const bool branches = history.in_the_past();
+  const Time left = history.newest().time;
+  history.act(std::move(action), looks_at());
+  if (branches) {
+    print(fmt::format("a new branch begins here; what ran up to {} is on the old one", moment_text(left)));
+    note_new_branch();
+  }
+  after_response([this] {
+    if (client_takes_invalidation_ && !runs()) send_event("invalidated", {{"areas", Json::array({"variables"})}});
+    report_memory_changes();
+  });
+}
+
+/// A record of what went on cannot go back: a capture ends, a trace says so by its times.
+void Session::note_new_branch() {
+  std::erase_if(frames_sent_, [now = debuggee_->history().now().time](Time sent) { return sent > now; });
+  for (std::size_t station = 0; station < stations(); ++station) debuggee_->history().station(station).plc().unwatch_lines();
+  const std::string files = debuggee_->recorded_files();
+  if (files.empty() || std::exchange(captures_end_, true)) return;
+  print(fmt::format("{}: traces go on with what is new, after what ran before; captures of the line end", files));
+}
+
+/// Of what the client has read: the bytes from the first to the last that is different now.
+void Session::report_memory_changes() {
+  if (!client_takes_memory_events_) return;
+  for (auto& [key, area] : read_) {
+    const LookAt look(*this, key.first);
+    const auto place_of = [this](const std::string& reference) {
+      return *find_memory(find_station(reference, stations())->reference, cpu().program());
+    };
+    auto now = bytes_of(place_of(*area.references.begin()), cpu().state());
+    const auto& before = area.bytes;
+    const std::size_t size = std::max(before.size(), now.size());  // one of them is none: the routine is not open
+    const auto same = [&](std::size_t i) { return i < before.size() && i < now.size() && before[i] == now[i]; };
+    std::size_t first = 0, last = size;
+    while (first < size && same(first)) ++first;
+    if (first == size) continue;
+    while (same(last - 1)) --last;
+    for (const std::string& reference : area.references)
+      send_event("memory", {{"memoryReference", reference},
+                            {"offset", std::int64_t{key.second} + static_cast<std::int64_t>(first) - place_of(reference).at},
+                            {"count", last - first}});
+    area.bytes = std::move(now);
+  }
+}
+
+}  // namespace s7200::tools::dap

@@ -1,0 +1,424 @@
+#include "tools/session/commands/session_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/cpu/forcing.hpp"
+#include "serial_sim/line/frame.hpp"
+#include "tools/json/json.hpp"
+#include "tools/rig/memory_file.hpp"
+#include "tools/session/past/digest.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFormat = "s7200 session 5", kAnyFormat = "s7200 session ";
+
+/// Of JSON from outside, which may hold what is not UTF-8.
+std::string sum_of(const Json& json) { return digest_of(in_one_line(json)); }
+
+constexpr Between<Time> kAnyMoment{0, kNever}, kAnyDuration{0, kLongestDuration};
+
+// --- moments and formats ---
+
+Json json_of(const Moment& moment) {
+  return {moment.instructions, moment.actions, moment.settled, moment.stopped, moment.time};
+}
+
+Moment moment_from(const Json& json) {
+  return {.instructions = number_of<std::uint64_t>(json.at(0)),
+          .actions = number_of<std::size_t>(json.at(1)),
+          .settled = truth_of(json.at(2)),
+          .time = number_of<Time>(json.at(4), kAnyMoment),
+          .stopped = truth_of(json.at(3))};
+}
+
+Json json_of(const SerialFormat& format) {
+  return {format.baud, format.data_bits, word_of(format.parity), format.stop_bits};
+}
+
+SerialFormat format_from(const Json& json) {
+  SerialFormat format{.baud = number_of<std::uint32_t>(json.at(0)),
+                      .data_bits = number_of<std::uint8_t>(json.at(1)),
+                      .stop_bits = number_of<std::uint8_t>(json.at(3))};
+  const std::string word = text_of(json.at(2));
+  for (std::size_t parity = 0; parity < kParityWords.size(); ++parity)
+    if (kParityWords[parity] == word) format.parity = static_cast<Parity>(parity);
+  if (format.baud == 0 || format.data_bits < 7 || format.data_bits > 8 || format.stop_bits < 1 || format.stop_bits > 2)
+    throw std::runtime_error("a format of characters that there is not");
+  return format;
+}
+
+// --- actions ---
+
+/// In their order: a place may stand there again, or lie in another one.
+Json json_of(const std::vector<Assignment>& assignments) {
+  Json all = Json::array();
+  for (const Assignment& assignment : assignments) all.push_back({assignment.place.name_of(0), assignment.value});
+  return all;
+}
+
+struct ToJson {
+  Json operator()(const SetMemory& set) const { return {{"set", json_of(set.assignments)}}; }
+  Json operator()(const Force& force) const { return {{"force", json_of(force.assignments)}}; }
+  Json operator()(const Unforce& unforce) const {
+    Json places = Json::array();
+    for (const MemoryRange& place : unforce.places)
+      places.push_back(place.name_of(0) + (place.count > 1 ? fmt::format(":{}", place.count) : ""));
+    return {{"unforce", places}};
+  }
+  Json operator()(const Jump& jump) const { return {{"goto", jump.to}}; }
+  Json operator()(const InjectFault& inject) const {
+    Json json{{"fault", inject.fault ? serial::to_text(*inject.fault) : "none"}};
+    if (!inject.of.empty()) json["of"] = inject.of;
+    return json;
+  }
+  Json operator()(const SetStack& set) const { return {{"stack", set.stack.bits()}}; }
+  Json operator()(const SendFrame& send) const {
+    Json json{{"send", serial::to_hex(send.request.frame)},
+              {"format", json_of(send.format)},
+              {"timeout", send.request.timeout},
+              {"gap", send.request.gap},
+              {"sync", send.request.sync}};
+    if (send.request.silence) json["silence"] = *send.request.silence;
+    return json;
+  }
+  Json operator()(const CancelRequest& cancel) const {
+    return {{"cancel",
+             {{"sent", cancel.sent},
+              {"waited", cancel.waited},
+              {"sent_until", cancel.sent_until},
+              {"answering", cancel.answering}}}};
+  }
+  /// Debugger::save() refuses a session that has one.
+  Json operator()(const SystemEvent& event) const { return {{"event", event.words}}; }
+  Json operator()(const SetPower& power) const { return {{"power", power.on ? "on" : "off"}}; }
+  Json operator()(const SetMode& set) const { return {{"mode", set.mode == Mode::Run ? "run" : "stop"}}; }
+  Json operator()(const serial::HostCall& call) const {
+    Json characters = Json::array();
+    for (const serial::HostCharacter& c : call.characters)
+      characters.push_back({c.byte, static_cast<int>(c.fault), c.sender, json_of(c.format)});
+    return {{"host", static_cast<int>(call.what)},
+            {"format", json_of(call.format)},
+            {"characters", characters},
+            {"sender", call.sender}};
+  }
+};
+
+MemoryRange place_from(const std::string& text, const CpuModel& model) {
+  std::string why;
+  const auto place = parse_range(text, model, why);
+  if (!place) throw std::runtime_error(why);
+  return *place;
+}
+
+std::vector<Assignment> assignments_from(const Json& json, const CpuModel& model) {
+  std::vector<Assignment> all;
+  for (const Json& assignment : json)
+    all.push_back({place_from(text_of(assignment.at(0)), model), number_of<std::uint32_t>(assignment.at(1))});
+  return all;
+}
+
+SendFrame send_from(const Json& json) {
+  const serial::ParsedFrame parsed = serial::parse_hex_frame(text_at(json, "send"));
+  if (!parsed.ok()) throw std::runtime_error(parsed.errors[0].message);
+  SendFrame send{.format = format_from(json.at("format")),
+                 .request = {.frame = parsed.frame,
+                             .timeout = number_at<Time>(json, "timeout", kAnyDuration),
+                             .gap = number_at<Time>(json, "gap", kAnyDuration),
+                             .silence = {},
+                             .sync = truth_at(json, "sync")}};
+  if (json.contains("silence")) send.request.silence = number_at<Time>(json, "silence", kAnyDuration);
+  return send;
+}
+
+serial::HostCall call_from(const Json& json) {
+  using Call = serial::HostCall;
+  using Fault = serial::HostCharacter::Fault;
+  const int what = number_at<int>(json, "host", {0, static_cast<int>(Call::What::TakeReceived)});
+  Call call{.what = static_cast<Call::What>(what),
+            .format = format_from(json.at("format")),
+            .characters = {},
+            .sender = number_at<std::uint64_t>(json, "sender")};
+  for (const Json& c : json.at("characters")) {
+    const int fault = number_of<int>(c.at(1), {0, static_cast<int>(Fault::Break)});
+    call.characters.push_back({number_of<std::uint8_t>(c.at(0)), format_from(c.at(3)), static_cast<Fault>(fault),
+                               number_of<std::uint64_t>(c.at(2))});
+  }
+  return call;
+}
+
+InjectFault fault_from(const Json& json) {
+  const std::string text = text_at(json, "fault");
+  if (text == "none") return {};
+  const serial::ParsedFault parsed = serial::parse_fault(text);
+  if (!parsed.ok()) throw std::runtime_error(parsed.error->message);
+  return {parsed.fault, text_at(json, "of", "")};
+}
+
+SetMode mode_from(const std::string& text) {
+  if (text != "run" && text != "stop") throw std::runtime_error("an unknown mode");
+  return {text == "run" ? Mode::Run : Mode::Stop};
+}
+
+CancelRequest cancel_from(const Json& json) {
+  return {.sent = number_at<std::size_t>(json, "sent"),
+          .waited = number_at<Time>(json, "waited", kAnyMoment),
+          .sent_until = number_at<Time>(json, "sent_until", kAnyMoment),
+          .answering = truth_at(json, "answering")};
+}
+
+SetPower power_from(const std::string& text) {
+  if (text != "on" && text != "off") throw std::runtime_error("an unknown state of power");
+  return {text == "on"};
+}
+
+Action action_from(const Json& json, const CpuModel& model) {
+  if (json.contains("set")) return SetMemory{assignments_from(json.at("set"), model)};
+  if (json.contains("send")) return send_from(json);
+  if (json.contains("cancel")) return cancel_from(json.at("cancel"));
+  if (json.contains("power")) return power_from(text_at(json, "power"));
+  if (json.contains("host")) return call_from(json);
+  if (json.contains("goto")) return Jump{number_at<std::uint32_t>(json, "goto")};
+  if (json.contains("fault")) return fault_from(json);
+  if (json.contains("mode")) return mode_from(text_at(json, "mode"));
+  if (json.contains("stack"))
+    return SetStack{LogicStack::from_bits(number_at<std::uint64_t>(json, "stack") & LogicStack::kAll)};
+  if (json.contains("force")) {
+    Force force{assignments_from(json.at("force"), model)};
+    for (const Assignment& assignment : force.assignments)
+      if (!forcing::possible(assignment.place)) throw std::runtime_error("something that cannot be forced");
+    return force;
+  }
+  if (!json.contains("unforce")) throw std::runtime_error("an unknown action");
+  Unforce unforce;
+  for (const Json& place : json.at("unforce")) unforce.places.push_back(place_from(text_of(place), model));
+  return unforce;
+}
+
+using Models = std::span<const CpuModel* const>;
+
+RetentiveMemory retentive_from(const Json& json, const CpuModel& model) {
+  std::string why;
+  auto memory = memory_from_json(json.at("memory").dump(), model, why);
+  if (!memory) throw std::runtime_error(why);
+  memory->ram_lost = truth_at(json, "memory_lost");
+  memory->power_off = number_at<Time>(json, "power_off", kAnyDuration);
+  return *memory;
+}
+
+/// Of the only PLC they are in `json` itself, of several in its `stations`.
+template <class Take>
+void for_each_station(const Json& json, std::size_t count, Take take) {
+  if (!json.contains("stations")) return take(0, json);
+  for (std::size_t number = 0; number < count; ++number) take(number, json.at("stations").at(number));
+}
+
+Recording recording_from(const Json& json, Models models) {
+  Recording recording;
+  for_each_station(json, models.size(), [&](std::size_t number, const Json& station) {
+    if (station.contains("memory")) recording.memory.push_back(retentive_from(station, *models[number]));
+  });
+  if (!recording.memory.empty() && recording.memory.size() != models.size())
+    throw std::runtime_error("only some PLCs have a memory");
+  for (const Json& action : json.at("actions")) {
+    const auto station = number_at<std::size_t>(action, "station", kWhole<std::size_t>, 0);
+    const bool of_bridge = action.contains("host");  // `station` is its number then
+    if (station >= models.size() && !of_bridge) throw std::runtime_error("something was done to a station that it has not");
+    recording.moments.push_back(moment_from(action.at("at")));
+    recording.stations.push_back(station);
+    recording.actions.push_back(action_from(action, *models[of_bridge ? 0 : station]));
+  }
+  recording.end = moment_from(json.at("end"));
+  recording.now = moment_from(json.at("now"));
+  for (const Moment& moment : {recording.end, recording.now})
+    if (moment.actions > recording.actions.size()) throw std::runtime_error("more was done than it has");
+  return recording;
+}
+
+Json json_of(const SessionFile::SavedStop& stop) {
+  Json json{{"number", stop.number}, {"station", stop.station}, {stop.access.empty() ? "break" : "watch", stop.on}};
+  if (!stop.access.empty()) json["access"] = stop.access;
+  if (stop.always) json["always"] = true;
+  if (!stop.condition.empty()) json["if"] = stop.condition;
+  if (stop.from_hit > 1) json["hits"] = stop.from_hit;
+  if (!stop.log.empty()) json["log"] = stop.log;
+  return json;
+}
+
+SessionFile::SavedStop stop_from(const Json& json, std::size_t stations) {
+  SessionFile::SavedStop stop{.number = number_at<int>(json, "number"),
+                              .station = number_at<std::size_t>(json, "station"),
+                              .on = text_at(json, json.contains("watch") ? "watch" : "break"),
+                              .access = json.contains("watch") ? text_at(json, "access") : "",
+                              .always = truth_at(json, "always", false),
+                              .condition = text_at(json, "if", ""),
+                              .from_hit = number_at<std::uint64_t>(json, "hits", kWhole<std::uint64_t>, 1),
+                              .log = text_at(json, "log", "")};
+  if (stop.station >= stations) throw std::runtime_error("a breakpoint of a station that it has not");
+  if (stop.number < 1 || stop.number == std::numeric_limits<int>::max())
+    throw std::runtime_error("a breakpoint with a number that it cannot have");
+  if (stl::trim(stop.on).empty()) throw std::runtime_error("a breakpoint at nothing");
+  return stop;
+}
+
+std::vector<SessionOption> options_from(const Json& json) {
+  std::vector<SessionOption> options;
+  for (const auto& [name, value] : json.items()) options.push_back({name, text_of(value)});
+  return options;
+}
+
+SessionFile file_from(const Json& json, Models models) {
+  SessionFile file{.stations = {}, .options = options_from(json.at("options")), .recording = recording_from(json, models)};
+  for_each_station(json, models.size(), [&](std::size_t, const Json& station) {
+    file.stations.push_back({.name = text_at(station, "name", ""),
+                             .cpu = text_at(station, "cpu"),
+                             .program = text_at(station, "program"),
+                             .begin = text_at(station, "begin"),
+                             .state = text_at(station, "state")});
+  });
+  for (const Json& stop : json.at("stops")) file.stops.push_back(stop_from(stop, models.size()));
+  return file;
+}
+
+Json json_of(const SessionFile::Station& station) {
+  return {{"cpu", station.cpu}, {"program", station.program}, {"begin", station.begin}};
+}
+
+void add_memory(Json& json, const SessionFile& file, std::size_t number) {
+  if (file.recording.memory.empty()) return;
+  const RetentiveMemory& memory = file.recording.memory[number];
+  json["memory"] = Json::parse(memory_to_json(memory, *find_cpu(file.stations[number].cpu)));
+  json["memory_lost"] = memory.ram_lost;
+  json["power_off"] = memory.power_off;
+}
+
+/// Why it is not of the PLCs that are here; empty if it is.
+std::string why_other_plcs(const Json& json, Models models, std::span<const std::string> names) {
+  const bool of_system = !names.empty();
+  if (json.contains("stations") != of_system)
+    return of_system ? "it is of one program, not of a system" : "it is of a system, not of one program";
+  if (of_system && json.at("stations").size() != names.size())
+    return fmt::format("it is of a system of {} PLCs, not of {}", json.at("stations").size(), names.size());
+  std::string why;
+  for_each_station(json, models.size(), [&](std::size_t number, const Json& station) {
+    const std::string cpu = text_at(station, "cpu"), name = text_at(station, "name", "");
+    if (!why.empty()) return;
+    if (of_system && name != names[number])
+      why = fmt::format("it is of a system with the PLC '{}', not '{}'", stl::shortened(name), names[number]);
+    else if (cpu != models[number]->name)
+      why = fmt::format("it is of a CPU {}, not of a CPU {}", cpu, models[number]->name);
+  });
+  return why;
+}
+
+}  // namespace
+
+std::string session_beginning() { return fmt::format("{{\n  \"format\": \"{}", kAnyFormat); }
+
+std::vector<SessionOption> options_of(const serial::MasterSettings& master, const ClockTime& clock) {
+  const auto number = [](const auto& given) { return given ? fmt::format("{}", *given) : std::string("as the port"); };
+  return {{"--baud", number(master.baud)},
+          {"--parity", master.parity ? std::string(word_of(*master.parity)) : "as the port"},
+          {"--data-bits", number(master.data_bits)},
+          {"--stop-bits", number(master.stop_bits)},
+          {"--timeout", format_duration(master.timeout, 9)},
+          {"--gap", master.gap == 0 ? "none" : format_duration(master.gap, 9)},
+          {"--clock", fmt::format("{:02}-{:02}-{:02} {:02}:{:02}:{:02}", clock.year, clock.month, clock.day, clock.hour,
+                                  clock.minute, clock.second)}};
+}
+
+std::string differences(const std::vector<SessionOption>& then, const std::vector<SessionOption>& now) {
+  const auto value_in = [](const std::vector<SessionOption>& options, const std::string& name) {
+    const auto found = std::ranges::find(options, name, &SessionOption::name);
+    return found == options.end() ? std::string("none") : found->value;
+  };
+  std::string text;
+  const auto compare = [&](const std::string& name) {
+    const std::string old = value_in(then, name), is = value_in(now, name);
+    if (old != is) text += fmt::format("{}{} {} (here {})", text.empty() ? "" : ", ", name, old, is);
+  };
+  for (const SessionOption& option : then) compare(option.name);
+  for (const SessionOption& option : now)
+    if (std::ranges::find(then, option.name, &SessionOption::name) == then.end()) compare(option.name);
+  return text;
+}
+
+std::string to_text(const SessionFile& file) {
+  const Recording& recording = file.recording;
+  const bool one = file.stations.size() == 1 && file.stations.front().name.empty();
+  Json json{{"format", kFormat}, {"version", version()}};
+  if (one) {
+    json.update(json_of(file.stations.front()));
+    add_memory(json, file, 0);
+  }
+  json["options"] = Json::object();
+  for (const SessionOption& option : file.options) json["options"][option.name] = option.value;
+  for (std::size_t number = 0; number < file.stations.size() && !one; ++number) {
+    Json station{{"name", file.stations[number].name}};
+    station.update(json_of(file.stations[number]));
+    add_memory(station, file, number);
+    station["state"] = file.stations[number].state;
+    json["stations"].push_back(std::move(station));
+  }
+  json["actions"] = Json::array();
+  for (std::size_t i = 0; i < recording.actions.size(); ++i) {
+    Json action = std::visit(ToJson{}, recording.actions[i]);
+    if (!one) action["station"] = recording.stations[i];
+    action["at"] = json_of(recording.moments[i]);
+    json["actions"].push_back(std::move(action));
+  }
+  json["end"] = json_of(recording.end);
+  json["now"] = json_of(recording.now);
+  json["stops"] = Json::array();
+  for (const SessionFile::SavedStop& stop : file.stops) json["stops"].push_back(json_of(stop));
+  if (one) json["state"] = file.stations.front().state;
+  json["sum"] = sum_of(json);
+  return json.dump(2) + "\n";
+}
+
+std::optional<SessionFile> session_from_text(std::string_view text, std::span<const CpuModel* const> models,
+                                             std::span<const std::string> names, std::string& why) {
+  std::string not_json;
+  Json json = parse_json(text, not_json).value_or(Json());
+  const Json* const format = member(json, "format");
+  if (!format || !format->is_string() || !format->get_ref<const std::string&>().starts_with(kAnyFormat)) {
+    why = !text.starts_with(session_beginning()) ? "it is not a saved session"
+          : not_json.empty()                     ? "it is damaged"
+                                                 : "it is damaged: it is " + not_json;
+    return {};
+  }
+  if (*format != kFormat) {
+    why = fmt::format("it is \"{}\", and this s7200 reads \"{}\"", stl::shortened(format->get<std::string>()), kFormat);
+    return {};
+  }
+  const Json* const written_sum = member(json, "sum");
+  const Json sum = written_sum ? *written_sum : Json();
+  json.erase("sum");
+  if (sum != sum_of(json)) {
+    why = "it is damaged: its check sum is wrong";
+    return {};
+  }
+  try {
+    if (const std::string by = text_at(json, "version"); by != version())
+      why = fmt::format("s7200 {} has written it, and this is s7200 {}: they may run differently", by, version());
+    else if (why = why_other_plcs(json, models, names); why.empty())
+      return file_from(json, models);
+  } catch (const Json::exception&) {  // whose texts are of no help to a user
+    why = "it is damaged: something in it is missing, or of another type";
+  } catch (const std::exception& error) {
+    why = fmt::format("it is damaged: {}", error.what());
+  }
+  return {};
+}
+
+}  // namespace s7200::tools
