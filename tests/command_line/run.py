@@ -589,6 +589,37 @@ class Verbs(Case):
             said = json.loads(process.stdout.read())
             self.assertEqual({key: said[key] for key in results}, results)
 
+    def interrupted_while_reading(self, fifo, beginning, *arguments):
+        """What is printed by a verb that waits for more of a file when it is interrupted."""
+        path = self.folder / fifo
+        os.mkfifo(path)
+        process = subprocess.Popen([S7200, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        with path.open("wb", buffering=0) as writer:
+            writer.write(beginning)
+            time.sleep(1)
+            process.send_signal(signal.SIGINT)
+            out, error = process.communicate(timeout=120)
+        path.unlink()
+        self.assertEqual((process.returncode, error), (FAILED, b"s7200: note: interrupted\n"), arguments)
+        return out
+
+    def test_test_that_is_interrupted_while_it_reads_writes_json_and_junit_without_a_scenario(self):
+        scenario, junit, recorded = self.folder / "long.yaml", self.folder / "junit.xml", self.folder / "recorded.yaml"
+        said = json.loads(self.interrupted_while_reading("long.yaml", b"steps:\n", "test", scenario, "--json", "--junit", junit))
+        self.assertEqual((said["scenarios"], said["passed"], said["failed"]), ([], 0, 0))
+        (case,) = xml.etree.ElementTree.parse(junit).getroot().iter("testcase")
+        self.assertEqual(case.find("error").get("message"), "interrupted before anything was run")
+        self.assertEqual(self.interrupted_while_reading("long.yaml", b"steps:\n", "test", scenario, "--record", recorded), b"")
+        self.assertFalse(recorded.exists())
+
+    def test_import_capture_that_is_interrupted_while_it_reads_writes_json_and_no_file(self):
+        log, imported = self.folder / "long.log", self.folder / "imported.yaml"
+        for to in ([], ["-o", imported]):
+            said = json.loads(self.interrupted_while_reading("long.log", b"0.000 TX 01 03\n", "import-capture", log, "--json", *to))
+            self.assertEqual((said["file"], said["output"], said["scenario"]), (str(log), None, None))
+        self.assertFalse(imported.exists())
+
     def test_a_recording_of_which_no_frame_is_right_fails(self):
         log = self.folder / "wrong.log"
         log.write_text("TX 01 03 00 0a 00 02 e4 00\nRX 01 03 04 12 34 56 78 81 00\n", encoding="utf-8")

@@ -45,6 +45,16 @@ bool is_a_program(const std::string& path) {
   return read_program_text(path).has_value();
 }
 
+/// `scenario`: null if nothing was written.
+void print_results(const ImportCaptureOptions& options, const nlohmann::ordered_json& scenario) {
+  auto results = results_of("import-capture");
+  const bool to_file = options.to_file() && !scenario.is_null();
+  results["file"] = options.recording.file;
+  results["output"] = to_file ? nlohmann::ordered_json(options.output) : nullptr;
+  results["scenario"] = to_file ? nullptr : scenario;
+  fmt::print("{}", lines_of(results));
+}
+
 int run_import_capture(const ImportCaptureOptions& options) {
   if (!is_a_program(options.program)) return kUnusable;
   if (const CpuModel* model = find_cpu(options.cpu); model && options.choices.port >= model->ports)
@@ -52,7 +62,10 @@ int run_import_capture(const ImportCaptureOptions& options) {
            kUnusable;
   const auto read = read_conversation(options.recording);
   if (!read) return kUnusable;
-  if (read->frames.empty() && options.recording.was_cut_short()) return print_interruption(), kCheckFailed;
+  if (read->frames.empty() && options.recording.was_cut_short()) {
+    if (options.json) print_results(options, nullptr);
+    return print_interruption(), kCheckFailed;
+  }
   PlaybackChoices choices = options.choices;
   choices.name = read->name;
   const RecordedProtocol protocol = options.recording.spoken();
@@ -69,11 +82,7 @@ int run_import_capture(const ImportCaptureOptions& options) {
   const int exit_code =
       options.to_file() ? write_stl(options.output, {options.recording.file, options.program}, options.force, text) : kFine;
   if (exit_code == kFine && options.json) {
-    auto results = results_of("import-capture");
-    results["file"] = options.recording.file;
-    results["output"] = options.to_file() ? nlohmann::ordered_json(options.output) : nullptr;
-    results["scenario"] = options.to_file() ? nullptr : nlohmann::ordered_json(text);
-    fmt::print("{}", lines_of(results));
+    print_results(options, text);
   } else if (!options.to_file()) {
     print_file(text);
   }

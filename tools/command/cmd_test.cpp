@@ -28,12 +28,19 @@ bool write_transcript(const Destination& to, const TestOptions& options, const S
   return interrupted();
 }
 
-/// Says why nothing was run, and returns the exit code. An interruption explains by itself what could not be read.
-int nothing_run(const Messages& messages, const std::optional<Destination>& junit) {
-  if (!interrupted()) print_messages(messages);
+/// Says why nothing was run, and returns the exit code. An interruption explains by itself what could not be read, and
+/// leaves results without a scenario.
+int nothing_run(const Messages& messages, const TestOptions& options, const std::optional<Destination>& junit) {
+  if (!interrupted()) {
+    print_messages(messages);
+    write_result(junit, to_junit(messages));
+    return kUnusable;
+  }
+  if (options.json && options.against.empty()) TestOutput(0, true, false).end(SuiteResult{});
+  if (options.json && !options.against.empty()) TestOutput(0, true, false).end(ComparisonResult{});
   print_interruption();
-  write_result(junit, to_junit(messages));
-  return interrupted() ? kCheckFailed : kUnusable;
+  write_result(junit, to_junit(Messages{{.text = "interrupted before anything was run"}}));
+  return kCheckFailed;
 }
 
 int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destinations& to) {
@@ -49,7 +56,7 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
       if (growing) growing->add(so_far, scenario, seen);
     };
   const auto result = suite.run(watcher, messages);
-  if (!result) return nothing_run(messages, to.junit);
+  if (!result) return nothing_run(messages, options, to.junit);
   print_messages(messages);
   output.end(*result);
   const std::string nothing = result->why_nothing_was_checked();
@@ -69,7 +76,7 @@ int run_against(Suite& suite, const TestOptions& options) {
       options.against, options.tolerance, options.ignore_timing, colour_wanted(stdout) && !options.json,
       {[&](const Compared& compared) { output.show(compared); }, [&](std::size_t done) { output.show_progress(done); }},
       messages);
-  if (!result) return nothing_run(messages, {});
+  if (!result) return nothing_run(messages, options, {});
   print_messages(messages);
   output.end(*result);
   print_interruption();
@@ -90,7 +97,7 @@ int run_test(TestOptions& options) {
   options.suite.exchanges_wanted = options.json || to.record || !options.against.empty();
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);
-  if (!suite) return nothing_run(messages, to.junit);
+  if (!suite) return nothing_run(messages, options, to.junit);
   print_messages(messages);
   if (options.list) {
     print_list(suite->scenarios(), options.json);
