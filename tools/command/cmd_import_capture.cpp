@@ -8,12 +8,10 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/command/options/number_option.hpp"
+#include "tools/command/options/import_capture_options.hpp"
 #include "tools/command/options/program_options.hpp"
-#include "tools/command/options/recording_options.hpp"
 #include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/recordings/playback.hpp"
 #include "tools/rig/system_reader.hpp"
 #include "tools/scenario/limits.hpp"
 #include "tools/scenario/scenario.hpp"
@@ -21,14 +19,6 @@
 
 namespace s7200::tools {
 namespace {
-
-struct ImportCaptureOptions {
-  RecordingOptions recording;
-  PlaybackChoices choices{.tolerance = 5 * kMillisecond};
-  std::string program, output, cpu = Scenario{}.cpu;
-  bool force = false, json = false;
-  bool to_file() const { return !output.empty() && output != "-"; }
-};
 
 /// As the scenario's file has to name it.
 std::string seen_from(const std::string& path, const ImportCaptureOptions& options) {
@@ -95,23 +85,7 @@ int run_import_capture(const ImportCaptureOptions& options) {
 void add_import_capture(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ImportCaptureOptions>();
   CLI::App* verb = app.add_subcommand("import-capture", "write a recording, or what is heard on a line, as a scenario");
-  options->recording.add_to(*verb);
-  verb->add_option("--program", options->program, "that is to be tested; without it the scenario is for test --target")
-      ->type_name("FILE");
-  add_cpu_option(*verb, options->cpu, "CPU that --program is to run on [214]");
-  verb->get_option("--cpu")->needs("--program");
-  add_whole_number(
-      *verb, "--port", [options](std::uint64_t port) { options->choices.port = static_cast<std::uint8_t>(port); }, {0, 1},
-      "port of that CPU, that the recorded line is to be at", "0")
-      ->needs("--program");
-  add_whole_number(
-      *verb, "--station",
-      [options](std::uint64_t station) { options->choices.station = static_cast<std::uint8_t>(station); }, {0, 255},
-      "only what this station was asked");
-  add_duration(*verb, "--tolerance", options->choices.tolerance, "by which latencies may differ; 5ms without it");
-  verb->add_option("-o,--output", options->output, "file to write; standard output if not given")->type_name("FILE");
-  verb->add_flag("--force", options->force, "overwrite an existing file");
-  verb->add_flag("--json", options->json, "print what was written as JSON, with the scenario if no file is written");
+  options->add_to(*verb);
   verb->footer(std::string(kEndOfListening) +
                "Topics: recordings, protocols\n"
                "Example: s7200 import-capture tests/recordings/plant.log --program stl_programs/modbus_slave.stl");

@@ -28,19 +28,12 @@ bool write_transcript(const Destination& to, const TestOptions& options, const S
   return interrupted();
 }
 
-/// Says why nothing was run, and returns the exit code. An interruption explains by itself what could not be read, and
-/// leaves results without a scenario.
+/// Says why nothing was run, and returns the exit code. An interruption explains by itself what could not be read.
 int nothing_run(const Messages& messages, const TestOptions& options, const std::optional<Destination>& junit) {
-  if (!interrupted()) {
-    print_messages(messages);
-    write_result(junit, to_junit(messages));
-    return kUnusable;
-  }
-  if (options.json && options.against.empty()) TestOutput(0, true, false).end(SuiteResult{});
-  if (options.json && !options.against.empty()) TestOutput(0, true, false).end(ComparisonResult{});
-  print_interruption();
-  write_result(junit, to_junit(Messages{{.text = "interrupted before anything was run"}}));
-  return kCheckFailed;
+  if (interrupted()) return end_before_anything_ran(options.json, !options.against.empty(), junit), kCheckFailed;
+  print_messages(messages);
+  write_result(junit, to_junit(messages));
+  return kUnusable;
 }
 
 int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destinations& to) {

@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/scenario/junit.hpp"
 #include "tools/scenario/report_json.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -131,6 +132,14 @@ void print_messages(const Messages& messages) {
     else
       print_error(message.text);
   }
+}
+
+void end_before_anything_ran(bool json, bool compares, const std::optional<Destination>& junit) {
+  TestOutput output(0, json, false);
+  if (json && compares) output.end(ComparisonResult{});
+  if (json && !compares) output.end(SuiteResult{});
+  print_interruption();
+  write_result(junit, to_junit(Messages{{.text = "interrupted before anything was run"}}));
 }
 
 bool write_result(const std::optional<Destination>& to, const std::string& text) {

@@ -50,6 +50,9 @@ void print_list(const std::vector<Scenario>& scenarios, bool json);
 /// On stderr.
 void print_messages(const Messages& messages);
 
+/// After an interruption: results without a scenario. `compares`: two of what is tested.
+void end_before_anything_ran(bool json, bool compares, const std::optional<Destination>& junit);
+
 /// False after a message. Writes nothing where nothing was asked for.
 bool write_result(const std::optional<Destination>& to, const std::string& text);
 
