@@ -361,6 +361,7 @@ void take_numbers_out(std::vector<Word>& words) {
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string_view text = words[i].text, inner = in_brackets(text);
+    if (text.size() == 2 && i > 0 && words[i - 1].bytes > 0) continue;  // a pair of digits after bytes is one
     if (i > 0 && is_decimal(inner) && say_the_same(inner, words[i - 1].text)) is_number(words[i]);
     if (i > 0 && is_marked(inner) && say_the_same(words[i - 1].text, inner)) is_number(words[i - 1]);
     const std::size_t begin = std::min(text.find_first_not_of(kAround), text.size());
@@ -695,8 +696,12 @@ std::size_t length_of_index(std::string_view text) {
   scan.skip(kAllBlanks);
   scan.take("#");
   if (scan.take_digits(kMostDigits).empty()) return 0;
-  const bool divided = scan.take(".):;,|") != '\0';
-  if (scan.skip(kAllBlanks) == 0 && !divided) return 0;
+  const char mark = scan.take(".):;,|");
+  const bool divided = mark != '\0', may_be_of_time = mark == '\0' || mark == ':' || mark == '.';
+  if (scan.skip(kAllBlanks) == 0 && may_be_of_time) return 0;
+  constexpr std::size_t kLongestNumber = 12;  // of a time, before the first of its signs
+  const std::string_view beginning = text.substr(scan.at(), kLongestNumber);
+  if (std::ranges::none_of(beginning, [](char c) { return is_any_of(c, ":.,-/"); })) return 0;
   const auto time = leading_time(text.substr(scan.at()));
   return time && (time->of_day || !divided) && !leading_time(text) ? scan.at() : 0;
 }
@@ -833,6 +838,7 @@ void BytesOfLines::take_apart(std::string_view line) {
 std::size_t BytesOfLines::end_of_hex(std::string_view line) const {
   constexpr std::size_t kFullRow = 16, kShortestFullRow = 2 * kFullRow, kLongest = 1000, kBars = 2, kLongestSign = 4;
   if (line.size() > kLongest) return line.size();
+  const bool ascii = stl::is_ascii(line);
   for (std::size_t count = 1; count <= words_.size(); ++count) {
     const Word& before = words_[count - 1];
     const std::size_t gap = before.begin + before.text.size();
@@ -840,15 +846,18 @@ std::size_t BytesOfLines::end_of_hex(std::string_view line) const {
     while (last < line.size() && line[last] == ' ') ++last;
     const std::size_t most = before.first_byte + before.bytes;  // characters: one for each byte at most
     const bool is_gap = last - gap > 1 || (last - gap == 1 && gap >= kShortestFullRow);
-    if (!is_gap || last == line.size() || most == 0) continue;
+    if (!is_gap || last == line.size() || most == 0 || (last - gap == 1 && most < kFullRow)) continue;
     const std::size_t signs = line.size() - last;
-    if (signs > most + kBars && (signs > kLongestSign * (most + kBars) || stl::is_ascii(line.substr(last)))) continue;
+    if (signs > most + kBars && (signs > kLongestSign * (most + kBars) || ascii || stl::is_ascii(line.substr(last))))
+      continue;
     const auto run = last_run(Words(words_).first(count));
     if (!run || run->before.size() + run->words.size() != count) continue;
     const Word& first = run->words.front();
     const auto bytes = std::span(bytes_).subspan(first.first_byte, most - first.first_byte);
     for (std::size_t column = gap + (bytes.size() < kFullRow ? 2 : 1); column <= last; ++column)
-      if (is_column_of_characters(in_single_bytes(without_bars(line.substr(column))), bytes)) return gap;
+      if (const std::string_view signs_at = without_bars(line.substr(column));
+          ascii ? is_column_of_characters(signs_at, bytes) : is_column_of_characters(in_single_bytes(signs_at), bytes))
+        return gap;
   }
   return line.size();
 }

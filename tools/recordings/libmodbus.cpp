@@ -41,8 +41,9 @@ bool is_of_mbpoll(std::string_view line) { return line.starts_with("mbpoll ") ||
 
 bool looks_like_libmodbus(std::string_view bytes) {
   if (!is_text(bytes)) return false;
-  return std::ranges::any_of(Lines(bytes),
-                             [](std::string_view line) { return is_of_mbpoll(line) || frame_in(line).has_value(); });
+  return std::ranges::any_of(Lines(bytes), [](std::string_view line) {
+    return !line.empty() && (is_of_mbpoll(line) || frame_in(line).has_value());
+  });
 }
 
 std::optional<LineRecording> read_libmodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {

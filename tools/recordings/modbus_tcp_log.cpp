@@ -15,8 +15,6 @@ using Rows = std::span<const RecordedFrame>;
 
 struct WholeMessages {
   std::size_t rows = 1;  ///< that they are in
-  bool may_be_serial =
-      false;  ///< a request on a serial line may look like a message, and a message may have a CRC by chance
   std::vector<modbus::TcpMessage> messages{};
 };
 
@@ -33,21 +31,16 @@ bool is_one_message(const Bytes& bytes) {
          load16(&bytes[kHead - 2]) == bytes.size() - kHead;
 }
 
-modbus::TcpMessage message_of(const Bytes& bytes) {
-  constexpr std::size_t kUnit = 6;
-  return {load16(bytes.data()), bytes[kUnit], Bytes(bytes.begin() + kUnit + 1, bytes.end())};
-}
+bool is_message(const Bytes& bytes) { return may_begin_message(bytes) && is_one_message(bytes); }
 
-/// The messages that the first of the rows begins with. One that is not all there may go on in the next row of its
-/// direction. There are none if the rows are not whole messages.
+/// The messages that the first of the rows begins with, which is not just one. One that is not all there may go on in the
+/// next row of its direction. There are none if the rows are not whole messages.
 WholeMessages first_messages(Rows rows) {
   constexpr std::size_t kMostRows = 32;
   const Bytes& first = rows.front().bytes;
   if (!may_begin_message(first)) return {};
   WholeMessages whole;
-  whole.may_be_serial = modbus::crc_ok(first);
-  if (is_one_message(first)) return whole.messages.push_back(message_of(first)), whole;
-  if (whole.may_be_serial) return {};
+  if (modbus::crc_ok(first)) return {};  // a request on a serial line may look like a message
   modbus::MbapReader reader;
   for (whole.rows = 1; whole.rows <= std::min(rows.size(), kMostRows); ++whole.rows) {
     const RecordedFrame& row = rows[whole.rows - 1];
@@ -69,6 +62,16 @@ RecordedFrame on_a_line(const RecordedFrame& frame, const modbus::TcpMessage& me
           .exchange = modbus::exchange_of(message)};
 }
 
+/// The same of a row that is one message, whose bytes become those of the frame.
+RecordedFrame on_a_line(RecordedFrame row) {
+  constexpr std::size_t kUnit = 6;
+  row.stream = 1;
+  row.exchange = modbus::exchange_of({load16(row.bytes.data()), row.bytes[kUnit], {}});
+  row.bytes.erase(row.bytes.begin(), row.bytes.begin() + kUnit);
+  modbus::add_crc(row.bytes);
+  return row;
+}
+
 /// What it is, is not known: a request before it may have got it for an answer.
 RecordedFrame not_a_message(const RecordedFrame& row) {
   return {.at = row.at,
@@ -78,15 +81,32 @@ RecordedFrame not_a_message(const RecordedFrame& row) {
           .doubt = row.doubt ? row.doubt : std::make_shared<Doubt>(Doubt{.why = "it is not a whole message of Modbus TCP"})};
 }
 
-/// A row in doubt with the reading that is one message, if there is one.
-RecordedFrame settled(const RecordedFrame& row) {
-  const auto reading = std::ranges::find_if(
-      row.doubt->readings, [](const Reading& each) { return may_begin_message(each.bytes) && is_one_message(each.bytes); });
-  RecordedFrame frame = row;
-  if (reading == row.doubt->readings.end()) return frame;
-  frame.bytes = reading->bytes;
-  frame.doubt.reset();
-  return frame;
+/// The reading of a row in doubt that is one message; null if there is none.
+const Reading* reading_of(const RecordedFrame& row) {
+  const auto& readings = row.doubt->readings;
+  const auto found = std::ranges::find_if(readings, is_message, &Reading::bytes);
+  return found == readings.end() ? nullptr : &*found;
+}
+
+/// Whether more rows begin with messages than with anything else.
+bool is_mostly_modbus_tcp(Rows rows) {
+  std::size_t over_tcp = 0, others = 0;
+  while (!rows.empty()) {
+    const RecordedFrame& first = rows.front();
+    std::size_t count = 1;
+    if (first.doubt) {
+      over_tcp += reading_of(first) != nullptr;
+    } else if (is_message(first.bytes)) {
+      over_tcp += !modbus::crc_ok(first.bytes);  // by chance a message may have a CRC
+    } else {
+      const WholeMessages whole = first_messages(rows);
+      count = whole.rows;
+      over_tcp += !whole.messages.empty();  // however many rows it took: those of other protocols may fit by chance
+      others += whole.messages.empty();
+    }
+    rows = rows.subspan(count);
+  }
+  return over_tcp > others;
 }
 
 /// Rows of which the same is to be said.
@@ -104,26 +124,33 @@ struct Counted {
 }  // namespace
 
 void read_modbus_tcp(LineRecording& recording) {
+  if (!is_mostly_modbus_tcp(recording.frames)) return;
   std::vector<RecordedFrame> frames;
   Counted others, joined, ignored;
-  std::size_t over_tcp = 0;
   frames.reserve(recording.frames.size());
-  for (Rows rows = recording.frames; !rows.empty();) {
-    const RecordedFrame& first = rows.front();
-    const RecordedFrame row = first.doubt ? settled(first) : RecordedFrame{};
-    const auto [count, may_be_serial, messages] = first_messages(first.doubt ? Rows(&row, 1) : rows);
-    rows = rows.subspan(count);
-    if (messages.empty()) {
+  for (std::span<RecordedFrame> rows = recording.frames; !rows.empty();) {
+    RecordedFrame& first = rows.front();
+    if (const Reading* const reading = first.doubt ? reading_of(first) : nullptr) {
+      ignored.add(fmt::format("{}: '{}' beside the bytes", first.place, first.doubt->word));
+      first.bytes = reading->bytes;
+      first.doubt.reset();
+    }
+    if (!first.doubt && is_message(first.bytes)) {
+      frames.push_back(on_a_line(std::move(first)));
+      rows = rows.subspan(1);
+      continue;
+    }
+    const WholeMessages whole = first_messages(rows);
+    rows = rows.subspan(whole.rows);
+    if (whole.messages.empty()) {
       if (!first.doubt) others.add(first.place);
       frames.push_back(not_a_message(first));
       continue;
     }
-    if (first.doubt) ignored.add(fmt::format("{}: '{}' beside the bytes", first.place, first.doubt->word));
-    over_tcp += may_be_serial ? 0U : 1U;  // however many rows it took: those of other protocols may fit together by chance
-    if (count > 1) joined.add(fmt::format("{}: a message of Modbus TCP in {}", first.place, counted(count, "row")));
-    for (const modbus::TcpMessage& message : messages) frames.push_back(on_a_line(first, message));
+    if (whole.rows > 1)
+      joined.add(fmt::format("{}: a message of Modbus TCP in {}", first.place, counted(whole.rows, "row")));
+    for (const modbus::TcpMessage& message : whole.messages) frames.push_back(on_a_line(first, message));
   }
-  if (over_tcp <= others.count) return;
   recording.frames = std::move(frames);
   recording.notes.emplace_back("the frames are messages of Modbus TCP: each is shown as on a serial line, with its CRC");
   if (joined.count > 0)

@@ -82,7 +82,8 @@ bool goes_on(const LineRecording& recording, const Moved& moved, Direction direc
 }  // namespace
 
 bool looks_like_pymodbus(std::string_view bytes) {
-  return is_text(bytes) && std::ranges::any_of(Lines(bytes), says_it_again);
+  return is_text(bytes) &&
+         std::ranges::any_of(Lines(bytes), [](std::string_view line) { return !line.empty() && says_it_again(line); });
 }
 
 /// A log that begins with what was sent is a client's. One that begins with what has come may be a server's, or begin in the

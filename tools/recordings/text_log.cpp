@@ -96,8 +96,15 @@ std::optional<RecordedCharacter> character_of_interceptty(std::string_view line)
 
 class LogReader {
  public:
+  /// `joins`: the rows have a character each, and become frames at once.
+  LogReader(const ReadingChoices& choices, bool joins) : joiner_(choices), joins_(joins) {}
+
+  /// A row has not just a character and its time.
+  bool has_other_rows() const { return has_other_rows_; }
+
   void take(std::string_view line) {
     ++number_;
+    if (line.empty()) return;
     if (const std::string_view rest = stl::trim(line); rest.empty() || rest.front() == '#') return;
     if (ends_dump(line)) return;
     if (const auto character = character_of_interceptty(line)) return take(*character);
@@ -107,9 +114,9 @@ class LogReader {
     if (time) line.remove_prefix(length + time->length);
     const std::optional<Time> at = time ? std::optional(days_.since_first_midnight(*time)) : std::nullopt;
     const std::string_view whole = line;
-    const bool may_be_row = !at && (heading_ || goes_on_ || has_offsets_ || is_dump(line));
+    const bool is_of_dump = !at && (has_offsets_ || is_dump(line));
+    const bool may_be_row = is_of_dump || (!at && (heading_ || goes_on_));
     const Offset offset = may_be_row ? offset_of(line) : Offset{};
-    const bool is_of_dump = is_dump(line) || has_offsets_;
     if (!offset.digits.empty() && !is_right(offset) && is_of_dump) {
       in_dump_ = true;
       return leave_out({.not_understood = offset.digits}, {}, Direction::Unknown);
@@ -130,12 +137,11 @@ class LogReader {
       take_with_cells(std::move(*found), rest, direction(direction_of(line.substr(0, counter + found->begin))), at);
   }
 
-  LineRecording finish(const ReadingChoices& choices) {
+  LineRecording finish() {
     drop_heading();
     note(left_out_, "left out", "no bytes in it");
     note(not_understood_, "read without its time", "the form of that is not understood");
     count_from_first(recording_);
-    if (characters_) join_characters(recording_, choices);
     return std::move(recording_);
   }
 
@@ -214,8 +220,7 @@ class LogReader {
     if (!in_characters_ || frames.back().direction != character.direction)
       frames.push_back({.direction = character.direction, .place = fmt::format("line {}", number_)});
     frames.back().bytes.push_back(character.byte);
-    in_characters_ = true;
-    characters_ = false;
+    in_characters_ = has_other_rows_ = true;
   }
 
   /// What is not said before the bytes may stand in the cells after them: `01 03 | TX | 10:00:00.000`.
@@ -259,9 +264,11 @@ class LogReader {
     const std::size_t bracket = line.find_first_of("[<", found.begin == 0 ? 0 : found.begin - 1);
     if (direction == Direction::Unknown && bracket != std::string_view::npos && bracket <= found.begin)
       direction = direction_of_brackets(line.substr(bracket));
-    characters_ = characters_ && found.bytes.size() == 1 && at.has_value();
-    recording_.frames.push_back(
-        {.at = at, .direction = direction, .bytes = std::move(found.bytes), .place = fmt::format("line {}", number_)});
+    has_other_rows_ = has_other_rows_ || found.bytes.size() != 1 || !at;
+    RecordedFrame frame{
+        .at = at, .direction = direction, .bytes = std::move(found.bytes), .place = fmt::format("line {}", number_)};
+    if (joins_) return joiner_.add(frame, recording_.frames);
+    recording_.frames.push_back(std::move(frame));
     if (!found.not_understood.empty()) recording_.frames.back().doubt = doubt_of(found, std::move(found.readings));
   }
 
@@ -299,7 +306,7 @@ class LogReader {
     drop_heading();
     lost_row_ = false;
     if (at)
-      heading_ = {*at, direction, number_, figure_after_direction(line)};
+      heading_ = {*at, direction, number_, direction == Direction::Unknown ? "" : figure_after_direction(line)};
     else
       left_out_.add(number_);
   }
@@ -320,7 +327,8 @@ class LogReader {
   DayCounter days_;
   std::size_t number_ = 0;
   Lines left_out_, not_understood_;
-  bool characters_ = true;
+  CharacterJoiner joiner_;
+  bool joins_, has_other_rows_ = false;
   std::optional<Heading> heading_;
   bool in_dump_ = false;                  // the line before was a row of one
   bool row_left_out_ = false;             // and is not in the last frame
@@ -335,9 +343,16 @@ class LogReader {
 }  // namespace
 
 std::optional<LineRecording> read_text_log(std::string_view bytes, const ReadingChoices& choices, std::string&) {
-  LogReader reader;
-  for (const std::string_view line : Lines(bytes)) reader.take(line);
-  return reader.finish(choices);
+  const auto read = [&](bool joins) -> std::optional<LineRecording> {
+    LogReader reader(choices, joins);
+    for (const std::string_view line : Lines(bytes)) {
+      reader.take(line);
+      if (joins && reader.has_other_rows()) return {};
+    }
+    return reader.finish();
+  };
+  auto of_characters = read(true);  // only what is joined is kept of a long log
+  return of_characters ? std::move(of_characters) : read(false);
 }
 
 }  // namespace s7200::tools

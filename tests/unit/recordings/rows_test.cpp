@@ -346,6 +346,17 @@ TEST(RowsThatAreNotRead, WordsOfASentenceAreNoBytes) {
     EXPECT_EQ(refusal_of(line), "no frame in it; line 1: left out: no bytes in it") << line;
 }
 
+TEST(RowsOfCharacters, AreFramesOnlyIfEachRowHasOneWithItsTime) {
+  const auto frames_of = [](const std::string& last) {
+    std::string log;
+    for (int i = 0; i < 100; ++i) log += fmt::format("{}.{:03} TX 0{}\n", i / 10, i % 10, i % 10);
+    return recording_of(log + last).frames.size();
+  };
+  EXPECT_EQ(frames_of(""), 10U);
+  EXPECT_EQ(frames_of("99.0 TX 01 03\n"), 101U) << "a row of two";
+  EXPECT_EQ(frames_of("TX 01\n"), 101U) << "a row without its time";
+}
+
 // --- dumps ---
 
 TEST(RowsOfADump, RowsBelowAHeadingAreOneFrameHoweverLongTheyAre) {
