@@ -251,9 +251,12 @@ bool SerialLinks::finish(LineRecording& recording, std::string& why) {
   }
   if (short_ > 0) notes_.push_back(fmt::format("{} of the packets of serial lines end within their heads", short_));
   if (ends_early_ && !frames_.empty()) frames_.back().more_was_lost = true;
-  const bool has_others = !recording.frames.empty();
-  std::ranges::move(frames_, std::back_inserter(recording.frames));
-  if (has_others) std::ranges::stable_sort(recording.frames, {}, &RecordedFrame::at);
+  if (recording.frames.empty()) {
+    recording.frames = std::move(frames_);
+  } else {
+    std::ranges::move(frames_, std::back_inserter(recording.frames));
+    std::ranges::stable_sort(recording.frames, {}, &RecordedFrame::at);
+  }
   std::ranges::move(notes_, std::back_inserter(recording.notes));
   recording.is_log |= is_log_;
   return true;

@@ -48,6 +48,14 @@ void take_fields(std::string_view row, char separator, std::vector<std::string>&
     if (count == fields.size()) fields.emplace_back();
     fields[count++].clear();
   };
+  if (row.find('"') == std::string_view::npos) {
+    for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+      end = row.find(separator, begin);
+      if (count == fields.size()) fields.emplace_back();
+      fields[count++] = row.substr(begin, end == std::string_view::npos ? end : end - begin);
+    }
+    return fields.resize(count);
+  }
   begin_field();
   bool quoted = false;
   for (std::size_t i = 0; i < row.size(); ++i) {
