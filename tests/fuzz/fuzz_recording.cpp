@@ -16,9 +16,10 @@ namespace {
 using namespace s7200;
 using namespace s7200::tools;
 
+/// Which bytes a row in doubt has is for the protocol to say.
 std::size_t bytes_of(const auto& frames, auto frame) {
   std::size_t count = 0;
-  for (const auto& each : frames) count += frame(each).bytes.size();
+  for (const auto& each : frames) count += frame(each).doubt ? 0 : frame(each).bytes.size();
   return count;
 }
 

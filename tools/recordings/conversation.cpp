@@ -55,6 +55,7 @@ RecordedFrame part_of(const RecordedFrame& frame, std::size_t begin, std::size_t
                      .place = frame.place,
                      .stream = frame.stream,
                      .exchange = frame.exchange,
+                     .doubt = frame.doubt,
                      .more_was_lost = frame.more_was_lost && end == frame.bytes.size()};
   const auto damaged = std::ranges::lower_bound(frame.damaged, begin);
   for (auto each = damaged; each != frame.damaged.end() && *each < end; ++each) part.damaged.push_back(*each - begin);
@@ -331,7 +332,6 @@ std::optional<RecordedFrame> Conversation::settled(const Stream& stream, const R
   if (row.stream != 0) return {};  // its messages have been told apart already
   const OpenRequest* const open = stream.request_of(row);
   RecordedFrame frame = row;
-  frame.doubt.reset();
   for (const Reading& reading : row.doubt->readings) {
     frame.bytes = reading.bytes;
     without_word = reading.without_word;

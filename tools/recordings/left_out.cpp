@@ -13,7 +13,9 @@ RecordedFrame row_not_read(std::size_t number, std::string why, std::optional<Ti
           .doubt = std::make_shared<Doubt>(Doubt{.why = std::move(why)})};
 }
 
-std::string not_understood(std::string_view what) { return fmt::format("'{}' is not understood", stl::shortened(what)); }
+std::string not_understood(std::string_view what) {
+  return fmt::format("'{}' is not understood", stl::printable(stl::shortened(what)));
+}
 
 void name_rows_not_read(LineRecording& recording) {
   NamedRows rows;

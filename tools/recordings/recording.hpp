@@ -28,7 +28,7 @@ struct Reading {
 /// right frame.
 struct Doubt {
   std::string why{};                ///< `'7?' beside its bytes is not understood`
-  std::string word{};               ///< `7?`
+  std::string word{};               ///< `7?`, safe to print, as `why` is
   std::vector<Reading> readings{};  ///< the likelier first; none: some of the bytes are lost
 };
 

@@ -297,7 +297,7 @@ class LogReader {
   }
 
   static std::shared_ptr<const Doubt> doubt_of(const BytesInLine& found, std::vector<Reading> readings) {
-    const std::string word = stl::shortened(found.not_understood);
+    const std::string word = stl::printable(stl::shortened(found.not_understood));
     return std::make_shared<Doubt>(
         Doubt{fmt::format("'{}' beside its bytes is not understood", word), word, std::move(readings)});
   }

@@ -340,6 +340,12 @@ TEST(RowsThatAreNotRead, WhatHasComeAsATextAmongBytesIsNoSilence) {
     EXPECT_EQ(read(kRequestRow + "10:00:00.030 " + remark + "\n").size(), 1U) << remark;
 }
 
+TEST(RowsThatAreNotRead, WhatIsSaidOfOneIsSafeToPrint) {
+  const auto frames = read(kRequestRow + "10:00:00.030 RX 01 03 \x1b[31m 04\n10:00:00.040 RX 01 \xff 03\n");
+  EXPECT_EQ(texts(frames), (std::vector<std::string>{kAsked, "not read: '\uFFFD[31m' beside its bytes is not understood",
+                                                     "not read: '\uFFFD' beside its bytes is not understood"}));
+}
+
 TEST(RowsThatAreNotRead, WordsOfASentenceAreNoBytes) {
   for (const char* const line :
        {"10:00:00 warte ab", "10:00:00 de facto offline", "10:00:00 BAD FACE", "10:00:00 slave 2 timeout, retry 1"})
