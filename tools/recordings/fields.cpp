@@ -468,8 +468,11 @@ bool may_be_a_damaged_byte_after(const Word& word) {
          (word.bytes == 0 && (is_short || std::ranges::all_of(word.text, is_hex_digit)));
 }
 
-/// `value 4660` after bytes.
-bool is_a_number(const Word& word) { return word.bytes == 0 || is_decimal(word.text); }
+/// `value 4660`, `= 0x1234, 0x5678` after bytes without such a mark.
+bool is_a_number(const Word& word, Words run) {
+  const std::string_view digits = word.text.substr(0, word.text.find_last_not_of(",;)") + 1);
+  return word.bytes == 0 || is_decimal(digits) || (is_marked(digits) && !has_mark(run.front()));
+}
 
 /// `8 01 03`: how many bytes follow.
 bool counts_bytes(const Word& word, Words after) {
@@ -495,7 +498,7 @@ std::vector<Words> possible_runs(Words words) {
   const auto first = std::ranges::find_if(words, has_bytes);
   const auto last = std::find_if_not(first, words.end(), has_bytes);
   const Words before{words.begin(), first}, run{first, last}, after{last, words.end()};
-  if (run.empty() || !std::ranges::all_of(after, is_a_number)) return {};
+  if (run.empty() || !std::ranges::all_of(after, [&](const Word& word) { return is_a_number(word, run); })) return {};
   const bool is_counted = !before.empty() && counts_bytes(before.back(), run);
   if (!is_counted && !before.empty() && (may_be_a_damaged_byte(before.back()) || ends_with_digits(before.back()))) return {};
   if (!after.empty() && after.front().number != Word::Number::Yes && may_be_a_damaged_byte_after(after.front())) return {};
@@ -776,7 +779,7 @@ std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
   const std::size_t end_of_row = end_of_hex(line);
   if (end_of_row < line.size()) take_apart(without_comment(line.substr(0, end_of_row)));
   const auto run = last_run(words_);
-  if (!run) return cut_off_bytes(words_);
+  if (!run) return bytes_in_comment(line);
   const Words after = Words(words_).subspan(run->before.size() + run->words.size());
   const bool is_sentence = is_of_a_sentence(run->before, run->words, after);
   if (is_sentence && !has_pairs(run->before)) return {};
@@ -793,6 +796,16 @@ std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
     found.readings = {{found.bytes, false}, {bytes_of(other->words), true}};
   }
   return found;
+}
+
+/// `RX #2 01 03`: a direction before the sign of a comment speaks for bytes after it.
+std::optional<BytesInLine> BytesOfLines::bytes_in_comment(std::string_view line) {
+  const auto cut_off = cut_off_bytes(words_);
+  const std::size_t comment = without_comment(line).size();
+  if (cut_off || comment == line.size() || std::ranges::none_of(words_, names_a_direction)) return cut_off;
+  take_apart(line.substr(comment));
+  if (words_.empty() || !has_pairs(words_)) return {};
+  return BytesInLine{.begin = comment, .not_understood = words_.front().text};
 }
 
 Bytes BytesOfLines::bytes_of(std::span<const Word> run) const {

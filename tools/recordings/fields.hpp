@@ -81,6 +81,7 @@ class BytesOfLines {
  private:
   void take_apart(std::string_view line);
   std::size_t end_of_hex(std::string_view line) const;
+  std::optional<BytesInLine> bytes_in_comment(std::string_view line);
   Bytes bytes_of(std::span<const Word> run) const;
   void take_readings(BytesInLine& found) const;
 

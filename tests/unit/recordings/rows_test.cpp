@@ -262,8 +262,9 @@ const std::string kRequestRow = "10:00:00.000 TX 01 03 00 0a 00 02 e4 09\n";
 const std::string kAnswerRow = "10:00:00.030 RX 01 03 04 12 34 56 78 81 07";
 
 TEST(RowsThatAreNotRead, AWordAfterTheBytesIsACommentOnlyIfTheyAreARightFrame) {
-  for (const char* const comment : {" ok", " OK!", " = 4660 22136", " value 4660 22136", " value: 4660", " value 18",
-                                    " 4660", " -> 2 values", " be careful", " crc ok"}) {
+  for (const char* const comment :
+       {" ok", " OK!", " = 4660 22136", " value 4660 22136", " value: 4660", " value 18", " 4660", " -> 2 values",
+        " be careful", " crc ok", " = 0x1234 0x5678", " => 4660, 22136"}) {
     const auto frames = read(kRequestRow + kAnswerRow + comment + "\n");
     EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid})) << comment;
     EXPECT_EQ(frames[1].frame.bytes.size(), 9U) << comment;
@@ -272,7 +273,8 @@ TEST(RowsThatAreNotRead, AWordAfterTheBytesIsACommentOnlyIfTheyAreARightFrame) {
             std::vector<std::string>{"line 2: 'ok' beside the bytes: not read, as the bytes are a right frame without it"});
   for (const char* const row :
        {"RX 01 03 04 12 34 56 78 81 08 ok", "RX 01 03 04 12 34 56 78 81 07 3", "RX 01 03 04 12 34 56 7? 81 07",
-        "RX 01 03 04 12 34 5G 78 81 07", "RX 01 03 04 12 34 56 78 lost 81 07", "RX 0103041234567"}) {
+        "RX 01 03 04 12 34 5G 78 81 07", "RX 01 03 04 12 34 56 78 lost 81 07", "RX 0103041234567",
+        "RX #2 01 03 04 12 34 56 78 81 07"}) {
     const auto frames = read(kRequestRow + "10:00:00.030 " + row + "\n");
     ASSERT_EQ(frames.size(), 2U) << row;
     EXPECT_TRUE(frames[1].not_read) << row;
