@@ -346,6 +346,7 @@ std::string hint_for(const std::string& expected, std::string_view rest) {
     if (code == kReplacement) return "the text was damaged when it was converted; restore what was here";
     if (code >= 0x80) return "outside comments STL is plain ASCII; a comment begins with //";
   }
+  if (expected == "a bit number") return "a bit is written V10.3; a timer or counter is itself a bit, T37 or C5";
   if (expected == "a mnemonic") return "a line is a mnemonic and its operands; a comment begins with //";
   if (expected == "an operand") return "an operand is an address (VB100), a constant (65, 16#FF) or a pointer (*VD100)";
   if (expected == "the end of the constant") return "constants are written 65, 16#FF, 2#1010, 1.5 or 'AB'";
@@ -475,6 +476,36 @@ const char* size_letter(Size size) {
     default:
       return "";
   }
+}
+
+// --- bit numbers after addresses that have none ---
+
+/// What an address without its bit number is, if it takes no bit number: `T37 is itself the bit of the timer`. Empty for a
+/// byte-addressed area without a size, V10, which needs one.
+std::string without_bits(const Address& address) {
+  const std::string whole = fmt::format("{}{}{}", address.area, size_letter(address.size), address.number);
+  if (address.area == "T") return whole + " is itself the bit of the timer";
+  if (address.area == "C") return whole + " is itself the bit of the counter";
+  if (address.area == "HC") return whole + " is a double word";
+  if (address.area == "AC") return whole + " is an accumulator";
+  if (address.area == "AI" || address.area == "AQ") return fmt::format("{}W{} is a word", address.area, address.number);
+  if (address.size == Size::Byte) return whole + " is a byte";
+  if (address.size == Size::Word) return whole + " is a word";
+  return address.size == Size::Double ? whole + " is a double word" : "";
+}
+
+std::uint32_t bytes_of(Size size) { return size == Size::Double ? 4 : size == Size::Word ? 2 : 1; }
+
+/// What to write for a bit of such an address. The byte at the highest address has the lowest bits.
+std::string bit_hint(const Address& address, std::optional<std::uint8_t> bit) {
+  if (address.area == "T" || address.area == "C") return fmt::format("write {}{}", address.area, address.number);
+  if (address.area == "HC") return fmt::format("bits are of bytes: move it first, MOVD HC{}, VD100", address.number);
+  if (address.area == "AC") return fmt::format("bits are of bytes: move it first, MOVB AC{}, VB100", address.number);
+  if (address.area == "AQ") return "bits are of bytes: make the word in V memory, and move it with MOVW";
+  if (address.area == "AI") return fmt::format("bits are of bytes: move it first, MOVW AIW{}, VW100", address.number);
+  const std::uint32_t bytes = bytes_of(address.size);
+  if (!bit || *bit >= 8 * bytes) return fmt::format("it has bits 0 to {}", 8 * bytes - 1);
+  return fmt::format("its bit {} is {}{}.{}", *bit, address.area, address.number + bytes - 1 - *bit / 8U, *bit % 8);
 }
 
 constexpr const char* kOutOfPlace = "block keyword out of place";
@@ -704,11 +735,9 @@ class LineReader {
         return refuse(text, fmt::format("{} has no bit number", shown(text)), "write VX10.3 or V10.3");
     } else {
       const auto bit = number_of<std::uint8_t>(view(raw.bit));
+      if (std::string what = without_bits(address); !what.empty())
+        return refuse(text, fmt::format("{} has a bit number, but {}", shown(text), what), bit_hint(address, bit));
       if (!bit || *bit > 7) return refuse(raw.bit, "the bits of a byte are 0 to 7", "");
-      if (letters.size != Size::None && letters.size != Size::Bit) {
-        return refuse(text, fmt::format("{} has a bit number but is not a bit address", shown(text)),
-                      fmt::format("a bit is written {}{}.{}", letters.area, *number, *bit));
-      }
       address.size = Size::Bit;
       address.bit = *bit;
     }

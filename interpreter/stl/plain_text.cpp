@@ -192,11 +192,22 @@ std::size_t find_tag(std::string_view line, std::string_view name, bool closes) 
   return std::string_view::npos;
 }
 
+/// Whether a comment has several tags that end a line: pages have whole programs in one line.
+bool has_lines_in_comment(std::string_view line) {
+  int breaks = 0;
+  for (std::size_t at = line.find('<', code_of(line).size()); at != line.npos; at = line.find('<', at + 1)) {
+    const auto tag = tag_at(line.substr(at));
+    breaks += tag && tag->breaks_line() ? 1 : 0;
+    if (breaks == 2) return true;
+  }
+  return false;
+}
+
 bool has_html(std::string_view line) {
   const std::string_view code = code_of(line);
   for (std::size_t at = code.find_first_of("<&"); at != std::string_view::npos; at = code.find_first_of("<&", at + 1))
     if (tag_at(line.substr(at)) || entity_at(line.substr(at))) return true;
-  return false;
+  return has_lines_in_comment(line);
 }
 
 // --- the part of a text that is program ---
@@ -207,23 +218,6 @@ struct Part {
 
   bool empty() const { return from == to; }
 };
-
-bool is_fence(std::string_view line) {
-  line = trim(line);
-  return line.starts_with("```") || line.starts_with("~~~");
-}
-
-/// Of each line what is between fences.
-std::vector<Part> between_fences(const std::vector<std::string>& lines) {
-  std::vector<Part> parts;
-  bool inside = false;
-  for (const std::string& line : lines) {
-    const bool fence = is_fence(line);
-    if (fence) inside = !inside;
-    parts.push_back({0, inside && !fence ? line.size() : 0});
-  }
-  return parts;
-}
 
 /// Of each line what is between <pre> and </pre>.
 std::vector<Part> between_tags(const std::vector<std::string>& lines) {
@@ -246,106 +240,20 @@ std::vector<Part> between_tags(const std::vector<std::string>& lines) {
   return parts;
 }
 
-// --- the margin ---
-
-/// How many bytes a line number takes: `12`, `0012`, `12:`, `12.`, `[12]`, `12 |`; 0 if the line has none. What follows must
-/// begin as a statement or a comment does.
-struct LineNumber {
-  std::uint32_t number = 0;
-  std::size_t bytes = 0;
-  bool alone = false;
-};
-
-std::optional<LineNumber> line_number(std::string_view line) {
-  const auto is_unicode_blank = [](char32_t code) {
-    const auto reading = reading_of(code);
-    return reading && reading->change == kBlanks;
-  };
-  /// Blanks are any of those that web pages have.
-  const auto skip = [&](std::size_t at, std::string_view characters) {
-    const bool blanks_too = characters.find(' ') != std::string_view::npos;
-    while (at < line.size()) {
-      const Character next = first_character(line.substr(at));
-      const bool among = next.code < 0x80 && characters.find(static_cast<char>(next.code)) != std::string_view::npos;
-      if (!among && !(blanks_too && is_unicode_blank(next.code))) break;
-      at += next.bytes;
-    }
-    return at;
-  };
-  const std::size_t digits = skip(0, " \t[(");
-  const std::size_t end = skip(digits, "0123456789");
-  constexpr std::size_t kMostDigits = 6;
-  if (end == digits || end - digits > kMostDigits) return std::nullopt;
-  LineNumber result;
-  std::from_chars(line.data() + digits, line.data() + end, result.number);
-  const std::size_t mark = skip(end, "])");
-  result.bytes = skip(mark, " \t.:|");
-  result.alone = result.bytes == line.size();
-  if (result.alone) return result;
-  const char next = line[result.bytes];
-  const bool parted = result.bytes > end;
-  return parted && (is_letter(next) || std::string_view("=+-*/<").find(next) != std::string_view::npos)
-             ? std::optional(result)
-             : std::nullopt;
-}
-
-bool stands_without_number(std::string_view line) {
-  const std::string_view code = trim(code_of(line));
-  return code.empty() || upper_case(code.substr(0, 7)) == "NETWORK" || routine_heading(code);
-}
-
-/// Whether all lines are numbered, upwards; below a heading they may begin anew.
-bool is_numbered(const std::vector<std::string>& lines, const std::vector<Part>& parts) {
-  std::size_t numbered = 0, statements = 0;
-  std::optional<std::uint32_t> last;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string_view line = std::string_view(lines[i]).substr(parts[i].from, parts[i].to - parts[i].from);
-    const auto number = line_number(line);
-    if (!number && !stands_without_number(line)) return false;
-    if (!number) {
-      if (!trim(line).empty()) last.reset();
-      continue;
-    }
-    if (last && number->number <= *last) return false;
-    last = number->number;
-    ++numbered;
-    if (!number->alone && line[number->bytes] != '/') ++statements;
-  }
-  return numbered >= 2 && statements > 0;
-}
-
-/// Whether every line that is not empty begins with the > of quoted text.
-bool is_quoted(const std::vector<std::string>& lines, const std::vector<Part>& parts) {
-  std::size_t quoted = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string_view line = trim(std::string_view(lines[i]).substr(parts[i].from, parts[i].to - parts[i].from));
-    if (line.empty()) continue;
-    if (!line.starts_with('>')) return false;
-    ++quoted;
-  }
-  return quoted > 0;
-}
+// --- one line ---
 
 constexpr std::string_view kBullets[] = {"•", "▪", "●", "■", "◦", "‣", "·"};
 
-/// Whether a line is code as Markdown has it in running text: `LD I0.0` between backticks.
-bool is_inline_code(std::string_view line) {
-  line = trim(line);
-  return line.size() > 2 && line.starts_with('`') && line.ends_with('`');
-}
-
-/// How many bytes a bullet at the beginning of a line takes.
-std::size_t bullet(std::string_view line) {
-  const std::size_t from = std::min(line.find_first_not_of(" \t"), line.size());
-  for (const std::string_view each : kBullets)
-    if (line.substr(from).starts_with(each)) return from + each.size();
+std::size_t bullet_at(std::string_view text) {
+  for (const std::string_view bullet : kBullets)
+    if (text.starts_with(bullet)) return bullet.size();
   return 0;
 }
 
-// --- one line ---
-
 /// Letters of other alphabets at the beginning: text, or a name of a symbol table. Only its blanks are read otherwise.
 bool begins_beyond_ascii(std::string_view line) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  line.remove_prefix(bullet_at(line));
   for (const Character c : characters(line)) {
     if (is_blank(static_cast<char>(c.code)) && c.code < 0x80) continue;
     const auto reading = reading_of(c.code);
@@ -354,6 +262,17 @@ bool begins_beyond_ascii(std::string_view line) {
   }
   return false;
 }
+
+constexpr std::string_view kFences[] = {"```", "~~~"};
+
+/// Pairs of marks that Markdown puts around code or bold text.
+constexpr std::string_view kPairs[] = {"`", "**"};
+
+bool begins_with_one_of(std::string_view text, std::span<const std::string_view> beginnings) {
+  return std::ranges::any_of(beginnings, [text](std::string_view each) { return text.starts_with(each); });
+}
+
+bool is_fence(std::string_view line) { return begins_with_one_of(trim(line), kFences); }
 
 /// Rewrites lines, and keeps for each character of the result the column that it had.
 class LineWriter {
@@ -374,6 +293,7 @@ class LineWriter {
   }
 
   std::vector<Result> run(std::size_t to) {
+    end_ = to;
     while (at_ < to) next();
     if (results_.empty() || !trim(result_.text).empty())
       end_line();
@@ -392,11 +312,48 @@ class LineWriter {
         return write(entity->code, entity->bytes);
       }
     }
+    if (in_margin() && leave_out_mark(rest)) return;
+    if (at_ == pair_end_ && pair_ != 0) return skip(std::exchange(pair_, 0), kMarkdown);
     const Character c = first_character(rest);
     if (!is_line_end(c.code)) return write(c.code, c.bytes);
     result_.changes |= kLineEnds;
     end_line();
     take(c.bytes);
+  }
+
+  /// Whether only line numbers, > and the like have come so far.
+  bool in_margin() const {
+    constexpr std::string_view kMargins = " \t0123456789.:|,;()[]>-*";
+    const std::string_view before = result_.text;
+    return before.find_first_not_of(kMargins) == before.npos && (before.empty() || !is_digit(before.back()));
+  }
+
+  /// A bullet, the # of a heading, or the first of a pair of marks; a fence stays as it is.
+  bool leave_out_mark(std::string_view rest) {
+    if (begins_with_one_of(rest, kFences)) {
+      const std::size_t end = std::min(rest.find_first_not_of("`~"), rest.size());
+      put(rest.substr(0, end));
+      take(end);
+      return true;
+    }
+    if (const std::size_t bullet = bullet_at(rest); bullet != 0) return skip(bullet, kMargin), true;
+    const std::size_t signs = std::min(rest.find_first_not_of('#'), rest.size());
+    if (signs > 0 && signs < rest.size() && is_blank(rest[signs])) return skip(signs, kMarkdown), true;
+    for (const std::string_view pair : kPairs)
+      if (rest.starts_with(pair) && ends_pair(rest, pair)) return pair_ = pair.size(), skip(pair.size(), kMarkdown), true;
+    return false;
+  }
+
+  /// Whether there is a second mark of a pair that ends the line, but for tags and a comment; pair_end_ is where it is then.
+  bool ends_pair(std::string_view rest, std::string_view pair) {
+    rest = rest.substr(0, end_ - at_);
+    for (std::size_t second = rest.find(pair, pair.size() + 1); second != rest.npos; second = rest.find(pair, second + 1)) {
+      const std::string_view after = trim(rest.substr(second + pair.size()));
+      pair_end_ = at_ + second;
+      if (after.empty() || after.starts_with("//") || (html_ && after.starts_with('<'))) return true;
+      if (is_line_end(first_character(after).code)) return true;
+    }
+    return false;
   }
 
   void leave_out(const Tag& tag) {
@@ -480,8 +437,9 @@ class LineWriter {
 
   std::string_view line_;
   bool html_, only_blanks_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, end_ = 0;
   std::uint32_t column_ = 1;
+  std::size_t pair_ = 0, pair_end_ = 0;  // bytes of the second mark of a pair, and where it is; 0: none
   bool comment_ = false;
   char quote_ = 0;           // that the text at this place is in; 0: none
   std::size_t slashes_ = 0;  // the next // from at_ on, once it was looked for
@@ -490,9 +448,9 @@ class LineWriter {
 };
 
 /// `LD I0.0`, `movb 1, vb0`: a short word and operands one of which is an address. Good enough to tell a program from text.
-bool looks_like_statement(std::string_view line, bool html) {
+bool looks_like_statement(std::string_view line) {
   constexpr std::size_t kLongestMnemonic = 8, kMostWords = 6;
-  std::string text = LineWriter(line, html).run(line.size()).front().text;
+  std::string text(line);
   text.erase(std::min(text.find("//"), text.size()));
   std::ranges::replace_if(
       text, [](char c) { return c == ',' || c == ';'; }, ' ');
@@ -509,12 +467,15 @@ bool looks_like_statement(std::string_view line, bool html) {
 }
 
 /// Whether the program is inside the parts, and nothing of it around them.
-bool holds_the_program(const std::vector<Part>& parts, const std::vector<std::string>& lines, bool html) {
+bool holds_the_program(const std::vector<Part>& parts, const std::vector<std::string>& lines) {
+  const auto is_statement = [](std::string_view line) {
+    return looks_like_statement(LineWriter(line, true).run(line.size()).front().text);
+  };
   bool inside = false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string_view line = lines[i], part = line.substr(parts[i].from, parts[i].to - parts[i].from);
-    inside = inside || looks_like_statement(part, html);
-    if (parts[i].empty() && looks_like_statement(line, html)) return false;
+    inside = inside || is_statement(part);
+    if (parts[i].empty() && is_statement(line)) return false;
   }
   return inside;
 }
@@ -522,7 +483,7 @@ bool holds_the_program(const std::vector<Part>& parts, const std::vector<std::st
 /// All of each line.
 std::vector<Part> whole(const std::vector<std::string>& lines) {
   std::vector<Part> parts;
-  for (const std::string& line : lines) parts.push_back({0, is_fence(line) ? 0 : line.size()});
+  for (const std::string& line : lines) parts.push_back({0, line.size()});
   return parts;
 }
 
@@ -552,20 +513,211 @@ bool may_be_different(std::string_view line) {
   const auto may_be = [](char c) { return kMayBeDifferent[static_cast<unsigned char>(c)]; };
   if (std::ranges::any_of(quoted ? line : code, may_be))
     return !is_ascii(line) || line.find_first_of("`%\x0B") != std::string_view::npos || is_fence(line) || has_html(line);
-  return has_line_end_of_word_processor(comment);
+  return has_line_end_of_word_processor(comment) || has_lines_in_comment(line);
 }
 
-/// The same of one that may be numbered or quoted.
+/// The same of one that may be numbered, quoted, a row of a list or a heading.
 bool may_have_margin(std::string_view line) {
   const std::size_t from = line.find_first_not_of(" \t");
-  return from != std::string_view::npos &&
-         (is_digit(line[from]) || std::string_view("[(>").find(line[from]) != std::string_view::npos);
+  if (from == std::string_view::npos) return false;
+  if (is_digit(line[from]) || std::string_view("[(>#").find(line[from]) != std::string_view::npos) return true;
+  const std::string_view next = line.substr(from + 1, 1);
+  return (line[from] == '-' || line[from] == '*') && (next == " " || next == "\t" || next == "*");
 }
 
 bool has_such_a_line(std::string_view text) {
   while (!text.empty())
     if (const std::string_view line = take_line(text); may_be_different(line) || may_have_margin(line)) return true;
   return false;
+}
+
+// --- the margin ---
+
+/// The number that a line begins with, `12`, `0012`, `12:`, `12.`, `[12]`, `12 |`, and how many bytes it takes. What follows
+/// must begin as a statement or a comment does.
+struct LineNumber {
+  std::uint32_t number = 0;
+  std::size_t bytes = 0;
+  bool alone = false;
+};
+
+std::optional<LineNumber> line_number(std::string_view line) {
+  const auto skip = [&](std::size_t at, std::string_view characters) {
+    return std::min(line.find_first_not_of(characters, at), line.size());
+  };
+  const std::size_t digits = skip(0, " \t[(");
+  const std::size_t end = skip(digits, "0123456789");
+  constexpr std::size_t kMostDigits = 6;
+  if (end == digits || end - digits > kMostDigits) return std::nullopt;
+  LineNumber result;
+  std::from_chars(line.data() + digits, line.data() + end, result.number);
+  const std::size_t mark = skip(end, "]).:,;-|");  // 1- LD, but 1 -I VW0, VW2
+  result.bytes = skip(skip(mark, " \t.:|"), " \t");
+  result.alone = result.bytes == line.size();
+  if (result.alone) return result;
+  const char next = line[result.bytes];
+  const bool begins = is_letter(next) || static_cast<unsigned char>(next) >= 0x80 ||
+                      std::string_view("=+-*/<>`~#").find(next) != std::string_view::npos;
+  return result.bytes > end && begins ? std::optional(result) : std::nullopt;
+}
+
+/// How many bytes the > of quoted text takes at the beginning of a line.
+std::size_t quotation_mark(std::string_view line) {
+  const std::size_t from = line.find_first_not_of(" \t");
+  return from != std::string_view::npos && line[from] == '>' ? from + 1 : 0;
+}
+
+/// How many bytes the - or * takes that rows of a list begin with. No instruction has a blank behind these signs.
+std::size_t list_mark(std::string_view line) {
+  const std::size_t from = line.find_first_not_of(" \t");
+  const bool marked = from != std::string_view::npos && from + 1 < line.size() && is_blank(line[from + 1]);
+  return marked && (line[from] == '-' || line[from] == '*') ? from + 2 : 0;
+}
+
+bool stands_without_mark(std::string_view line) {
+  const std::string_view code = trim(code_of(line));
+  return code.empty() || upper_case(code.substr(0, 7)) == "NETWORK" || routine_heading(code);
+}
+
+// --- all lines ---
+
+/// A line of what has been read so far.
+struct Row {
+  std::uint32_t original = 0;            // line of the original
+  std::string text{};                    // of it
+  std::vector<std::uint32_t> columns{};  // there, of each character and of the end; empty: the same
+  std::uint32_t changes = 0;
+
+  void leave_out_beginning(std::size_t bytes, Change change) {
+    if (bytes == 0) return;
+    if (columns.empty())
+      for (std::uint32_t column = 1; column <= count_characters(text) + 1; ++column) columns.push_back(column);
+    const auto characters = count_characters(std::string_view(text).substr(0, bytes));
+    columns.erase(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(characters));
+    text.erase(0, bytes);
+    changes |= change;
+  }
+
+  void leave_out(Change change) {
+    text.clear();
+    columns.clear();
+    changes |= change;
+  }
+};
+
+/// What can only be told of all lines together. One step may uncover the next: `> 1. LD I0.0`, a fence in a quoted mail.
+class Page {
+ public:
+  explicit Page(std::vector<Row> lines) : rows(std::move(lines)) {}
+
+  void run() {
+    constexpr int kMostSteps = 6;
+    for (int step = 0; step < kMostSteps; ++step)
+      if (!cut_out_fences() && !leave_out_marks(quotation_mark) && !leave_out_numbers() && !leave_out_marks(list_mark)) return;
+  }
+
+  std::vector<Row> rows;
+  std::vector<std::uint32_t> left_out{};  // lines of the original around the program
+  std::uint32_t around = 0;               // what the program was cut out of, as a change
+
+ private:
+  void leave_out_around(Row& row, Change change) {
+    around |= change;
+    if (!trim(row.text).empty() && !is_fence(row.text) && (left_out.empty() || left_out.back() != row.original))
+      left_out.push_back(row.original);
+    row.leave_out(change);
+  }
+
+  /// If the program is between them. Single ones have lost the other.
+  bool cut_out_fences() {
+    std::vector<bool> inside;
+    bool in = false, any_inside = false, any_outside = false, any_fence = false;
+    for (const Row& row : rows) {
+      const bool fence = is_fence(row.text);
+      if (fence) in = !in;
+      inside.push_back(in && !fence);
+      any_fence |= fence;
+      if (!fence) (in ? any_inside : any_outside) |= looks_like_statement(row.text);
+    }
+    if (!any_fence) return false;
+    const bool cut = any_inside && !any_outside;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (cut && !inside[i])
+        leave_out_around(rows[i], kMarkdown);
+      else if (is_fence(rows[i].text))
+        rows[i].leave_out(kMarkdown);
+    return true;
+  }
+
+  /// If all lines from the first to the last of them have the mark, and the others are text.
+  bool leave_out_marks(std::size_t (*mark)(std::string_view line)) {
+    std::vector<std::size_t> bytes;
+    std::ranges::transform(rows, std::back_inserter(bytes), [mark](const Row& row) { return mark(row.text); });
+    return leave_out_marked(bytes, kMargin);
+  }
+
+  /// The same of numbers that rise; below a heading they may begin anew.
+  bool leave_out_numbers() {
+    std::vector<std::size_t> bytes;
+    std::optional<std::uint32_t> last;
+    std::size_t numbered = 0, statements = 0;
+    for (const Row& row : rows) {
+      const auto number = line_number(row.text);
+      bytes.push_back(number ? number->bytes : 0);
+      if (number && last && number->number <= *last) return false;
+      if (number)
+        last = number->number;
+      else if (!trim(row.text).empty())
+        last.reset();
+      numbered += number ? 1U : 0U;
+      statements += number && !number->alone && row.text[number->bytes] != '/' ? 1U : 0U;
+    }
+    return numbered >= 2 && statements > 0 && leave_out_marked(bytes, kLineNumbers);
+  }
+
+  /// Of each row so many bytes; 0: it has no mark.
+  bool leave_out_marked(const std::vector<std::size_t>& bytes, Change change) {
+    const auto is_marked = [](std::size_t each) { return each > 0; };
+    const auto begin = static_cast<std::size_t>(std::ranges::find_if(bytes, is_marked) - bytes.begin());
+    const auto end = static_cast<std::size_t>(std::find_if(bytes.rbegin(), bytes.rend(), is_marked).base() - bytes.begin());
+    if (begin >= end) return false;
+    std::size_t marked = 0, statements = 0;
+    bool has_text = false;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::string_view text = rows[i].text;
+      marked += bytes[i] > 0 ? 1U : 0U;
+      statements += bytes[i] > 0 && looks_like_statement(text.substr(bytes[i])) ? 1U : 0U;
+      if (bytes[i] > 0 || stands_without_mark(text)) continue;
+      if ((i >= begin && i < end) || looks_like_statement(text)) return false;
+      has_text = true;
+    }
+    constexpr std::size_t kEachSo = 3;  // so many marked lines to one that surely is a statement, where there is text around
+    if (has_text && kEachSo * statements < marked) return false;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (bytes[i] > 0)
+        rows[i].leave_out_beginning(bytes[i], change);
+      else if (!stands_without_mark(rows[i].text))
+        leave_out_around(rows[i], change);
+    return true;
+  }
+};
+
+/// The lines one by one.
+std::vector<Row> read_lines(const std::vector<std::string>& lines, const std::vector<Part>& parts, bool html) {
+  std::vector<Row> rows;
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    const std::string_view line = lines[i];
+    const bool all = parts[i].from == 0 && parts[i].to == line.size();
+    if (all && !may_be_different(line) && !may_have_margin(line)) {
+      rows.push_back({i + 1, lines[i]});
+      continue;
+    }
+    LineWriter writer(line, html);
+    writer.skip(parts[i].from, kHtml);
+    for (auto& [text, columns, changes] : writer.run(parts[i].to))
+      rows.push_back({i + 1, std::move(text), is_identity(columns) ? std::vector<std::uint32_t>{} : std::move(columns), changes});
+  }
+  return rows;
 }
 
 }  // namespace
@@ -576,48 +728,28 @@ PlainText::PlainText(std::string_view original) : original_(original) {
   const std::vector<std::string>& lines = original_lines_;
   const bool html = std::ranges::any_of(lines, has_html);
   const auto opens_pre = [](const std::string& line) { return find_tag(line, "pre", false) != std::string::npos; };
-  around_ = std::ranges::any_of(lines, is_fence)            ? kMarkdown
-            : html && std::ranges::any_of(lines, opens_pre) ? kHtml
-                                                            : Change{};
-  std::vector<Part> parts = around_ == kHtml       ? between_tags(lines)
-                            : around_ == kMarkdown ? between_fences(lines)
-                                                   : whole(lines);
-  if (around_ != 0 && !holds_the_program(parts, lines, html)) {
-    parts = whole(lines);
-    around_ = 0;
-  }
-  const bool numbered = is_numbered(lines, parts), quoted = is_quoted(lines, parts);
-  const bool everywhere = around_ != 0 || numbered || quoted;
-  bool different = everywhere;
-  for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    const std::string_view line = lines[i];
-    Part part = parts[i];
-    if (part.empty() && !is_fence(line) && !trim(line).empty()) left_out_.push_back(i + 1);
-    if (!everywhere && !may_be_different(line)) {
-      text_.append(line).push_back('\n');
-      lines_.push_back({i + 1, {}, 0});
-      continue;
-    }
-    LineWriter writer(line, html);
-    writer.skip(part.from, kHtml);
-    const std::string_view code = line.substr(part.from, part.to - part.from);
-    const auto number = numbered ? line_number(code) : std::nullopt;
-    if (number) writer.skip(number->bytes, kLineNumbers);
-    if (quoted && !trim(code).empty()) writer.skip(code.find('>') + 1, kMargin);
-    if (!number && !quoted) writer.skip(bullet(code), kMargin);
-    if (is_inline_code(code)) {
-      writer.skip(code.find('`') + 1, kMarkdown);
-      part.to = part.from + code.rfind('`');
-    }
-    auto results = writer.run(part.to);
-    different = different || results.size() > 1 || part.to != line.size();
-    for (auto& [text, columns, changes] : results) {
-      different = different || changes != 0;
-      text_.append(text).push_back('\n');
-      lines_.push_back({i + 1, is_identity(columns) ? std::vector<std::uint32_t>{} : std::move(columns), changes});
+  std::vector<Part> parts = whole(lines);
+  if (html && std::ranges::any_of(lines, opens_pre)) {
+    std::vector<Part> between = between_tags(lines);
+    if (holds_the_program(between, lines)) {
+      parts = std::move(between);
+      around_ = kHtml;
     }
   }
-  if (!different) lines_.clear();
+  for (std::uint32_t i = 0; i < lines.size(); ++i)
+    if (parts[i].empty() && !trim(lines[i]).empty()) left_out_.push_back(i + 1);
+  Page page(read_lines(lines, parts, html));
+  page.run();
+  around_ |= page.around;
+  left_out_.insert(left_out_.end(), page.left_out.begin(), page.left_out.end());
+  std::ranges::sort(left_out_);
+  const bool same = around_ == 0 && page.rows.size() == lines.size() &&
+                    std::ranges::all_of(page.rows, [](const Row& row) { return row.changes == 0; });
+  if (same) return;
+  for (Row& row : page.rows) {
+    text_.append(row.text).push_back('\n');
+    lines_.push_back({row.original, std::move(row.columns), row.changes});
+  }
 }
 
 Position PlainText::in_original(const Position& place) const {

@@ -153,7 +153,7 @@ TEST(Parser, ReadsPastGermanAddressesSoThatTheRestOfTheLineIsCheckedToo) {
   const ParseResult result = parse("UN E0.1\nMOVW AEW4, VB0.9\n", "x");
   ASSERT_EQ(result.diagnostics.size(), 3U);
   EXPECT_EQ(result.diagnostics[0].cause, result.diagnostics[1].cause);
-  EXPECT_EQ(result.diagnostics[2].message, "the bits of a byte are 0 to 7");
+  EXPECT_EQ(result.diagnostics[2].message, "VB0.9 has a bit number, but VB0 is a byte");
   ASSERT_EQ(result.source.lines.size(), 1U);
   EXPECT_EQ(std::get<Statement>(result.source.lines[0]).operands[0].value, OperandValue(Address{"I", Size::Bit, 0, 1}));
 }
@@ -166,6 +166,29 @@ TEST(Parser, PointsAtTheErrorInCharacters) {
   EXPECT_EQ(error("MOVB 99999999999999999999, VB0").position, (Position{1, 6, 20}));
 }
 
+TEST(Parser, ABitNumberIsOnlyForBytes) {
+  EXPECT_EQ(error("LD T37.0").message, "T37.0 has a bit number, but T37 is itself the bit of the timer");
+  EXPECT_EQ(error("LD T37.9").hint, "write T37");
+  EXPECT_EQ(error("AN C5.3").hint, "write C5");
+  EXPECT_EQ(error("LD AC0.3").message, "AC0.3 has a bit number, but AC0 is an accumulator");
+  EXPECT_EQ(error("LD HC0.1").hint, "bits are of bytes: move it first, MOVD HC0, VD100");
+  EXPECT_EQ(error("LD AI2.1").message, "AI2.1 has a bit number, but AIW2 is a word");
+  EXPECT_EQ(error("LD AIW2.1").hint, "bits are of bytes: move it first, MOVW AIW2, VW100");
+  EXPECT_EQ(error("= AQW2.1").message, "AQW2.1 has a bit number, but AQW2 is a word");
+  EXPECT_EQ(error("LD T37.Q").hint, "a bit is written V10.3; a timer or counter is itself a bit, T37 or C5");
+}
+
+TEST(Parser, TheBitOfAWordIsThatOfItsByte) {
+  EXPECT_EQ(error("LD VB10.3").hint, "its bit 3 is V10.3");
+  EXPECT_EQ(error("LD VW10.3").hint, "its bit 3 is V11.3");
+  EXPECT_EQ(error("LD SMW22.12").hint, "its bit 12 is SM22.4");
+  EXPECT_EQ(error("LD SW2.15").hint, "its bit 15 is S2.7");
+  EXPECT_EQ(error("LD VD10.0").hint, "its bit 0 is V13.0");
+  EXPECT_EQ(error("LD VD10.31").hint, "its bit 31 is V10.7");
+  EXPECT_EQ(error("LD VD10.32").hint, "it has bits 0 to 31");
+  EXPECT_EQ(error("MOVB *VD10.3, VB0").message, "*VD10.3 has a bit number, but VD10 is a double word");
+}
+
 TEST(Parser, RefusesWhatDoesNotBelongInAStatement) {
   EXPECT_EQ(error("65, VW0").message, "expected a mnemonic, found '6'");
   EXPECT_EQ(error("MOVW 65,").message, "expected an operand, found the end of the line");
@@ -173,7 +196,6 @@ TEST(Parser, RefusesWhatDoesNotBelongInAStatement) {
   EXPECT_EQ(error("LD I0.").message, "expected a bit number, found the end of the line");
   EXPECT_EQ(error("LD I0.8").message, "the bits of a byte are 0 to 7");
   EXPECT_EQ(error("LD I0.300").message, "the bits of a byte are 0 to 7");
-  EXPECT_EQ(error("LD VB10.3").hint, "a bit is written V10.3");
   EXPECT_EQ(error("LD VX10").message, "VX10 has no bit number");
   EXPECT_EQ(error("X 16#").message, "expected hexadecimal digits, found the end of the line");
   EXPECT_EQ(error("X 2#12").message, "expected the end of the constant, found '2'");

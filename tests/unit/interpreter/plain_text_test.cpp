@@ -133,6 +133,89 @@ TEST(PlainText, MarginsOfMailAndListsAreLeftOut) {
   EXPECT_EQ(program("• LD I0.0\n• = Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
 }
 
+TEST(PlainText, ListMarksAndBoldLettersOfMarkdownAreLeftOut) {
+  EXPECT_EQ(program("- LD I0.0\n- = Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
+  EXPECT_EQ(program("## NETWORK 1\n* **LD I0.0**\n* `= Q0.0` // lamp\n"), program("NETWORK 1\nLD I0.0\n= Q0.0 // lamp\n"));
+  EXPECT_EQ(program("LD I0.0\n-I VW0, VW2\n*R VD4, VD8\n"), "LD      I0.0\n-I      VW0, VW2\n*R      VD4, VD8\n") << "instructions";
+}
+
+TEST(PlainText, TextAroundNumberedOrQuotedLinesIsLeftOut) {
+  EXPECT_EQ(program("From the forum:\n1. LD I0.0\n2. = Q0.0\n\nThanks, Jim\n"), program("\nLD I0.0\n= Q0.0\n\n\n"));
+  EXPECT_EQ(program("Jim wrote:\n> LD I0.0\n> = Q0.0\n"), program("\nLD I0.0\n= Q0.0\n"));
+  EXPECT_EQ(note("Jim wrote:\n> LD I0.0\n> = Q0.0\n"),
+            "page.txt: read as plain text: bullets and quotation marks in the margin; the first in line 2; left out around "
+            "the program: line 1");
+}
+
+TEST(PlainText, PagesHaveWholeProgramsInOneLine) {
+  EXPECT_EQ(program("NETWORK 1 // start<br>LD I0.0<br>= Q0.0<br>"), program("NETWORK 1 // start\nLD I0.0\n= Q0.0\n"));
+}
+
+/// What a program has been through: signs, numbers, marks around each line, and all around it.
+struct Passage {
+  const char* name;
+  std::string (*of)(std::string line, int number);
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+const Passage kSigns[] = {
+    {"plain", [](std::string line, int) { return line; }},
+    {"full-width", [](std::string line, int) { return replaced(replaced(line, "= ", "＝　"), ".", "．"); }},
+    {"typographic", [](std::string line, int) { return replaced(replaced(line, "-", "–"), "'", "’"); }},
+    {"no-break", [](std::string line, int) { return replaced(line, " ", "\u00A0"); }},
+};
+const Passage kNumbers[] = {
+    {"none", [](std::string line, int) { return line; }},
+    {"1. ", [](std::string line, int number) { return std::to_string(number) + ". " + line; }},
+    {"01: ", [](std::string line, int number) { return "0" + std::to_string(number) + ":\u00A0" + line; }},
+    {"1 | ", [](std::string line, int number) { return std::to_string(number) + " | " + line; }},
+    {"(1)", [](std::string line, int number) { return "(" + std::to_string(number) + ")\t" + line; }},
+    {"1、", [](std::string line, int number) { return std::to_string(number) + "、" + line; }},
+    {"1- ", [](std::string line, int number) { return std::to_string(number) + "- " + line; }},
+};
+const Passage kMarks[] = {
+    {"none", [](std::string line, int) { return line + "\n"; }},
+    {"> ", [](std::string line, int) { return "> " + line + "\n"; }},
+    {"> > ", [](std::string line, int) { return "> > " + line + "\n"; }},
+    {"&gt; <br>", [](std::string line, int) { return "&gt; " + line + "<br>"; }},
+    {"<br>", [](std::string line, int) { return line + "<br>\n"; }},
+    {"<li>", [](std::string line, int) { return "<li>" + line + "</li>"; }},
+    {"<td>", [](std::string line, int) { return "<tr><td>" + line + "</td></tr>\n"; }},
+    {"• ", [](std::string line, int) { return "• " + line + "\n"; }},
+    {"- ", [](std::string line, int) { return "- " + line + "\n"; }},
+    {"U+2028", [](std::string line, int) { return line + "\u2028"; }},
+};
+
+TEST(PlainText, WhatAProgramHasBeenThroughMayBeCombined) {
+  const std::vector<std::string> lines{"NETWORK 1", "LD SM0.1", "MOVW -16, VW10", "MOVB 'A', VB100", "= Q0.0", "ENI", "MEND"};
+  for (const Passage& signs : kSigns)
+    for (const Passage& numbers : kNumbers)
+      for (const Passage& marks : kMarks)
+        for (const bool code : {false, true}) {
+          std::string text;
+          for (std::size_t i = 0; i < lines.size(); ++i) {
+            const std::string line = signs.of(lines[i], 0);
+            const int number = static_cast<int>(i) + 1;
+            text += marks.of(numbers.of(code ? "`" + line + "`" : line, number), number);
+          }
+          const CheckResult result = checked(text);
+          EXPECT_TRUE(result.program && result.program->ops.size() == 6)
+              << signs.name << ", " << numbers.name << ", " << marks.name << "\n" << text << diagnostics(result);
+        }
+}
+
+TEST(PlainText, PlacesAreRightAfterSeveralSteps) {
+  const std::string text = "Jim wrote:\n> 1、`LD　I0．0`\n> 2、`MOVB　1，VB99999`\n";
+  const CheckResult result = checked(text);
+  ASSERT_EQ(result.diagnostics.size(), 1U) << diagnostics(result);
+  EXPECT_EQ(result.diagnostics[0].position, (stl::Position{3, 13, 7})) << diagnostics(result);
+}
+
 TEST(PlainText, APercentSignBeforeAnAddressIsLeftOut) {
   EXPECT_EQ(program("LD %I0.0\nA %IX0.1\n= %Q0.0\nMOVW %IW2, %VW10\n"),
             program("LD I0.0\nA IX0.1\n= Q0.0\nMOVW IW2, VW10\n"));
