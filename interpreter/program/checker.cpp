@@ -7,10 +7,12 @@
 #include <cassert>
 #include <cstdlib>
 #include <deque>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "interpreter/base/nearest.hpp"
@@ -103,9 +105,47 @@ class Checker {
     for (stl::Diagnostic& diagnostic : diagnostics_) {
       if (diagnostic.cause != kUndefinedSymbols) continue;
       const std::string meant = nearest_symbol(written_at(diagnostic.position));
-      if (!meant.empty()) diagnostic.hint = fmt::format("did you mean {}?", meant);
+      if (!meant.empty())
+        diagnostic.hint = fmt::format("did you mean {}?", meant);
+      else if (!source_.symbols.empty())
+        diagnostic.hint = hint_with_table(written_at(diagnostic.position));
       if (!meant.empty() || !source_.symbols.empty()) diagnostic.cause = diagnostic.message;
     }
+  }
+
+  /// `symbols.txt does not have it; the nearest are Pump_1 and Pump_2`: of a name that is in no table that was given.
+  std::string hint_with_table(std::string_view written) const {
+    std::vector<std::string> tables;
+    for (const stl::Symbol& symbol : source_.symbols)
+      if (std::string file = stl::in_file(source_, symbol.position.line).file; tables.empty() || tables.back() != file)
+        tables.push_back(std::move(file));
+    const std::vector<std::string> near = symbols_like(written);
+    return fmt::format("{} {} it{}; add it there, or write the address itself", fmt::join(tables, ", "),
+                       tables.size() == 1 ? "does not have" : "do not have",
+                       near.empty() ? "" : fmt::format("; the nearest are {}", fmt::join(near, ", ")));
+  }
+
+  /// Symbols of the user that have a word in common with a name, the longest such word first.
+  std::vector<std::string> symbols_like(std::string_view written) const {
+    constexpr std::size_t kLeastCommon = 3, kShown = 3;
+    const std::string name = stl::upper_case(written);
+    std::vector<std::pair<std::size_t, std::string>> found;
+    for (const stl::Symbol& symbol : source_.symbols)
+      if (const std::size_t common = longest_common(name, stl::upper_case(symbol.name)); common >= kLeastCommon)
+        found.emplace_back(common, symbol.name);
+    std::ranges::stable_sort(found, std::greater{}, &std::pair<std::size_t, std::string>::first);
+    std::vector<std::string> names;
+    for (const auto& [common, each] : std::span(found).first(std::min(kShown, found.size())))
+      names.push_back(stl::shortened(each));
+    return names;
+  }
+
+  /// How many letters two names have in common that follow each other in both.
+  static std::size_t longest_common(std::string_view a, std::string_view b) {
+    std::size_t longest = 0;
+    for (std::size_t from = 0; from < a.size(); ++from)
+      while (from + longest < a.size() && b.find(a.substr(from, longest + 1)) != b.npos) ++longest;
+    return longest;
   }
 
   /// The symbol that is written almost like a name, or that begins with it; empty if there is none.

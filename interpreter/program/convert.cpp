@@ -261,7 +261,9 @@ class Printable {
     error(operand.position,
           name.reason.empty() ? fmt::format("'{}' is neither an address nor a defined symbol", stl::shortened(name.text))
                               : name.reason,
-          "give its symbol table too, beside the program, or write the address itself");
+          parsed_.source.symbols.empty()
+              ? "give its symbol table too, beside the program, or write the address itself"
+              : "the symbol table that was given does not have it: add it there, or write the address itself");
   }
 
   stl::ParseResult& parsed_;

@@ -36,8 +36,8 @@ class DataPlacing {
   }
 
  private:
-  void error(const stl::Position& at, std::string message, std::string hint = {}) {
-    diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
+  void error(const stl::Position& at, std::string message, std::string hint = {}, std::string cause = {}) {
+    diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
 
   void place(const stl::DataLine& line) {
@@ -66,7 +66,7 @@ class DataPlacing {
       error(written.position,
             name->reason.empty() ? fmt::format("'{}' is neither an address nor a defined symbol", stl::shortened(name->text))
                                  : name->reason,
-            "give the symbol table too, or write the address itself");
+            "give the symbol table too, or write the address itself", name->reason.empty() ? kUndefinedSymbols : "");
     } else if (!address || address->area != "V") {
       error(written.position, fmt::format("{} is not in V memory", stl::to_text(written)),
             "a data block sets V memory only");

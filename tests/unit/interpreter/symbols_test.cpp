@@ -289,8 +289,14 @@ TEST(Symbols, OneThatIsMisspeltIsNamed) {
   EXPECT_EQ(said("LD First_Scan\n= Q0.0\nMEND\n", ""),
             Lines{"p.awl:1:4: error: 'First_Scan' is neither an address nor a defined symbol; did you mean First_Scan_On?"});
   EXPECT_EQ(said("LD Button\n= Q0.0\nMEND\n", "Motor\tQ0.0\n"),
-            Lines{"p.awl:1:4: error: 'Button' is neither an address nor a defined symbol; give its symbol table too, s7200 check "
-                  "PROGRAM SYMBOLS, or write the address itself"});
+            Lines{"p.awl:1:4: error: 'Button' is neither an address nor a defined symbol; t.txt does not have it; add it there, "
+                  "or write the address itself"});
+}
+
+TEST(Symbols, OneThatTheTableDoesNotHaveIsSaidWithThoseThatAreLikeIt) {
+  EXPECT_EQ(said("LD PumpRun\n= Q0.0\nMEND\n", "Start\tI0.0\nRun_Pump\tI0.1\nPump_1\tQ0.0\n"),
+            Lines{"p.awl:1:4: error: 'PumpRun' is neither an address nor a defined symbol; t.txt does not have it; the nearest "
+                  "are Run_Pump, Pump_1; add it there, or write the address itself"});
 }
 
 TEST(Symbols, StandForAddressesConstantsAndPointers) {
