@@ -100,6 +100,11 @@ std::uint8_t passed_transmits(const Program& program, std::uint32_t number) {
   return 0;
 }
 
+/// What has kept the program from an XMT, after the message that nothing was sent.
+std::string because(const std::optional<TraceReasons::Cause>& kept) {
+  return kept ? ": " + kept->text : " (no XMT was executed)";
+}
+
 }  // namespace
 
 std::string ignored_because(const TraceRecord& record) {
@@ -331,7 +336,7 @@ TraceReasons::Cause TraceReasons::received_again(const Reception& reception, con
   cause.text = fmt::format("{} {}, and RCV in {} waits for the next one{}",
                            in_interrupt_ ? fmt::format("INT {}", begun_.routine) : "the main program",
                            reception.message_open ? "broke the message off" : "took the message", line_of(record.op),
-                           kept ? ": " + kept->text : " (no XMT was executed)");
+                           because(kept));
   return cause;
 }
 
@@ -364,7 +369,7 @@ std::optional<TraceReasons::Unanswered> TraceReasons::taken(const Reception& rec
   const std::optional<Cause> cause = cause_of(frame);
   const std::string text =
       fmt::format("{} took {}, and nothing was sent since{}", all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV",
-                  all.characters == 1 ? "it" : "them", cause ? ": " + cause->text : " (no XMT was executed)");
+                  all.characters == 1 ? "it" : "them", because(cause));
   return Unanswered{all.characters, all.since, frame.last, text, cause, reception.message_open, !frame.attached_anew};
 }
 
