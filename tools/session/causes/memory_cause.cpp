@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "interpreter/trace/statement_text.hpp"
@@ -19,7 +20,7 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::size_t kMostSteps = 5;    // back from a bit to what decided it
+constexpr std::size_t kMostSteps = 8;    // back from a bit to what decided it
 constexpr std::size_t kMostWriters = 3;  // that are named of memory that nobody has written
 constexpr Time kLookedAt = kSecond;      // whether they were executed
 
@@ -50,9 +51,9 @@ class MemoryInquiry {
 
   bool interrupted() const { return interrupted_; }
 
-  /// From where the history stands; the bit that decided it is in `next()`, where the history then stands.
+  /// From where the history stands; the bits that decided it are in `next()`, where the history then stands.
   std::string who(const MemoryRange& range) {
-    next_.reset();
+    next_.clear();
     const WriteSearch search = find_last_write(history_, station_, range, stop_request_);
     interrupted_ |= search.interrupted;
     if (interrupted_) return {};
@@ -66,7 +67,7 @@ class MemoryInquiry {
                        contacts.empty() ? "" : fmt::format(" ({})", contacts));
   }
 
-  const std::optional<MemoryRange>& next() const { return next_; }
+  const std::vector<MemoryRange>& next() const { return next_; }
 
  private:
   serial::Simulation& here() const { return history_.station(station_); }
@@ -83,25 +84,80 @@ class MemoryInquiry {
     return reader.reasons.contacts();
   }
 
-  /// Of the contacts of a rung the first one that let no power through, or of one with power the first one; nothing where
-  /// nothing in the program decides it: an input, special memory, a timer or counter, a comparison.
-  std::optional<MemoryRange> decisive(const std::vector<InstructionRecord>& contacts, const LastWrite& write) const {
-    const bool has_power = contacts.back().top;
-    for (const InstructionRecord& contact : contacts) {
+  /// The bits of the contacts that decided a rung: of contacts in series without power those that have none, of those in
+  /// parallel with power those that have it, otherwise all of them; only what the program itself decides: no input, special
+  /// memory, timer, counter or comparison.
+  std::vector<MemoryRange> decisive(const std::vector<InstructionRecord>& contacts, const LastWrite& write) const {
+    std::vector<MemoryRange> bits;
+    for (const InstructionRecord& contact : rung_decided_by(contacts)) {
       const Op& op = program().ops[contact.op];
-      const std::string_view mnemonic = op.instruction->mnemonic;
-      const bool is_plain = mnemonic == "LD" || mnemonic == "A" || mnemonic == "O";
-      const bool is_negated = mnemonic == "LDN" || mnemonic == "AN" || mnemonic == "ON";
-      if (!(is_plain || is_negated) || !contact.value[0] || op[0].pointer) continue;
-      if ((*contact.value[0] != 0) == is_plain ? !has_power : has_power) continue;
+      if (!is_bit_contact(op) || op[0].pointer || write.by->op == contact.op) continue;
       auto range = range_at(op[0].at, Width::Byte, *program().model);
-      if (!range || !is_of_program(range->area)) return {};
+      if (!range || !is_of_program(range->area)) continue;
       range->width = Width::Bit;
       range->bit = op[0].bit;
-      if (write.by->op == contact.op) return {};
-      return range;
+      if (std::ranges::none_of(bits, [&](const MemoryRange& bit) { return bit.at == range->at && bit.bit == range->bit; }))
+        bits.push_back(*range);
     }
-    return {};
+    return bits;
+  }
+
+  static bool is_bit_contact(const Op& op) {
+    constexpr std::string_view kBitContacts[] = {"LD", "LDN", "A", "AN", "O", "ON"};
+    return std::ranges::find(kBitContacts, op.instruction->mnemonic) != std::end(kBitContacts);
+  }
+
+  /// A part of a rung: whether it has power, and the contacts that are the reason.
+  struct Branch {
+    bool power = false;
+    std::vector<InstructionRecord> because{};
+  };
+
+  static Branch joined(Branch a, Branch b, bool in_series) {
+    if (a.power != b.power) return a.power == in_series ? std::move(b) : std::move(a);
+    a.because.insert(a.because.end(), b.because.begin(), b.because.end());
+    return a;
+  }
+
+  std::vector<InstructionRecord> rung_decided_by(const std::vector<InstructionRecord>& contacts) const {
+    std::vector<Branch> stack{};
+    const auto pop = [&] {
+      Branch last = std::move(stack.back());
+      stack.pop_back();
+      return last;
+    };
+    for (const InstructionRecord& contact : contacts) {
+      const std::string_view mnemonic = program().ops[contact.op].instruction->mnemonic;
+      const bool joins = mnemonic == "ALD" || mnemonic == "OLD";
+      if (joins && stack.size() >= 2) {
+        Branch below = pop();
+        stack.push_back(joined(pop(), std::move(below), mnemonic == "ALD"));
+      } else if (mnemonic == "LPS" && !stack.empty()) {
+        stack.push_back(stack.back());
+      } else if (mnemonic == "LRD" && stack.size() >= 2) {
+        stack.back() = stack[stack.size() - 2];
+      } else if (mnemonic == "LPP" && !stack.empty()) {
+        stack.pop_back();
+      } else if (mnemonic == "NOT" && !stack.empty()) {
+        stack.back().power = !stack.back().power;
+      } else if (mnemonic.starts_with("LD") || stack.empty()) {
+        stack.push_back({contact.top, {contact}});
+      } else if (mnemonic.starts_with("A") || mnemonic.starts_with("O")) {
+        const bool in_series = mnemonic.starts_with("A");
+        const bool power = power_of(contact).value_or(stack.back().power == in_series ? contact.top : in_series);
+        stack.push_back(joined(pop(), {power, {contact}}, in_series));
+      } else {
+        stack.back().power = contact.top;
+      }
+    }
+    return stack.empty() ? std::vector<InstructionRecord>{} : stack.back().because;
+  }
+
+  /// Whether a contact of a bit lets power through, whatever is in front of it.
+  std::optional<bool> power_of(const InstructionRecord& contact) const {
+    const Op& op = program().ops[contact.op];
+    if (!is_bit_contact(op) || !contact.value[0]) return {};
+    return (*contact.value[0] != 0) != op.instruction->mnemonic.ends_with('N');
   }
 
   static bool is_of_program(Area area) { return area == Area::Q || area == Area::M || area == Area::V || area == Area::S; }
@@ -146,7 +202,13 @@ class MemoryInquiry {
   std::size_t station_;
   const std::atomic<bool>* stop_request_;
   bool interrupted_ = false;
-  std::optional<MemoryRange> next_{};
+  std::vector<MemoryRange> next_{};
+};
+
+/// A bit that decided another, and when.
+struct Step {
+  MemoryRange bit;
+  Moment at;
 };
 
 std::string value_of(const Cpu& cpu, const MemoryRange& range) {
@@ -165,11 +227,27 @@ std::optional<std::vector<std::string>> memory_cause(History& history, std::size
   const Moment start = history.now();
   MemoryInquiry inquiry(history, station, stop_request);
   std::vector<std::string> lines{inquiry.who(range)};
-  while (!inquiry.interrupted() && inquiry.next() && lines.size() < kMostSteps) {
-    const MemoryRange bit = *inquiry.next();
+  std::vector<Step> steps;  // the next one last
+  const auto add_steps = [&] {
+    for (auto bit = inquiry.next().rbegin(); bit != inquiry.next().rend(); ++bit) steps.push_back({*bit, history.now()});
+  };
+  add_steps();
+  const auto name = [&](const Step& step) {
+    history.go_to(step.at);
     const Cpu& cpu = history.station(station).cpu();
-    const std::string name = fmt::format("{} was {}", named(cpu.program(), bit), value_of(cpu, bit));
-    lines.push_back(fmt::format("{}: {}", name, inquiry.who(bit)));
+    return fmt::format("{} was {}", named(cpu.program(), step.bit), value_of(cpu, step.bit));
+  };
+  while (!inquiry.interrupted() && !steps.empty() && lines.size() < kMostSteps) {
+    const Step step = steps.back();
+    steps.pop_back();
+    const std::string was = name(step);
+    lines.push_back(fmt::format("{}: {}", was, inquiry.who(step.bit)));
+    add_steps();
+  }
+  if (lines.size() > 1 && !steps.empty()) {
+    std::vector<std::string> others;
+    std::transform(steps.rbegin(), steps.rend(), std::back_inserter(others), name);
+    lines.push_back(fmt::format("{}: not followed further back", fmt::join(others, ", ")));
   }
   history.go_to(start);
   if (inquiry.interrupted()) return {};
