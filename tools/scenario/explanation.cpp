@@ -1,5 +1,7 @@
 #include "tools/scenario/explanation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -9,6 +11,7 @@
 #include "tools/session/causes/latency_cause.hpp"
 #include "tools/session/causes/memory_cause.hpp"
 #include "tools/session/causes/unanswered_causes.hpp"
+#include "tools/session/past/journal.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -17,6 +20,16 @@ bool is_about_an_answer(const Finding& finding) { return finding.exchange && !fi
 
 bool is_about_a_time(const Finding& finding) {
   return finding.what == "latency" && finding.exchange && !finding.exchange->response.empty();
+}
+
+bool can_have_a_cause(const Finding& finding) {
+  return finding.memory || is_about_a_time(finding) || is_about_an_answer(finding);
+}
+
+/// A run is written down up to so many requests and changes, so what was found later has no place in it.
+bool is_after_the_journal(const Finding& finding, const std::vector<Recording>& recordings) {
+  const auto is_full = [](const Recording& run) { return run.actions.size() >= Journal::kMostActions; };
+  return !finding.place && can_have_a_cause(finding) && std::ranges::any_of(recordings, is_full);
 }
 
 /// Nothing after an interruption.
@@ -32,6 +45,11 @@ std::optional<std::vector<std::string>> reasons_of(History& history, Time timeou
 
 void explain(const Scenario& scenario, const std::shared_ptr<const Program>& program, ScenarioResult& result) {
   const std::size_t shown = std::min(kFindingsShown, result.findings.size());
+  for (std::size_t i = 0; i < shown; ++i)
+    if (is_after_the_journal(result.findings[i], result.recordings))
+      result.findings[i].why = {fmt::format("the cause is not known: it came after the first {} requests and changes of the "
+                                            "run, and only these are written down",
+                                            Journal::kMostActions)};
   for (std::size_t power_up = 0; power_up < result.recordings.size() && !interrupted(); ++power_up) {
     const auto is_here = [&](const Finding& finding) { return finding.place && finding.place->power_up == power_up; };
     if (std::none_of(result.findings.begin(), result.findings.begin() + static_cast<std::ptrdiff_t>(shown), is_here))

@@ -92,6 +92,36 @@ TEST(Explanation, MemoryGoesBackToTheInputThatDecidedIt) {
   EXPECT_TRUE(has(failed.lines(), " by = M0.0 in line 2 (LD I0.3: I0.3=0)\n"));
 }
 
+TEST(Explanation, MemoryGoesBackToEachContactThatHoldsItOff) {
+  const auto program = program_of("LD I0.1\n= M0.0\nLD I0.2\n= M0.1\nLD SM0.0\n= M0.2\nLD I0.3\n= M0.3\n"
+                                  "LD M0.0\nO M0.1\nA M0.2\n= Q0.1\n"      // neither M0.0 nor M0.1
+                                  "LD M0.0\nO M0.2\nAN M0.1\nA M0.3\n= Q0.2\n"  // M0.3 alone, whatever M0.0 is
+                                  "LD M0.0\nA M0.2\nLD M0.1\nA M0.2\nOLD\n= Q0.3\nMEND\n");
+  const auto lines = [&](const std::string& bit) {
+    return Failed("  - wait: 20ms\n  - memory: {" + bit + ": 1}\n", program).lines();
+  };
+  EXPECT_TRUE(has(lines("Q0.1"), "M0.0 was 0: ") && has(lines("Q0.1"), "M0.1 was 0: ")) << lines("Q0.1");
+  EXPECT_FALSE(has(lines("Q0.1"), "M0.2 was ")) << lines("Q0.1");
+  EXPECT_TRUE(has(lines("Q0.2"), "M0.3 was 0: ")) << lines("Q0.2");
+  EXPECT_FALSE(has(lines("Q0.2"), "M0.0 was ") || has(lines("Q0.2"), "M0.1 was ")) << lines("Q0.2");
+  EXPECT_TRUE(has(lines("Q0.3"), "M0.0 was 0: ") && has(lines("Q0.3"), "M0.1 was 0: ")) << lines("Q0.3");
+  EXPECT_FALSE(has(lines("Q0.3"), "M0.2 was ")) << lines("Q0.3");
+}
+
+TEST(Explanation, MemoryThatIsOnGoesBackToTheBranchWithPower) {
+  const auto program = program_of("LD SM0.0\n= M0.1\nLD I0.0\n= M0.0\nLD M0.0\nO M0.1\n= Q0.1\nMEND\n");
+  const Failed failed("  - wait: 20ms\n  - memory: {Q0.1: 0}\n", program);
+  EXPECT_TRUE(has(failed.lines(), "M0.1 was 1: ")) << failed.lines();
+  EXPECT_FALSE(has(failed.lines(), "M0.0 was ")) << failed.lines();
+}
+
+TEST(Explanation, WhatCameAfterTheJournalIsSaidToHaveNoKnownCause) {
+  std::string steps = "  - repeat: 1001\n    steps:\n      - set: {VB0: 1}\n";
+  const Failed failed(steps + "  - memory: {VB9: 1}\n", program_of("LD SM0.0\nMEND\n"));
+  EXPECT_TRUE(has(failed.lines(), "VB9 is 0, expected 1; the cause is not known: it came after the first 1000 requests"))
+      << failed.lines();
+}
+
 TEST(Explanation, MemoryThatNoInstructionWritesIsSaidToBeSo) {
   const auto program = program_of("LD SM0.0\nMEND\n");
   const Failed failed("  - wait: 20ms\n  - memory: {VB9: 1}\n", program);
