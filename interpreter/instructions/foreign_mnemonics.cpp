@@ -25,6 +25,7 @@ constexpr std::string_view kMitsubishi = "a mnemonic of Mitsubishi controllers";
 constexpr std::string_view kOther = "a mnemonic of other controllers";
 constexpr std::string_view kContact = "a contact of the ladder editor";
 constexpr std::string_view kBox = "a box of the ladder editor";
+constexpr std::string_view kHeading = "the heading of a network in another language";
 constexpr std::string_view kSmart = "an instruction of the S7-200 SMART";
 constexpr std::string_view kAsCpu226 =
     "a program for the SMART runs here as CPU 226 as far as it goes; what GET and PUT do there, NETR and NETW do on a 226";
@@ -125,6 +126,13 @@ constexpr Row kRows[] = {
 
     {"P",        kContact, "write EU after the contacts before it"},
     {"N",        kContact, "write ED after the contacts before it"},
+    {"CMP_B",    kBox,     "write LDB, AB or OB with =, <>, >=, <=, > or <: LDB>= IN1, IN2"},
+    {"CMP_I",    kBox,     "write LDW, AW or OW with =, <>, >=, <=, > or <: LDW>= IN1, IN2"},
+    {"CMP_DI",   kBox,     "write LDD, AD or OD with =, <>, >=, <=, > or <: LDD>= IN1, IN2"},
+    {"CMP_R",    kBox,     "write LDR, AR or OR with =, <>, >=, <=, > or <: LDR>= IN1, IN2"},
+    {"RESEAU",   kHeading, "write NETWORK"},
+    {"RETE",     kHeading, "write NETWORK"},
+    {"RED",      kHeading, "write NETWORK"},
     {"SR",       kBox,     "write R BIT, 1 for its reset input, then S BIT, 1 for its set input: the last has priority"},
     {"RS",       kBox,     "write S BIT, 1 for its set input, then R BIT, 1 for its reset input: the last has priority"},
     {"CLR_EVNT", kBox,     "its instruction, CEVNT, is not modelled"},

@@ -340,6 +340,12 @@ std::string describe(std::string_view rest) {
   return code < 0x7F ? fmt::format("'{}'", written) : fmt::format("'{}' (U+{:04X})", written, code);
 }
 
+/// `ms` or `s`, as in 100ms.
+bool is_time_unit(std::string_view rest) {
+  const std::string unit = lower_case(rest.substr(0, rest.find_first_of(" \t,;/")));
+  return unit == "ms" || unit == "s";
+}
+
 std::string hint_for(const std::string& expected, std::string_view rest) {
   if (!rest.empty()) {
     const char32_t code = first_character(rest).code;
@@ -349,7 +355,11 @@ std::string hint_for(const std::string& expected, std::string_view rest) {
   if (expected == "a bit number") return "a bit is written V10.3; a timer or counter is itself a bit, T37 or C5";
   if (expected == "a mnemonic") return "a line is a mnemonic and its operands; a comment begins with //";
   if (expected == "an operand") return "an operand is an address (VB100), a constant (65, 16#FF) or a pointer (*VD100)";
+  if (expected == "the end of the constant" && is_time_unit(rest))
+    return "the preset of a timer is a number of its steps: 100 ms are 10 of a timer of 10 ms, 1 of one of 100 ms";
   if (expected == "the end of the constant") return "constants are written 65, 16#FF, 2#1010, 1.5 or 'AB'";
+  if (expected == "the end of the line" && (rest.starts_with('<') || rest.starts_with('>') || rest.starts_with("==")))
+    return "a comparison is one word: LDW>= VW0, 5, AB= VB0, 1, OD< VD0, VD4";
   if (expected == "the end of the line") return "operands are separated by commas or blanks; a comment begins with //";
   return {};
 }

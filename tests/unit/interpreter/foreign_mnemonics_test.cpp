@@ -29,6 +29,8 @@ TEST(ForeignMnemonics, HintsNameWhatDoesTheSame) {
                                        {"JMPCN", "write NOT, then JMP"},
                                        {"P", "write EU after the contacts before it"},
                                        {"N", "write ED after the contacts before it"},
+                                       {"RESEAU", "write NETWORK"},
+                                       {"CMP_I", "write LDW, AW or OW with =, <>, >=, <=, > or <: LDW>= IN1, IN2"},
                                        {"SF", "write TOF"},
                                        {"DMOV", "write MOVD"},
                                        {"UN", "write AN"}}) {

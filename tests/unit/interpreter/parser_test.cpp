@@ -178,6 +178,17 @@ TEST(Parser, ABitNumberIsOnlyForBytes) {
   EXPECT_EQ(error("LD T37.Q").hint, "a bit is written V10.3; a timer or counter is itself a bit, T37 or C5");
 }
 
+TEST(Parser, TheTimeOfAPresetIsANumberOfSteps) {
+  const std::string steps = "the preset of a timer is a number of its steps: 100 ms are 10 of a timer of 10 ms, 1 of one of 100 ms";
+  EXPECT_EQ(error("TON T37, 100ms").hint, steps);
+  EXPECT_EQ(error("TON T37, 5s // later").hint, steps);
+  EXPECT_EQ(error("MOVW 65x, VW0").hint, "constants are written 65, 16#FF, 2#1010, 1.5 or 'AB'");
+}
+
+TEST(Parser, AComparisonIsOneWord) {
+  EXPECT_EQ(error("CMP_I >= VW20, 5").hint, "a comparison is one word: LDW>= VW0, 5, AB= VB0, 1, OD< VD0, VD4");
+}
+
 TEST(Parser, TheBitOfAWordIsThatOfItsByte) {
   EXPECT_EQ(error("LD VB10.3").hint, "its bit 3 is V10.3");
   EXPECT_EQ(error("LD VW10.3").hint, "its bit 3 is V11.3");
