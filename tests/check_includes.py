@@ -16,7 +16,7 @@ SERIAL_SIM = ["serial_sim/line", "serial_sim/faults", "serial_sim/peers", "seria
               "serial_sim/westinghouse", "serial_sim/field", "serial_sim/system", "serial_sim/record"]
 CORE = INTERPRETER + SERIAL_SIM
 SESSION = ["tools/session/past", "tools/session/causes"]
-COMMANDS = SESSION + ["tools/session/stops", "tools/session/observers", "tools/session/commands"]
+COMMANDS = SESSION + ["tools/session/words", "tools/session/stops", "tools/session/observers", "tools/session/commands"]
 
 ROOMS = {
     "interpreter/base": [],
@@ -44,16 +44,18 @@ ROOMS = {
     "tools/rig": CORE + ["tools/host", "tools/views", "tools/record", "tools/yaml", "tools/json"],
     "tools/session/past": CORE + ["tools/views", "tools/rig"],
     "tools/session/causes": CORE + ["tools/views", "tools/rig", "tools/session/past"],
-    "tools/session/stops": CORE + ["tools/views", "tools/rig"] + SESSION,
-    "tools/session/observers": CORE + ["tools/views", "tools/rig"] + COMMANDS[:3],
-    "tools/session/commands": CORE + ["tools/views", "tools/json", "tools/rig"] + COMMANDS[:4],
+    "tools/session/words": CORE + ["tools/views", "tools/rig"] + SESSION,
+    "tools/session/stops": CORE + ["tools/views", "tools/rig"] + COMMANDS[:3],
+    "tools/session/observers": CORE + ["tools/views", "tools/rig"] + SESSION,
+    "tools/session/commands": CORE + ["tools/views", "tools/json", "tools/rig"] + COMMANDS,
     "tools/slave": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/bridge": CORE + ["tools/host", "tools/views", "tools/rig"],
     "tools/master": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/rig", "tools/slave"],
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/measuring", "tools/yaml", "tools/rig", "tools/slave"] + SESSION,
     "tools/recordings": CORE + ["tools/views", "tools/json", "tools/scenario"],
-    "tools/debugger": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig"] + COMMANDS,
+    "tools/faces/files": ["interpreter/base", "tools/host", "tools/session/commands"],
+    "tools/faces/console": CORE + ["tools/host", "tools/views", "tools/rig"] + COMMANDS,
     "tools/faces/dap": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig"] + COMMANDS,
 }
 ROOMS["tools/command"] = list(ROOMS)

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 
 #include "tools/command/commands.hpp"
@@ -33,12 +34,16 @@ int run_dap(const CLI::App& verb, const DapOptions& options) {
   int exit_code = kFine;
   LaunchLimits limits{.programs = options.debuggee->program.parts, .may_open = {}};
   if (!options.debuggee->program.path.empty()) limits.programs.push_back(options.debuggee->program.path);
-  if (!options.listen.empty()) limits.may_open = options.allowed;
+  if (!options.listen.empty()) {
+    limits.may_open = options.allowed;
+    limits.may_use_files = std::ranges::find(options.allowed, kFilesOfCommands) != options.allowed.end();
+  }
   dap::SessionSettings settings{
       .launch = [&](const dap::Json& arguments) { return launch_debuggee(arguments, limits, stop_request); },
       .stop_request = &stop_request};
   if (!options.debuggee->program.path.empty()) {
-    settings.attachable = make_debuggee(verb, options.debuggee, stop_request, exit_code);
+    settings.attachable =
+        make_debuggee(verb, options.debuggee, stop_request, exit_code, {.may_use_files = limits.may_use_files});
     if (!settings.attachable) return exit_code;
   }
   if (!options.listen.empty()) {

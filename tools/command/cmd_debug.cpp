@@ -14,7 +14,8 @@
 #include "tools/command/options/debug_options.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/debugger/debugger.hpp"
+#include "tools/faces/console/prompt.hpp"
+#include "tools/faces/files/host_files.hpp"
 #include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 
@@ -52,7 +53,10 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
     if (!live.start(why)) return print_error(why), kUnusable;
     if (live.has_bridges()) print_note(kMastersWait);
     print_note_if_any(options.rig.note_on_first_station());
-    Debugger debugger(options.rig.stations(*rig), std::cout, session_options(options, *rig, live, pause));
+    const HostFiles files(rig->files());
+    PromptSettings settings = prompt_settings(session_setup(options, *rig, live, &files), &pause);
+    settings.history = live.history();
+    Prompt debugger(options.rig.stations(*rig), std::cout, settings);
     good = run_commands(debugger, *script, options);
     expectation_failed = !good && debugger.expectation_failed();
     good &= live.failure().empty();

@@ -46,11 +46,11 @@ std::optional<std::string> typed_line() {
 }
 
 /// The layout: while it is wanted, it is shown whenever the terminal has room for it.
-class View {
+class LayoutScreen {
  public:
-  explicit View(Debugger& debugger) : debugger_(debugger) {}
+  explicit LayoutScreen(Prompt& debugger) : debugger_(debugger) {}
 
-  Debugger::Error turn(bool on) {
+  Prompt::Error turn(bool on) {
     std::string why;
     if (!on) screen_.switch_off();
     if (on && !screen_.on() && !screen_.switch_on(why)) return why;
@@ -74,19 +74,19 @@ class View {
   }
 
  private:
-  Debugger& debugger_;
+  Prompt& debugger_;
   Screen screen_{{.name = "layout", .fewest_columns = 80, .fewest_rows = 24, .view = [](int, int) { return kLayoutRows; }}};
   bool wanted_ = false;
 };
 
 }  // namespace
 
-void talk(Debugger& debugger) {
-  LineEditor editor(Debugger::kPrompt, "debug_history", [&debugger](std::string_view before) {
+void talk(Prompt& debugger) {
+  LineEditor editor(Prompt::kText, "debug_history", [&debugger](std::string_view before) {
     auto [word, candidates] = debugger.completions(before);
     return Completions{word, std::move(candidates)};
   });
-  View view(debugger);
+  LayoutScreen view(debugger);
   auto drawn = std::chrono::steady_clock::now();
   const auto refresh = [&] {
     const auto now = std::chrono::steady_clock::now();

@@ -13,11 +13,13 @@
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"
+#include "tools/command/debug_session.hpp"
 #include "tools/command/debuggee_run.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/usage.hpp"
+#include "tools/faces/files/host_files.hpp"
 #include "tools/json/json.hpp"
 #include "tools/rig/bridge_kinds.hpp"
 #include "tools/views/faults.hpp"
@@ -31,10 +33,11 @@ using dap::Json;
 class RigDebuggee final : public dap::Debuggee {
  public:
   RigDebuggee(std::shared_ptr<DebuggeeOptions> options, std::unique_ptr<Rig> rig, SystemBridges bridges,
-              const std::atomic<bool>& stop_request)
+              const std::atomic<bool>& stop_request, bool may_use_files)
       : options_(std::move(options)),
         rig_(std::move(rig)),
-        stations_(options_->rig.named_stations(options_->master)),
+        files_(rig_->files()),
+        may_use_files_(may_use_files),
         live_(*rig_, *options_, std::move(bridges),
               {[this](const std::string& text) { say_(text); }, [this](const std::string& text) { say_(text); }},
               &stop_request) {}
@@ -51,14 +54,7 @@ class RigDebuggee final : public dap::Debuggee {
     return options_->rig.plan() ? options_->program.path : rig_->plan().plcs.front().program->source.name;
   }
   History& history() override { return *history_; }
-  std::shared_ptr<const Program> program(std::size_t station) const override { return rig_->plan().plcs[station].program; }
-  std::string name(std::size_t station) const override { return rig_->plan().plcs[station].name; }
-  std::size_t first_station() const override { return options_->rig.first_station(); }
-  const serial::MasterSettings& master(std::size_t station) const override {
-    return stations_.empty() ? options_->master : stations_[station].master;
-  }
-  std::string recorded_files() const override { return options_->rig.recorded_files(); }
-  std::string take_failure() override { return live_.take_failure(); }
+  SessionSetup setup() override { return session_setup(*options_, *rig_, live_, may_use_files_ ? &files_ : nullptr); }
 
   void when_saying(std::function<void(const std::string&)> say) override {
     say_ = std::move(say);
@@ -78,7 +74,8 @@ class RigDebuggee final : public dap::Debuggee {
   std::function<void(const std::string&)> say_ = [this](const std::string& text) { unsaid_.push_back(text); };
   std::shared_ptr<DebuggeeOptions> options_;
   std::unique_ptr<Rig> rig_;
-  std::vector<RigOptions::Station> stations_;
+  HostFiles files_;  ///< for commands
+  bool may_use_files_;
   DebuggeeRun live_;
   std::optional<History> history_;  ///< from start() on
 };
@@ -221,7 +218,8 @@ std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_pt
   if (!has_room_for_bridge(*options, *rig)) return nullptr;
   rig->power_up();
   rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
-  auto debuggee = std::make_shared<RigDebuggee>(std::move(options), std::move(rig), std::move(*bridges), stop_request);
+  auto debuggee = std::make_shared<RigDebuggee>(std::move(options), std::move(rig), std::move(*bridges), stop_request,
+                                                limits.may_use_files);
   if (std::string why; !debuggee->start(why)) {
     print_error(why);
     return nullptr;
@@ -233,6 +231,7 @@ std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_pt
 std::vector<std::string> writing_attributes() {
   std::vector<std::string> names{"trace", "output", "memory", "capture"};
   for (const BridgeRow& row : kBridges) names.emplace_back(row.word());
+  names.emplace_back(kFilesOfCommands);
   return names;
 }
 

@@ -16,6 +16,7 @@ namespace s7200::tools {
 struct LaunchLimits {
   std::vector<std::string> programs{};                 ///< the only files that it may run; empty: any
   std::optional<std::vector<std::string>> may_open{};  ///< of writing_attributes() those that it may have; nothing: all
+  bool may_use_files = true;                           ///< commands of the console read and write files
 };
 
 /// Null after messages, and `exit_code` says how to end. The options have to live as long; `stop_request` ends its runs.
@@ -24,7 +25,11 @@ std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_pt
                                              const std::atomic<bool>& stop_request, int& exit_code,
                                              const LaunchLimits& limits = {});
 
-/// The attributes by which a launch writes files, or opens ports, ptys and devices: as options without their dashes.
+/// What lets commands of the console read and write files: `save`, `load`, `record`.
+inline constexpr std::string_view kFilesOfCommands = "files";
+
+/// The attributes by which a launch writes files, or opens ports, ptys and devices: as options without their dashes; and
+/// kFilesOfCommands.
 std::vector<std::string> writing_attributes();
 
 /// What is wrong with a word that is to be one of them, or empty.

@@ -11,10 +11,12 @@
 
 #include "interpreter/base/text.hpp"
 #include "tools/command/debug_script.hpp"
+#include "tools/command/debug_session.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/test_output.hpp"
-#include "tools/debugger/debugger.hpp"
+#include "tools/faces/console/prompt.hpp"
+#include "tools/faces/files/host_files.hpp"
 #include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/scenario/benches.hpp"
@@ -102,13 +104,14 @@ std::string heading(const Opened& one) {
 int debug(const Opened& one, const std::string& script, const DebugOptions& options) {
   const PlaceInRun place = place_of(one.result);
   const std::unique_ptr<Plant> plant = new_plant(*one.scenario, one.program);
-  Debugger debugger(plant->stations(), std::cout,
-                    {.master = one.scenario->line,
-                     .stations = debugged_stations(*one.scenario),
-                     .station = station_of(one.result),
-                     .stop_request = &interruption(),
-                     .history = plant->history_settings(),
-                     .colour = colour_wanted(stdout)});
+  const HostFiles files;
+  PromptSettings settings = prompt_settings({.master = one.scenario->line,
+                                             .stations = debugged_stations(*one.scenario),
+                                             .station = station_of(one.result),
+                                             .files = &files},
+                                            nullptr);
+  settings.history = plant->history_settings();
+  Prompt debugger(plant->stations(), std::cout, settings);
   if (!debugger.open(one.result.recordings[place.power_up], place.moment, failed_memory(one.result)))
     return print_error("the scenario does not run the same way in the debugger; 'test' shows what it found"), kUnusable;
   fmt::print("{}", heading(one));

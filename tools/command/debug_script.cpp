@@ -13,7 +13,7 @@ namespace s7200::tools {
 namespace {
 
 /// False after a message for a wrong command.
-bool run_script(Debugger& debugger, std::istream& in, std::string_view name, bool is_whole = true) {
+bool run_script(Prompt& debugger, std::istream& in, std::string_view name, bool is_whole = true) {
   if (constexpr int kByteOrderMark = 0xEF; in.peek() == kByteOrderMark) in.ignore(3);
   const auto error = debugger.run_script(in, is_whole);
   if (error) print_error(fmt::format("{}:{}: {}", name, error->line, error->message));
@@ -21,7 +21,7 @@ bool run_script(Debugger& debugger, std::istream& in, std::string_view name, boo
 }
 
 /// The commands of the command line; false when one is wrong.
-bool run_given(Debugger& debugger, const std::string& script, const DebugOptions& options) {
+bool run_given(Prompt& debugger, const std::string& script, const DebugOptions& options) {
   std::istringstream file(script);
   if (!options.commands_file.empty() && !run_script(debugger, file, options.commands_file)) return false;
   std::string given;
@@ -32,7 +32,7 @@ bool run_given(Debugger& debugger, const std::string& script, const DebugOptions
 
 }  // namespace
 
-bool run_commands(Debugger& debugger, const std::string& script, const DebugOptions& options) {
+bool run_commands(Prompt& debugger, const std::string& script, const DebugOptions& options) {
   const bool terminal = isatty(STDIN_FILENO) != 0;
   if (!options.given() && terminal) std::cout << "'help' lists the commands.\n";
   debugger.show_place();

@@ -4,12 +4,12 @@
 #include <string>
 
 #include "tools/command/options/debug_options.hpp"
-#include "tools/debugger/debugger.hpp"
+#include "tools/faces/console/prompt.hpp"
 
 namespace s7200::tools {
 
 /// Executes the text of --commands, the commands of -x, and standard input, as far as they are wanted. Returns false after a
 /// message for a wrong command.
-bool run_commands(Debugger& debugger, const std::string& script, const DebugOptions& options);
+bool run_commands(Prompt& debugger, const std::string& script, const DebugOptions& options);
 
 }  // namespace s7200::tools

@@ -241,29 +241,33 @@ void show_progress(std::string_view text) {
 
 }  // namespace
 
-DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, DebuggeeRun& live, std::atomic<bool>& pause) {
+SessionSetup session_setup(const DebuggeeOptions& options, const Rig& rig, DebuggeeRun& live, const SessionFiles* files) {
   std::vector<DebuggedStation> stations;
   for (const RigOptions::Station& station : options.rig.named_stations(options.master))
     stations.push_back({station.name, station.master});
   return {.master = options.master,
           .stations = std::move(stations),
           .station = options.rig.first_station(),
-          .stop_request = &interruption(),
-          .history = live.history(),
           .take_failure = [&live] { return live.take_failure(); },
-          .pause = &pause,
-          .files = options.rig.recorded_files(),
-          .colour = colour_wanted(stdout),
-          .width = output_width(),
-          .progress = can_redraw(stderr) ? show_progress : std::function<void(std::string_view)>(),
-          .written = rig.files(),
-          .conditions = conditions(options.rig.settings(), rig.plan().plcs.front()),
-          .write_scenario = [&options](const SessionRecord& record, const Destination& to,
+          .records = options.rig.recorded_files(),
+          .files = files,
+          .options = conditions(options.rig.settings(), rig.plan().plcs.front()),
+          .write_scenario = [&options](const SessionRecord& record, const FilePlace& to,
                                        std::string& why) -> std::optional<std::vector<std::string>> {
             auto steps = steps_of(record, options.rig.named_stations(options.master), why);
             if (!steps || !write_session_scenario(options, options.rig.program(), *steps, to, why)) return {};
             return steps->left_out;
           }};
+}
+
+PromptSettings prompt_settings(SessionSetup setup, std::atomic<bool>* pause) {
+  setup.stop_request = &interruption();
+  setup.interruption = [] { return std::string(interruption_text()); };
+  setup.width = output_width();
+  return {.session = std::move(setup),
+          .pause = pause,
+          .colour = colour_wanted(stdout),
+          .progress = can_redraw(stderr) ? show_progress : std::function<void(std::string_view)>()};
 }
 
 }  // namespace s7200::tools

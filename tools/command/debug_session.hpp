@@ -1,16 +1,18 @@
-// A session of the debugger as the verb begins it.
+// A session as the verbs `debug` and `dap` begin it.
 #pragma once
 
 #include <atomic>
-#include <memory>
 
 #include "tools/command/debuggee_run.hpp"
 #include "tools/command/options/debug_options.hpp"
-#include "tools/debugger/debugger.hpp"
+#include "tools/faces/console/prompt.hpp"
 
 namespace s7200::tools {
 
-/// All that is given must live as long as the session. `pause` is what stops `live`, too.
-DebuggerOptions session_options(const DebugOptions& options, const Rig& rig, DebuggeeRun& live, std::atomic<bool>& pause);
+/// All that is given must live as long as the session. `files`: that its commands read and write; null for none.
+SessionSetup session_setup(const DebuggeeOptions& options, const Rig& rig, DebuggeeRun& live, const SessionFiles* files);
+
+/// With the terminal, and what ends the command. `pause` is what stops a run with the clock, too; null if nothing does.
+PromptSettings prompt_settings(SessionSetup setup, std::atomic<bool>* pause);
 
 }  // namespace s7200::tools

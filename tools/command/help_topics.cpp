@@ -11,7 +11,7 @@
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/warnings.hpp"
-#include "tools/debugger/debugger.hpp"
+#include "tools/session/commands/command_table.hpp"
 #include "tools/master/protocol.hpp"
 #include "tools/recordings/recording.hpp"
 #include "tools/rig/bridge_kinds.hpp"
@@ -180,7 +180,7 @@ std::string westinghouse() {
 
 constexpr std::array kTopics{
     HelpTopic{"bridges", "what joins the line to masters outside", bridges},
-    HelpTopic{"debugger", "the commands of 's7200 debug'", Debugger::commands_help},
+    HelpTopic{"debugger", "the commands of 's7200 debug'", commands_help},
     HelpTopic{"faults", "faults of the line and their parameters", faults},
     HelpTopic{"files", "inputs, outputs, memory, traces and captures", files},
     HelpTopic{"keys", "what a system file and a scenario may contain", keys},

@@ -125,7 +125,7 @@ constexpr std::string_view kNothingExpected =
 constexpr Time kTolerance = 5 * kMillisecond;
 
 /// What options have asked for that a scenario has no word for.
-std::string_view without_a_key(const DebugOptions& options) {
+std::string_view without_a_key(const DebuggeeOptions& options) {
   if (!options.rig.settings().memory.path.empty()) return "it began with the memory of --memory";
   return {};
 }
@@ -147,7 +147,7 @@ std::string repairs_text(const Repairs& repairs) {
 
 /// What is recorded, and where it came from.
 struct SessionSource {
-  const DebugOptions& options;
+  const DebuggeeOptions& options;
   const std::shared_ptr<const Program>& program;
   const SessionSteps& session;
 
@@ -257,8 +257,8 @@ std::string why_it_fails(const std::string& text, const std::string& path, const
 
 }  // namespace
 
-bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
-                            SessionSteps& session, const Destination& to, std::string& why) {
+bool write_session_scenario(const DebuggeeOptions& options, const std::shared_ptr<const Program>& program,
+                            SessionSteps& session, const FilePlace& to, std::string& why) {
   why = expects_something(session) ? without_a_key(options) : kNothingExpected;
   if (!why.empty()) return false;
   add_faults(session, options.rig.settings().faults);
@@ -282,7 +282,7 @@ bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<c
     text = steps;
     why.clear();
   }
-  return why.empty() && write_result(to, text, why);
+  return why.empty() && to.write(text, why);
 }
 
 }  // namespace s7200::tools

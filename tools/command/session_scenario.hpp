@@ -8,7 +8,7 @@
 
 #include "serial_sim/peers/requester.hpp"
 #include "tools/command/options/debug_options.hpp"
-#include "tools/host/written_files.hpp"
+#include "tools/session/commands/session_files.hpp"
 
 namespace s7200::tools {
 
@@ -59,7 +59,7 @@ struct SessionSteps {
 
 /// Writes it: of a system file if the program of the options is one. What comes too late, because steps come one after the
 /// other, is left out too. False, and why not, if it cannot be written, or if it would not run as the session did.
-bool write_session_scenario(const DebugOptions& options, const std::shared_ptr<const Program>& program,
-                            SessionSteps& session, const Destination& to, std::string& why);
+bool write_session_scenario(const DebuggeeOptions& options, const std::shared_ptr<const Program>& program,
+                            SessionSteps& session, const FilePlace& to, std::string& why);
 
 }  // namespace s7200::tools

@@ -25,12 +25,9 @@ class BareDebuggee final : public Debuggee {
   serial::Simulation& simulation() { return *simulation_; }
   std::string source() const override { return program_->source.name; }
   History& history() override { return *history_; }
-  std::shared_ptr<const Program> program(std::size_t) const override { return program_; }
-  std::string name(std::size_t) const override { return {}; }
-  std::size_t first_station() const override { return 0; }
-  const serial::MasterSettings& master(std::size_t) const override { return master_; }
-  std::string recorded_files() const override { return {}; }
-  std::string take_failure() override { return std::exchange(failure_text, {}); }
+  SessionSetup setup() override {
+    return {.take_failure = [this] { return std::exchange(failure_text, {}); }};
+  }
   void when_saying(std::function<void(const std::string&)>) override {}
   std::vector<std::string> finish() override {
     ++finished;
@@ -43,7 +40,6 @@ class BareDebuggee final : public Debuggee {
  private:
   std::shared_ptr<const Program> program_;
   std::unique_ptr<serial::Simulation> simulation_;
-  serial::MasterSettings master_{};
   std::unique_ptr<History> history_;
 };
 

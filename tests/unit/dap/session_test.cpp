@@ -1,9 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/dap/editor.hpp"
 #include "tools/faces/dap/base64.hpp"
+#include "tools/session/commands/command_table.hpp"
 
 namespace s7200::tools::dap {
 namespace {
@@ -70,7 +73,7 @@ TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   EXPECT_EQ(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}), "memoryReference: 5 is not a text");
   EXPECT_EQ(editor.breakpoint({{"line", -3}})["message"], "there is no line -3: lines are counted from 1");
   EXPECT_TRUE(has(editor.error_of("lastWrite", {{"expression", "event 99"}}),
-                  "there is no event 99; expected one address, or event and a number"));
+                  "there is no event 99; who expects one address, or event and a number"));
   EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "'1 / 0', column 5: a division by 0");
   EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / VW40"}}), "cannot be computed: a division by 0");
   EXPECT_FALSE(editor.breakpoint({{"line", 4}, {"condition", "1/0 = 1"}})["verified"]);
@@ -587,8 +590,8 @@ TEST(DapSession, ARequestUnderWayIsGivenUp) {
   editor("sendFrame", {{"frame", "41 42"}});
   EXPECT_EQ(editor("sendFrame", {{"frame", "cancel"}})["frame"], "41 42");
   editor("evaluate", {{"expression", "send 43"}, {"context", "repl"}});
-  editor("evaluate", {{"expression", "send cancel"}, {"context", "repl"}});
-  EXPECT_TRUE(has(editor.last("output")["output"], "given up before its first character: 43"));
+  EXPECT_TRUE(has(editor("evaluate", {{"expression", "send cancel"}, {"context", "repl"}})["result"],
+                  "given up before its first character: 43"));
 }
 
 TEST(DapSession, WhatDecidedIsNamedAndReached) {
@@ -1081,6 +1084,51 @@ TEST(DapSession, TheConsoleHasWordsForWhatTheEditorHasNone) {
   EXPECT_EQ(editor.line(), 18);
 }
 
+TEST(DapSession, TheConsoleHasEveryCommandOfTheTable) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto console = [&](const std::string& line) {
+    return editor("evaluate", {{"expression", line}, {"context", "repl"}})["result"].get<std::string>();
+  };
+  const std::string help = console("help");
+  for (const CommandRow& row : command_table()) {
+    EXPECT_TRUE(has(help, row.name)) << row.name;
+    EXPECT_TRUE(has(console(fmt::format("help {}", row.name)), row.syntax)) << row.name;
+  }
+  const auto offers = [&](const std::string& text) {
+    return editor("completions", {{"text", text}, {"column", text.size() + 1}})["targets"].dump();
+  };
+  EXPECT_TRUE(has(offers("rwh"), "rwho"));
+  EXPECT_TRUE(has(offers("break eve"), "event"));
+  EXPECT_TRUE(has(offers("mode r"), "run"));
+}
+
+TEST(DapSession, ACommandThatMovesTheSessionStopsThere) {
+  Editor editor(kNested);
+  editor.begin();
+  const auto console = [&](const std::string& line) {
+    return editor("evaluate", {{"expression", line}, {"context", "repl"}})["result"].get<std::string>();
+  };
+  EXPECT_TRUE(has(console("step 2"), ">     8  SBR     1"));
+  EXPECT_TRUE(has(editor.printed(), "CALL    1")) << "what it came by is told on the way";
+  EXPECT_EQ(editor.last("stopped")["description"], "step 2");
+  EXPECT_TRUE(has(console("break 22; continue"), "breakpoint 1"));
+  EXPECT_EQ(editor.last("breakpoint")["reason"], "new");
+  EXPECT_EQ(editor.line(), 22);
+  editor("continue", {{"threadId", 1}});
+  EXPECT_EQ(editor.stopped(), "function breakpoint");
+  EXPECT_EQ(editor.line(), 22);
+  EXPECT_TRUE(has(console("back"), "back to before"));
+  EXPECT_EQ(editor.last("stopped")["description"], "back");
+  console("delete all");
+  EXPECT_EQ(editor.last("breakpoint")["reason"], "removed");
+  EXPECT_TRUE(
+      has(editor.error_of("evaluate", {{"expression", "step; over 3"}, {"context", "repl"}}), "over takes no argument"));
+  EXPECT_EQ(editor.last("stopped")["description"], "over 3") << "the step before it is done";
+  EXPECT_TRUE(
+      has(editor.error_of("evaluate", {{"expression", "save a.json"}, {"context", "repl"}}), "neither read nor written"));
+}
+
 TEST(DapSession, WhatIsForcedHoldsAcrossScansUntilItIsReleased) {
   Editor editor(kNested);
   editor.begin();
@@ -1109,7 +1157,7 @@ TEST(DapSession, RequestsByNameGoToTheStationOfTheLaunchUnlessTheyNameOne) {
   editor("configurationDone");
   editor("stepScan", {{"threadId", 1}, {"count", 3}});
   EXPECT_EQ(editor("sendFrame", {{"frame", "read 40011:2"}})["frame"], "07 03 00 0a 00 02 e4 6f");
-  EXPECT_TRUE(has(editor.error_of("sendFrame", {{"frame", "read 11:2"}}), "'read 11:2': "));
+  EXPECT_TRUE(has(editor.error_of("sendFrame", {{"frame", "read 11:2"}}), "send read 11:2: "));
 }
 
 /// The second of two characters comes before the routine of the first has begun, and the queue holds one.

@@ -17,21 +17,17 @@ class SystemDebuggee final : public Debuggee {
 
   std::string source() const override { return "system.yaml"; }
   History& history() override { return history_; }
-  std::shared_ptr<const Program> program(std::size_t station) const override {
-    return bench.rig->plan().plcs[station].program;
+  SessionSetup setup() override {
+    SessionSetup setup{.station = 1};
+    for (const PlcPlan& plc : bench.rig->plan().plcs) setup.stations.push_back({.name = plc.name});
+    return setup;
   }
-  std::string name(std::size_t station) const override { return bench.rig->plan().plcs[station].name; }
-  std::size_t first_station() const override { return 1; }
-  const serial::MasterSettings& master(std::size_t) const override { return master_; }
-  std::string recorded_files() const override { return {}; }
-  std::string take_failure() override { return {}; }
   void when_saying(std::function<void(const std::string&)>) override {}
   std::vector<std::string> finish() override { return {}; }
 
   SystemBench bench;
 
  private:
-  serial::MasterSettings master_{};
   History history_;
 };
 

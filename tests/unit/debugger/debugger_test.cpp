@@ -19,7 +19,7 @@ namespace {
 // --- running ---
 
 TEST(Debugger, StepShowsTheInstructionItExecutedAndStandsInFrontOfTheNext) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text = session("step 4; until 17; step");
   EXPECT_TRUE(has(text, "line 17    MOVW    7, VW20"));
   EXPECT_TRUE(has(text, "S0=1 VW20=16#0007"));
@@ -28,18 +28,18 @@ TEST(Debugger, StepShowsTheInstructionItExecutedAndStandsInFrontOfTheNext) {
 }
 
 TEST(Debugger, ShowsTheCommentOfTheLineItStandsAt) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("until 4"), "INCW    VW10                 // one more scan"));
 }
 
 TEST(Debugger, FirstStepExecutesTheFirstInstructionOfTheProgram) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("step"), "line 1     LD      SM0.1"));
   EXPECT_EQ(session.line(), 2U);
 }
 
 TEST(Debugger, StepGoesIntoACallAndOverDoesNot) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("step; step");
   EXPECT_EQ(session.line(), 8U);
   session("back; over");
@@ -48,7 +48,7 @@ TEST(Debugger, StepGoesIntoACallAndOverDoesNot) {
 }
 
 TEST(Debugger, OutLeavesTheInnermostSubroutineOnly) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break SBR 2; continue; out");
   EXPECT_EQ(session.line(), 14U);
   session("out");
@@ -56,7 +56,7 @@ TEST(Debugger, OutLeavesTheInnermostSubroutineOnly) {
 }
 
 TEST(Debugger, OutOfAnInterruptRoutineGoesBackToWhatWasInterrupted) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break INT 0; continue; step");
   EXPECT_TRUE(session.state().in_interrupt);
   session("out");
@@ -70,7 +70,7 @@ TEST(Debugger, AStepOverACallInAnInterruptRoutineStaysInTheRoutineAndOutLeavesWh
       "SBR 1\nLD SM0.0\nINCW VW20\nRET\n"                                   // 8
       "SBR 2\nLD SM0.0\nINCW VW30\nRET\n"                                   // 12
       "INT 0\nLD SM0.0\nCALL 1\nINCW VW10\nRETI\n";                         // 16
-  Session session(check_text(kCalls, "test.stl", cpu224(), default_times(cpu224())).program);
+  AtPrompt session(check_text(kCalls, "test.stl", cpu224(), default_times(cpu224())).program);
   session("break 18; continue; over");
   EXPECT_EQ(session.line(), 19U);
   session("continue; step");
@@ -83,7 +83,7 @@ TEST(Debugger, AStepOverACallInAnInterruptRoutineStaysInTheRoutineAndOutLeavesWh
 }
 
 TEST(Debugger, OutOfTheMainProgramRunsNothing) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("step");
   const auto before = session.simulation.snapshot();
   EXPECT_TRUE(has(session("out"), "no subroutine"));
@@ -91,7 +91,7 @@ TEST(Debugger, OutOfTheMainProgramRunsNothing) {
 }
 
 TEST(Debugger, OverNeverStopsInAnInterruptThatComesInBetween) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("over; over");
   for (int i = 0; i < 100; ++i) {
     session("over");
@@ -101,7 +101,7 @@ TEST(Debugger, OverNeverStopsInAnInterruptThatComesInBetween) {
 }
 
 TEST(Debugger, ScanStopsAtTheFirstInstructionOfThatScan) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("step 3; scan");
   EXPECT_EQ(session.line(), 1U);
   EXPECT_EQ(session.state().scans, 1U);
@@ -112,7 +112,7 @@ TEST(Debugger, ScanStopsAtTheFirstInstructionOfThatScan) {
 }
 
 TEST(Debugger, NetworkStepsOverNetworksOfTheRoutineInBothDirections) {
-  Session session(
+  AtPrompt session(
       "NETWORK 1\nLD SM0.0\nCALL 1\nNETWORK 2\nLD SM0.0\nINCW VW0\nNETWORK 3\nLD SM0.0\nINCW VW2\nMEND\n"
       "SBR 1\nNETWORK 4\nLD SM0.0\nINCW VW4\nRET\n");
   session("step; network");
@@ -126,7 +126,7 @@ TEST(Debugger, NetworkStepsOverNetworksOfTheRoutineInBothDirections) {
 }
 
 TEST(Debugger, InterruptRunsToWhereTheNextOneBeginsOrEndsAndBack) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("interrupt"), "INT 0 for event 10"));
   EXPECT_EQ(session.line(), 19u);
   const Time begun = session.simulation.time();
@@ -145,10 +145,10 @@ TEST(Debugger, InterruptRunsToWhereTheNextOneBeginsOrEndsAndBack) {
 }
 
 TEST(Debugger, OfAnOverflowingQueueAndOfTheEndOfRcvItStopsToo) {
-  Session busy("LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\nLD SM0.0\nINCW VW0\nMEND\nINT 0\nRETI\n");
+  AtPrompt busy("LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\nLD SM0.0\nINCW VW0\nMEND\nINT 0\nRETI\n");
   EXPECT_TRUE(
       has(busy("break overflow; scan 3; send 01 02 03 04 05 06; continue"), "breakpoint 1, overflow, hit for the first"));
-  Session receiving(
+  AtPrompt receiving(
       check_text("LD SM0.1\nMOVB 9, SMB30\nLD V0.0\nEU\nRCV VB100, 0\nMEND\n", "test.stl", cpu224(), default_times(cpu224()))
           .program);
   receiving("scan 3; set SMB87=16#90 SMB94=4 V0.0=1; scan 2; break rcv; send 01 02 03 04");
@@ -156,7 +156,7 @@ TEST(Debugger, OfAnOverflowingQueueAndOfTheEndOfRcvItStopsToo) {
 }
 
 TEST(Debugger, AFaultOfTheLineBeginsNowAndGoingBackUndoesIt) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(has(session("scan 3; fault flip:bit=0; send 41; continue"), "on the line from now on: flip\n"));
   EXPECT_TRUE(has(session("print /x VB1"), "VB1      16#40"));
   session("at 1ms; fork; continue 10ms; send 41; continue");
@@ -166,7 +166,7 @@ TEST(Debugger, AFaultOfTheLineBeginsNowAndGoingBackUndoesIt) {
 }
 
 TEST(Debugger, FaultAloneListsTheFaultsInForceAndHowOftenEachHasHappened) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(has(session("fault"), "the line has no fault now; "));
   session("scan 3; fault flip:bit=0; fault missing:character=9; send 41; continue");
   EXPECT_EQ(session("fault"), "fault flip: 1×\nfault missing:character=9: 0×\n");
@@ -174,7 +174,7 @@ TEST(Debugger, FaultAloneListsTheFaultsInForceAndHowOftenEachHasHappened) {
 }
 
 TEST(Debugger, OnlyTheCpuWritesItsReadOnlySpecialMemory) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_EQ(session.error_of("set SM0.0=0"), "SM0.0 cannot be set: only the CPU writes SM0.0 to SM29.7");
   EXPECT_TRUE(has(session.error_of("set VB0=1 SMW29=5"), "SMW29 cannot be set"));
   EXPECT_TRUE(has(session("set SMB28=77 SMB34=5; scan 2; print /x SMB34"), "16#05")) << "a potentiometer is turned";
@@ -182,19 +182,19 @@ TEST(Debugger, OnlyTheCpuWritesItsReadOnlySpecialMemory) {
 }
 
 TEST(Debugger, AMomentBeforeTheOldestIsRefusedHoweverItIsWritten) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("continue 100ms");
   EXPECT_TRUE(has(session.error_of("at -3s"), "the oldest moment is 0.000000 ms"));
   EXPECT_TRUE(has(session.error_of("at 99s"), "nothing has run after"));
 }
 
 TEST(Debugger, RwhyThatGoesNowhereSaysSo) {
-  Session session("LD SM0.0\n= Q0.0\nMEND\n");
+  AtPrompt session("LD SM0.0\n= Q0.0\nMEND\n");
   EXPECT_TRUE(has(session("rwhy"), "rwhy goes nowhere: no instruction is named"));
 }
 
 TEST(Debugger, ContinueEndsAtItsTimeAndSaysSo) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("continue 50 ms"), "50 ms of simulated time passed"));
   EXPECT_GE(session.simulation.time(), 50 * kMillisecond);
   EXPECT_LT(session.simulation.time(), 52 * kMillisecond);
@@ -202,7 +202,7 @@ TEST(Debugger, ContinueEndsAtItsTimeAndSaysSo) {
 }
 
 TEST(Debugger, UntilTheLineItStandsAtGoesOnceAround) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("until 4; until 4");
   EXPECT_EQ(session.line(), 4U);
   EXPECT_EQ(session.vw(10), 1U);
@@ -210,13 +210,13 @@ TEST(Debugger, UntilTheLineItStandsAtGoesOnceAround) {
 
 TEST(Debugger, StopRequestEndsARun) {
   std::atomic<bool> stop = true;
-  Session session(program_of(kNested), &stop);
+  AtPrompt session(program_of(kNested), &stop);
   EXPECT_TRUE(has(session("continue 1h"), "Ctrl-C"));
   EXPECT_LT(session.simulation.time(), kSecond);
 }
 
 TEST(Debugger, BetweenTwoScansItSaysSoAndNamesTheNextInstruction) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 20ms");
   while (standing_at(session.state())) session.simulation.run_until(session.simulation.time() + 10 * kMicrosecond);
   session.out.str("");
@@ -228,7 +228,7 @@ TEST(Debugger, BetweenTwoScansItSaysSoAndNamesTheNextInstruction) {
 
 TEST(Debugger, AViewWhoseSearchIsInterruptedNeverSaysNotExecuted) {
   std::atomic<bool> stop = false;
-  Session session(program_of(kNested), &stop);
+  AtPrompt session(program_of(kNested), &stop);
   session("continue 200ms");
   stop = true;
   for (const std::string& line : session.debugger->view(15)) EXPECT_EQ(line.find("not executed"), std::string::npos) << line;
@@ -237,7 +237,7 @@ TEST(Debugger, AViewWhoseSearchIsInterruptedNeverSaysNotExecuted) {
 // --- stopping ---
 
 TEST(Debugger, LineWithoutInstructionStandsForTheNextOneAndItSaysSo) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text = session("break 6");
   EXPECT_TRUE(has(text, "line 6 has no instruction; the next one is in line 8"));
   EXPECT_TRUE(has(text, "breakpoint 1 in SBR 1 line 8"));
@@ -246,7 +246,7 @@ TEST(Debugger, LineWithoutInstructionStandsForTheNextOneAndItSaysSo) {
 }
 
 TEST(Debugger, BreakpointAtTheFirstInstructionStopsInTheFirstScan) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break 1; continue");
   EXPECT_EQ(session.state().scans, 0U);
   session("continue");
@@ -254,7 +254,7 @@ TEST(Debugger, BreakpointAtTheFirstInstructionStopsInTheFirstScan) {
 }
 
 TEST(Debugger, BreakListsHitsAndKnowsWhatIsAlreadySet) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break 4; continue; continue");
   EXPECT_TRUE(has(session("break"), "2 hits  main line 4"));
   EXPECT_TRUE(has(session("break 4"), "breakpoint 1 is already in main line 4"));
@@ -263,7 +263,7 @@ TEST(Debugger, BreakListsHitsAndKnowsWhatIsAlreadySet) {
 }
 
 TEST(Debugger, ABreakpointThatNeedNotStopDoesNotReplaceOneThatDoes) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break 4 if VW30 > 100; break 4");
   EXPECT_TRUE(has(session.out.str(), "breakpoint 2 in main line 4"));
   session("continue");
@@ -271,13 +271,13 @@ TEST(Debugger, ABreakpointThatNeedNotStopDoesNotReplaceOneThatDoes) {
 }
 
 TEST(Debugger, ALogTextWhoseQuotationMarkIsOpenIsRefused) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_EQ(session.error_of("break INT 0 log 'x; continue 1ms"), "the closing ' is missing");
   EXPECT_TRUE(has(session("break"), "no breakpoints"));
 }
 
 TEST(Debugger, WatchTellsOldValueNewValueAndTheInstructionInARoutineToo) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text = session("watch VW30; continue");
   EXPECT_TRUE(has(text, "watch 1: VW30 was 16#0000 (0), is 16#0001 (1)"));
   EXPECT_TRUE(has(text, "by INT 0 line 21    INCW    VW30"));
@@ -285,22 +285,22 @@ TEST(Debugger, WatchTellsOldValueNewValueAndTheInstructionInARoutineToo) {
 }
 
 TEST(Debugger, WatchKnowsBitsBytesAndDoubles) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("watch V31.0; continue"), "V31.0 was 0, is 1"));
   EXPECT_TRUE(has(session("delete all; watch VB31 VD28; continue"), "VB31 was 16#01 (1), is 16#02 (2)"));
   EXPECT_TRUE(has(session.out.str(), "VD28 was 16#00000001 (1), is 16#00000002 (2)"));
-  Session accumulator("LD SM0.0\nINCW AC1\nMEND\n");
+  AtPrompt accumulator("LD SM0.0\nINCW AC1\nMEND\n");
   EXPECT_TRUE(has(accumulator("watch AC1; continue"), "AC1 was 16#00000000 (0), is 16#00000001 (1)\n  by main line 2"));
 }
 
 TEST(Debugger, WatchSaysWhenTheSystemChangedIt) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("step; watch I0.4; input I0.4=1; continue"), "by the system"));
   EXPECT_EQ(session.state().scans, 1U);
 }
 
 TEST(Debugger, InputEdgeCausesItsInterruptBeforeTheNextInstruction) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("scan; input I0.0 = 1; step");
   EXPECT_TRUE(session.state().in_interrupt);
   EXPECT_EQ(session.state().serving_routine, 2);
@@ -314,28 +314,28 @@ TEST(Debugger, InputEdgeCausesItsInterruptBeforeTheNextInstruction) {
 
 TEST(Debugger, BoxWithoutPowerFlowIsPassedAndItSaysSoUnlessAlwaysWasAsked) {
   constexpr std::string_view kText = "LD M0.0\nINCW VW10\nLD SM0.0\nINCW VW20\nMEND\n";
-  Session session(kText);
+  AtPrompt session(kText);
   EXPECT_TRUE(has(session("break 2; break 4 if VW20 = 5; continue"),
                   "breakpoint 2, hit for the first time\n"
                   "breakpoint 1 was passed 6 times without power flow"));
   EXPECT_EQ(session.line(), 4U);
   session("set M0.0=1; continue");
   EXPECT_EQ(session.line(), 2U);
-  Session other(kText);
+  AtPrompt other(kText);
   other("break 2 always; continue");
   EXPECT_EQ(other.line(), 2U);
   EXPECT_FALSE(other.state().stack.top());
 }
 
 TEST(Debugger, ConditionIsInStlTerms) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break 4 if VW10 >= 7 and (VW20 = 16#07 or not SM0.0); continue");
   EXPECT_EQ(session.vw(10), 7U);
   EXPECT_TRUE(has(session("break"), "1 hit  main line 4: INCW    VW10                 // one more scan, if VW10 >= 7 and"));
 }
 
 TEST(Debugger, HitCountStopsFromThatHitOn) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break 4 hits 5; continue");
   EXPECT_EQ(session.vw(10), 4U);
   session("continue");
@@ -343,7 +343,7 @@ TEST(Debugger, HitCountStopsFromThatHitOn) {
 }
 
 TEST(Debugger, AHitHasTheSameNumberForwardsBackwardsAndAgain) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("break INT 0 hits 3; continue"), "hit 3 times"));
   const Time third = session.simulation.time();
   EXPECT_EQ(session.vw(30), 2U);
@@ -360,7 +360,7 @@ TEST(Debugger, AHitHasTheSameNumberForwardsBackwardsAndAgain) {
 }
 
 TEST(Debugger, ABranchHasTheHitsBeforeItAndItsOwn) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break INT 0; continue; continue; continue; rcontinue; set VW100=1");
   EXPECT_TRUE(has(session("continue; continue"), "hit 4 times"));
   session("back 3");
@@ -370,13 +370,13 @@ TEST(Debugger, ABranchHasTheHitsBeforeItAndItsOwn) {
 }
 
 TEST(Debugger, PlayingAgainCountsNoErrorTwice) {
-  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
   session("break error; continue; continue; at start; continue; continue");
   EXPECT_TRUE(has(session("break"), "2 hits  error"));
 }
 
 TEST(Debugger, LogPrintsALineAndGoesOn) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text =
       session("break INT 0 log 'VW30 is {VW30}, twice {2*VW30}, line {line}, event {event} at {time}'; continue 12ms");
   EXPECT_TRUE(has(text, "VW30 is 0, twice 0, line 19, event 10 at 5."));
@@ -385,14 +385,14 @@ TEST(Debugger, LogPrintsALineAndGoesOn) {
 }
 
 TEST(Debugger, StopsAtANetwork) {
-  Session session("NETWORK 1\nLD SM0.0\nNETWORK 2 // second\nLDN SM0.0\nINCW VW0\nNETWORK 3\nMEND\n");
+  AtPrompt session("NETWORK 1\nLD SM0.0\nNETWORK 2 // second\nLDN SM0.0\nINCW VW0\nNETWORK 3\nMEND\n");
   session("break network 2; continue");
   EXPECT_EQ(session.line(), 4U);
   EXPECT_TRUE(has(session.error_of("break network 7"), "the program has no NETWORK 7"));
 }
 
 TEST(Debugger, StopsWhenAnEventOccursAndWhenItIsServed) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("break event 10; continue"), "breakpoint 1, event 10, hit for the first time\n  5."));
   EXPECT_EQ(session.line(), 19U);
   EXPECT_TRUE(has(session.out.str(), "INT 0 begins: event 10 (timed interrupt 0, SMB34)"));
@@ -400,12 +400,12 @@ TEST(Debugger, StopsWhenAnEventOccursAndWhenItIsServed) {
 }
 
 TEST(Debugger, StopsAtFramesReceivedAndSentAndAtXmt) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   const std::string text = session("scan 3; send 5a; break received; break sent; break xmt; continue; continue; continue");
   EXPECT_TRUE(has(text, "breakpoint 3, xmt, hit for the first time\n"));
   EXPECT_TRUE(has(text, "XMT: 1 character"));
   EXPECT_TRUE(has(text, "breakpoint 2, sent, hit for the first time\n"));
-  Session listening("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n");
+  AtPrompt listening("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n");
   EXPECT_TRUE(has(listening("scan 3; send 01 02 03; break received; break lost; continue; delete 2; continue"),
                   "breakpoint 2, lost, hit for the first time\n"));
   EXPECT_TRUE(has(listening.out.str(), "breakpoint 1, received, hit for the first time\n  "));
@@ -416,7 +416,7 @@ constexpr std::string_view kListening =
     "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW0\nRETI\n";
 
 TEST(Debugger, AFaultSaysWhatItDoesAndWhereIfThatWasNotSaid) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(has(session("fault gap:length=10ms"),
                   "on the line from now on: gap:length=10ms\n  a pause before a character: character=2, of=request\n"));
   EXPECT_TRUE(has(session("fault flip:character=3,bit=5,of=answer"), "  one bit inverted\n"));
@@ -424,9 +424,9 @@ TEST(Debugger, AFaultSaysWhatItDoesAndWhereIfThatWasNotSaid) {
 }
 
 TEST(Debugger, ARunIsTheSameWhetherAlikeScansArePassedOverOrNot) {
-  Session passing(kEcho), looking(kEcho);
+  AtPrompt passing(kEcho), looking(kEcho);
   looking("break 15");  // in an interrupt routine that never runs
-  for (Session* session : {&passing, &looking}) (*session)("continue 3s; send 41; continue; continue 20s");
+  for (AtPrompt* session : {&passing, &looking}) (*session)("continue 3s; send 41; continue; continue 20s");
   EXPECT_EQ(passing.simulation.snapshot(), looking.simulation.snapshot());
   EXPECT_EQ(passing("at -9s; past"), looking("at -9s; past"));
   EXPECT_EQ(passing.simulation.snapshot(), looking.simulation.snapshot());
@@ -461,7 +461,7 @@ TEST(Debugger, ALongCommandShowsHowFarItHasComeAndTakesThatAwayBeforeItsOutput) 
   std::ostringstream out;
   std::string output_before;
   std::size_t shown = 0, taken_away = 0;
-  DebuggerOptions options{};
+  PromptSettings options{};
   options.patience = 0;
   options.progress = [&](std::string_view text) {
     if (text.empty()) {
@@ -472,7 +472,7 @@ TEST(Debugger, ALongCommandShowsHowFarItHasComeAndTakesThatAwayBeforeItsOutput) 
       EXPECT_TRUE(has(std::string(text), " ms; Ctrl-C ends it"));
     }
   };
-  Debugger debugger(simulation, out, options);
+  Prompt debugger(std::vector{&simulation}, out, options);
   for (const char* command : {"continue 3s", "rcontinue", "at 1.9s", "who VW20"}) {
     shown = taken_away = 0;
     out.str("");
@@ -493,9 +493,9 @@ struct Bridged {
                    Bytes request = {0x01, 0x03, 0x00, 0x0a, 0x00, 0x01, 0xa4, 0x08})
       : simulation(program_of(text)), asks(std::move(times)), asked_for(std::move(request)) {
     simulation.power_up();
-    DebuggerOptions options{};
+    PromptSettings options{};
     options.history.drive = [this](Time end, const auto&) { return drive(end); };
-    debugger = std::make_unique<Debugger>(simulation, out, options);
+    debugger = std::make_unique<Prompt>(std::vector{&simulation}, out, options);
   }
   serial::Halt drive(Time end) {
     serial::HostPort& port = simulation.host_port();
@@ -521,7 +521,7 @@ struct Bridged {
   static constexpr SerialFormat kFormat{9600, 8, Parity::None, 1};
   serial::Simulation simulation;
   std::ostringstream out;
-  std::unique_ptr<Debugger> debugger;
+  std::unique_ptr<Prompt> debugger;
   std::vector<Time> asks;
   Bytes asked_for;
   std::vector<Bytes> pieces{};  ///< instead of it, one each time
@@ -564,13 +564,13 @@ TEST(Debugger, WhyTellsOfTheRequestThatAMasterOnABridgeHasGivenUpByAskingAgain) 
 }
 
 TEST(Debugger, AMessageShowsAllOfAnAddressWithACount) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(
       has(session("continue 50ms; set VB10=1 VB11=2; break 8 log 'got {VB10:2}'; send 41; continue"), "got 01 02\n"));
 }
 
 TEST(Debugger, AMessageOfWhatHappensHasItsTimeAndItsEvent) {
-  Session stops(kEcho), tells(kEcho);
+  AtPrompt stops(kEcho), tells(kEcho);
   const std::string text = stops("continue 50ms; break event 8 occurs; send 41; continue");
   const std::size_t event = text.find("  event 8 (");
   ASSERT_NE(event, std::string::npos) << text;
@@ -580,13 +580,13 @@ TEST(Debugger, AMessageOfWhatHappensHasItsTimeAndItsEvent) {
 }
 
 TEST(Debugger, AnAddressThatDoesNotExistIsNamedAmongOthersThatPrintIsGiven) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(has(session.error_of("print VB0 VB9999"), "'VB9999' does not exist on CPU 214"));
   EXPECT_TRUE(has(session.error_of("print VB0 and"), "column"));
 }
 
 TEST(Debugger, MemoryIsPrintedAsAnyType) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("set VD20=16#41200000 AC1=16#12345678");
   EXPECT_TRUE(has(session("print VD20:word:2"), "VW20"));
   EXPECT_TRUE(has(session.out.str(), "16#4120"));
@@ -599,7 +599,7 @@ TEST(Debugger, MemoryIsPrintedAsAnyType) {
 }
 
 TEST(Debugger, AFormOfARealThatIsComputedShowsItsBits) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("set VD20=16#41200000");
   EXPECT_TRUE(has(session("print VD20:real * 2"), "= 20\n"));
   EXPECT_TRUE(has(session("print /x VD20:real * 2"), "= 16#41A00000\n"));
@@ -608,14 +608,14 @@ TEST(Debugger, AFormOfARealThatIsComputedShowsItsBits) {
 }
 
 TEST(Debugger, HelpOnPrintNamesTheTypesOfAPlainAddress) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   const std::string help = session("help print");
   for (const std::string_view type : {"byte", "word", "dword", "real"}) EXPECT_TRUE(has(help, type));
   EXPECT_TRUE(has(help, "VB100:word:4"));
 }
 
 TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 16#09, SMB30\nATCH 1, 8\nLD SM0.0\nDISI\nFILL 0, VW100, 200\nFILL 0, VW100, 200\n"
       "FILL 0, VW100, 200\nFILL 0, VW100, 200\nENI\nMEND\nINT 1\nLD SM0.0\nINCW VW0\nRETI\n");
   session("continue 50ms; send 01 02 03; break event 8 served; continue; scan");
@@ -625,12 +625,12 @@ TEST(Debugger, ATimelineCountsInterruptsThatOccurredBeforeIt) {
 }
 
 TEST(Debugger, HelpOnFaultListsTheKinds) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   for (const char* kind : {"  flip:", "  noise:", "  cut:"}) EXPECT_TRUE(has(session("help fault"), kind));
 }
 
 TEST(Debugger, WhatAFaultMakesOfThePortsOwnCharactersIsNotLost) {
-  Session session(test::compile(test::slave_text()));
+  AtPrompt session(test::compile(test::slave_text()));
   const std::string text =
       session("continue 2s; break lost; fault flip:character=3,bit=5,of=answer; send 01 03 00 0a 00 01 crc; continue");
   EXPECT_FALSE(has(text, "receiver is off"));
@@ -678,7 +678,7 @@ TEST(Debugger, ARequestOfAMasterOnABridgeIsUnansweredThoughTheCpuIsInStop) {
 }
 
 TEST(Debugger, AFrameThatComesInStopHasBeenReceivedWhenItEnds) {
-  Session session(kListening);
+  AtPrompt session(kListening);
   EXPECT_TRUE(has(session("continue 100ms; mode stop; break received; send 01 03 00 0a 00 01 crc; continue"),
                   "breakpoint 1, received, hit for the first time\n  01 03 00 0a 00 01 a4 08\n"));
   EXPECT_LT(session.simulation.time(), 120 * kMillisecond);
@@ -690,7 +690,7 @@ constexpr std::string_view kAsks =
     "LD SM0.5\nEU\nXMT VB0, 0\nMEND\n";
 
 TEST(Debugger, ARequestOfTheOnlyProgramIsUnansweredAfterTheTimeOutOrWhenItAsksAgain) {
-  Session session(kAsks);
+  AtPrompt session(kAsks);
   EXPECT_TRUE(has(session("break sent; continue; delete 1; break unanswered; continue"),
                   "breakpoint 2, unanswered, hit for the first time\n  01 03 00 00 00 01 84 0a  asked by the program\n"));
   const Time first = session.simulation.time();
@@ -702,7 +702,7 @@ TEST(Debugger, ARequestOfTheOnlyProgramIsUnansweredAfterTheTimeOutOrWhenItAsksAg
 }
 
 TEST(Debugger, ABroadcastOfAProgramIsNeverUnanswered) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 8, VB0\nMOVD 16#0003000A, VD1\nMOVD 16#0001A5D9, VD5\nENI\n"
       "LD SM0.5\nEU\nXMT VB0, 0\nMEND\n");
   EXPECT_TRUE(has(session("break sent; continue; delete 1"), "  00 03 00 0a 00 01 a5 d9\n"));
@@ -763,7 +763,7 @@ TEST(Debugger, AProgramAndAMasterOnABridgeThatAskOneAfterTheOtherAreBothUnanswer
 }
 
 TEST(Debugger, ACancelledRequestIsSaidWhereItWasAndTheMasterIsReadyForTheNext) {
-  Session session(kListening);
+  AtPrompt session(kListening);
   EXPECT_TRUE(has(session.error_of("send cancel"), "no request of the simulated master is under way"));
   EXPECT_TRUE(
       has(session("continue 100ms; send 01 02 03 04; send cancel"), "given up before its first character: 01 02 03 04\n"));
@@ -777,20 +777,20 @@ TEST(Debugger, ACancelledRequestIsSaidWhereItWasAndTheMasterIsReadyForTheNext) {
 }
 
 TEST(Debugger, ARequestThatIsCancelledInTheFirstCharacterOfItsAnswerIsWithinIt) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(has(session("continue 100ms; send 41; break xmt; continue; delete all; continue 500us; send cancel"),
                   "given up within its answer, after 0 characters of it: 41\n"));
 }
 
 TEST(Debugger, ACancelledRequestIsInThePastAndInASavedSession) {
-  Session session(kListening);
+  AtPrompt session(kListening);
   session("continue 100ms; send 01 02 03 04; continue 1500us; send cancel; continue 50ms; rscan");
   const serial::Simulation::Snapshot there = session.simulation.snapshot();
   session("at 50ms; at end; rscan 2");
   session("at end");
   const std::string file = test::scratch_folder() + "cancelled.json";
   session("rscan; save " + file + " !");
-  Session other(kListening);
+  AtPrompt other(kListening);
   other("load " + file + "; at end; rscan");
   EXPECT_EQ(other.vw(0), 2) << "characters that have come";
   session("at end; rscan");
@@ -800,7 +800,7 @@ TEST(Debugger, ACancelledRequestIsInThePastAndInASavedSession) {
 }
 
 TEST(Debugger, AnAnswerWhereTheNextRequestIsSentIsSeenInBothDirections) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("continue 50ms; send 41; continue");
   const auto answered = session.simulation.snapshot();
   session("send 42; continue");
@@ -813,7 +813,7 @@ TEST(Debugger, AnAnswerWhereTheNextRequestIsSentIsSeenInBothDirections) {
 }
 
 TEST(Debugger, AnUnansweredRequestWhereTheNextOneIsSentIsSeenInBothDirections) {
-  Session session("LD SM0.0\nMEND\n");
+  AtPrompt session("LD SM0.0\nMEND\n");
   session("continue 50ms; break unanswered; send 01; continue");
   const auto unanswered = session.simulation.snapshot();
   EXPECT_TRUE(has(session("send 02; continue"), "unanswered, hit 2 times"));
@@ -830,7 +830,7 @@ TEST(Debugger, ABroadcastIsNeverUnanswered) {
   Bridged bridged(kListening, {2 * kSecond, 2'200 * kMillisecond}, broadcast);
   EXPECT_FALSE(has(bridged("break unanswered; continue"), "breakpoint 1, unanswered, hit"));
   EXPECT_FALSE(has(bridged("rcontinue"), "breakpoint 1, unanswered, hit"));
-  Session session(kListening);
+  AtPrompt session(kListening);
   EXPECT_FALSE(has(session("break unanswered; send 00 06 00 0a 00 01 crc; continue"), "breakpoint 1, unanswered, hit"));
   EXPECT_FALSE(has(session("rcontinue"), "breakpoint 1, unanswered, hit"));
   EXPECT_TRUE(has(session("at end; send 00 06 00 0a 00 01 00 00; continue"), "breakpoint 1, unanswered, hit"))
@@ -846,7 +846,7 @@ TEST(Debugger, WhyNamesOfAMasterOnABridgeOnlyItsLastRequest) {
 }
 
 TEST(Debugger, AddressesArePointersAsInStl) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("continue 10ms; set VD100=&VB200 VD104=&T5");
   EXPECT_EQ(session("print &VB200"), "&VB200 = 134217928 (16#080000C8)\n");
   EXPECT_EQ(session("print &T5"), "&T5 = 117440522 (16#0700000A)\n");
@@ -860,7 +860,7 @@ TEST(Debugger, AddressesArePointersAsInStl) {
 }
 
 TEST(Debugger, AtAMomentBeforeSomethingWasDoneStandsBeforeThat) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("continue 100ms; scan");
   const Time at = session.simulation.time();
   session("set VW20=7; continue 10ms");
@@ -872,7 +872,7 @@ TEST(Debugger, AtAMomentBeforeSomethingWasDoneStandsBeforeThat) {
 }
 
 TEST(Debugger, WhoNamesTheActionThatHasWrittenOfSeveralAtOneMoment) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(has(session("continue 100ms; set VW20=7; force VW22=9; who VW20"), "by 'set VW20', from outside"));
   EXPECT_TRUE(has(session("send 41; who VW20"), "by 'set VW20', from outside"));
   EXPECT_TRUE(has(session("who VB23"), "by 'force VW22', from outside"));
@@ -882,7 +882,7 @@ TEST(Debugger, WhoNamesTheActionThatHasWrittenOfSeveralAtOneMoment) {
 }
 
 TEST(Debugger, BackToAWriteFromOutsideStopsBeforeItAndFindsTheEarlierOneNext) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("continue 100ms; set VW20=7; step; set VW20=8; set VB100=1");
   EXPECT_TRUE(has(session("rwho VW20"), "VW20 was 16#0007 (7), became 16#0008 (8)"));
   EXPECT_EQ(session.vw(20), 7);
@@ -941,8 +941,8 @@ TEST(Debugger, AnAnswerOfABridgeInPiecesIsWrongOnlyIfAllOfItIs) {
 }
 
 TEST(Debugger, AFrameHasEndedAtTheSameMomentWhereverARunPausedInIt) {
-  Session whole(kListening), paused(kListening);
-  for (Session* session : {&whole, &paused}) (*session)("continue 100ms; break received; send 01 02 03 04");
+  AtPrompt whole(kListening), paused(kListening);
+  for (AtPrompt* session : {&whole, &paused}) (*session)("continue 100ms; break received; send 01 02 03 04");
   const std::string text = whole("continue");
   EXPECT_TRUE(has(text, "breakpoint 1, received, hit for the first time\n  01 02 03 04\n"));
   EXPECT_TRUE(has(paused("continue 2ms; continue 1ms; step; continue"), "  01 02 03 04\n"));
@@ -957,31 +957,31 @@ TEST(Debugger, AFrameHasEndedAtTheSameMomentWhereverARunPausedInIt) {
 }
 
 TEST(Debugger, ALineOnWhichNothingCameHasNoFrame) {
-  Session session(kListening);
+  AtPrompt session(kListening);
   EXPECT_TRUE(has(session("break received; continue 90ms"), "nothing to stop for"));
   EXPECT_TRUE(has(session("rcontinue"), "this is the oldest moment"));
 }
 
 TEST(Debugger, WhatTheProgramSendsIsNotReceived) {
-  Session session("LD SM0.1\nMOVB 16#09, SMB30\nMOVW 16#0155, VW0\nXMT VB0, 0\nMEND\n");
+  AtPrompt session("LD SM0.1\nMOVB 16#09, SMB30\nMOVW 16#0155, VW0\nXMT VB0, 0\nMEND\n");
   EXPECT_TRUE(has(session("break received; continue 90ms"), "nothing to stop for"));
 }
 
 TEST(Debugger, StopsAtRunTimeErrorsOfACodeOrAny) {
-  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
   EXPECT_TRUE(has(session("break error 0091; break error; continue"), "breakpoint 2, error, hit for the first time\n  "));
   EXPECT_TRUE(has(session.out.str(), "run-time error 0006"));
   EXPECT_TRUE(has(session("delete 2; break error 6; continue"), "breakpoint 3, error 6"));
 }
 
 TEST(Debugger, StopsWhenTheModeChanges) {
-  Session session("LD SM0.0\nINCW VW0\nAW= VW0, 3\nSTOP\nMEND\n");
+  AtPrompt session("LD SM0.0\nINCW VW0\nAW= VW0, 3\nSTOP\nMEND\n");
   EXPECT_TRUE(has(session("break mode; continue"), "breakpoint 1, mode, hit for the first time\n"));
   EXPECT_EQ(session.state().mode, Mode::Stop);
 }
 
 TEST(Debugger, WatchTellsReadsAndWritesEvenOfAnEqualValue) {
-  Session session("LD SM0.0\nMOVW 5, VW0\nMOVW VW0, VW2\nMOVW 5, VW0\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVW 5, VW0\nMOVW VW0, VW2\nMOVW 5, VW0\nMEND\n");
   EXPECT_TRUE(
       has(session("step 2; watch VW0 write; continue"), "watch 1: VW0 write is 16#0005 (5) as before\n  by main line 4"));
   EXPECT_TRUE(
@@ -990,7 +990,7 @@ TEST(Debugger, WatchTellsReadsAndWritesEvenOfAnEqualValue) {
 }
 
 TEST(Debugger, StopsWithConditionsWorkBackwardsToo) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 60ms; break 4 if VW10 = 12; rc");
   EXPECT_EQ(session.vw(10), 12U);
   EXPECT_EQ(session.line(), 4U);
@@ -1003,7 +1003,7 @@ TEST(Debugger, StopsWithConditionsWorkBackwardsToo) {
 
 TEST(Debugger, StopsAndObserversNeverChangeTheRun) {
   const auto program = program_of(kEcho);
-  Session plain(program), watched(program);
+  AtPrompt plain(program), watched(program);
   plain("scan 3; send 5a 5b; continue; continue 500ms");
   watched("scan 3; send 5a 5b");
   watched(
@@ -1023,7 +1023,7 @@ TEST(Debugger, StopsAndObserversNeverChangeTheRun) {
 // --- the line ---
 
 TEST(Debugger, ContinueStopsWhenTheAnswerIsCompleteAndShowsIt) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   const std::string text = session("scan 3; send 5a; continue");
   EXPECT_TRUE(has(text, "request  5a"));
   EXPECT_TRUE(has(text, "answer   5a   after"));
@@ -1031,19 +1031,19 @@ TEST(Debugger, ContinueStopsWhenTheAnswerIsCompleteAndShowsIt) {
 }
 
 TEST(Debugger, AnswerThatArrivesDuringAnotherCommandIsPrintedAndDoesNotStopIt) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(has(session("scan 3; send 5a; scan 30"), "answer   5a"));
   EXPECT_EQ(session.state().scans, 33U);
 }
 
 TEST(Debugger, SendWhileAFrameIsUnderWayIsAWrongCommand) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("scan 3; send 5a");
   EXPECT_TRUE(has(session.error_of("send 5b"), "send: the last frame is still under way or waiting for its answer"));
 }
 
 TEST(Debugger, SendTakesTextInQuotationMarks) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   const std::string text = session("scan 3; send 'Z'; continue # the first");
   EXPECT_TRUE(has(text, "on the line from now on: 5a  'Z' (9600 baud"));
   EXPECT_TRUE(has(text, "request  5a\n         'Z'\nanswer   5a   after"));
@@ -1053,7 +1053,7 @@ TEST(Debugger, SendTakesTextInQuotationMarks) {
 }
 
 TEST(Debugger, ContinueStopsWhenNoAnswerCame) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text = session("scan 3; send 5a; continue");
   EXPECT_TRUE(has(text, "not in Freeport mode"));
   EXPECT_TRUE(has(text, "answer   none within 1 s"));
@@ -1061,7 +1061,7 @@ TEST(Debugger, ContinueStopsWhenNoAnswerCame) {
 }
 
 TEST(Debugger, BackTakesTheFrameOnTheLineAlong) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("scan 3; send 5a; continue");
   const auto answered = session.simulation.snapshot();
   EXPECT_TRUE(has(session("back; continue"), "answer   5a"));
@@ -1069,7 +1069,7 @@ TEST(Debugger, BackTakesTheFrameOnTheLineAlong) {
 }
 
 TEST(Debugger, PortShowsModeTransmitterAndMaster) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   const std::string text = session("scan 3; send 5a; break 12; continue; port");
   EXPECT_TRUE(has(text, "Freeport, 9600 baud, 8 data bits, no parity"));
   EXPECT_TRUE(has(text, "event 8 → INT 1"));
@@ -1077,7 +1077,7 @@ TEST(Debugger, PortShowsModeTransmitterAndMaster) {
 }
 
 TEST(Debugger, TraceShowsInterruptsWhileRunning) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_FALSE(has(session("continue 20ms"), "INT 0 begins"));
   EXPECT_TRUE(has(session("trace on; continue 20ms"), "INT 0 begins"));
 }
@@ -1088,7 +1088,7 @@ constexpr std::string_view kDisables =
     "INT 0\nLD SM0.0\nINCW VW20\nRETI\n";
 
 TEST(Debugger, ATraceAfterGoingBackNamesTheDisiThatWasExecutedBeforeThat) {
-  Session session(kDisables);
+  AtPrompt session(kDisables);
   session("continue 50ms; until 6; over");
   EXPECT_EQ(session.line(), 7u) << "disabled, and the interrupt waits from here on";
   session("input I0.0=1; continue 30ms; back");
@@ -1099,7 +1099,7 @@ TEST(Debugger, ATraceAfterGoingBackNamesTheDisiThatWasExecutedBeforeThat) {
 }
 
 TEST(Debugger, ATimelineNamesTheDisiThatWasExecutedBeforeIt) {
-  Session session(kDisables);
+  AtPrompt session(kDisables);
   session("continue 50ms; until 6; over; input I0.0=1; step 6");
   EXPECT_TRUE(has(session("timeline 300us"), "DISI in line 5 until ENI in line 7"));
 }
@@ -1119,7 +1119,7 @@ std::string trace_within(const std::string& printed, Time from, Time to) {
 
 TEST(Debugger, ATraceAfterGoingBackIsThatOfARunThatOnlyWentForward) {
   for (const std::string_view program : {kDisables, kNested, kEcho}) {
-    Session session(program);
+    AtPrompt session(program);
     std::string forward = session("trace on");
     for (int i = 0; i < 8; ++i)
       forward += session(
@@ -1140,7 +1140,7 @@ TEST(Debugger, ATraceAfterGoingBackIsThatOfARunThatOnlyWentForward) {
 // --- back ---
 
 TEST(Debugger, BackRestoresExactlyTheStateBefore) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("scan 5");
   const auto before = session.simulation.snapshot();
   session("step 7; over; continue 20ms");
@@ -1149,20 +1149,20 @@ TEST(Debugger, BackRestoresExactlyTheStateBefore) {
 }
 
 TEST(Debugger, BackSaysWhenThereIsNoEarlierState) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("back"), "no earlier state"));
 }
 
 TEST(Debugger, KeepsNoMoreStatesThanItSays) {
-  Session session(kNested);
-  for (std::size_t i = 0; i < Debugger::kKeptStates + 10; ++i) session("step");
+  AtPrompt session(kNested);
+  for (std::size_t i = 0; i < Session::kKeptStates + 10; ++i) session("step");
   EXPECT_TRUE(has(session("back 1000"), "only 64 earlier states are kept"));
   EXPECT_EQ(session.state().instructions, 10U);
   EXPECT_TRUE(has(session("back"), "no earlier state"));
 }
 
 TEST(Debugger, RestartKeepsBreakpointsAndIsTakenBack) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break 4; continue; continue");
   const auto before = session.simulation.snapshot();
   session("restart");
@@ -1177,7 +1177,7 @@ TEST(Debugger, RestartKeepsBreakpointsAndIsTakenBack) {
 // --- back in time ---
 
 TEST(Debugger, StepsBackwardsUndoStepsForwards) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("step 3");
   std::vector<serial::Simulation::Snapshot> states;
   for (int i = 0; i < 300; ++i) {
@@ -1194,7 +1194,7 @@ TEST(Debugger, StepsBackwardsUndoStepsForwards) {
 }
 
 TEST(Debugger, BackwardsOverACallPassesAllThatItCalled) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("until 3; ro");
   EXPECT_EQ(session.line(), 2U);
   session("until 18; ru");
@@ -1205,14 +1205,14 @@ TEST(Debugger, BackwardsOverACallPassesAllThatItCalled) {
 }
 
 TEST(Debugger, BackwardsOutOfAnInterruptRoutineIsWhatItInterrupted) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("until 21; ru");
   EXPECT_FALSE(session.state().in_interrupt);
   EXPECT_EQ(session.vw(30), 0U);
 }
 
 TEST(Debugger, BackwardsOverNeverStopsInAnInterruptThatCameInBetween) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("until 3; continue 50ms; over");
   for (int i = 0; i < 60; ++i) {
     session("rover");
@@ -1221,7 +1221,7 @@ TEST(Debugger, BackwardsOverNeverStopsInAnInterruptThatCameInBetween) {
 }
 
 TEST(Debugger, BackwardsScanGoesToTheStartOfThisOneThenOfTheOneBefore) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("scan 20; step 2; rn");
   EXPECT_EQ(session.line(), 1U);
   EXPECT_EQ(session.state().scans, 20U);
@@ -1233,7 +1233,7 @@ TEST(Debugger, BackwardsScanGoesToTheStartOfThisOneThenOfTheOneBefore) {
 }
 
 TEST(Debugger, BackwardsContinueStopsWhereContinueStopped) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("watch VW30; break 17");
   std::vector<serial::Simulation::Snapshot> stops;
   for (int i = 0; i < 5; ++i) {
@@ -1250,13 +1250,13 @@ TEST(Debugger, BackwardsContinueStopsWhereContinueStopped) {
 }
 
 TEST(Debugger, BackwardsUntilIsTheLastTimeItWasThere) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("until 21; scan 3; rt INT 0");
   EXPECT_EQ(session.line(), 19U);
 }
 
 TEST(Debugger, AtGoesToAMomentAndSaysThatItIsThePast) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 50ms");
   const std::string text = session("at 15.193ms");
   EXPECT_GE(session.simulation.time(), 15'193'000);
@@ -1271,7 +1271,7 @@ TEST(Debugger, AtGoesToAMomentAndSaysThatItIsThePast) {
 }
 
 TEST(Debugger, WhoNamesInstructionValuesInterruptAndTimeWithoutGoingThere) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 12ms");
   const auto here = session.simulation.snapshot();
   const std::string text = session("who VW30");
@@ -1285,7 +1285,7 @@ TEST(Debugger, WhoNamesInstructionValuesInterruptAndTimeWithoutGoingThere) {
 }
 
 TEST(Debugger, WhoKnowsWhatWasSetAndWhatTheSystemWrote) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("step; set VW40=7; continue 10ms");
   EXPECT_TRUE(has(session("who VW40"), "by 'set VW40', from outside"));
   EXPECT_TRUE(has(session("who SM0.1"), "by the system, between two instructions"));
@@ -1293,7 +1293,7 @@ TEST(Debugger, WhoKnowsWhatWasSetAndWhatTheSystemWrote) {
 }
 
 TEST(Debugger, ChangingMemoryInThePastBeginsABranchAndBackReturnsToTheOldOne) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 50ms");
   const auto end = session.simulation.snapshot();
   EXPECT_TRUE(has(session("at 20ms; set VW30=100"), "a new branch begins here; what ran up to 50."));
@@ -1304,7 +1304,7 @@ TEST(Debugger, ChangingMemoryInThePastBeginsABranchAndBackReturnsToTheOldOne) {
 }
 
 TEST(Debugger, ForwardFromThePastDoesAgainWhatWasDoneUntilABranchForgetsIt) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("scan 3; set VW40=7; scan 3; at start; continue 40ms");
   EXPECT_EQ(session.vw(40), 7U);
   session("at start; fork; continue 40ms");
@@ -1312,14 +1312,14 @@ TEST(Debugger, ForwardFromThePastDoesAgainWhatWasDoneUntilABranchForgetsIt) {
 }
 
 TEST(Debugger, PastSaysHowFarBackItCanGoAndWhy) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text = session("continue 2s; past");
   EXPECT_TRUE(has(text, "from 0.000000 ms, where this session powered the CPU up, to 2000."));
   EXPECT_TRUE(has(text, "of 256 MB; 0 actions from outside"));
 }
 
 TEST(Debugger, ThePastOfAPowerCycleBeginsWherePowerCameBackAndBackLeadsBeforeIt) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 50ms; power 1h; continue 20ms");
   constexpr std::string_view kBegins = "power came back after 1 h ('back' leads to before that)";
   EXPECT_TRUE(has(session("past"), std::string("from 0.000000 ms, where ") + std::string(kBegins)));
@@ -1333,7 +1333,7 @@ TEST(Debugger, ThePastOfAPowerCycleBeginsWherePowerCameBackAndBackLeadsBeforeIt)
 // --- observing changes nothing ---
 
 TEST(Debugger, OneOfAThingIsNotInThePlural) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   const std::string text = session("scan 3; set VB100=1; past");
   EXPECT_TRUE(has(text, "\n1 checkpoint, one every"));
   EXPECT_TRUE(has(text, "; 1 action from outside\n"));
@@ -1341,7 +1341,7 @@ TEST(Debugger, OneOfAThingIsNotInThePlural) {
 
 TEST(Debugger, SteppedRunAndPlainRunEndInTheSameState) {
   const auto program = program_of(kEcho);
-  Session session(program);
+  AtPrompt session(program);
   session("trace on; display VB0:4; watch VW40 SM0.6; break INT 1; break 6");
   session("step 9; over; scan; continue; send 5a; continue; regs; stack; port; errors; list; out");
   const Time sent = session.simulation.master().exchange().request_start;
@@ -1365,7 +1365,7 @@ TEST(Debugger, SteppedRunAndPlainRunEndInTheSameState) {
 // --- STOP and errors ---
 
 TEST(Debugger, StopOfTheCpuIsReportedWithTheInstruction) {
-  Session session("LD SM0.0\nSTOP // enough\nMEND\n");
+  AtPrompt session("LD SM0.0\nSTOP // enough\nMEND\n");
   EXPECT_TRUE(has(session("continue"), "the CPU went to STOP; the last instruction was in main line 2: STOP"));
   const auto before = session.simulation.snapshot();
   EXPECT_TRUE(has(session("step; scan"), "the CPU is in STOP"));
@@ -1375,14 +1375,14 @@ TEST(Debugger, StopOfTheCpuIsReportedWithTheInstruction) {
 }
 
 TEST(Debugger, FatalErrorIsReportedWithItsMeaningAndPlace) {
-  Session session("LBL 1\nLD SM0.0\nJMP 1\nMEND\n");
+  AtPrompt session("LBL 1\nLD SM0.0\nJMP 1\nMEND\n");
   const std::string text = session("continue");
   EXPECT_TRUE(has(text, "fatal error 0003, scan watchdog"));
   EXPECT_TRUE(has(text, "in main line"));
 }
 
 TEST(Debugger, RunTimeErrorIsReportedOnceARunWithHowManyMoreThereWere) {
-  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMOVB 1, *VD100\nMEND\n");
   const std::string text = session("step 3; continue 10ms");
   EXPECT_TRUE(has(text, "run-time error 0006"));
   EXPECT_TRUE(has(text, "*VD100=?"));
@@ -1392,14 +1392,14 @@ TEST(Debugger, RunTimeErrorIsReportedOnceARunWithHowManyMoreThereWere) {
 // --- looking ---
 
 TEST(Debugger, RegsShowsWhatWaitsInTheQueues) {
-  Session session("LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nINCW VW0\nMEND\nINT 0\nLD SM0.0\nINCW VW2\nINCW VW4\nRETI\n");
+  AtPrompt session("LD SM0.1\nATCH 0, 0\nENI\nLD SM0.0\nINCW VW0\nMEND\nINT 0\nLD SM0.0\nINCW VW2\nINCW VW4\nRETI\n");
   session("scan 2; input I0.0=1; interrupt; input I0.0=0; step; input I0.0=1; step");
   EXPECT_TRUE(has(session("regs"), "waiting    "));
   EXPECT_TRUE(has(session.out.str(), "event 0"));
 }
 
 TEST(Debugger, RegsShowsWhereWithTheCallsAndAttachments) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text = session("break SBR 2; continue; regs");
   EXPECT_TRUE(has(text, "SBR 2 line 15, called in SBR 1 line 13, called in main line 2"));
   EXPECT_TRUE(has(text, "event 10 → INT 0  timed interrupt 0, SMB34, every 5 ms"));
@@ -1408,7 +1408,7 @@ TEST(Debugger, RegsShowsWhereWithTheCallsAndAttachments) {
 }
 
 TEST(Debugger, ListMarksTheCurrentLineAndBreakpoints) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text = session("break 2; continue; over; list");
   EXPECT_TRUE(has(text, "*      2  CALL    1"));
   EXPECT_TRUE(has(text, " >     3  LD      SM0.0"));
@@ -1418,13 +1418,13 @@ TEST(Debugger, ListMarksTheCurrentLineAndBreakpoints) {
 }
 
 TEST(Debugger, DisplayComesAfterEveryStop) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("display VW20; until 18"), "VW20     16#0007"));
   EXPECT_FALSE(has(session("display off; step"), "VW20 "));
 }
 
 TEST(Debugger, ADoubleWordThatTheProgramUsesAsARealIsShownAsOneTooWhereverItIsShown) {
-  Session session("LD SM0.0\nMOVR 1.5, VD20\n+R 1.0, VD20\nMOVR VD20, AC1\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVR 1.5, VD20\n+R 1.0, VD20\nMOVR VD20, AC1\nMEND\n");
   EXPECT_TRUE(has(session("watch VD20 VD20:real; step 2"), "VD20=16#3FC00000 (1.5)"));
   EXPECT_TRUE(has(session.out.str(), "watch 1: VD20 was 16#00000000 (0, 0.0), is 16#3FC00000 (1069547520, 1.5)\n"));
   EXPECT_TRUE(has(session.out.str(), "watch 2: VD20:REAL was 16#00000000 (0.0), is 16#3FC00000 (1.5)\n"));
@@ -1436,7 +1436,7 @@ TEST(Debugger, ADoubleWordThatTheProgramUsesAsARealIsShownAsOneTooWhereverItIsSh
 }
 
 TEST(Debugger, SetWritesMemoryWithOrWithoutBlanks) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("set VW100=5 VB102 = 16#FF; print VW100 VB102"), "VW100    16#0005"));
   EXPECT_TRUE(has(session.out.str(), "ff"));
 }
@@ -1444,14 +1444,14 @@ TEST(Debugger, SetWritesMemoryWithOrWithoutBlanks) {
 // --- the language ---
 
 TEST(Debugger, CommandsMayBeCutShortWhileTheyStayClear) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("cont 5ms; s; ste");
   EXPECT_TRUE(has(session.error_of("de 1; re"), "no breakpoint or watch 1"));
   EXPECT_TRUE(has(session.error_of("re"), "'re' may be restart, regs"));
 }
 
 TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::pair<std::string_view, std::string_view> wrong[] = {
       {"jump", "unknown command 'jump'; 'help' lists them"},
       {"step x", "step expects how many"},
@@ -1522,7 +1522,7 @@ TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
 }
 
 TEST(Debugger, WhatTakesATimeNamesItsUnits) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   for (const char* wrong : {"continue 20m", "at 20m", "power 20m"})
     EXPECT_TRUE(has(session.error_of(wrong), "in ns, us, ms, s, min or h")) << wrong;
   for (const char* command : {"help continue", "help at", "help power"})
@@ -1532,13 +1532,13 @@ TEST(Debugger, WhatTakesATimeNamesItsUnits) {
 }
 
 TEST(Debugger, WrongAssignmentMeansThatNoneOfItsLineIsMade) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session.error_of("set VW100=5 VB102=300");
   EXPECT_EQ(session.vw(100), 0U);
 }
 
 TEST(Debugger, ScriptEndsAtTheFirstWrongCommandWithItsLine) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   std::istringstream script("# a comment\n\nstep # and one after\nstep; jmp; step\nstep\n");
   const auto error = session.debugger->run_script(script);
   ASSERT_TRUE(error.has_value());
@@ -1548,7 +1548,7 @@ TEST(Debugger, ScriptEndsAtTheFirstWrongCommandWithItsLine) {
 }
 
 TEST(Debugger, ScriptEchoesEachCommandInFrontOfWhatItPrints) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   std::istringstream script("step; stack # look\n");
   EXPECT_FALSE(session.debugger->run_script(script).has_value());
   EXPECT_TRUE(session.out.str().starts_with("(s7200) step\n"));
@@ -1556,18 +1556,18 @@ TEST(Debugger, ScriptEchoesEachCommandInFrontOfWhatItPrints) {
 }
 
 TEST(Debugger, ScriptEndsAtQuitAndAtItsEnd) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   std::istringstream script("step\r\nquit\r\nstep\r\n"), no_line_end("step");
   EXPECT_FALSE(session.debugger->run_script(script).has_value());
   EXPECT_EQ(session.state().instructions, 1U);
   EXPECT_TRUE(session.debugger->quit_asked());
-  Session other(kNested);
+  AtPrompt other(kNested);
   EXPECT_FALSE(other.debugger->run_script(no_line_end).has_value());
   EXPECT_EQ(other.state().instructions, 1U);
 }
 
 TEST(Debugger, OnlyCommandsThatRunAreRepeatable) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("step 2");
   EXPECT_EQ(session.debugger->repeatable(), "step 2");
   session("regs");
@@ -1575,7 +1575,7 @@ TEST(Debugger, OnlyCommandsThatRunAreRepeatable) {
 }
 
 TEST(Debugger, HelpExplainsEveryCommand) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   std::istringstream list(session("help"));
   EXPECT_TRUE(has(session("help watch"), "short: w"));
   EXPECT_TRUE(has(session("help send"), "p after a byte"));
@@ -1583,7 +1583,7 @@ TEST(Debugger, HelpExplainsEveryCommand) {
 }
 
 TEST(Debugger, EveryFaultInAHelpTextIsOneThatIsAccepted) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   for (const std::string command : {"fault", "help fault"}) {
     const std::string text = session(command);
     int examples = 0;
@@ -1605,7 +1605,7 @@ TEST(Debugger, StepsThroughTheTipDocument) {
   if (!bytes) GTEST_SKIP() << "the tip document is not here: " << why;
   auto text = read_source(*bytes, "tip", why);
   ASSERT_TRUE(text.has_value()) << why;
-  Session session(check(std::move(text->parsed), cpu214(), default_times(cpu214())).program);
+  AtPrompt session(check(std::move(text->parsed), cpu214(), default_times(cpu214())).program);
 
   EXPECT_TRUE(has(session("continue 2s; break INT 123; send 01 03 00 00 00 02 crc; continue"), "breakpoint 1"));
   EXPECT_TRUE(has(session("print SMB2"), "SMB2     03"));
@@ -1623,7 +1623,7 @@ TEST(Debugger, StepsThroughTheTipDocument) {
 
 TEST(Debugger, AfterAStopRequestTheRestOfALineIsNotDoneAndCounted) {
   std::atomic<bool> stop = true;
-  Session session(program_of(kNested), &stop);
+  AtPrompt session(program_of(kNested), &stop);
   const std::string text = session("scan 5; step; set VW100=7 # not this; nor this");
   EXPECT_TRUE(has(text, "interrupted by Ctrl-C"));
   EXPECT_TRUE(has(text, "not done any more: 2 commands\n"));
@@ -1636,7 +1636,7 @@ TEST(Debugger, AfterAStopRequestTheRestOfALineIsNotDoneAndCounted) {
 
 TEST(Debugger, AfterAStopRequestTheRestOfAScriptIsNotDoneAndCounted) {
   std::atomic<bool> stop = true;
-  Session session(program_of(kNested), &stop);
+  AtPrompt session(program_of(kNested), &stop);
   std::istringstream script("scan 5; step ; ;\n\n# a comment\nset VW100=7\n");
   EXPECT_FALSE(session.debugger->run_script(script));
   EXPECT_TRUE(has(session.out.str(), "not done any more: 3 commands\n"));
@@ -1647,7 +1647,7 @@ TEST(Debugger, AfterAStopRequestTheRestOfAScriptIsNotDoneAndCounted) {
 }
 
 TEST(Debugger, TheFieldHasItsLevelsWhenPowerComesBack) {
-  Session session("LD I0.3\n= Q0.0\nMEND\n");
+  AtPrompt session("LD I0.3\n= Q0.0\nMEND\n");
   session("input I0.3=1; continue 20ms; power; continue 20ms");
   EXPECT_TRUE(has(session("print I0.3"), "1"));
   EXPECT_TRUE(has(session("print Q0.0"), "1"));
@@ -1661,12 +1661,12 @@ TEST(Debugger, ATimeFromThePastOnEndsWhereItEndsWhereverScansArePassedOver) {
   serial::Simulation simulation(program_of("LD I0.0\n= Q0.0\nMEND\n"));
   simulation.power_up();
   std::ostringstream out;
-  DebuggerOptions options{};
+  PromptSettings options{};
   options.history.drive = [&](Time end, const auto&) {  // Ctrl-C between two scans
     const serial::Halt halt = simulation.run_until(std::min<Time>(end, 700 * kMillisecond));
     return simulation.time() < end ? serial::Halt::Request : halt;
   };
-  Debugger debugger(simulation, out, options);
+  Prompt debugger(std::vector{&simulation}, out, options);
   EXPECT_FALSE(debugger.execute("continue 60s; at 300ms; continue 10ms"));
   EXPECT_GE(simulation.time(), 310 * kMillisecond);
   EXPECT_LT(simulation.time(), 312 * kMillisecond);
@@ -1676,14 +1676,14 @@ TEST(Debugger, APeerThatIsLostIsSaidOnceAndTheSessionGoesOn) {
   serial::Simulation simulation(program_of("LD SM0.0\nINCW VW0\nMEND\n"));
   simulation.power_up();
   std::ostringstream out;
-  DebuggerOptions options{};
+  PromptSettings options{};
   std::string failure = "the device is gone";
   options.history.drive = [&](Time end, const auto&) {
     const serial::Halt halt = simulation.run_until(failure.empty() ? end : std::min<Time>(end, 5 * kMillisecond));
     return failure.empty() ? halt : serial::Halt::Request;
   };
-  options.take_failure = [&] { return std::exchange(failure, {}); };
-  Debugger debugger(simulation, out, options);
+  options.session.take_failure = [&] { return std::exchange(failure, {}); };
+  Prompt debugger(std::vector{&simulation}, out, options);
   EXPECT_FALSE(debugger.execute("continue 60s"));
   EXPECT_TRUE(has(out.str(), "the device is gone\n"));
   EXPECT_FALSE(has(out.str(), "Ctrl-C"));

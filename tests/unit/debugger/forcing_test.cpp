@@ -14,7 +14,7 @@ constexpr std::string_view kCopy =
     "MEND\n";            // 6
 
 TEST(ForceCommand, HoldsAcrossScansUntilItIsTakenBack) {
-  Session session(kCopy);
+  AtPrompt session(kCopy);
   session("scan; force I0.0=1 VW10 = 7; scan 5");
   EXPECT_EQ(session.vw(10), 7U);
   EXPECT_EQ(session.state().image[image::kQ], 1);
@@ -24,14 +24,14 @@ TEST(ForceCommand, HoldsAcrossScansUntilItIsTakenBack) {
 }
 
 TEST(ForceCommand, AloneListsWhatIsForced) {
-  Session session(kCopy);
+  AtPrompt session(kCopy);
   EXPECT_TRUE(has(session("force"), "nothing is forced"));
   session("force VW10=7 I0.0=1");
   EXPECT_EQ(session("force"), "I0.0     1\nVW10     16#0007 (7)\n");
 }
 
 TEST(ForceCommand, GoingBackUndoesItAndGoingForwardDoesItAgain) {
-  Session session(kCopy);
+  AtPrompt session(kCopy);
   session("scan 3; force VW10=7; scan 3");
   session("at start; expect VW10 = 0");
   EXPECT_TRUE(has(session("force"), "nothing is forced"));
@@ -40,12 +40,12 @@ TEST(ForceCommand, GoingBackUndoesItAndGoingForwardDoesItAgain) {
 }
 
 TEST(ForceCommand, InThePastBeginsANewBranch) {
-  Session session(kCopy);
+  AtPrompt session(kCopy);
   EXPECT_TRUE(has(session("scan 3; rscan; force I0.0=1"), "a new branch begins here"));
 }
 
 TEST(ForceCommand, PrintStatusAndWhoShowWhatIsForced) {
-  Session session(kCopy);
+  AtPrompt session(kCopy);
   session("force VW10=7 Q0.0=0; scan 3");
   EXPECT_TRUE(has(session("print VB10:4"), "forced: VW10=16#0007 (7)"));
   EXPECT_TRUE(has(session("status"), "Q0.0=0  forced: Q0.0=0"));
@@ -54,7 +54,7 @@ TEST(ForceCommand, PrintStatusAndWhoShowWhatIsForced) {
 }
 
 TEST(ForceCommand, RefusesWhatACpuCannotForceAndSaysWhatItCan) {
-  Session session(kCopy);
+  AtPrompt session(kCopy);
   EXPECT_TRUE(has(session.error_of("force M0.3=1"), "'M0.3=1' cannot be forced: the CPU forces points of I and Q"));
   EXPECT_TRUE(has(session.error_of("force I0.3"), "write one address, =, and a value"));
   EXPECT_TRUE(has(session.error_of("unforce VW10"), "VW10 is not forced"));
@@ -72,7 +72,7 @@ TEST(ForceCommand, IsRedOnATerminalOnly) {
   serial::Simulation simulation(program_of(kCopy));
   simulation.power_up();
   std::ostringstream out;
-  Debugger debugger(simulation, out, DebuggerOptions{.colour = true});
+  Prompt debugger(std::vector{&simulation}, out, PromptSettings{.colour = true});
   debugger.execute("force Q0.0=1; print Q0.0");
   EXPECT_TRUE(has(out.str(), "\x1b[31m  forced: Q0.0=1\x1b[0m"));
 }

@@ -1,5 +1,5 @@
 // Frames for the line, as people write them.
-#include "tools/session/commands/frame_words.hpp"
+#include "tools/session/words/frame_words.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 namespace s7200::tools {
 namespace {
 
-Session session_of_cpu_224(const std::string& text) {
-  return Session(check_text(text, "test.stl", cpu224(), default_times(cpu224())).program);
+AtPrompt session_of_cpu_224(const std::string& text) {
+  return AtPrompt(check_text(text, "test.stl", cpu224(), default_times(cpu224())).program);
 }
 
 /// Takes a message up to a CR, once.
@@ -23,7 +23,7 @@ const std::string kOnce =
     "MEND\n";
 
 TEST(ReceptionEnded, WithoutRoomForACharacterTheParameterIsNamed) {
-  Session session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 0, SMB94"));
+  AtPrompt session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 0, SMB94"));
   session("continue 50ms; break unanswered; send 41 42 0d; continue 1s");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "no answer to 3 characters since 50."));
@@ -35,13 +35,13 @@ TEST(ReceptionEnded, WithoutRoomForACharacterTheParameterIsNamed) {
 }
 
 TEST(ReceptionEnded, WithoutAStartConditionTheControlByteIsNamed) {
-  Session session = session_of_cpu_224(test::changed(kOnce, "MOVB 16#E0, SMB87", "MOVB 16#80, SMB87"));
+  AtPrompt session = session_of_cpu_224(test::changed(kOnce, "MOVB 16#E0, SMB87", "MOVB 16#80, SMB87"));
   session("continue 50ms; break unanswered; send 41 42 0d; continue 1s");
   EXPECT_TRUE(has(session("why"), " with SMB86 = 16#40 because SMB87 is 16#80, which has no start condition; "));
 }
 
 TEST(ReceptionEnded, WhatWorksOnlyOnceSaysWhichRcvCouldStartTheNext) {
-  Session session = session_of_cpu_224(kOnce);
+  AtPrompt session = session_of_cpu_224(kOnce);
   session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "the last one, RCV VB100, 0 in line 7 at 0."));
@@ -52,14 +52,14 @@ TEST(ReceptionEnded, WhatWorksOnlyOnceSaysWhichRcvCouldStartTheNext) {
 }
 
 TEST(ReceptionEnded, AsManyCharactersAsAllowedAreCounted) {
-  Session session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 2, SMB94"));
+  AtPrompt session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 2, SMB94"));
   session("continue 50ms; send 41 42; continue; break unanswered; send 41 43 0d; continue");
   EXPECT_TRUE(has(session("why"), "with SMB86 = 16#02 because 2 characters came, as many as SMB94 allows; "));
 }
 
 TEST(ReceptionEnded, AnInterruptRoutineThatNoEventCallsStartsNothing) {
   const std::string text = test::changed(kOnce, "MEND\n", "MEND\nINT 3\nLD SM0.0\nRCV VB100, 0\nRETI\n");
-  Session session = session_of_cpu_224(text);
+  AtPrompt session = session_of_cpu_224(text);
   session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
   EXPECT_TRUE(has(session("why"), "; or by RCV VB100, 0 in line 11: INT 3 is attached to no event\n"));
 }
@@ -67,7 +67,7 @@ TEST(ReceptionEnded, AnInterruptRoutineThatNoEventCallsStartsNothing) {
 TEST(ReceptionEnded, AnRcvRightAfterXmtWasRefused) {
   const std::string text = test::changed(test::changed(kOnce, "MOVB 10, SMB94\n", "MOVB 10, SMB94\nATCH 0, 23\nENI\n"),
                                          "MEND\n", "MEND\nINT 0\nLD SM0.0\nXMT VB100, 0\nRCV VB100, 0\nRETI\n");
-  Session session = session_of_cpu_224(text);
+  AtPrompt session = session_of_cpu_224(text);
   session("continue 50ms; send 41 42 0d; continue; break unanswered; send 41 43 0d; continue");
   EXPECT_TRUE(has(session("why"), "the last one, RCV VB100, 0 in line 14 at "));
   EXPECT_TRUE(has(session.out.str(), " was refused with run-time error 0009, "));
@@ -76,7 +76,7 @@ TEST(ReceptionEnded, AnRcvRightAfterXmtWasRefused) {
 }
 
 TEST(ReceptionEnded, AReceptionThatStopHasGivenUpIsSaidToBe) {
-  Session session = session_of_cpu_224(test::changed(kOnce, "RCV VB100, 0", "AN M0.0\nRCV VB100, 0"));
+  AtPrompt session = session_of_cpu_224(test::changed(kOnce, "RCV VB100, 0", "AN M0.0\nRCV VB100, 0"));
   session("continue 50ms; mode stop; continue 20ms; mode run; continue 20ms; mode stop; continue 20ms");
   session("set M0.0=1; mode run; continue 20ms; break unanswered; send 41 43 0d; continue");
   EXPECT_TRUE(has(session("why"), " was given up when the CPU went to STOP at "));
@@ -84,7 +84,7 @@ TEST(ReceptionEnded, AReceptionThatStopHasGivenUpIsSaidToBe) {
 
 /// Sends each character back while RCV waits for another message: XMT is refused.
 TEST(ReceptionEnded, AnXmtThatWasRefusedIsNamedWithWhatHadThePort) {
-  Session session = session_of_cpu_224(
+  AtPrompt session = session_of_cpu_224(
       "LD SM0.1\n"
       "MOVB 9, SMB30\n"
       "MOVB 16#B0, SMB87\n"

@@ -4,7 +4,7 @@ namespace s7200::tools {
 namespace {
 
 TEST(Seeing, HistoryListsTheLastInstructionsWithOperandsAndCommentsWithoutGoingThere) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("scan 3; step 4");
   const auto here = session.simulation.snapshot();
   const std::string text = session("history 3");
@@ -21,7 +21,7 @@ TEST(Seeing, TheParametersOfACallHaveTheirValuesInStepsHistoryAndStatus) {
       "= M0.0\nMOVR 2.5, VD30\nEND_ORGANIZATION_BLOCK\n"
       "SUBROUTINE_BLOCK Scale:SBR0\nVAR_INPUT\non : BOOL; raw : INT; add : INT; by : REAL;\nEND_VAR\n"
       "VAR_OUTPUT\nresult : INT;\nEND_VAR\nBEGIN\nNETWORK 1\nLD SM0.0\nMOVW #raw, #result\nEND_SUBROUTINE_BLOCK\n";
-  Session session(check_text(kScale, "test.awl", cpu224(), default_times(cpu224())).program);
+  AtPrompt session(check_text(kScale, "test.awl", cpu224(), default_times(cpu224())).program);
   const std::string values = "S0=1 M0.0=1 VW10=16#0003 VD30=16#40200000 (2.5)";
   const std::string stepped = session("scan 3; step 2");
   EXPECT_TRUE(has(stepped, values)) << "constants and results have none";
@@ -31,7 +31,7 @@ TEST(Seeing, TheParametersOfACallHaveTheirValuesInStepsHistoryAndStatus) {
 }
 
 TEST(Seeing, WhoKnowsWhichInstructionAttachedAnEvent) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("continue 50ms; who event 10"),
                   "ATCH: INT 0 to event 10 (timed interrupt 0, SMB34), every 5 ms\n"
                   "  by SBR 1 line 11    ATCH    0, 10"));
@@ -41,7 +41,7 @@ TEST(Seeing, WhoKnowsWhichInstructionAttachedAnEvent) {
 }
 
 TEST(Seeing, PrintTakesPointersFormsAndExpressions) {
-  Session session("LD SM0.0\nMOVD &VB100, VD20\nMOVD &VB102, AC1\nMOVD 16#41424344, VD100\nTON T37, 50\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVD &VB100, VD20\nMOVD &VB102, AC1\nMOVD 16#41424344, VD100\nTON T37, 50\nMEND\n");
   session("step 5");
   EXPECT_TRUE(has(session("print *VD20"), "*VD20 is VB100\nVB100    41 "));
   EXPECT_TRUE(has(session("print *AC1:word"), "*AC1:WORD is VW102\nVW102    16#4344"));
@@ -63,7 +63,7 @@ TEST(Seeing, PrintTakesPointersFormsAndExpressions) {
 }
 
 TEST(Seeing, StatusHasPowerFlowAndOperandsOfTheLastExecutionBesideEachLine) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("scan 3; step 2");
   const auto here = session.simulation.snapshot();
   const std::string text = session("status");
@@ -76,7 +76,7 @@ TEST(Seeing, StatusHasPowerFlowAndOperandsOfTheLastExecutionBesideEachLine) {
 }
 
 TEST(Seeing, PrintShowsSpecialMemoryInWords) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("step; print SMB0"), "SM0.0 always 1, SM0.1 first scan, SM0.3 first scan after power-up"));
   EXPECT_TRUE(has(session("print SM0.1"), "SM0.1 first scan"));
   EXPECT_TRUE(has(session("print SMB1"), "none of SMB1 is set"));
@@ -92,7 +92,7 @@ TEST(Seeing, SymbolsAndTheirCommentsAreShownBesideAddresses) {
                                         .parsed,
                                     cpu214(), default_times(cpu214()));
   ASSERT_TRUE(checked.program);
-  Session session(checked.program);
+  AtPrompt session(checked.program);
   session("scan; step 3");
   EXPECT_TRUE(has(session("print VW100"), "         Speed  // in rpm\n"));
   EXPECT_TRUE(has(session("print speed"), "VW100    16#0006"));
@@ -103,7 +103,7 @@ TEST(Seeing, SymbolsAndTheirCommentsAreShownBesideAddresses) {
 }
 
 TEST(Seeing, ARunTimeErrorOfABadPointerTellsItsValueAndWhoWroteIt) {
-  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100 // wrong\nMOVB 1, *VD100\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100 // wrong\nMOVB 1, *VD100\nMEND\n");
   const std::string text = session("break error; continue");
   EXPECT_TRUE(
       has(text, "*VD100: VD100 is 16#7FFFFFFF, which points nowhere\nVD100 was 16#00000000 (0), became 16#7FFFFFFF"));
@@ -111,7 +111,7 @@ TEST(Seeing, ARunTimeErrorOfABadPointerTellsItsValueAndWhoWroteIt) {
 }
 
 TEST(Seeing, CompletionOffersCommandsAddressesPlacesAndFiles) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   using Words = std::vector<std::string>;
   const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
   EXPECT_EQ(offered("conti"), Words{"continue"});
@@ -132,7 +132,7 @@ TEST(Seeing, CompletionOffersCommandsAddressesPlacesAndFiles) {
 }
 
 TEST(Seeing, CompletionOffersTheNumbersOfEventsWhoseRoutineIsAskedFor) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
   EXPECT_EQ(offered("who ev"), std::vector<std::string>{"event"});
   EXPECT_EQ(offered("who event 1"), offered("break event 1"));
@@ -140,7 +140,7 @@ TEST(Seeing, CompletionOffersTheNumbersOfEventsWhoseRoutineIsAskedFor) {
 }
 
 TEST(Seeing, CompletionOffersMomentsAtWhichSomethingWasDone) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 10ms");
   const Time done = session.simulation.time();
   session("set VW20=5");
@@ -154,7 +154,7 @@ TEST(Seeing, CompletionOffersMomentsAtWhichSomethingWasDone) {
 }
 
 TEST(Seeing, LabelsArePlacesAndAreCompleted) {
-  Session session("LD SM0.0\nJMP 7\nINCW VW0\nLBL 7\nLD SM0.0\nINCW VW2\nLBL 20\nMEND\n");
+  AtPrompt session("LD SM0.0\nJMP 7\nINCW VW0\nLBL 7\nLD SM0.0\nINCW VW2\nLBL 20\nMEND\n");
   const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
   EXPECT_EQ(offered("until L"), std::vector<std::string>{"LBL"});
   EXPECT_EQ(offered("until LBL "), (std::vector<std::string>{"7", "20"}));
@@ -163,7 +163,7 @@ TEST(Seeing, LabelsArePlacesAndAreCompleted) {
 }
 
 TEST(Seeing, ATimelineShowsWhatTheCpuDidSinceTheLastSendOrForSoLong) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_TRUE(has(session.error_of("timeline"), "timeline expects a duration before the first 'send'"));
   EXPECT_TRUE(has(session.error_of("timeline 0ms"), "timeline expects a duration above 0"));
   const std::string text = session("continue 50ms; send 41; continue; timeline");
@@ -175,7 +175,7 @@ TEST(Seeing, ATimelineShowsWhatTheCpuDidSinceTheLastSendOrForSoLong) {
 }
 
 TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("scan 3; expect VW10 = 3 and SM0.0");
   EXPECT_FALSE(session.debugger->expectation_failed());
   EXPECT_EQ(session.error_of("expect VW10 = 4"), "expected VW10 = 4, which does not hold here: VW10 is 3");
@@ -205,7 +205,7 @@ TEST(Seeing, ExpectIsAWrongCommandUnlessItHolds) {
 }
 
 TEST(Seeing, APointerThatPointsNowhereSaysWhoWroteIt) {
-  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100 // wrong\nMOVB 1, *VD100\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100 // wrong\nMOVB 1, *VD100\nMEND\n");
   const std::string text = session("step 3; print *VD100");
   EXPECT_TRUE(
       has(text, "*VD100: VD100 is 16#7FFFFFFF, which points nowhere\nVD100 was 16#00000000 (0), became 16#7FFFFFFF"));
@@ -213,7 +213,7 @@ TEST(Seeing, APointerThatPointsNowhereSaysWhoWroteIt) {
 }
 
 TEST(Seeing, WrongCommandsTellWhatIsExpected) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session.error_of("status 99"), "the last instruction is in line 22"));
   EXPECT_TRUE(has(session.error_of("expect"), "expect expects what must hold"));
   EXPECT_TRUE(has(session.error_of("print /q VB0"),
@@ -226,7 +226,7 @@ TEST(Seeing, WrongCommandsTellWhatIsExpected) {
 }
 
 TEST(Seeing, DisplayWatchAndWhoTakeTheAddressThatAPointerHoldsNowAndSayIt) {
-  Session session("LD SM0.0\nMOVD &VB100, VD20\nMOVB 7, *VD20\nMOVD &VB200, AC1\nMOVR 1.5, VD40\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVD &VB100, VD20\nMOVB 7, *VD20\nMOVD &VB200, AC1\nMOVR 1.5, VD40\nMEND\n");
   session("step 2");
   EXPECT_TRUE(has(session("display *VD20 VD40:real"), "*VD20 is VB100 now\n"));
   EXPECT_TRUE(has(session("display"), "VB100 "));
@@ -242,7 +242,7 @@ TEST(Seeing, DisplayWatchAndWhoTakeTheAddressThatAPointerHoldsNowAndSayIt) {
 }
 
 TEST(Seeing, APointerThatPointsNowhereAndAnExpressionAreRefusedWithWhatToDo) {
-  Session session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVD 16#7FFFFFFF, VD100\nMEND\n");
   session("step 2");
   for (const char* command : {"who", "rwho", "watch", "display"})
     EXPECT_EQ(session.error_of(std::string(command) + " *VD100"), "*VD100: VD100 is 16#7FFFFFFF, which points nowhere");
@@ -251,7 +251,7 @@ TEST(Seeing, APointerThatPointsNowhereAndAnExpressionAreRefusedWithWhatToDo) {
 }
 
 TEST(Seeing, WhoOfAnEventThatDoesNotExistSaysWhichDo) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   for (const char* command : {"who", "rwho"}) {
     const std::string asks = std::string(command) + " event ";
     EXPECT_TRUE(
@@ -262,19 +262,19 @@ TEST(Seeing, WhoOfAnEventThatDoesNotExistSaysWhichDo) {
 }
 
 TEST(Seeing, ThePlaceNamesTheNetworkAndItsTitle) {
-  Session session(
+  AtPrompt session(
       "NETWORK 1 // count\nLD SM0.0\nINCW VW0\nCALL 1\nNETWORK 2\nLD SM0.0\nINCW VW2\nMEND\nNETWORK 7 // SBR 1: again\n"
       "SBR 1\nLD SM0.0\nCRET\nRET\n");
   EXPECT_TRUE(has(session("until 3"), "main  S0=1  network 1 \"count\"\n >     3  INCW"));
   EXPECT_TRUE(has(session("until 12"), "SBR 1  S0=1  network 7 \"SBR 1: again\"\n"));
   EXPECT_TRUE(has(session("until 7"), "main  S0=1  network 2\n"));
   EXPECT_TRUE(has(session("why"), "SBR 1, network 7 \"SBR 1: again\": CRET in line 12 (LD SM0.0: SM0.0=1)\n"));
-  Session bare("LD SM0.0\nINCW VW0\nMEND\n");
+  AtPrompt bare("LD SM0.0\nINCW VW0\nMEND\n");
   EXPECT_TRUE(has(bare("until 2"), "main  S0=1\n")) << "without NETWORK lines";
 }
 
 TEST(Seeing, AConstantThatAnOperandCanNeverBeIsRefusedWithItsRange) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   for (const auto& [condition, why] : {
            std::pair{"VW20 = 70000", "column 8: VW20 can never be 70000: a word is a whole number from -32768 to 32767"},
            std::pair{"VW20 > -32769", "VW20 can never be -32769: a word"},
@@ -294,7 +294,7 @@ TEST(Seeing, AConstantThatAnOperandCanNeverBeIsRefusedWithItsRange) {
 }
 
 TEST(Seeing, AConstantIsComparedAsTheInstructionsTakeIt) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("set VW100=16#FFFF VD104=16#80000000 VB110=255 VD112:real=0.1 VW116=-32768");
   for (const char* const holds :
        {"VW100 = 16#FFFF", "VW100 = 65535", "VW100 = -1", "VW116 = 16#8000", "VW116 = -32768", "VD104 = 16#80000000",
@@ -304,7 +304,7 @@ TEST(Seeing, AConstantIsComparedAsTheInstructionsTakeIt) {
 }
 
 TEST(Seeing, WhatIsDoneFromOutsideIsInTheTrace) {
-  Session session("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n");
+  AtPrompt session("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nINCW VW0\nRETI\n");
   const std::string text = session("continue 20ms; trace on; input I0.0=1; mode stop; mode run; set SMB30=16#49");
   EXPECT_TRUE(has(text, "event 0 (rising edge of I0.0) occurred"));
   EXPECT_TRUE(has(text, "STOP"));
@@ -313,14 +313,14 @@ TEST(Seeing, WhatIsDoneFromOutsideIsInTheTrace) {
 }
 
 TEST(Seeing, OfCharactersIgnoredUpToASilenceATraceHasTheFirst) {
-  Session session("LD SM0.0\nMEND\n");
+  AtPrompt session("LD SM0.0\nMEND\n");
   const std::string text = session("continue 20ms; trace on; send 01 03 00 0a; continue 100ms");
   EXPECT_TRUE(has(text, "ignored  01"));
   EXPECT_EQ(text.find("ignored"), text.rfind("ignored")) << text;
 }
 
 TEST(Seeing, ACounterHasThePresetOfItsInstruction) {
-  Session session("LD I0.0\nLD I0.1\nCTU C1, 3\nMEND\n");
+  AtPrompt session("LD I0.0\nLD I0.1\nCTU C1, 3\nMEND\n");
   EXPECT_TRUE(has(session("print C1"), "C1: bit 0, preset 3\n"));
   EXPECT_TRUE(has(session("print C2"), "C2: bit 0\n"));
 }
@@ -329,9 +329,9 @@ TEST(Seeing, AColourMarksTheCurrentLineStopsErrorsAndTroubleInATrace) {
   serial::Simulation simulation(program_of("LD SM0.0\nMOVD 16#7F000000, VD0\nMOVB 1, *VD0\nMEND\n"));
   simulation.power_up();
   std::ostringstream out;
-  DebuggerOptions options{};
+  PromptSettings options{};
   options.colour = true;
-  Debugger debugger(simulation, out, options);
+  Prompt debugger(std::vector{&simulation}, out, options);
   EXPECT_FALSE(debugger.execute("break 3; trace on; continue; step"));
   EXPECT_TRUE(has(out.str(), "\x1b[1mbreakpoint 1, hit for the first time\x1b[0m\n"));
   EXPECT_TRUE(has(out.str(), " \x1b[1m>\x1b[0m     3  MOVB")) << "where it stands";

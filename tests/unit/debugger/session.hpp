@@ -9,7 +9,9 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/program/load.hpp"
-#include "tools/debugger/debugger.hpp"
+#include "tools/faces/console/prompt.hpp"
+#include "tools/faces/files/host_files.hpp"
+#include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 
@@ -61,10 +63,16 @@ inline std::shared_ptr<const Program> program_of(std::string_view text) {
   return check_text(text, "test.stl", cpu214(), default_times(cpu214())).program;
 }
 
+/// The files of this computer, for `save`, `load` and completion.
+inline const HostFiles& files_of_commands() {
+  static const HostFiles files;
+  return files;
+}
+
 /// A debugger of a plant: commands in, text out. The plant is a base, as it has to be there before the debugger and after
 /// it.
 template <class Plant>
-struct Prompt : Plant {
+struct Talk : Plant {
   using Plant::Plant;
 
   /// What good commands print.
@@ -77,7 +85,7 @@ struct Prompt : Plant {
   std::string error_of(std::string_view commands) { return debugger->execute(commands).value_or("no error"); }
 
   std::ostringstream out;
-  std::unique_ptr<Debugger> debugger;
+  std::unique_ptr<Prompt> debugger;
 };
 
 struct OnePlc {
@@ -90,12 +98,16 @@ struct OnePlc {
   serial::Simulation simulation;
 };
 
-struct Session : Prompt<OnePlc> {
-  explicit Session(std::shared_ptr<const Program> program, const std::atomic<bool>* stop_request = nullptr)
-      : Prompt(std::move(program)) {
-    debugger = std::make_unique<Debugger>(simulation, out, DebuggerOptions{.stop_request = stop_request});
+struct AtPrompt : Talk<OnePlc> {
+  explicit AtPrompt(std::shared_ptr<const Program> program, const std::atomic<bool>* stop_request = nullptr)
+      : Talk(std::move(program)) {
+    debugger =
+        std::make_unique<Prompt>(std::vector{&simulation}, out,
+                                 PromptSettings{.session = {.stop_request = stop_request,
+                                                            .interruption = [] { return std::string(interruption_text()); },
+                                                            .files = &files_of_commands()}});
   }
-  explicit Session(std::string_view text) : Session(program_of(text)) {}
+  explicit AtPrompt(std::string_view text) : AtPrompt(program_of(text)) {}
 };
 
 inline testing::AssertionResult has(const std::string& text, std::string_view part) {

@@ -34,13 +34,13 @@ class SavedSession : public testing::Test {
 };
 
 TEST_F(SavedSession, IsLoadedBitByBitIntoAnotherSession) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session(
       "continue 50ms; set VW100=7; input I0.0=1; force VB200=3; fault flip:bit=0; send 41 42; continue; continue 1s; at "
       "60ms");
   const auto here = session.simulation.snapshot();
   session("save " + file("a.json"));
-  Session other(kEcho);
+  AtPrompt other(kEcho);
   EXPECT_TRUE(has(other("scan 3; load " + file("a.json")), "in the past; going forward plays what has run, up to"));
   EXPECT_EQ(other.simulation.snapshot(), here);
   session("at end");
@@ -51,7 +51,7 @@ TEST_F(SavedSession, IsLoadedBitByBitIntoAnotherSession) {
 
 TEST_F(SavedSession, HasWhatOneCommandDidToAPlaceTwiceInItsOrder) {
   for (const std::string_view command : {"set VB20=5 VW20=1 VB20=7", "force VB20=5 VW20=1 VB20=7"}) {
-    Session session(kEcho), other(kEcho);
+    AtPrompt session(kEcho), other(kEcho);
     session(fmt::format("scan 3; {}; scan 3; expect VW20 = 16#0701; save {}", command, file("a.json")));
     other(fmt::format("load {}; expect VW20 = 16#0701", file("a.json")));
     EXPECT_EQ(other.simulation.snapshot(), session.simulation.snapshot()) << command;
@@ -59,28 +59,28 @@ TEST_F(SavedSession, HasWhatOneCommandDidToAPlaceTwiceInItsOrder) {
 }
 
 TEST_F(SavedSession, HasItsBreakpointsAndWatches) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session(
       "continue 12ms; break INT 0 if VW30 > 2 hits 2; break 4 always; watch VW30 write; watch VB20:2 VD100:real; "
       "break event 10 occurs; break error 0006 log \"it's {VW10}  at {time}\"; delete 2; save " +
       file("a.json"));
   EXPECT_TRUE(has(session.out.str(), "from outside; breakpoints and watches: 6\n"));
   const std::string there = session("break");
-  Session other(kNested);
+  AtPrompt other(kNested);
   EXPECT_TRUE(has(other("load " + file("a.json")), "breakpoints and watches of that session: 6; 'break' lists them\n"));
   EXPECT_EQ(other("break"), there);
   EXPECT_FALSE(has(other("load " + file("a.json")), "of that session")) << "they are there already";
   EXPECT_EQ(other("break"), there);
   EXPECT_EQ(session("delete 3 4 5 6; continue"), other("delete 3 4 5 6; continue")) << "they stop the same";
   EXPECT_TRUE(has(other.out.str(), "breakpoint 1, hit 2 times"));
-  Session third(kNested);
+  AtPrompt third(kNested);
   third("break 4; load " + file("a.json"));
   EXPECT_TRUE(has(third("break"), "1   break")) << "its own keeps its number";
   EXPECT_TRUE(has(third.out.str(), "2   break    0 hits  INT 0")) << "that of another one is not taken";
 }
 
 TEST_F(SavedSession, KeepsTheTypeOfAWatchOnAPartOfAnAccumulator) {
-  Session session(kNested), other(kNested);
+  AtPrompt session(kNested), other(kNested);
   session("set AC1=16#12345678; watch AC1:byte AC1:word AC0; save " + file("parts.json"));
   const std::string there = session("break");
   other("load " + file("parts.json"));
@@ -89,9 +89,9 @@ TEST_F(SavedSession, KeepsTheTypeOfAWatchOnAPartOfAnAccumulator) {
 }
 
 TEST_F(SavedSession, KeepsAPowerCycleThatItBeganWith) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("scan 5; set MB14=9; power 1s; scan 2; save " + file("a.json"));
-  Session other(kNested);
+  AtPrompt other(kNested);
   other("load " + file("a.json") + "; expect MB14 = 9");
   EXPECT_EQ(other.simulation.snapshot(), session.simulation.snapshot());
 }
@@ -104,7 +104,7 @@ TEST_F(SavedSession, ThatHadAMasterOnABridgeIsLoadedWithoutTheBridge) {
   serial::HostPort& port = simulation.host_port();
   port.attach(kFormat, simulation.time());
   bool asked = false;
-  DebuggerOptions options{};
+  PromptSettings options{.session = {.files = &files_of_commands()}};
   options.history.drive = [&](Time end, const auto&) {
     serial::Halt halt = simulation.run_until(std::min(end, simulation.time() + 300 * kMillisecond));
     if (halt != serial::Halt::Time) return halt;
@@ -113,27 +113,27 @@ TEST_F(SavedSession, ThatHadAMasterOnABridgeIsLoadedWithoutTheBridge) {
     return simulation.run_until(end);
   };
   std::ostringstream out;
-  Debugger saving(simulation, out, options);
+  Prompt saving(std::vector{&simulation}, out, options);
   EXPECT_FALSE(saving.execute("continue 1s; expect VB1 = 16#41; save " + file("a.json")));
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("scan 2; load " + file("a.json") + "; expect VB1 = 16#41");
   EXPECT_EQ(session.state().instructions, simulation.cpu().state().instructions);
   session("at 1ms; expect VB1 = 0; at end; expect VB1 = 16#41; power; restart; scan 2");
 }
 
 TEST_F(SavedSession, OfAnotherProgramCpuVersionOrBeginningIsRefused) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("scan 2; save " + file("a.json"));
-  Session another(kNested);
+  AtPrompt another(kNested);
   EXPECT_TRUE(has(another.error_of("load " + file("a.json")), "it is of another program, or of other execution times"));
-  Session cpu(check_text(kEcho, "test.stl", cpu215(), default_times(cpu215())).program);
+  AtPrompt cpu(check_text(kEcho, "test.stl", cpu215(), default_times(cpu215())).program);
   EXPECT_TRUE(has(cpu.error_of("load " + file("a.json")), "it is of a CPU 214, not of a CPU 215"));
   serial::Simulation simulation(program_of(kEcho));
   simulation.power_up();
   const std::uint8_t byte = 1;
   simulation.cpu().poke(image::kV, {&byte, 1});
   std::ostringstream out;
-  Debugger otherwise(simulation, out, {});
+  Prompt otherwise(std::vector{&simulation}, out, {.session = {.files = &files_of_commands()}});
   EXPECT_TRUE(has(otherwise.execute("load " + file("a.json")).value_or(""), "it began with other memory or inputs"));
 }
 
@@ -145,11 +145,11 @@ TEST_F(SavedSession, OfOtherOptionsIsRefusedWithTheirNamesAndBothValues) {
   serial::MasterSettings slow;
   slow.baud = 1200;
   slow.gap = 2 * kMillisecond;
-  DebuggerOptions options{.master = slow};
-  options.conditions = {{"--fault", "flip:bit=0"}};
-  Debugger saving(simulation, out, options);
+  PromptSettings options{.session = {.master = slow, .files = &files_of_commands()}};
+  options.session.options = {{"--fault", "flip:bit=0"}};
+  Prompt saving(std::vector{&simulation}, out, options);
   EXPECT_FALSE(saving.execute("scan 2; save " + file("a.json")));
-  Session session(program);
+  AtPrompt session(program);
   EXPECT_TRUE(has(session.error_of("load " + file("a.json")),
                   "it was saved with other options: --baud 1200 (here as the port), --gap 2 ms (here none), "
                   "--fault flip:bit=0 (here none)"));
@@ -158,19 +158,19 @@ TEST_F(SavedSession, OfOtherOptionsIsRefusedWithTheirNamesAndBothValues) {
 
 TEST_F(SavedSession, OfAnotherTimeOfDayIsRefused) {
   const auto program = program_of(kEcho);
-  Session session(program);
+  AtPrompt session(program);
   session("scan 2; save " + file("a.json"));
   serial::Simulation later(program);
   later.power_up();
   later.cpu().set_clock({.year = 26, .month = 11, .day = 21});
   std::ostringstream out;
-  Debugger debugger(later, out, {});
+  Prompt debugger(std::vector{&later}, out, {.session = {.files = &files_of_commands()}});
   EXPECT_TRUE(
       has(debugger.execute("load " + file("a.json")).value_or(""), "--clock 90-01-01 00:00:00 (here 26-11-21 00:00:00)"));
 }
 
 TEST_F(SavedSession, DamagedIsRefusedWhereverTheDamageIs) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("scan 2; set VW100=7; save " + file("a.json"));
   const std::string whole = read("a.json");
   const auto here = session.simulation.snapshot();
@@ -211,7 +211,7 @@ TEST_F(SavedSession, ThatIsAsNoneIsWrittenIsRefusedThoughItsCheckSumIsRight) {
       {"number: 0.5 is not a whole number", [](Json& json) { json["stops"][0]["number"] = 0.5; }},
       {"sync: 1 is not true or false", [](Json& json) { json["actions"][0]["sync"] = 1; }},
       {"-1 is not a whole number", [](Json& json) { json["end"][0] = -1; }}};
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("break 9; save " + file("a.json"));
   for (const Case& one : cases) {
     Json json = Json::parse(read("a.json"));
@@ -225,7 +225,7 @@ TEST_F(SavedSession, ThatIsAsNoneIsWrittenIsRefusedThoughItsCheckSumIsRight) {
 }
 
 TEST_F(SavedSession, ThatIsNestedWithoutEndIsRefused) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("save " + file("a.json"));
   const std::string whole = read("a.json");
   for (const std::string open : {"[", "{\"a\":"}) {
@@ -240,7 +240,7 @@ TEST_F(SavedSession, ThatIsNestedWithoutEndIsRefused) {
 TEST_F(SavedSession, ThatTookMoreThanAWeekIsRunAgainOnlyIfThatIsAskedFor) {
   using Json = nlohmann::ordered_json;
   std::atomic<bool> stop = false;
-  Session session(program_of(kEcho), &stop);
+  AtPrompt session(program_of(kEcho), &stop);
   session("scan 2; save " + file("a.json"));
   Json json = Json::parse(read("a.json"));
   json.erase("sum");
@@ -255,7 +255,7 @@ TEST_F(SavedSession, ThatTookMoreThanAWeekIsRunAgainOnlyIfThatIsAskedFor) {
 }
 
 TEST_F(SavedSession, ReplacesItsOwnKindOfFileAndOthersOnlyWhenToldTo) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("save " + file("a.json") + "; scan; save " + file("a.json"));
   write("mine.txt", "mine");
   EXPECT_TRUE(has(session.error_of("save " + file("mine.txt")), "exists and is not a saved session; it is left alone"));
@@ -265,14 +265,14 @@ TEST_F(SavedSession, ReplacesItsOwnKindOfFileAndOthersOnlyWhenToldTo) {
 }
 
 TEST_F(SavedSession, IsToldToReplaceOnlyWhatIsThere) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   write("mine.txt", "mine");
   EXPECT_TRUE(has(session.error_of("save " + file("mine.txt")), "mine.txt !' replaces it"));
   EXPECT_FALSE(has(session.error_of("save " + file("nowhere/a.json")), "!"));
 }
 
 TEST(PowerCommand, KeepsWhatTheCpuKeepsAndBackTakesItBack) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("scan 5; set MB0=5 MB14=9");
   EXPECT_TRUE(has(session("power"), "retentive memory, EEPROM and clock are kept"));
   session("expect MB0 = 0 and MB14 = 9");
@@ -282,14 +282,14 @@ TEST(PowerCommand, KeepsWhatTheCpuKeepsAndBackTakesItBack) {
 }
 
 TEST(PowerCommand, SaysThatARequestUnderWayWentDownToo) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   EXPECT_FALSE(has(session("continue 20ms; power"), "under way"));
   EXPECT_TRUE(has(session("continue 20ms; send 41 42; step; power"),
                   "under way when power went off, and nobody waits for an answer any more: 41 42\n"));
 }
 
 TEST(PowerCommand, WrongWordsTellWhatIsExpected) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session.error_of("power soon"), "power expects off, on, or how long it was off"));
   EXPECT_TRUE(has(session.error_of("load"), "load expects a file"));
   EXPECT_TRUE(has(session.error_of("save"), "save expects a file"));

@@ -19,14 +19,14 @@ constexpr std::string_view kLoop =
     "MEND\n";           // 8
 
 TEST(Standstill, WhyNamesTheJumpThatLedToTheWatchdog) {
-  Session session(kLoop);
+  AtPrompt session(kLoop);
   EXPECT_TRUE(has(session("continue 20ms; input I0.0=1; continue"), "fatal error 0003"));
   EXPECT_TRUE(has(session("why"), "main: JMP 1 in line 7 (LD I0.0: I0.0=1)"));
   EXPECT_TRUE(has(session("continue 500ms; why"), "JMP 1 in line 7")) << "while STOP lasts";
 }
 
 TEST(Standstill, ARequestInStopIsGivenUpAtItsTimeOut) {
-  Session session("LD SM0.0\nSTOP\nMEND\n");
+  AtPrompt session("LD SM0.0\nSTOP\nMEND\n");
   session("continue; send 01 03 00 00 00 02 crc");
   const Time asked = session.simulation.time();
   const std::string text = session("continue");
@@ -38,7 +38,7 @@ TEST(Standstill, ARequestInStopIsGivenUpAtItsTimeOut) {
 }
 
 TEST(Standstill, ContinueLetsAsMuchTimePassAsItSaysAndStepsExecuteNothing) {
-  Session session("LD SM0.0\nSTOP\nMEND\n");
+  AtPrompt session("LD SM0.0\nSTOP\nMEND\n");
   session("continue");
   const Time stopped = session.simulation.time();
   EXPECT_TRUE(has(session("continue 250ms"), "250 ms of simulated time passed"));
@@ -48,7 +48,7 @@ TEST(Standstill, ContinueLetsAsMuchTimePassAsItSaysAndStepsExecuteNothing) {
 }
 
 TEST(Standstill, TheTimeInStopCanBeGoneBackToAndPlayedAgain) {
-  Session session("LD SM0.0\nSTOP\nMEND\n");
+  AtPrompt session("LD SM0.0\nSTOP\nMEND\n");
   session("continue");
   const Time stopped = session.simulation.time();
   session("send 01 03 00 00 00 02 crc; continue");
@@ -66,7 +66,7 @@ TEST(Standstill, TheTimeInStopCanBeGoneBackToAndPlayedAgain) {
 }
 
 TEST(Standstill, TheWatchdogStopsItAgainAtTheSameInstant) {
-  Session session(kLoop);
+  AtPrompt session(kLoop);
   session("continue 20ms; input I0.0=1; continue");
   const auto stopped = session.simulation.snapshot();
   session("continue 1s; at 100ms; continue");
@@ -74,7 +74,7 @@ TEST(Standstill, TheWatchdogStopsItAgainAtTheSameInstant) {
 }
 
 TEST(Standstill, ModeStopsAndStartsTheProgramAsAProgrammingDeviceDoes) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 20ms");
   const std::uint16_t scans = session.vw(10);
   EXPECT_TRUE(has(session("mode stop"), "STOP"));
@@ -90,27 +90,27 @@ TEST(Standstill, ModeStopsAndStartsTheProgramAsAProgrammingDeviceDoes) {
 
 TEST(Standstill, ModeIsPlayedAgainAndSaved) {
   const std::string path = test::scratch_folder() + "mode_session.json";
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 20ms; mode stop; continue 100ms; mode run; continue 20ms");
   const auto there = session.simulation.snapshot();
   session("save " + path + "; at start; continue");
   EXPECT_EQ(session.state().mode, Mode::Stop) << "where it was stopped";
   session("at end");
   EXPECT_EQ(session.simulation.snapshot(), there);
-  Session other(kNested);
+  AtPrompt other(kNested);
   other("load " + path);
   EXPECT_EQ(other.simulation.snapshot(), there);
 }
 
 TEST(Standstill, AfterAFatalErrorOnlyPowerBringsTheProgramBack) {
-  Session session(kLoop);
+  AtPrompt session(kLoop);
   session("input I0.0=1; continue");
   EXPECT_TRUE(has(session.error_of("mode run"), "after fatal error 0003 the CPU stays in STOP"));
   EXPECT_TRUE(has(session("step"), "'restart' powers it up again"));
 }
 
 TEST(Standstill, TheOnlyPlcLosesPowerWhileTimeGoesOnAndThePastIsLeftAsItWas) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("continue 100ms; set VW200=7; send 41; continue");
   EXPECT_TRUE(has(session("power off"), "the PLC has no power from now on; 'power on' brings it back\n"));
   const Time off = session.simulation.time();
@@ -132,20 +132,20 @@ TEST(Standstill, TheOnlyPlcLosesPowerWhileTimeGoesOnAndThePastIsLeftAsItWas) {
   EXPECT_TRUE(session.simulation.plc().powered()) << "back to the first answer";
   session("at end");
   EXPECT_TRUE(session.simulation.system().snapshot() == there);
-  Session other(kEcho);
+  AtPrompt other(kEcho);
   other("load " + file);
   EXPECT_TRUE(other.simulation.system().snapshot() == there);
 }
 
 TEST(Standstill, AProgrammingDeviceOnTheLineIsAnsweredInStop) {
-  Session session("LD SM0.0\nSTOP\nMEND\n");
+  AtPrompt session("LD SM0.0\nSTOP\nMEND\n");
   session("continue");
   // SD1: station 2 is asked by station 0 for its state
   EXPECT_TRUE(has(session("send 10 02 00 49 4b 16; continue"), "answer   10 00 02 00 02 16"));
 }
 
 TEST(Standstill, EveryRequestThatWasUnansweredInStopIsGoneBackToByItself) {
-  Session session("LD SM0.0\nSTOP\nMEND\n");
+  AtPrompt session("LD SM0.0\nSTOP\nMEND\n");
   session("continue; break unanswered; send 01; continue");
   const Time first = session.simulation.time();
   session("continue 100ms; send 02; continue");

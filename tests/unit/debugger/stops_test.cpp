@@ -8,7 +8,7 @@ namespace s7200::tools {
 namespace {
 
 TEST(Stops, HitsCountFromTheMomentWhereTheStopWasSetWhateverIsPlayedAgain) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 22ms; break INT 0 hits 3");
   EXPECT_EQ(session.vw(30), 4U);
   EXPECT_TRUE(has(session("continue"), "hit 3 times"));
@@ -24,7 +24,7 @@ TEST(Stops, HitsCountFromTheMomentWhereTheStopWasSetWhateverIsPlayedAgain) {
 }
 
 TEST(Stops, AStopWithoutANumberStopsAtWhatWasBeforeItToo) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 22ms; break INT 0; rc");
   EXPECT_EQ(session.vw(30), 3U);
   EXPECT_TRUE(has(session("break"), "0 hits"));
@@ -34,7 +34,7 @@ TEST(Stops, AStopWithoutANumberStopsAtWhatWasBeforeItToo) {
 }
 
 TEST(Stops, HitsCountOnANewBranchFromItsBeginning) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("continue 22ms; break INT 0 hits 2; restart");
   EXPECT_TRUE(has(session("continue"), "hit 2 times"));
   EXPECT_EQ(session.vw(30), 1U);
@@ -43,7 +43,7 @@ TEST(Stops, HitsCountOnANewBranchFromItsBeginning) {
 }
 
 TEST(Stops, AWatchStopsAtWhatWasSetFromOutside) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("watch VW100; continue 5ms; set VW100=7; continue 5ms");
   const std::string text = session("rc");
   EXPECT_TRUE(has(text, "watch 1: VW100 was 16#0000 (0), is 16#0007 (7)\n  by 'set VW100', from outside\n"));
@@ -56,7 +56,7 @@ TEST(Stops, AWatchStopsAtWhatWasSetFromOutside) {
 }
 
 TEST(Stops, ABreakpointStopsBeforeWhatWasDoneWhereItStands) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("until INT 0");
   const serial::Simulation::Snapshot there = session.simulation.snapshot();
   session("set VW100=7; set VW102=8; continue 12ms; break INT 0; at start; continue");
@@ -75,16 +75,16 @@ TEST(Stops, ABreakpointStopsBeforeWhatWasDoneWhereItStands) {
 }
 
 TEST(Stops, AWatchStopsAtAForcedValue) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("watch VW100; continue 5ms; force VW100=9; continue 5ms");
   EXPECT_TRUE(has(session("rc"), "is 16#0009 (9)\n  by 'force VW100', from outside\n"));
 }
 
 TEST(Stops, AConditionThatCannotBeComputedIsSaidOnceAStop) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string text = session("break 4 if 10/VW20 = 5; continue 10ms");
   EXPECT_TRUE(has(text, "nothing to stop for")) << "VW20 is 7 after the first scan";
-  Session never("LD SM0.0\nINCW VW10\nMEND\n");
+  AtPrompt never("LD SM0.0\nINCW VW10\nMEND\n");
   const std::string said = never("break 2 if 1/VW20 = 1; continue 5ms");
   EXPECT_TRUE(has(said, "the condition of breakpoint 1 could not be computed "));
   EXPECT_TRUE(has(said, " times: a division by 0\n"));
@@ -92,7 +92,7 @@ TEST(Stops, AConditionThatCannotBeComputedIsSaidOnceAStop) {
 }
 
 TEST(Stops, WhatCanNeverBeComputedIsRefused) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session.error_of("break 4 if 1/0 = 1"), "a division by 0"));
   EXPECT_TRUE(has(session.error_of("expect 1/0"), "a division by 0"));
   EXPECT_EQ(session.error_of("expect 1/VW100 = 1"),
@@ -100,13 +100,13 @@ TEST(Stops, WhatCanNeverBeComputedIsRefused) {
 }
 
 TEST(Stops, ABraceThatIsNotClosedIsRefused) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_EQ(session.error_of("break 4 log 'a {VW2'"), "'a {VW2', column 3: the closing } is missing");
   EXPECT_TRUE(has(session("break 4 log 'a {VW10} b'; continue 2ms"), "a 0 b\n"));
 }
 
 TEST(Stops, EachOptionSaysWhatItExpects) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_EQ(session.error_of("watch VW100 hits 0"), "hits expects a number above 0, for example: hits 4");
   EXPECT_EQ(session.error_of("watch VW100 if"), "if expects a condition, for example: if VW100 > 8");
   EXPECT_EQ(session.error_of("break 4 log"), "log expects a text, for example: log '{VW100} at {time}'");
@@ -114,7 +114,7 @@ TEST(Stops, EachOptionSaysWhatItExpects) {
 }
 
 TEST(Stops, AWatchForReadsAndWritesIsOneWithOneCount) {
-  Session session("LD SM0.0\nMOVW 5, VW0\nMOVW VW0, VW2\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVW 5, VW0\nMOVW VW0, VW2\nMEND\n");
   EXPECT_TRUE(has(session("watch VW0 read write; continue"), "watch 1: VW0 read write was 16#0000 (0), is 16#0005 (5)"));
   EXPECT_TRUE(has(session("continue"), "by main line 3"));
   EXPECT_TRUE(has(session("continue"), "VW0 read write is 16#0005 (5) as before\n  by main line 2"));
@@ -122,7 +122,7 @@ TEST(Stops, AWatchForReadsAndWritesIsOneWithOneCount) {
 }
 
 TEST(Stops, WhatTheProgramSendsUnaskedIsShown) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 2, VB0\nMOVB 16#48, VB1\nMOVB 16#49, VB2\nMOVB 50, SMB34\nATCH 0, 10\nENI\nMEND\n"
       "INT 0\nLD SM0.0\nXMT VB0, 0\nRETI\n");
   const std::string text = session("continue 60ms");
@@ -132,14 +132,14 @@ TEST(Stops, WhatTheProgramSendsUnaskedIsShown) {
 }
 
 TEST(Stops, AnAnswerIsNotUnaskedUnlessTheMasterHasGivenUp) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   const std::string text = session("scan 3; send 5a; continue; continue 100ms");
   EXPECT_EQ(text.find("unasked"), std::string::npos) << text;
   EXPECT_TRUE(has(session("break sent; send 41; continue"), "\n  41\n"));
 }
 
 TEST(Stops, WatchAloneListsAsBreakAloneDoes) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("watch"), "no breakpoints and no watches\n"));
   session("break 4; watch VW10");
   EXPECT_TRUE(has(session("watch"), "2   watch    0 hits  VW10 is"));
@@ -148,7 +148,7 @@ TEST(Stops, WatchAloneListsAsBreakAloneDoes) {
 
 TEST(Stops, CompletionOffersWhatMayComeNext) {
   using Words = std::vector<std::string>;
-  Session session(kNested);
+  AtPrompt session(kNested);
   const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
   EXPECT_EQ(offered("break event 8 "), (Words{"occurs", "served", "if", "hits", "log"}));
   EXPECT_EQ(offered("break event 8 occurs "), (Words{"if", "hits", "log"}));
@@ -177,7 +177,7 @@ TEST(Stops, CompletionOffersWhatMayComeNext) {
 }
 
 TEST(Stops, HelpNamesAllThatHappensAndEachOption) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string help = session("help break"), of_watch = session("help watch");
   for (const std::string_view word : happening_words()) EXPECT_TRUE(has(help, word));
   for (const StopOption& option : kStopOptions) EXPECT_TRUE(has(help, option.word));
@@ -185,7 +185,7 @@ TEST(Stops, HelpNamesAllThatHappensAndEachOption) {
 }
 
 TEST(Stops, OptionsComeInAnyOrderAfterATextInQuotesTooAndOnce) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string logged = session("break 4 log 'scan of {VW10}' hits 3; continue 10ms; break");
   EXPECT_FALSE(has(logged, "scan of 1\n"));
   EXPECT_TRUE(has(logged, "scan of 2\n"));
@@ -196,14 +196,14 @@ TEST(Stops, OptionsComeInAnyOrderAfterATextInQuotesTooAndOnce) {
 }
 
 TEST(Stops, AnOptionOfPlacesIsRefusedForWhatHappensAndForMemory) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   for (const char* const command : {"break xmt always", "break event 10 hits 2 ALWAYS", "watch VW20 always"})
     EXPECT_EQ(session.error_of(command), "'always' is for places; what happens has no power flow") << command;
   EXPECT_TRUE(has(session("break INT 0 always; break"), "always"));
 }
 
 TEST(Stops, ACharacterDroppedFromItsQueueIsLost) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI\nLD I0.0\nEU\nDTCH 8\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
   session("continue 50ms; break lost; send 41; continue 50ms; input I0.0=1");
   EXPECT_TRUE(has(session("continue"), "breakpoint 1, lost, hit for the first time\n"));
@@ -211,7 +211,7 @@ TEST(Stops, ACharacterDroppedFromItsQueueIsLost) {
 }
 
 TEST(Stops, WhatRunsWithoutPowerFlowTooStopsWithoutIt) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nCALL 1\nFOR VW0, 1, 2\nLD I0.0\nNEXT\nLD I0.0\nLBL 3\nLD I0.0\n"
       "MEND\nSBR 1\nLD I0.0\nRET\nINT 0\nLD I0.0\nRETI\n");
   for (const char* const place : {"9", "LBL 3", "13", "16", "19"}) {
@@ -222,7 +222,7 @@ TEST(Stops, WhatRunsWithoutPowerFlowTooStopsWithoutIt) {
 }
 
 TEST(Stops, WhatIsPassedWithoutPowerFlowIsSaidBackwardsTooWithTheConditionThatHeld) {
-  Session session("LD I0.0\n= Q0.0\nLD SM0.0\nINCW VW0\nMEND\n");
+  AtPrompt session("LD I0.0\n= Q0.0\nLD SM0.0\nINCW VW0\nMEND\n");
   session("continue 5ms; break 2 if VW0 > 1");
   EXPECT_TRUE(has(session("scan"), "breakpoint 1 was passed once without power flow; 'break 2 always if VW0 > 1' stops"));
   const std::string back = session("rscan 3");
@@ -231,18 +231,18 @@ TEST(Stops, WhatIsPassedWithoutPowerFlowIsSaidBackwardsTooWithTheConditionThatHe
 }
 
 TEST(Stops, TheLineInTheMessageOfAWatchIsThatOfTheInstructionThatDidIt) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("watch VW10 log '{VW10} in line {line}'; continue 2ms"), "1 in line 4\n"));
 }
 
 TEST(Stops, AWatchOfWritesSaysThatItIsForInstructions) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("watch SMB2 write"), "it is for writes of instructions; 'watch SMB2' stops at what the system"));
   EXPECT_FALSE(has(session("watch SMB2"), "instructions"));
 }
 
 TEST(Stops, WhatCanNeverHappenIsRefused) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session.error_of("break event 27"), "event 27 needs CPU"));
   EXPECT_TRUE(has(session.error_of("break rcv"), "RCV needs CPU"));
   EXPECT_TRUE(has(session.error_of("break error 9999"), "'9999' is not the code of a run-time error"));
@@ -250,7 +250,7 @@ TEST(Stops, WhatCanNeverHappenIsRefused) {
 }
 
 TEST(Stops, AConditionOfAnyLengthIsAnsweredOrRefused) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const auto chain = [](int operators) {
     std::string text = "print 1";
     for (int i = 0; i < operators; ++i) text += "+1";

@@ -135,13 +135,13 @@ struct BridgedSystem {
 
   explicit BridgedSystem(std::vector<Ask> all, std::string_view text = kBridged, bool named = false)
       : bench(text), asks(std::move(all)) {
-    DebuggerOptions options{};
+    PromptSettings options{};
     for (const PlcPlan& plc : bench.rig->plan().plcs) options.history.plcs.push_back({plc.name, plc.address});
     if (named) options.history.line_stations = line_stations(*bench.rig);
-    for (const PlcPlan& plc : bench.rig->plan().plcs) options.stations.push_back({.name = plc.name});
+    for (const PlcPlan& plc : bench.rig->plan().plcs) options.session.stations.push_back({.name = plc.name});
     options.history.hosts = {&bench.rig->host_port(0)};
     options.history.drive = [this](Time end, const auto&) { return drive(end); };
-    debugger = std::make_unique<Debugger>(bench.stations, out, options);
+    debugger = std::make_unique<Prompt>(bench.stations, out, options);
   }
 
   serial::Halt drive(Time end) {
@@ -177,7 +177,7 @@ struct BridgedSystem {
   SerialFormat format{};
   std::size_t asked = 0;
   std::ostringstream out;
-  std::unique_ptr<Debugger> debugger;
+  std::unique_ptr<Prompt> debugger;
 };
 
 TEST(SystemDebugger, ARequestOfAMasterOnABridgeThatNoStationAnswersIsUnanswered) {
@@ -791,12 +791,12 @@ TEST(SystemDebugger, ASavedSessionOfASystemIsLoadedInAnother) {
   EXPECT_TRUE(has(session("station slave2; who VW20"), "by 'set VW20', from outside"));
   SystemSession other(two_programs());
   EXPECT_TRUE(has(other.error_of("load " + file), "it is of a system of 3 PLCs, not of 2"));
-  Session one(kNested);
+  AtPrompt one(kNested);
   EXPECT_TRUE(has(one.error_of("load " + file), "it is of a system, not of one program"));
 }
 
 TEST(SystemDebugger, OneProgramHasNoStations) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session.error_of("station"), "there is one PLC only"));
 }
 

@@ -28,7 +28,7 @@ constexpr std::string_view kStopsListening =
     "RETI\n";
 
 TEST(Why, ACharacterWhoseEventIsNotAttachedLeadsToTheInstructionThatDetachedIt) {
-  Session session(kStopsListening);
+  AtPrompt session(kStopsListening);
   session("continue 50ms; input I0.0=1; scan 3; break unanswered; send 41 42; continue");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "no answer to 2 characters since 5"));
@@ -40,7 +40,7 @@ TEST(Why, ACharacterWhoseEventIsNotAttachedLeadsToTheInstructionThatDetachedIt) 
 }
 
 TEST(Why, AnEventThatWasNeverAttachedIsNamed) {
-  Session session("LD SM0.1\nMOVB 9, SMB30\nMEND\n");
+  AtPrompt session("LD SM0.1\nMOVB 9, SMB30\nMEND\n");
   session("continue 50ms; break unanswered; send 41; continue");
   EXPECT_TRUE(has(session("why"), "event 8 is not attached; no instruction has attached it since power-up\n"));
 }
@@ -50,7 +50,7 @@ TEST(Why, ARequestGivenUpInAnInterruptRoutineLeadsToWhatLeftItToo) {
                               "INT 2\nLD SM0.0\nSQRT VD8, VD12\nRETI\n";  // half of the time
   bool given_up_in_it = false;
   for (int ms = 1; ms < 10 && !given_up_in_it; ms += 3) {
-    Session session(program);
+    AtPrompt session(program);
     session(fmt::format("continue 50ms; input I0.0=1; scan 3; continue {}ms; break unanswered; send 41 42; continue", ms));
     given_up_in_it = session.state().in_interrupt;
     session("rwhy");
@@ -60,7 +60,7 @@ TEST(Why, ARequestGivenUpInAnInterruptRoutineLeadsToWhatLeftItToo) {
 }
 
 TEST(Why, AFrameOfLongAgoIsNoPartOfTheOneThatIsAskedAbout) {
-  Session session(kStopsListening);
+  AtPrompt session(kStopsListening);
   session("continue 50ms; input I0.0=1; scan 3; break unanswered; send 41 42; continue; send 43 44 45; continue");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "no answer to 3 characters since "));
@@ -68,7 +68,7 @@ TEST(Why, AFrameOfLongAgoIsNoPartOfTheOneThatIsAskedAbout) {
 }
 
 TEST(Why, APortInPpiModeLeadsToTheInstructionThatLeftFreeportMode) {
-  Session session(kStopsListening);
+  AtPrompt session(kStopsListening);
   session("continue 50ms; input I0.1=1; scan 3; break unanswered; send 41 42; continue");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "no answer to 2 characters since 5"));
@@ -79,7 +79,7 @@ TEST(Why, APortInPpiModeLeadsToTheInstructionThatLeftFreeportMode) {
 }
 
 TEST(Why, APortThatWasNeverInFreeportModeIsNamedAlsoIfPpiTakesTheCharactersForItsOwn) {
-  Session session("LD SM0.0\nMOVW 1, VW2\nMEND\n");
+  AtPrompt session("LD SM0.0\nMOVW 1, VW2\nMEND\n");
   session("continue 50ms; break unanswered; send 41; continue");
   EXPECT_TRUE(has(session("why"),
                   "the port is in PPI mode, and this is not a PPI frame; nothing has written SMB30 since power-up\n"));
@@ -88,7 +88,7 @@ TEST(Why, APortThatWasNeverInFreeportModeIsNamedAlsoIfPpiTakesTheCharactersForIt
 }
 
 TEST(Why, SMB30SetFromOutsideIsNamed) {
-  Session session(kStopsListening);
+  AtPrompt session(kStopsListening);
   session("continue 50ms; set SMB30=8; scan 3; break unanswered; send 41; continue");
   EXPECT_TRUE(
       has(session("why"), "the port is in PPI mode, and this is not a PPI frame; SMB30 was set from outside at 50."));
@@ -97,7 +97,7 @@ TEST(Why, SMB30SetFromOutsideIsNamed) {
 /// The slave of a scenario that is asked with a fault of the line.
 std::string why_with(const std::string& fault, const std::string& master = "") {
   static const auto program = test::compile(test::slave_text());
-  Session session(program);
+  AtPrompt session(program);
   session("continue 2s; break unanswered; fault " + fault + "; send 01 03 00 0a 00 01 crc; continue");
   return session(master + "why");
 }
@@ -130,7 +130,7 @@ constexpr std::string_view kAsk = "; send 01 03 00 0a 00 01 crc; continue";
 /// What `why` says of the last request after those commands.
 std::string why_after(const std::string& commands) {
   static const auto program = test::compile(test::slave_text());
-  Session session(program);
+  AtPrompt session(program);
   session("continue 2s; break unanswered; " + commands);
   return session("why");
 }
@@ -217,7 +217,7 @@ TEST(Why, AnAnswerThatCameDamagedIsNamedThoughTheRequestWasAnswered) {
 }
 
 TEST(Why, AnAnswerThatTheProgramSentWithoutARightCrcIsNotTheFaultOfTheLine) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nMOVW 16#0103, VW1\nMOVB 2, VB0\nMEND\n"
       "INT 1\nLD SM0.0\nINCW VW90\nLDW= VW90, 8\nXMT VB0, 0\nRETI\n");
   session("continue 50ms; fault flip:exchange=2; send 01 03 00 0a 00 01 crc; continue");
@@ -266,7 +266,7 @@ constexpr std::string_view kLines =
 std::string lines_of_cpu_214() { return test::changed(std::string(kLines), "INCB    VB100\n", "INCW    VW90\n"); }
 
 TEST(Why, ATextThatAProgramSwallowsLeadsToTheXmtWithoutPowerFlow) {
-  Session session(lines_of_cpu_214());
+  AtPrompt session(lines_of_cpu_214());
   session("continue 50ms; break unanswered; send 'one'; continue; send 'two'; continue");
   const std::string why = session("why");
   EXPECT_TRUE(has(why, "no answer to 3 characters since "));
@@ -278,7 +278,7 @@ TEST(Why, ATextThatAProgramSwallowsLeadsToTheXmtWithoutPowerFlow) {
 }
 
 TEST(Why, ATextThatAProgramSwallowsLeadsToTheJumpOverItsXmt) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nLDN M0.0\nJMP 1\nLD SM0.0\nXMT VB0, 0\nLBL 1\nLD SM0.0\nINCW VW10\nMEND\n"
       "INT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
   session("continue 50ms; break unanswered; send 41; continue");
@@ -287,13 +287,13 @@ TEST(Why, ATextThatAProgramSwallowsLeadsToTheJumpOverItsXmt) {
 }
 
 TEST(Why, ATextThatAProgramWithoutXmtSwallowsIsSaidToBeTaken) {
-  Session session("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
+  AtPrompt session("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
   session("continue 50ms; break unanswered; send 41 42; continue");
   EXPECT_TRUE(has(session("why"), ": INT 1 took them, and nothing was sent since (no XMT was executed)\n"));
 }
 
 TEST(Why, ATextThatAProgramTakesIsNamedWhileTheMasterStillWaits) {
-  Session session(lines_of_cpu_214());
+  AtPrompt session(lines_of_cpu_214());
   session("continue 50ms; send 'one'; continue 200ms");
   EXPECT_TRUE(has(session("why"), "no answer to 3 characters since "));
   EXPECT_TRUE(has(session.out.str(), ": INT 1 took them, and nothing was sent since: XMT VB100, 0 in line 8, without"));
@@ -302,7 +302,7 @@ TEST(Why, ATextThatAProgramTakesIsNamedWhileTheMasterStillWaits) {
 }
 
 TEST(Why, ATextIsNotSaidToBeTakenBeforeThePauseThatEndsIt) {
-  Session session(lines_of_cpu_214());
+  AtPrompt session(lines_of_cpu_214());
   session("continue 50ms; send 'one'; continue 4ms");
   EXPECT_FALSE(has(session("why"), "no answer"));
 }
@@ -312,7 +312,7 @@ TEST(Why, AMessageThatRCVTookLeadsToTheXmtWithoutPowerFlow) {
       "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 5, SMW90\nMOVB 10, SMB94\n"
       "ATCH 0, 23\nENI\nRCV VB100, 0\nLD M0.0\nXMT VB200, 0\nMEND\n"  // 7
       "INT 0\nLD SM0.0\nINCW VW0\nRCV VB100, 0\nRETI\n";              // 13
-  Session session(check_text(kReceiver, "test.stl", cpu224(), default_times(cpu224())).program);
+  AtPrompt session(check_text(kReceiver, "test.stl", cpu224(), default_times(cpu224())).program);
   session("continue 50ms; break unanswered; send 41 0d; continue");
   EXPECT_TRUE(has(session("why"), "no answer to 2 characters since 5"));
   EXPECT_TRUE(has(session.out.str(),
@@ -328,13 +328,13 @@ constexpr std::string_view kMessages =
     "ATCH 0, 23\nENI\nRCV VB100, 0 // a line\nLD M0.0\nJMP 1\nLBL 1\nMEND\n"  // 7
     "INT 0\nLD SM0.0\nRCV VB100, 0\nRETI\n";                                  // 14
 
-Session session_of_cpu_224(const std::string& text) {
-  return Session(check_text(text, "test.stl", cpu224(), default_times(cpu224())).program);
+AtPrompt session_of_cpu_224(const std::string& text) {
+  return AtPrompt(check_text(text, "test.stl", cpu224(), default_times(cpu224())).program);
 }
 
 TEST(Why, AMessageThatHasNotEndedLeadsToItsRCVWhichSaysWhatItWaitsFor) {
   for (const std::string_view pause : {"", "; step", "; step 2"}) {
-    Session session = session_of_cpu_224(std::string(kMessages));
+    AtPrompt session = session_of_cpu_224(std::string(kMessages));
     session("continue 50ms; break unanswered; send 41 42; continue" + std::string(pause));
     EXPECT_TRUE(has(session("why"),
                     ": RCV took them and waits for the end of its message: the character 16#0D or 10 characters (2 so far); "
@@ -349,7 +349,7 @@ TEST(Why, AMessageThatHasNotEndedLeadsToItsRCVWhichSaysWhatItWaitsFor) {
 TEST(Why, CharactersBeforeTheStartOfAMessageLeadToTheRCVThatWaitsForIt) {
   const std::string from_stx =
       test::changed(std::string(kMessages), "MOVB 16#B0, SMB87\n", "MOVB 16#F0, SMB87\nMOVB 2, SMB88\n");
-  Session session = session_of_cpu_224(from_stx);
+  AtPrompt session = session_of_cpu_224(from_stx);
   session("continue 50ms; break unanswered; send 41 42; continue");
   EXPECT_TRUE(has(session("why"),
                   ": RCV waits for the start of a message: an idle line of 5 ms, then the character 16#02; executed at "));
@@ -366,7 +366,7 @@ constexpr std::string_view kInParts =
     "INT 2\nLD SM0.0\nMOVB 2, VB0\nMOVW 16#B844, VW1\nDTCH 9\nXMT VB0, 0\nRETI\n";
 
 TEST(Why, AnAnswerOfSeveralXmtIsOneFrame) {
-  Session session(kInParts);
+  AtPrompt session(kInParts);
   session("continue 50ms; send 01 03 00 0a 00 01 crc; continue 50ms");
   EXPECT_TRUE(has(session("why"), "the PLC sent 6 characters from "));
   EXPECT_TRUE(has(session.out.str(), "heard them as they were sent; they are not a Modbus RTU frame with a right CRC\n"));
@@ -385,7 +385,7 @@ TEST(Why, NoiseThatDamagedTheRequestIsNamedBesideTheNoiseThatWasTakenForItsAnswe
 
 TEST(Why, TwoFramesThatASlaveTookWhileItWaitedForSilenceAreTold) {
   static const auto program = test::compile(test::slave_text());
-  Session session(program);
+  AtPrompt session(program);
   session(
       "continue 2s; break unanswered; send 02 03 00 0a 00 01 crc; continue 13300us; send cancel; "
       "send 01 03 00 0a 00 01 crc; continue");
@@ -398,7 +398,7 @@ TEST(Why, TwoFramesThatASlaveTookWhileItWaitedForSilenceAreTold) {
 
 TEST(Why, OfAFrameThatAPauseBrokeUpTheFirstPartIsWhereToGoBackTo) {
   static const auto program = test::compile(test::slave_text());
-  Session session(program);
+  AtPrompt session(program);
   session("continue 2s; break unanswered; fault gap:character=4,length=10ms; send 01 03 00 0a 00 01 crc; continue");
   const std::string text = session("why");
   const std::size_t first = text.find("no answer to 3 characters");
@@ -411,7 +411,7 @@ TEST(Why, OfAFrameThatAPauseBrokeUpTheFirstPartIsWhereToGoBackTo) {
 
 TEST(Why, AFrameTooSoonAfterOneOfTheSameMasterIsSaidToBeSo) {
   static const auto program = test::compile(test::slave_text());
-  Session session(program);
+  AtPrompt session(program);
   session(
       "continue 2s; break unanswered; send 02 03 00 0a 00 01 crc; continue 10200us; send cancel; "
       "send 01 03 00 0a 00 01 crc; continue");
@@ -441,24 +441,24 @@ TEST(Why, AnAnswerAfterTheMasterHasGivenUpIsNamedSo) {
   serial::Simulation simulation(program_of(kEcho));
   simulation.power_up();
   std::ostringstream out;
-  DebuggerOptions options{};
-  options.master.timeout = 10 * kMicrosecond;
-  Debugger debugger(simulation, out, options);
+  PromptSettings options{};
+  options.session.master.timeout = 10 * kMicrosecond;
+  Prompt debugger(std::vector{&simulation}, out, options);
   EXPECT_FALSE(debugger.execute("continue 50ms; break unanswered; send 41; continue; continue 10ms; why"));
   EXPECT_TRUE(has(out.str(), "the PLC sent a character from 5"));
   EXPECT_TRUE(has(out.str(), "and the master heard nothing of it: the master had given up at 51."));
 }
 
 TEST(Why, AnAnswerThatBeganBeforeTheRequestHadEndedIsNamedSo) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("continue 50ms; break unanswered; send 41 42; continue");
   EXPECT_TRUE(has(session("why"), "the master was still sending, up to 52."));
 }
 
 /// The slave with its ENI replaced, after a request that nothing has answered.
-struct SlaveWithoutEni : Session {
+struct SlaveWithoutEni : AtPrompt {
   explicit SlaveWithoutEni(const std::string& instead)
-      : Session(test::changed(test::slave_text(), "\nENI", "\n" + instead)) {
+      : AtPrompt(test::changed(test::slave_text(), "\nENI", "\n" + instead)) {
     (*this)("continue 1s; break unanswered; send 01 03 00 0a 00 01 crc; continue");
   }
 };
@@ -479,7 +479,7 @@ TEST(Why, CharactersThatWaitForDisabledInterruptsWereNotTakenByTheirRoutine) {
 }
 
 TEST(Why, ACpuThatWentToRunHasDisabledInterruptsItself) {
-  Session session("LDN M0.0\nAN SM0.1\nENI\nLD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nMEND\nINT 1\nRETI\n");
+  AtPrompt session("LDN M0.0\nAN SM0.1\nENI\nLD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nMEND\nINT 1\nRETI\n");
   session(
       "continue 50ms; set M0.0=1; mode stop; continue 10ms; mode run; continue 50ms; break unanswered; send 41; continue");
   EXPECT_TRUE(has(session("why"),
@@ -489,7 +489,7 @@ TEST(Why, ACpuThatWentToRunHasDisabledInterruptsItself) {
 
 TEST(Why, CharactersLostBecauseTheirQueueWasFullAreNotTaken) {
   std::string text = "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI\nLD I0.0\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n";
-  Session session(text);
+  AtPrompt session(text);
   session("continue 50ms; break unanswered; send 41 42 43 44 45 46; continue 50ms; input I0.0=1; continue");
   EXPECT_TRUE(has(session("why"), "of 6 characters since 5"));
   EXPECT_TRUE(has(session.out.str(), ", 2 were lost because the interrupt queue was full\n"));
@@ -498,7 +498,7 @@ TEST(Why, CharactersLostBecauseTheirQueueWasFullAreNotTaken) {
 }
 
 TEST(Why, ACharacterThatIsLostIsNamedWhileTheRequestIsBeingSent) {
-  Session session("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI  // too long\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
+  AtPrompt session("LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI  // too long\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n");
   session("continue 50ms; break lost; send 41 42 43 44 45 46 47 48; continue");
   EXPECT_TRUE(
       has(session("why"), ": interrupts are disabled; 4 characters wait in the queue, 1 was lost because it was full; "))
@@ -509,7 +509,7 @@ TEST(Why, CharactersLostBeforeInterruptsWereDisabledAreNotBlamedOnThat) {
   std::string text =
       "LD I0.1\nEU\nDISI  // short\nLD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI\nLD I0.0\nENI\nMEND\n"
       "INT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n";
-  Session session(text);
+  AtPrompt session(text);
   session("continue 50ms; break unanswered; send 41 42 43 44 45 46; continue 50ms; input I0.0=1; continue 10ms");
   session("input I0.0=0; input I0.1=1; continue 10ms");
   const std::string why = session("continue; why");
@@ -521,7 +521,7 @@ TEST(Why, CharactersLostBeforeInterruptsWereDisabledAreNotBlamedOnThat) {
 
 TEST(Why, AllCharactersLostAreNotSaidToBeTakenByRCV) {
   std::string text = "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nDISI\nLD I0.0\nENI\nMEND\nINT 1\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n";
-  Session session(text);
+  AtPrompt session(text);
   session("continue 50ms; send 41 42 43 44; continue 50ms; send cancel; break unanswered; send 51 52; continue 50ms");
   const std::string why = session("input I0.0=1; continue; why");
   EXPECT_TRUE(has(why, "of 2 characters since ")) << why;
@@ -530,7 +530,7 @@ TEST(Why, AllCharactersLostAreNotSaidToBeTakenByRCV) {
 }
 
 TEST(Why, OfSeveralDisiInARowTheFirstIsNamed) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nLD I0.0\nEU\nDISI  // first\nLD I0.0\nDISI  // again\nMEND\n"
       "INT 1\nMOVB SMB2, VB1\nRETI\n");
   session("continue 50ms; input I0.0=1; continue 20ms; break unanswered; send 41; continue");
@@ -550,7 +550,7 @@ constexpr std::string_view kTurns =
 TEST(Why, WhatChangedWithinTheFirstCharacterIsNamed) {
   for (const std::string wait : {"100us", "400us", "900us"})
     for (const std::string& send : {"continue " + wait + "; send 'mn'; continue 1100us", "send 'mn'; continue " + wait}) {
-      Session ppi(kTurns), detached(kTurns);
+      AtPrompt ppi(kTurns), detached(kTurns);
       ppi("continue 20ms; break unanswered; input I0.4=1; " + send + "; continue");
       EXPECT_TRUE(has(ppi("why"), "the port is in PPI mode, and this is not a PPI frame; SMB30 was set at 2")) << send;
       EXPECT_TRUE(has(ppi.out.str(), " by MOVB 8, SMB30 in line 7  // to PPI\n"));
@@ -564,7 +564,7 @@ TEST(Why, WhatChangedWithinTheFirstCharacterIsNamed) {
 
 TEST(Why, WhatWasSoAlreadyIsNotToBlame) {
   const auto why_with = [](const std::string& first, const std::string& again) {
-    Session session(kTurns);
+    AtPrompt session(kTurns);
     session("continue 20ms; break unanswered; input " + first + "=1; continue 20ms; input " + again + "=1; continue 50ms");
     return session("send 'ab'; continue; why");
   };
@@ -579,7 +579,7 @@ TEST(Why, WhatWasSoAlreadyIsNotToBlame) {
 }
 
 TEST(Why, AllTransmissionsThatATextCouldHaveMeantAreNamedAsTheyWereAfterIt) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 9, SMB30\nMOVB 1, VB99\nATCH 0, 8\nENI\n"
       "LD M0.0\nA I0.5\nXMT VB99, 0\nLD M0.0\nR M0.0, 1\nLD I0.6\nXMT VB98, 0  // alarm\nMEND\n"  // 8, 12
       "INT 0\nLD SM0.0\nMOVB SMB2, VB100\nS M0.0, 1\nRETI\n");
@@ -591,7 +591,7 @@ TEST(Why, AllTransmissionsThatATextCouldHaveMeantAreNamedAsTheyWereAfterIt) {
 
 TEST(Why, AFaultThatBrokeAnAnswerOffIsNamedWhileThePlcIsStillSending) {
   for (const std::string fault : {"cut:character=4,of=answer", "gap:character=4,length=20ms,of=answer"}) {
-    Session session(test::compile(test::slave_text()));
+    AtPrompt session(test::compile(test::slave_text()));
     session("continue 1s; break wrong; fault " + fault + "; send 01 03 00 0a 00 01 crc; continue");
     EXPECT_TRUE(has(session.out.str(), "wrong, hit"));
     EXPECT_TRUE(has(session("why"), "the PLC has been sending since 10")) << fault;
@@ -600,7 +600,7 @@ TEST(Why, AFaultThatBrokeAnAnswerOffIsNamedWhileThePlcIsStillSending) {
 }
 
 TEST(Why, ABreakIsNamedWithTheXmtThatHadNothingToSend) {
-  Session session(
+  AtPrompt session(
       "LD SM0.1\nMOVB 9, SMB30\nATCH 1, 8\nENI\nMEND\n"
       "INT 1\nLD SM0.0\nXMT VB0, 0   // length in VB0\nRETI\n");
   session("continue 50ms; break wrong; send 41; continue");
@@ -609,7 +609,7 @@ TEST(Why, ABreakIsNamedWithTheXmtThatHadNothingToSend) {
 }
 
 TEST(Why, AStopWithinARequestIsWhatKeptItsCharactersFromTheProgram) {
-  Session session(kEcho);
+  AtPrompt session(kEcho);
   session("continue 50ms; break unanswered; send 41 42 43 44 45 46 47 48; continue 3ms; mode stop; continue");
   const std::string why = session("why");
   EXPECT_TRUE(has(why, "the CPU is in STOP"));
@@ -618,13 +618,13 @@ TEST(Why, AStopWithinARequestIsWhatKeptItsCharactersFromTheProgram) {
 }
 
 TEST(Why, AStopByTheProgramIsNamedWithItsContacts) {
-  Session session("LD I0.0\nSTOP\nMEND\n");
+  AtPrompt session("LD I0.0\nSTOP\nMEND\n");
   session("continue 20ms; input I0.0=1; continue 1s");
   EXPECT_TRUE(has(session("why"), "the CPU went to STOP by STOP in line 2 (LD I0.0: I0.0=1)\n"));
 }
 
 TEST(Why, AWatchdogNamesTheLoopThatTookTheTime) {
-  Session session("LBL 1\nLD SM0.0\nMOVW 1, VW0\nLD I0.0\nJMP 1\nMEND\n");
+  AtPrompt session("LBL 1\nLD SM0.0\nMOVW 1, VW0\nLD I0.0\nJMP 1\nMEND\n");
   session("continue 20ms; input I0.0=1; continue 2s");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "the CPU went to STOP with fatal error 0003, "));
@@ -633,7 +633,7 @@ TEST(Why, AWatchdogNamesTheLoopThatTookTheTime) {
 }
 
 TEST(Why, AFailedExpectationIsWhatItIsAboutAsLongAsItStandsThere) {
-  Session session("LD I0.3\n= Q0.1\nLD SM0.0\nMOVW 7, VW0\nMEND\n");
+  AtPrompt session("LD I0.3\n= Q0.1\nLD SM0.0\nMOVW 7, VW0\nMEND\n");
   session("continue 20ms");
   EXPECT_TRUE(has(session.error_of("expect Q0.1 = 1"), "does not hold"));
   EXPECT_TRUE(has(session("why"), "Q0.1 is 0; last written at "));
@@ -643,7 +643,7 @@ TEST(Why, AFailedExpectationIsWhatItIsAboutAsLongAsItStandsThere) {
 }
 
 TEST(Why, AnAddressIsAnsweredFromItsWriterToAnInput) {
-  Session session("LD I0.3\n= M0.0\nLDN M0.0\n= Q0.1\nLD I0.4\nMOVW 7, VW0\nMEND\n");
+  AtPrompt session("LD I0.3\n= M0.0\nLDN M0.0\n= Q0.1\nLD I0.4\nMOVW 7, VW0\nMEND\n");
   session("continue 20ms");
   const std::string output = session("why Q0.1");
   EXPECT_TRUE(has(output, "Q0.1 is 1; last written at "));
@@ -654,14 +654,14 @@ TEST(Why, AnAddressIsAnsweredFromItsWriterToAnInput) {
 }
 
 TEST(Why, WhatIsAskedAboutAnAddressMayHaveBeenSetFromOutside) {
-  Session session("LD SM0.0\nMEND\n");
+  AtPrompt session("LD SM0.0\nMEND\n");
   session("continue 20ms; set VW0=5; continue 1ms");
   EXPECT_TRUE(has(session("why VW0"), "VW0 is 16#0005 (5); last written at "));
   EXPECT_TRUE(has(session("why VW0"), " by 'set VW0', from outside\n"));
 }
 
 TEST(Why, AnInterruptRoutineWithoutContactsIsLedToByItsEventAndTheATCH) {
-  Session session(kStopsListening);
+  AtPrompt session(kStopsListening);
   session("continue 50ms; watch VB1; send 41; continue");
   EXPECT_TRUE(has(session("why"),
                   "main: ATCH 1, 8 in line 6 attached INT 1 to event 8 (port 0: character received), which called "));
@@ -671,7 +671,7 @@ TEST(Why, AnInterruptRoutineWithoutContactsIsLedToByItsEventAndTheATCH) {
 
 /// It has no Freeport mode up to I0.0.
 TEST(Why, WhatSetThePortAfterTheRequestIsNotToBlame) {
-  Session session("LD I0.0\nEU\nMOVB 9, SMB30\nMEND\n");
+  AtPrompt session("LD I0.0\nEU\nMOVB 9, SMB30\nMEND\n");
   session("continue 50ms; break unanswered; send 68 05 05 68; continue 100ms; input I0.0=1; continue");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "port 0 is in PPI mode; nothing has written SMB30 since power-up\n"));

@@ -6,7 +6,7 @@ namespace s7200::tools {
 namespace {
 
 TEST(Words, ACommentBeginsWithTwoSlashesOrWithAHashAtTheStartOfALine) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_EQ(session("# scan 3"), "");
   EXPECT_EQ(session("  #scan 3"), "");
   EXPECT_EQ(session("// scan 3"), "");
@@ -20,12 +20,12 @@ constexpr std::string_view kScale =
     "SUBROUTINE_BLOCK Scale:SBR0\nVAR_INPUT\nraw : INT;\nEND_VAR\nVAR_OUTPUT\nresult : INT;\nEND_VAR\nVAR\nratio : REAL;\n"
     "END_VAR\nBEGIN\nNETWORK 1\nLD SM0.0\nMOVW #raw, #result\nMOVR 1.5, #ratio\nEND_SUBROUTINE_BLOCK\n";
 
-Session session_of_cpu_224(std::string_view text) {
-  return Session(check_text(text, "test.awl", cpu224(), default_times(cpu224())).program);
+AtPrompt session_of_cpu_224(std::string_view text) {
+  return AtPrompt(check_text(text, "test.awl", cpu224(), default_times(cpu224())).program);
 }
 
 TEST(Words, AVariableOfABlockIsItsLocalMemoryWhereTheProgramStands) {
-  Session session = session_of_cpu_224(kScale);
+  AtPrompt session = session_of_cpu_224(kScale);
   session("until SBR 0; step 4");
   EXPECT_TRUE(has(session("print #raw"), "#raw is LW0 in SBR 0\n"));
   EXPECT_TRUE(has(session.out.str(), "7"));
@@ -35,14 +35,14 @@ TEST(Words, AVariableOfABlockIsItsLocalMemoryWhereTheProgramStands) {
 }
 
 TEST(Words, AConditionOfABreakpointKnowsTheVariablesOfItsPlace) {
-  Session session = session_of_cpu_224(kScale);
+  AtPrompt session = session_of_cpu_224(kScale);
   session("break SBR 0 if #raw = 7; continue");
   EXPECT_TRUE(has(session.out.str(), "breakpoint 1, hit for the first time"));
   EXPECT_TRUE(has(session.error_of("print #raw").empty() ? "" : "fine", "fine"));
 }
 
 TEST(Words, BreakWithAConditionStopsWhereItComesToHold) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(has(session("break VW10 > 3"), "breakpoint 1 at VW10 > 3\n"));
   session("continue");
   EXPECT_TRUE(has(session.out.str(), "breakpoint 1, VW10 > 3, hit for the first time\n  VW10 is 4\n  by main "));
@@ -56,21 +56,21 @@ TEST(Words, BreakWithAConditionStopsWhereItComesToHold) {
 }
 
 TEST(Words, AConditionOfABitAloneStopsWhereItIsSet) {
-  Session session("LD SM0.0\nINCW VW0\nLDW>= VW0, 5\n= M0.0\nMEND\n");
+  AtPrompt session("LD SM0.0\nINCW VW0\nLDW>= VW0, 5\n= M0.0\nMEND\n");
   session("break M0.0; continue");
   EXPECT_TRUE(has(session.out.str(), "breakpoint 1, M0.0, hit for the first time\n  M0.0 is 1\n"));
   EXPECT_EQ(session.vw(0), 5U);
 }
 
 TEST(Words, ABreakpointWithAConditionIsSavedAndLoaded) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break VW10 > 3 hits 1");
   EXPECT_TRUE(has(session("break"), "VW10 > 3"));
   EXPECT_FALSE(has(session.out.str(), "if VW10"));
 }
 
 TEST(Words, WhatIsNoConditionIsExplained) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_TRUE(
       has(session.error_of("break VW10"), "'watch VW10' stops when it changes, 'break VW10 > 3' when that comes to hold"));
   EXPECT_TRUE(has(session.error_of("break 3 > 2"), "no address is in it"));
@@ -81,7 +81,7 @@ TEST(Words, WhatIsNoConditionIsExplained) {
 }
 
 TEST(Words, ACommandThatIsNearlyOneIsOffered) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   EXPECT_EQ(session.error_of("contineu 1s"), "unknown command 'contineu'; did you mean continue?");
   EXPECT_EQ(session.error_of("xyzzyplugh"), "unknown command 'xyzzyplugh'; 'help' lists them");
 }
@@ -89,7 +89,7 @@ TEST(Words, ACommandThatIsNearlyOneIsOffered) {
 TEST(Words, ContinueSaysThatItStandsWithinAScanAndGoesToItsEnd) {
   std::string program = "LD SM0.0\n";
   for (int i = 0; i < 60; ++i) program += "INCW VW0\n";
-  Session session(program + "MEND\n");
+  AtPrompt session(program + "MEND\n");
   session("continue 20ms");
   bool within = false;
   for (int i = 0; i < 20 && !within; ++i)

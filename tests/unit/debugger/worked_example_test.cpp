@@ -17,7 +17,7 @@ struct Drop {
   const char* reason;       ///< seen in what ran before
 };
 
-void five_commands_lead_to(Session& session, const Drop& drop) {
+void five_commands_lead_to(AtPrompt& session, const Drop& drop) {
   SCOPED_TRACE(drop.frame);
   session(std::string("continue 2s; break unanswered; send ") + drop.frame);
   EXPECT_TRUE(has(session("continue"), "breakpoint 1, unanswered"));
@@ -39,7 +39,7 @@ TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInOurSlave) {
         Drop{"01 03p 00 0a 00 01 crc", "by INT 123 line", "CRETI", "LDN     SM3.0                S0=0 SM3.0=1"},
         Drop{"01 03 00", "by SBR 51 line", "JMP     255                  // fewer are not",
              "LDW<=   VW3300, 3            S0=1 VW3300=16#0003"}}) {
-    Session session(program);
+    AtPrompt session(program);
     five_commands_lead_to(session, drop);
   }
 }
@@ -52,13 +52,13 @@ TEST(WorkedExample, FiveCommandsFindWhatDroppedAFrameInTheTip) {
         Drop{"02 03 00 00 00 01 crc", "by INT 122", "CRETI", "LDB=    SMB2, VB4095         S0=0 SMB2=16#02 VB4095=16#01"},
         Drop{"01 03p 00 00 00 01 crc", "by INT 123", "ATCH    120, 10", "LD      SM3.0                S0=1 SM3.0=1"},
         Drop{"01 03 00", "by SBR 51", "JMP     255", "LDW=    0, AC2               S0=0"}}) {
-    Session session(program);
+    AtPrompt session(program);
     five_commands_lead_to(session, drop);
   }
 }
 
 TEST(WorkedExample, WhyNamesWhatDecidedWithoutGoingThereAndGoesOnFromThere) {
-  Session session("LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
+  AtPrompt session("LD SM0.0\nAN I0.0\nJMP 1\nLD SM0.0\nINCW VW0\nLBL 1\nLD SM0.0\nINCW VW2\nMEND\n");
   EXPECT_TRUE(has(session("why"), "nothing has decided that it comes here"));
   const std::string there = session("until 8; why");
   EXPECT_TRUE(has(there, "JMP 1 in line 3 (LD SM0.0: SM0.0=1; AN I0.0: I0.0=0)"));
@@ -81,7 +81,7 @@ struct Reason {
 
 void a_trace_names(const std::shared_ptr<const Program>& program, const Reason& reason) {
   SCOPED_TRACE(reason.frame);
-  Session session(program);
+  AtPrompt session(program);
   session("continue 2s; trace on");
   const std::string trace = session(std::string("send ") + reason.frame + "; continue");
   EXPECT_TRUE(has(trace, reason.said));
@@ -96,7 +96,7 @@ TEST(WorkedExample, ATraceNamesWhatDroppedAFrameInOurSlave) {
         Reason{"01 03p 00 0a 00 01 crc", ": CRETI in line 680, not taken (LDN SM3.0: SM3.0=1; AN V3304.1: V3304.1=0)"},
         Reason{"01 03 00", "JMP 255 in line 134 (LDW<= VW3300, 3: VW3300=16#0003)  // fewer are not"}})
     a_trace_names(program, reason);
-  Session session(program);
+  AtPrompt session(program);
   EXPECT_FALSE(has(session("continue 2s; trace on; send 01 03 00 0a 00 01 crc; continue; continue 50ms"), "no answer"));
 }
 
@@ -115,11 +115,11 @@ constexpr std::string_view kWaiting =
 
 TEST(WorkedExample, AFrameThatComesWhileTheSlaveStillWaitsForSilenceIsNamedByTheTraceAndByWhy) {
   const auto program = test::compile(test::slave_text());
-  Session traced(program);
+  AtPrompt traced(program);
   const std::string trace = traced("trace on; continue 53ms; send 01 03 00 0a 00 01 crc; continue");
   EXPECT_TRUE(has(trace, "no answer to 8 characters since 53."));
   EXPECT_TRUE(has(trace, kWaiting));
-  Session session(program);
+  AtPrompt session(program);
   session("continue 53ms; break unanswered; send 01 03 00 0a 00 01 crc; continue");
   EXPECT_TRUE(has(session("why"), "no answer to 8 characters since 53."));
   EXPECT_TRUE(has(session("rwho event 8"), "ATCH: INT 122 to event 8"));
@@ -132,7 +132,7 @@ TEST(WorkedExample, FromAnUnansweredRequestItGoesStraightBackToWhatDroppedTheFra
   const auto program = test::compile(test::slave_text());
   for (const auto& [frame, line] : {std::pair{"01 03 00 0a 00 01 00 00", 141u}, std::pair{"01 03 00", 134u}}) {
     SCOPED_TRACE(frame);
-    Session session(program);
+    AtPrompt session(program);
     session(std::string("continue 2s; break unanswered; send ") + frame + "; continue");
     const std::string text = session("rwhy");
     EXPECT_TRUE(has(text, fmt::format("JMP 255 in line {}", line)));
@@ -149,7 +149,7 @@ TEST(WorkedExample, BothPartsOfAFrameWithAPauseInItAreNamed) {
                    "no answer to 5 characters since "},
         std::tuple{"gap:length=10ms", "no answer to a character since 2000.", "no answer to 7 characters since "}}) {
     SCOPED_TRACE(fault);
-    Session session(program);
+    AtPrompt session(program);
     const std::string trace =
         session(fmt::format("continue 2s; trace on; fault {}; send 01 03 00 0a 00 01 crc; continue", fault));
     EXPECT_TRUE(has(trace, first));
@@ -161,7 +161,7 @@ TEST(WorkedExample, BothPartsOfAFrameWithAPauseInItAreNamed) {
 }
 
 TEST(WorkedExample, WhyKnowsAllOfALongScanAndEveryContactOfALongRung) {
-  Session session(
+  AtPrompt session(
       "LD SM0.0\nAN I0.0\nJMP 1\nLBL 1\nLD SM0.0\nFOR VW0, 1, 4000\nLD SM0.0\nWDR\nSQRT VD8, VD12\nNEXT\nLD SM0.0\nINCW "
       "VW2\nMEND\n");
   session("scan");
@@ -172,7 +172,7 @@ TEST(WorkedExample, WhyKnowsAllOfALongScanAndEveryContactOfALongRung) {
 
   std::string rung = "LDN M0.0\n";
   for (int bit = 1; bit < 20; ++bit) rung += fmt::format("AN M{}.{}\n", bit / 8, bit % 8);
-  Session wide(rung + "INCW VW0\nMEND\n");
+  AtPrompt wide(rung + "INCW VW0\nMEND\n");
   const std::string why = wide("until 21; why");
   EXPECT_TRUE(has(why, "LDN M0.0: M0.0=0; AN M0.1: M0.1=0"));
   EXPECT_TRUE(has(why, "AN M2.3: M2.3=0)"));

@@ -135,16 +135,16 @@ TEST(WrongAnswers, AProgramCannotTakeAnAnswerWithAWrongCrc) {
 // --- words ---
 
 TEST(WrongAnswers, TheHelpOfBreakHasEveryWordOfAHappening) {
-  Session session(kNested);
+  AtPrompt session(kNested);
   const std::string help = session("help break");
   for (const std::string_view word : happening_words()) EXPECT_TRUE(has(help, word));
 }
 
 TEST(WrongAnswers, ABreakpointAtThemIsSavedAndLoaded) {
   const std::string file = test::scratch_folder() + "wrong.json";
-  Session session(kNested);
+  AtPrompt session(kNested);
   session("break wrong hits 2; continue 10ms; save " + file + " !");
-  Session other(kNested);
+  AtPrompt other(kNested);
   other("load " + file);
   EXPECT_TRUE(has(other("break"), "wrong, from hit 2"));
 }
@@ -158,7 +158,7 @@ TEST(WrongAnswers, SendSaysThatAnotherMasterIsOnTheLineAndWhoSentWhatItTookForAn
   const std::string answered = session("continue");
   EXPECT_TRUE(has(answered, "answer   01 03 00 00 00 02 c4 0b"));
   EXPECT_TRUE(has(answered, "sent by scada: a request of its own, not an answer; two masters are on this line\n"));
-  Session alone(kEcho);
+  AtPrompt alone(kEcho);
   EXPECT_FALSE(has(alone("continue 100ms; send 41; continue"), "two masters"));
 }
 
@@ -217,7 +217,7 @@ TEST(WrongAnswers, AFaultOfOneStationStrikesOnlyWhatThatSends) {
   EXPECT_TRUE(has(session.error_of("fault noise:ber=0.1 station=slave2"), "are of the line and not of a station"));
   EXPECT_TRUE(has(session.error_of("fault parity station=slave9"), "'slave9' is not on this line; known: master, slave1"));
   EXPECT_TRUE(has(session.error_of("fault none station=slave2"), "leave station= out"));
-  Session one(kNested);
+  AtPrompt one(kNested);
   EXPECT_TRUE(has(one.error_of("fault parity station=slave"), "station= is for a system"));
 }
 

@@ -17,7 +17,7 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_reader.hpp"
-#include "tools/session/commands/force_words.hpp"
+#include "tools/session/words/force_words.hpp"
 #include "tools/slave/slave_target.hpp"
 #include "tools/slave/system_slave.hpp"
 #include "tools/views/faults.hpp"

@@ -12,10 +12,10 @@
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/faces/dap/exception_filters.hpp"
-#include "tools/session/causes/two_masters.hpp"
-#include "tools/session/commands/line_words.hpp"
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/stops/stop_words.hpp"
+#include "tools/session/words/frame_words.hpp"
+#include "tools/session/words/line_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/text_frame.hpp"
@@ -82,62 +82,54 @@ Session::Session(SessionSettings settings, Send send) : settings_(std::move(sett
 Session::~Session() = default;
 
 const std::vector<Session::Request>& Session::requests() {
-  static const std::vector<Request> kTable{{"initialize", &Session::initialize, Needs::Nothing},
-                                           {"launch", &Session::launch, Needs::Nothing},
-                                           {"attach", &Session::attach, Needs::Nothing},
-                                           {"configurationDone", &Session::configuration_done},
-                                           {"restart", &Session::restart},
-                                           {"terminate", &Session::terminate},
-                                           {"disconnect", &Session::disconnect, Needs::Nothing},
-                                           {"cancel", &Session::cancel, Needs::Nothing},
-                                           {"setBreakpoints", &Session::set_breakpoints},
-                                           {"setFunctionBreakpoints", &Session::set_function_breakpoints},
-                                           {"setDataBreakpoints", &Session::set_data_breakpoints},
-                                           {"setInstructionBreakpoints", &Session::set_instruction_breakpoints},
-                                           {"setExceptionBreakpoints", &Session::set_exception_breakpoints},
-                                           {"breakpointLocations", &Session::breakpoint_locations},
-                                           {"dataBreakpointInfo", &Session::data_breakpoint_info},
-                                           {"exceptionInfo", &Session::exception_info},
-                                           {"continue", &Session::go_on, Needs::Standstill},
-                                           {"next", &Session::next, Needs::Standstill},
-                                           {"stepIn", &Session::step_in, Needs::Standstill},
-                                           {"stepOut", &Session::step_out, Needs::Standstill},
-                                           {"stepScan", &Session::step_scan, Needs::Standstill},
-                                           {"stepInterrupt", &Session::step_interrupt, Needs::Standstill},
-                                           {"pause", &Session::pause},
-                                           {"stepBack", &Session::step_back, Needs::Standstill},
-                                           {"reverseContinue", &Session::reverse_continue, Needs::Standstill},
-                                           {"reverseStepOver", &Session::reverse_step_over, Needs::Standstill},
-                                           {"reverseStepOut", &Session::reverse_step_out, Needs::Standstill},
-                                           {"reverseStepScan", &Session::reverse_step_scan, Needs::Standstill},
-                                           {"reverseStepInterrupt", &Session::reverse_step_interrupt, Needs::Standstill},
-                                           {"gotoTargets", &Session::goto_targets},
-                                           {"goto", &Session::go_to, Needs::Standstill},
-                                           {"goToMoment", &Session::go_to_moment, Needs::Standstill},
-                                           {"threads", &Session::threads, Needs::Nothing},
-                                           {"stackTrace", &Session::stack_trace},
-                                           {"scopes", &Session::scopes},
-                                           {"variables", &Session::variables},
-                                           {"loadedSources", &Session::loaded_sources},
-                                           {"source", &Session::source, Needs::Nothing},
-                                           {"evaluate", &Session::evaluate},
-                                           {"completions", &Session::completions},
-                                           {"disassemble", &Session::disassemble},
-                                           {"readMemory", &Session::read_memory},
-                                           {"writeMemory", &Session::write_memory},
-                                           {"setVariable", &Session::set_variable},
-                                           {"setExpression", &Session::set_expression},
-                                           {"sendFrame", &Session::send_frame},
-                                           {"fault", &Session::inject_fault},
-                                           {"force", &Session::force},
-                                           {"unforce", &Session::unforce},
-                                           {"timeline", &Session::timeline},
-                                           {"lastWrite", &Session::last_write},
-                                           {"reverseToLastWrite", &Session::reverse_to_last_write, Needs::Standstill},
-                                           {"lastDecision", &Session::last_decision},
-                                           {"reverseToLastDecision", &Session::reverse_to_last_decision, Needs::Standstill},
-                                           {"lastInstructions", &Session::last_instructions},
-                                           {"stlStatus", &Session::stl_status}};
+  static const std::vector<Request> kTable =
+      with_commands({{"initialize", &Session::initialize, Needs::Nothing},
+                     {"launch", &Session::launch, Needs::Nothing},
+                     {"attach", &Session::attach, Needs::Nothing},
+                     {"configurationDone", &Session::configuration_done},
+                     {"restart", &Session::restart},
+                     {"terminate", &Session::terminate},
+                     {"disconnect", &Session::disconnect, Needs::Nothing},
+                     {"cancel", &Session::cancel, Needs::Nothing},
+                     {"setBreakpoints", &Session::set_breakpoints},
+                     {"setFunctionBreakpoints", &Session::set_function_breakpoints},
+                     {"setDataBreakpoints", &Session::set_data_breakpoints},
+                     {"setInstructionBreakpoints", &Session::set_instruction_breakpoints},
+                     {"setExceptionBreakpoints", &Session::set_exception_breakpoints},
+                     {"breakpointLocations", &Session::breakpoint_locations},
+                     {"dataBreakpointInfo", &Session::data_breakpoint_info},
+                     {"exceptionInfo", &Session::exception_info},
+                     {"continue", &Session::go_on, Needs::Standstill},
+                     {"next", &Session::next, Needs::Standstill},
+                     {"stepIn", &Session::step_in, Needs::Standstill},
+                     {"stepOut", &Session::step_out, Needs::Standstill},
+                     {"stepScan", &Session::step_scan, Needs::Standstill},
+                     {"stepInterrupt", &Session::step_interrupt, Needs::Standstill},
+                     {"pause", &Session::pause},
+                     {"stepBack", &Session::step_back, Needs::Standstill},
+                     {"reverseContinue", &Session::reverse_continue, Needs::Standstill},
+                     {"reverseStepOver", &Session::reverse_step_over, Needs::Standstill},
+                     {"reverseStepOut", &Session::reverse_step_out, Needs::Standstill},
+                     {"reverseStepScan", &Session::reverse_step_scan, Needs::Standstill},
+                     {"reverseStepInterrupt", &Session::reverse_step_interrupt, Needs::Standstill},
+                     {"gotoTargets", &Session::goto_targets},
+                     {"goto", &Session::go_to, Needs::Standstill},
+                     {"goToMoment", &Session::go_to_moment, Needs::Standstill},
+                     {"threads", &Session::threads, Needs::Nothing},
+                     {"stackTrace", &Session::stack_trace},
+                     {"scopes", &Session::scopes},
+                     {"variables", &Session::variables},
+                     {"loadedSources", &Session::loaded_sources},
+                     {"source", &Session::source, Needs::Nothing},
+                     {"evaluate", &Session::evaluate},
+                     {"completions", &Session::completions},
+                     {"disassemble", &Session::disassemble},
+                     {"readMemory", &Session::read_memory},
+                     {"writeMemory", &Session::write_memory},
+                     {"setVariable", &Session::set_variable},
+                     {"setExpression", &Session::set_expression},
+                     {"timeline", &Session::timeline},
+                     {"stlStatus", &Session::stl_status}});
   return kTable;
 }
 
@@ -164,19 +156,22 @@ void Session::handle(const Json& message) {
 }
 
 Json Session::dispatch(const Request& request, const Json& arguments) {
+  const auto handled = [&](const Json& of) {
+    return request.handler ? (this->*request.handler)(of) : run_command(std::string(request.command), of);
+  };
   const bool needs_program = request.needs != Needs::Nothing, needs_standstill = request.needs == Needs::Standstill;
   if (needs_program && !debuggee_) throw Refused("there is no program yet: launch or attach comes first");
   if (needs_program && terminated_) throw Refused("the session has ended");
   if (needs_standstill && runs()) throw Refused("the program runs: pause it first");
-  if (!debuggee_) return (this->*request.handler)(arguments);
+  if (!debuggee_) return handled(arguments);
   Json of_station = arguments;
   const auto station = take_station(of_station);
   Json body;
   {
     const LookAt look(*this, station.value_or(looks_at()));
-    body = (this->*request.handler)(of_station);
+    body = handled(of_station);
   }
-  if (station && needs_standstill) stepper_->look_at(*station);  // there it runs, unless it was refused
+  if (station && needs_standstill) session_->stepper.look_at(*station);  // there it runs, unless it was refused
   return body;
 }
 
@@ -232,14 +227,11 @@ void Session::send_event(const std::string& event, Json body) {
   send_(message);
 }
 
-std::string Session::said_of(std::size_t station) const {
-  const std::string name = debuggee_->name(station);
-  return name.empty() ? name : name + ": ";
-}
+std::string Session::said_of(std::size_t station) const { return session_->said_of(station); }
 
 /// The first one that has the file in its program; the one looked at if it has it too, or none has.
 std::size_t Session::station_with(const std::string& path) const {
-  const auto has = [&](std::size_t station) { return stations_[station].sources.line_in(path, 1).has_value(); };
+  const auto has = [&](std::size_t station) { return sources_[station].line_in(path, 1).has_value(); };
   for (std::size_t station = 0; station < stations() && !has(looks_at()); ++station)
     if (has(station)) return station;
   return looks_at();
@@ -331,7 +323,7 @@ void Session::read_attributes(const Json& arguments, bool stops_on_entry) {
   steps_are_networks_ = unit == "network";
   const auto station = number_at<std::int64_t>(arguments, "station", kWhole<std::int64_t>, 1);
   if (station < 0 || station > 255) throw Refused(fmt::format("station: {} is not from 0 to 255", station));
-  station_ = static_cast<std::uint8_t>(station);
+  slave_ = static_cast<std::uint8_t>(station);
   folder_ = text_at(arguments, "cwd", "");
   read_frames(arguments);
 }
@@ -348,29 +340,21 @@ void Session::note_without_effect(const Json& arguments, std::initializer_list<A
 }
 
 void Session::begin(std::shared_ptr<Debuggee> debuggee) {
-  if (!frames_.empty() && !debuggee->history().station(debuggee->first_station()).has_master())
+  SessionSetup setup = debuggee->setup();
+  if (!frames_.empty() && !debuggee->history().station(setup.station).has_master())
     throw Refused(fmt::format("send: {}", kNoRoomForMaster));
+  setup.stop_request = settings_.stop_request;
+  setup.slave = slave_;
   debuggee_ = std::move(debuggee);
-  stepper_ = std::make_unique<Stepper>(debuggee_->history(), settings_.stop_request);
-  stepper_->look_at(debuggee_->first_station());
-  stations_.clear();
+  session_ = std::make_unique<tools::Session>(debuggee_->history(), std::move(setup), static_cast<Onlooker&>(*this));
+  sources_.clear();
   for (std::size_t station = 0; station < stations(); ++station)
-    stations_.emplace_back(*debuggee_->program(station), client_takes_uris_);
-  stepper_->set_host_timeout(master().timeout);
+    sources_.emplace_back(program_of(station), client_takes_uris_);
+  session_->stepper.set_host_timeout(master().timeout);
   debuggee_->when_saying([this](const std::string& text) { print(text, "important"); });
-  stepper_->on_message = [this](const StopPoint& stop, const Hit& hit) {
+  session_->stepper.on_message = [this](const StopPoint& stop, const Hit& hit) {
     const Cpu& at = debuggee_->history().station(stop.station).cpu();
     print_of(stop.station, message_text(stop, hit, at, debuggee_->history().now().time), "console", standing_at(at.state()));
-  };
-  stepper_->on_answer = [this](std::size_t station, const serial::Exchange& exchange) {
-    print(exchange_text(exchange, debuggee_->master(station).timeout) +
-          not_an_answer_text(debuggee_->history(), station, exchange));
-  };
-  stepper_->on_unasked = [this](const SentByPlc& sent) {
-    print(unasked_text(sent.bytes) + fmt::format("from {} to {}", moment_text(sent.from), moment_text(sent.to)));
-  };
-  stepper_->on_record = [this](std::size_t station, const TraceRecord& record) {
-    if (record.kind == TraceKind::RuntimeError && !first_error_) first_error_ = {station, record};
   };
   after_response([this] { send_event("initialized", {}); });
 }
@@ -378,7 +362,12 @@ void Session::begin(std::shared_ptr<Debuggee> debuggee) {
 /// The frames that a launch or an attach asks for.
 void Session::read_frames(const Json& arguments) {
   frames_.clear();
-  for (const std::string& frame : texts_at(arguments, "send")) frames_.push_back(parsed_frame(frame));
+  for (const std::string& text : texts_at(arguments, "send")) {
+    std::string why;
+    const auto frame = parse_frame(text, slave_, why);
+    if (!frame) throw Refused(fmt::format("'{}': {}", stl::shortened(text), why));
+    frames_.push_back(*frame);
+  }
   const std::string after = text_at(arguments, "sendAfter", "");
   const auto time = after.empty() ? std::optional(kSendAfter) : parse_duration(after);
   if (!time) throw Refused(fmt::format("sendAfter: '{}' is not a duration; write for example 250ms", stl::shortened(after)));
@@ -401,6 +390,7 @@ void Session::start() {
 /// Of a launch or an attach that has changed since: what is about the session itself; the program is the one that is loaded.
 void Session::take_changed_arguments(const Json& arguments) {
   read_attributes(arguments, attached_);
+  session_->setup.slave = slave_;
   std::vector<std::string> changed;
   for (const auto& [key, value] : arguments.items())
     if (use_of(key) == AttributeUse::Program && begun_with_.value(key, Json()) != value) changed.push_back(key);
@@ -417,8 +407,7 @@ Json Session::restart(const Json& arguments) {
   if (member(arguments, "arguments")) take_changed_arguments(map_at(arguments, "arguments"));
   running_.reset();
   pause_asked_ = false;
-  debuggee_->history().restart();
-  note_new_branch();
+  executed({"restart"});
   frames_sent_.clear();
   after_response([this] {
     if (!stop_on_entry_) send_event("continued", {{"threadId", thread()}, {"allThreadsContinued", true}});

@@ -29,6 +29,8 @@
 #include "tools/faces/dap/debuggee.hpp"
 #include "tools/faces/dap/sources.hpp"
 #include "tools/faces/dap/variables.hpp"
+#include "tools/session/commands/reply.hpp"
+#include "tools/session/commands/session.hpp"
 #include "tools/session/stops/stepper.hpp"
 #include "tools/views/listing.hpp"
 
@@ -45,12 +47,12 @@ struct SessionSettings {
   std::chrono::milliseconds patience{500};          ///< after this long progress is reported
 };
 
-class Session {
+class Session final : private Onlooker {
  public:
   using Send = std::function<void(const Json& message)>;
 
   Session(SessionSettings settings, Send send);
-  ~Session();
+  ~Session() override;
 
   void handle(const Json& message);
 
@@ -74,10 +76,11 @@ class Session {
   enum class Needs : std::uint8_t { Nothing, Program, Standstill };
   struct Request {
     std::string_view command;
-    Handler handler;
+    Handler handler;  ///< null: the request is a command
     Needs needs = Needs::Program;
   };
   static const std::vector<Request>& requests();
+  static std::vector<Request> with_commands(std::vector<Request> table);
   Json dispatch(const Request& request, const Json& arguments);
   std::optional<std::size_t> take_station(Json& arguments) const;
 
@@ -95,7 +98,6 @@ class Session {
   void take_changed_arguments(const Json& arguments);
   void begin(std::shared_ptr<Debuggee> debuggee);
   void read_frames(const Json& arguments);
-  serial::Frame parsed_frame(const std::string& text) const;
   void start();
   void end_debuggee();
   void leave();
@@ -119,6 +121,7 @@ class Session {
   using MakeStops = std::function<std::vector<StopPoint>(const Json& wanted, Json& answer)>;
   Json place(StopKind kind, const std::string& group, const Json& wanted, const MakeStops& make);
   void take_away(int number);
+  StopKind kind_of(int number) const;
   StopPoint with_conditions(StopPoint stop, const Json& wanted) const;
   StopPoint stop_at(std::uint32_t op) const;
   using StopOfStation = std::function<std::optional<StopPoint>(std::string& why)>;
@@ -181,6 +184,7 @@ class Session {
   Json source(const Json& arguments);
   Json evaluate(const Json& arguments);
   Json completions(const Json& arguments);
+  Json offers_of_command(const std::string& before) const;
   Json disassemble(const Json& arguments);
   Json stack_frame(std::uint32_t number, std::uint32_t op, const std::string& name) const;
   Json evaluated(const std::string& expression, bool hex);
@@ -198,44 +202,23 @@ class Session {
   void write_image(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes);
   void write_levels(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes);
   std::string without_power() const;
+  void note_change();
   void act(Action action);
-  void note_new_branch();
+  void note_branch(const History::BranchPtr& before);
   void report_memory_changes();
 
-  // What the protocol has no requests for (session_extras.cpp).
-  Json send_frame(const Json& arguments);
-  Json inject_fault(const Json& arguments);
-  void change_mode(const std::string& word);
-  void switch_power(const std::string& word);
-  Json force(const Json& arguments);
-  Json unforce(const Json& arguments);
+  // What the protocol has no requests for: commands, and what is like them (session_commands.cpp).
+  Json console(const std::string& line);
+  std::string said_by(const std::string& command);
+  void report_console(bool has_moved);
+  static bool is_command(const std::string& line, const Program& program);
+  Json run_command(const std::string& request, const Json& arguments);
   Json timeline(const Json& arguments);
-  Json last_write(const Json& arguments);
-  Json reverse_to_last_write(const Json& arguments);
-  Json last_decision(const Json& arguments);
-  Json reverse_to_last_decision(const Json& arguments);
-  Json last_instructions(const Json& arguments);
   Json stl_status(const Json& arguments);
-  Json forced() const;
-
-  /// Of the debug console: what stands behind its word in, what it says out.
-  struct ConsoleCommand {
-    std::string_view word, help;
-    std::string (*run)(Session& session, const std::string& rest);
-  };
-  static std::span<const ConsoleCommand> console_commands();
-  static const ConsoleCommand* console_command(std::string_view word);  ///< null: it is none
-  static std::string console_help();
-  std::string set_in_console(const std::string& rest);
-  std::string history_in_console(const std::string& rest);
-  struct Found {
-    std::optional<Moment> moment;  ///< nothing: nothing was found that it could go back to
-    Json body;
-    std::string why_no_moment{};
-  };
-  Found find_writer(const std::string& expression);
-  Json named(const InstructionRecord& record) const;
-  Found find_decision();
+  Json placed(Json json) const;
+  Reply executed(const Words& command);
+  void note_changed_stops(const std::set<int>& before);
+  std::set<int> stop_numbers() const;
 
   // Sending.
   void send_event(const std::string& event, Json body);
@@ -244,14 +227,15 @@ class Session {
   void print_of(std::size_t station, const std::string& text, const std::string& category, std::optional<std::uint32_t> op);
   void after_response(std::function<void()> action) { later_.push_back(std::move(action)); }
   [[noreturn]] void refuse_interrupted() const;
+  void tell(std::string_view lines) override { print(std::string(lines)); }
 
   std::size_t stations() const { return debuggee_->history().stations(); }
-  std::size_t looks_at() const { return stepper_->looks_at(); }
+  std::size_t looks_at() const { return session_->focus(); }
   serial::Simulation& simulation() const { return debuggee_->history().station(looks_at()); }
-  const serial::MasterSettings& master() const { return debuggee_->master(looks_at()); }
-  std::shared_ptr<const Program> program() const { return debuggee_->program(looks_at()); }
-  const Listing& listing() const { return stations_[looks_at()].listing; }
-  const Sources& sources() const { return stations_[looks_at()].sources; }
+  const serial::MasterSettings& master() const { return session_->master(looks_at()); }
+  const Program& program_of(std::size_t station) const { return session_->stations[station].simulation->cpu().program(); }
+  const Listing& listing() const { return session_->listing(); }
+  const Sources& sources() const { return sources_[looks_at()]; }
   const Cpu& cpu() const { return simulation().cpu(); }
   std::string said_of(std::size_t station) const;  ///< `slave: `; nothing if there is but one PLC
   std::int64_t thread() const { return static_cast<std::int64_t>(looks_at()) + 1; }
@@ -259,7 +243,7 @@ class Session {
   /// While it lives another station is looked at.
   class LookAt {
    public:
-    LookAt(Session& session, std::size_t station) : stepper_(*session.stepper_), before_(stepper_.looks_at()) {
+    LookAt(Session& session, std::size_t station) : stepper_(session.session_->stepper), before_(stepper_.looks_at()) {
       stepper_.look_at(station);
     }
     ~LookAt() { stepper_.look_at(before_); }
@@ -290,31 +274,23 @@ class Session {
   // What is debugged.
   std::shared_ptr<Debuggee> debuggee_;
   bool attached_ = false;
-  struct Station {
-    Station(const Program& program, bool as_uris) : listing(program), sources(program, as_uris) {}
-    Listing listing;
-    Sources sources;
-  };
-  std::deque<Station> stations_;
-  std::unique_ptr<Stepper> stepper_;
+  std::unique_ptr<tools::Session> session_;
+  std::deque<Sources> sources_;  ///< by station
   bool stop_on_entry_ = false, no_debug_ = false, steps_are_networks_ = false;
   std::string folder_;                 ///< where the client's relative paths begin; empty: at the command's
   std::vector<serial::Frame> frames_;  ///< to be sent, as the launch asks for
   std::vector<Time> frames_sent_;      ///< when, on this branch
   Json begun_with_;                    ///< the arguments of launch or attach
-  std::uint8_t station_ = 1;           ///< of requests that name none
+  std::uint8_t slave_ = 1;             ///< of requests that name none
   Time send_after_ = 0;
-  bool captures_end_ = false;  ///< has been said
 
   // Where to stop.
   std::map<int, Placed> placed_;
-  int next_number_ = 1;
 
   // The run under way, and the last stop.
   std::optional<Run> running_;
   bool pause_asked_ = false, over_ = false, terminated_ = false;
-  std::optional<std::pair<std::size_t, TraceRecord>> first_error_;  ///< run-time error of the run under way, and its station
-  std::map<std::size_t, Json> exceptions_;                          ///< of the last stop, by station
+  std::map<std::size_t, Json> exceptions_;                                      ///< of the last stop, by station
   std::map<std::int64_t, std::pair<std::size_t, std::uint32_t>> goto_targets_;  ///< station and instruction
   /// An area that the client has read.
   struct ReadArea {

@@ -14,7 +14,7 @@
 #include "tools/faces/dap/exception_filters.hpp"
 #include "tools/faces/dap/session.hpp"
 #include "tools/session/stops/stop_words.hpp"
-#include "tools/session/stops/words.hpp"
+#include "tools/session/words/words.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools::dap {
@@ -81,7 +81,13 @@ StopPoint Session::with_conditions(StopPoint stop, const Json& wanted) const {
 
 void Session::take_away(int number) {
   placed_.erase(number);
-  stepper_->remove(number);
+  session_->stepper.remove(number);
+}
+
+/// Those that a command has set are known to the client by what they are called, as functions are.
+Session::StopKind Session::kind_of(int number) const {
+  const auto placed = placed_.find(number);
+  return placed == placed_.end() ? StopKind::Function : placed->second.kind;
 }
 
 /// Replaces those of a kind and group. One that was wanted before in the same way stays, with its hits.
@@ -97,7 +103,7 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
       before.erase(same);
       continue;
     }
-    const int number = next_number_++;
+    const int number = session_->next_number++;
     Json answer{{"id", number}, {"verified", true}};
     const auto refuse = [&answer](const std::string& why) {
       answer.update({{"verified", false}, {"message", why}, {"reason", "failed"}});
@@ -106,7 +112,7 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
       for (StopPoint& stop : make(one, answer)) {
         stop.number = number;
         if (stop.range) stop.value = stop.range->bytes_in(debuggee_->history().station(stop.station).cpu().state().image);
-        if (!no_debug_) stepper_->add(std::move(stop));
+        if (!no_debug_) session_->stepper.add(std::move(stop));
       }
     } catch (const Refused& refused) {
       refuse(refused.what());
@@ -300,7 +306,7 @@ std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
 std::size_t Session::first_on(std::size_t line) const {
   const PlcRequests& requests = debuggee_->history().requests();
   for (std::size_t station = 0; station < stations(); ++station)
-    for (std::uint8_t port = 0; port < debuggee_->program(station)->model->ports; ++port)
+    for (std::uint8_t port = 0; port < program_of(station).model->ports; ++port)
       if (requests.line_of(station, port) == line) return station;
   return 0;
 }

@@ -8,7 +8,8 @@
 #include "tools/faces/dap/addresses.hpp"
 #include "tools/faces/dap/base64.hpp"
 #include "tools/faces/dap/session.hpp"
-#include "tools/session/commands/force_words.hpp"
+#include "tools/session/commands/running.hpp"
+#include "tools/session/words/force_words.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 
@@ -158,30 +159,26 @@ std::string Session::without_power() const {
 
 /// In the past it begins a new branch, and says so.
 void Session::act(Action action) {
-  const bool reaches_it = std::holds_alternative<SendFrame>(action) || std::holds_alternative<CancelRequest>(action) ||
-                          std::holds_alternative<InjectFault>(action) || std::holds_alternative<SetPower>(action);
-  if (const std::string why = without_power(); !reaches_it && !why.empty()) throw Refused(why);
-  History& history = debuggee_->history();
-  const bool branches = history.in_the_past();
-  const Time left = history.newest().time;
-  history.act(std::move(action), looks_at());
-  if (branches) {
-    print(fmt::format("a new branch begins here; what ran up to {} is on the old one", moment_text(left)));
-    note_new_branch();
-  }
+  if (const std::string why = without_power(); !why.empty()) throw Refused(why);
+  const History::BranchPtr before = debuggee_->history().here().branch;
+  tools::act(*session_, std::move(action));
+  print(session_->take_said());
+  note_branch(before);
+  note_change();
+}
+
+/// What the client shows of memory may be another one now.
+void Session::note_change() {
   after_response([this] {
     if (client_takes_invalidation_ && !runs()) send_event("invalidated", {{"areas", Json::array({"variables"})}});
     report_memory_changes();
   });
 }
 
-/// A record of what went on cannot go back: a capture ends, a trace says so by its times.
-void Session::note_new_branch() {
+/// On a branch that has begun, frames that were sent later than where it begins are still to be sent.
+void Session::note_branch(const History::BranchPtr& before) {
+  if (debuggee_->history().here().branch == before) return;
   std::erase_if(frames_sent_, [now = debuggee_->history().now().time](Time sent) { return sent > now; });
-  for (std::size_t station = 0; station < stations(); ++station) debuggee_->history().station(station).plc().unwatch_lines();
-  const std::string files = debuggee_->recorded_files();
-  if (files.empty() || std::exchange(captures_end_, true)) return;
-  print(fmt::format("{}: traces go on with what is new, after what ran before; captures of the line end", files));
 }
 
 /// Of what the client has read: the bytes from the first to the last that is different now.

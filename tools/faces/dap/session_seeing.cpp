@@ -10,10 +10,13 @@
 #include "interpreter/stl/printer.hpp"
 #include "tools/faces/dap/addresses.hpp"
 #include "tools/faces/dap/session.hpp"
-#include "tools/session/commands/address_words.hpp"
-#include "tools/session/commands/bad_pointers.hpp"
+#include "tools/session/commands/cause_reports.hpp"
+#include "tools/session/commands/command_table.hpp"
+#include "tools/session/commands/completion.hpp"
 #include "tools/session/observers/call_stack.hpp"
 #include "tools/session/stops/stop_words.hpp"
+#include "tools/session/words/address_words.hpp"
+#include "tools/session/words/bad_pointers.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 
@@ -80,9 +83,9 @@ Json Session::threads(const Json&) {
   Json threads = Json::array();
   if (!debuggee_) threads.push_back({{"id", 1}, {"name", "CPU"}});
   for (std::size_t station = 0; debuggee_ && station < stations(); ++station) {
-    const std::string name = debuggee_->name(station);
-    threads.push_back({{"id", station + 1},
-                       {"name", name.empty() ? fmt::format("CPU {}", debuggee_->program(station)->model->name) : name}});
+    const std::string alone = fmt::format("CPU {}", program_of(station).model->name);
+    threads.push_back(
+        {{"id", station + 1}, {"name", session_->is_system() ? session_->setup.stations[station].name : alone}});
   }
   return {{"threads", threads}};
 }
@@ -153,8 +156,8 @@ Json Session::source(const Json& arguments) {
 
 Json Session::loaded_sources(const Json&) {
   Json all = Json::array();
-  for (const Station& station : stations_)
-    for (const Json& source : station.sources.all())
+  for (const Sources& sources : sources_)
+    for (const Json& source : sources.all())
       if (std::ranges::find(all, source) == all.end()) all.push_back(source);
   return {{"sources", all}};
 }
@@ -166,12 +169,8 @@ std::string Session::text_of_bad_pointer(const std::string& name, const MemoryRa
   const std::string address = pointer.name_of(0);
   std::string text = bad_pointer_text(cpu(), pointer, name, address);
   if (runs()) return text;
-  try {
-    text += "\n" + find_writer(address).body["text"].get<std::string>();
-  } catch (const Refused& nothing) {
-    text += fmt::format("\n{}", nothing.what());
-  }
-  return text;
+  const Reply reply = last_writer(*session_, pointer, address).reply;
+  return text + "\n" + (reply.interrupted ? std::string("cancelled") : text_in(reply.json, "text"));
 }
 
 Json Session::evaluated(const std::string& expression, bool hex) {
@@ -197,13 +196,20 @@ Json Session::evaluated(const std::string& expression, bool hex) {
 
 Json Session::evaluate(const Json& arguments) {
   const std::string expression(stl::trim(text_at(arguments, "expression")));
-  const bool console = text_at(arguments, "context", "") == "repl";
-  const std::string word = expression.substr(0, expression.find(' '));
-  if (const ConsoleCommand* const command = console ? console_command(word) : nullptr) {
-    const std::string rest(stl::trim(std::string_view(expression).substr(word.size())));
-    return {{"result", command->run(*this, rest)}, {"variablesReference", 0}};
-  }
+  const bool is_typed = text_at(arguments, "context", "") == "repl";
+  if (is_typed && is_command(expression, cpu().program())) return console(expression);
   return evaluated(expression, wants_hex(arguments));
+}
+
+/// Of a command: what its last word may become.
+Json Session::offers_of_command(const std::string& before) const {
+  const Offers offers = tools::completions(*session_, before);
+  const std::string written = before.substr(before.size() - offers.word);
+  const std::size_t start = units_of(before) - units_of(written) + column_base_;
+  Json targets = Json::array();
+  for (const std::string& label : offers.candidates)
+    targets.push_back({{"label", label}, {"start", start}, {"length", units_of(written)}});
+  return {{"targets", targets}};
 }
 
 /// What the last word before the cursor may become.
@@ -211,6 +217,7 @@ Json Session::completions(const Json& arguments) {
   const auto text = text_at(arguments, "text");
   const auto column = number_at<std::uint32_t>(arguments, "column");
   const std::string before = first_units(text, column - std::min(column, column_base_));
+  if (before.find(' ') != std::string::npos && is_command(before, cpu().program())) return offers_of_command(before);
   const std::size_t begin = before.find_last_of(" (*=<>+-/") + 1;
   const std::size_t start = units_of(before.substr(0, begin)) + column_base_;
   const std::string word = stl::upper_case(before.substr(begin));
@@ -218,8 +225,7 @@ Json Session::completions(const Json& arguments) {
   const auto offer = [&](std::string_view label) {
     if (stl::upper_case(label).starts_with(word)) found.insert(std::string(label));
   };
-  if (begin == 0)
-    for (const ConsoleCommand& command : console_commands()) offer(command.word);
+  if (begin == 0) std::ranges::for_each(command_names(), offer);
   std::ranges::for_each(area_words(*cpu().program().model), offer);
   std::ranges::for_each(address_words(cpu().program()), offer);
   Json targets = Json::array();

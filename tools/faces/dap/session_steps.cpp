@@ -11,10 +11,10 @@
 #include "tools/faces/dap/session.hpp"
 #include "tools/session/causes/two_masters.hpp"
 #include "tools/session/causes/writer.hpp"
-#include "tools/session/commands/bad_pointers.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/stops/stop_words.hpp"
+#include "tools/session/words/bad_pointers.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 
@@ -37,7 +37,10 @@ std::uint64_t count_in(const Json& arguments) {
 void Session::run_to(Stepper::Goal goal, const std::string& reason) {
   const bool passes_time = stations() == 1 && !simulation().plc().powered() && reason == "step";
   running_ = Run{std::move(goal), reason, passes_time ? simulation().time() + kStepWithoutPower : kNever};
-  first_error_.reset();
+  session_->first_error.reset();
+  session_->show = tools::Session::Show::None;
+  session_->unasked = 0;
+  session_->trace.follow();
   exceptions_.clear();
 }
 
@@ -91,12 +94,12 @@ Json Session::pause(const Json&) {
 
 /// Puts the next frame of the launch on the line. False if there is none, or not yet.
 bool Session::send_what_is_due() {
-  const std::size_t first = debuggee_->first_station();
+  const std::size_t first = session_->setup.station;
   serial::Simulation& there = debuggee_->history().station(first);
   if (frames_sent_.size() == frames_.size() || debuggee_->history().in_the_past() || there.master().busy() ||
       there.time() < send_after_ || !there.plc().executes())
     return false;
-  const serial::MasterSettings& master = debuggee_->master(first);
+  const serial::MasterSettings& master = session_->master(first);
   const serial::Frame& frame = frames_[frames_sent_.size()];
   frames_sent_.push_back(there.time());
   debuggee_->history().act(SendFrame{master.over(there.port_format()), master.request(frame)}, first);
@@ -117,8 +120,8 @@ void Session::run() {
     const Time now = simulation().time();
     Time limit = std::min(more && now < send_after_ ? send_after_ : kNever, running_->until);
     if (stands && !waits && !passes_time) limit = history.newest().time;
-    const Stop stop = stepper_->run(running_->goal, limit, more || stands);
-    if (const std::string failure = debuggee_->take_failure(); !failure.empty()) return report_failure(stop, failure);
+    const Stop stop = session_->stepper.run(running_->goal, limit, more || stands);
+    if (const std::string failure = session_->setup.take_failure(); !failure.empty()) return report_failure(stop, failure);
     if (stop.reason == StopReason::Request) {
       if (!pause_asked_) return;
     } else if (!stop.hits.empty() || (stop.reason != StopReason::Limit && stop.reason != StopReason::Answer)) {
@@ -172,7 +175,7 @@ Json Session::reverse_step_interrupt(const Json& arguments) {
 
 void Session::run_back(Stepper::Goal goal, std::uint64_t count) {
   after_response([this, goal = std::move(goal), count] {
-    first_error_.reset();
+    session_->first_error.reset();
     exceptions_.clear();
     const Stop stop = searched_back(goal, count);
     report(stop, stop.reason == StopReason::Request ? "pause" : "step");
@@ -186,7 +189,7 @@ Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count) {
   const Time start = simulation().time();
   const std::string id = fmt::format("back {}", handling_);
   bool shown = false;
-  stepper_->on_search = [&](Time from) {
+  session_->stepper.on_search = [&](Time from) {
     if (!client_shows_progress_ || Clock::now() - since < settings_.patience) return;
     const double share =
         start == 0 ? 100 : 100.0 * static_cast<double>(start - std::min(from, start)) / static_cast<double>(start);
@@ -195,8 +198,8 @@ Stop Session::searched_back(const Stepper::Goal& goal, std::uint64_t count) {
     send_event(shown ? "progressUpdate" : "progressStart", std::move(body));
     shown = true;
   };
-  const Stop stop = stepper_->run_back(goal, count, false);
-  stepper_->on_search = [](Time) {};
+  const Stop stop = session_->stepper.run_back(goal, count, false);
+  session_->stepper.on_search = [](Time) {};
   if (shown) send_event("progressEnd", {{"progressId", id}});
   return stop;
 }
@@ -249,12 +252,13 @@ Json Session::go_to_moment(const Json& arguments) {
 void Session::report(const Stop& stop, const std::string& reason) {
   running_.reset();
   pause_asked_ = false;
-  stepper_->look_at(stop.station);
-  if (first_error_) report_error(first_error_->first, first_error_->second);
-  for (const StopPoint& one : stepper_->stops())
+  session_->trace.write(kNever);
+  session_->stepper.look_at(stop.station);
+  if (session_->first_error) report_error(session_->first_error->station, session_->first_error->record);
+  for (const StopPoint& one : session_->stepper.stops())
     if (const std::string skipped = skipped_text(one); !skipped.empty())
       print(skipped + "; with the condition 'always' it stops there too");
-  for (const StopPoint& one : stepper_->stops()) print(unknown_text(one));
+  for (const StopPoint& one : session_->stepper.stops()) print(unknown_text(one));
   report_stopped(body_of(stop, reason));
 }
 
@@ -262,7 +266,7 @@ void Session::report(const Stop& stop, const std::string& reason) {
 void Session::report_failure(const Stop& stop, const std::string& failure) {
   running_.reset();
   pause_asked_ = false;
-  stepper_->look_at(stop.station);
+  session_->stepper.look_at(stop.station);
   print(failure, "important");
   report_stopped({{"reason", "pause"}, {"description", failure}, {"text", failure}});
 }
@@ -314,7 +318,7 @@ Json Session::body_of(const Stop& stop, const std::string& reason) {
 
 /// Past all that it would stop for on the way. False after a stop request.
 bool Session::has_gone_back_to(std::uint32_t op) {
-  return stepper_->run_back_past_stops(goal::place(op)).reason == StopReason::Goal;
+  return session_->stepper.run_back_past_stops(goal::place(op)).reason == StopReason::Goal;
 }
 
 /// `run-time error 0006`, whichever codes its filter has.
@@ -329,7 +333,7 @@ Json Session::body_of_hits(const Stop& stop) {
   Json ids = Json::array();
   for (const Hit& hit : stop.hits) {
     print(text_of(hit));
-    if (placed_[hit.stop.number].kind != StopKind::Exception)
+    if (kind_of(hit.stop.number) != StopKind::Exception)
       ids.push_back(hit.stop.number);
     else
       exceptions_.try_emplace(
@@ -358,16 +362,16 @@ std::string_view Session::reason_of(StopKind kind) {
 }
 
 Json Session::body_of_hit(const Hit& hit) {
-  return {{"reason", reason_of(placed_[hit.stop.number].kind)}, {"description", hit.stop.name}, {"text", text_of(hit)}};
+  return {{"reason", reason_of(kind_of(hit.stop.number))}, {"description", hit.stop.name}, {"text", text_of(hit)}};
 }
 
 /// `slave: breakpoint 2: unanswered, 01 03 …, asked by pump`, `watch 3: VW20 was …, is …, by …`
 std::string Session::text_of(const Hit& hit) const {
-  const Program& program = *debuggee_->program(hit.stop.station);
-  const Listing& listing = stations_[hit.stop.station].listing;
+  const Program& program = program_of(hit.stop.station);
+  const Listing& listing = session_->stations[hit.stop.station].listing;
   std::string text = said_of(hit.stop.station);
   const bool is_watch = hit.stop.is_watch();
-  if (placed_.at(hit.stop.number).kind != StopKind::Exception)  // which the client knows by no number
+  if (kind_of(hit.stop.number) != StopKind::Exception)  // which the client knows by no number
     text += fmt::format("{} {}: ", is_watch ? "watch" : "breakpoint", hit.stop.number);
   text += is_watch ? value_text(hit, program) : hit.stop.name;
   if (hit.record) text += fmt::format(", {}  {}", moment_text(hit.record->at), describe(*hit.record, program));
@@ -379,7 +383,7 @@ std::string Session::text_of(const Hit& hit) const {
   if (hit.asker) {
     const bool is_named = stations() > 1 && hit.asker->kind == Asker::Kind::Plc;
     const std::string by =
-        asked_by_text(debuggee_->history(), *hit.asker, is_named ? debuggee_->name(hit.asker->number) : "");
+        asked_by_text(debuggee_->history(), *hit.asker, is_named ? session_->setup.stations[hit.asker->number].name : "");
     if (!by.empty()) text += ", " + by;
   }
   if (!hit.wrong.empty()) text += ", " + wrong_answer_text(hit);

@@ -14,7 +14,7 @@
 #include "interpreter/model/ports.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/session/causes/two_masters.hpp"
-#include "tools/session/stops/words.hpp"
+#include "tools/session/words/words.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {

@@ -1,0 +1,64 @@
+#include "tools/faces/files/host_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "tools/host/files.hpp"
+
+namespace s7200::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+Replace replace_of(Replacing replacing) {
+  switch (replacing) {
+    case Replacing::Own:
+      return Replace::Own;
+    case Replacing::Nothing:
+      return Replace::Never;
+    case Replacing::Anything:
+      return Replace::Judged;
+  }
+  return Replace::Never;
+}
+
+}  // namespace
+
+std::optional<std::string> HostFiles::read(const std::string& path, std::string& why) const { return read_file(path, why); }
+
+bool HostFiles::begins(const std::string& path, std::string_view beginning) const {
+  std::string first(beginning.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
+  return first == beginning;
+}
+
+std::optional<FilePlace> HostFiles::place_for(const WantedFile& wanted, std::string& why) const {
+  WrittenFiles files = taken_;
+  const auto to =
+      files.claim(wanted.command, wanted.path, {wanted.what, wanted.beginning}, replace_of(wanted.replacing), why);
+  if (!to) return {};
+  if (to->stream) return why = fmt::format("{} is not a file", wanted.path), std::nullopt;
+  return FilePlace{to->path,
+                   [to = *to](std::string_view text, std::string& why_not) { return write_result(to, text, why_not); }};
+}
+
+std::vector<std::string> HostFiles::names(std::string_view beginning) const {
+  const std::size_t slash = beginning.rfind('/');
+  const std::string folder(beginning.substr(0, slash == std::string_view::npos ? 0 : slash + 1));
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code ignored;
+    if (name.find(' ') == std::string::npos && (!name.starts_with('.') || beginning.ends_with('.')))
+      names.push_back(folder + name + (entry->is_directory(ignored) ? "/" : ""));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace s7200::tools

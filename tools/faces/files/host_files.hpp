@@ -1,0 +1,25 @@
+// The files of this computer, for the commands of a session.
+#pragma once
+
+#include <utility>
+
+#include "tools/host/written_files.hpp"
+#include "tools/session/commands/session_files.hpp"
+
+namespace s7200::tools {
+
+class HostFiles final : public SessionFiles {
+ public:
+  /// `taken`: those that are read and written already.
+  explicit HostFiles(WrittenFiles taken = WrittenFiles()) : taken_(std::move(taken)) {}
+
+  std::optional<std::string> read(const std::string& path, std::string& why) const override;
+  bool begins(const std::string& path, std::string_view beginning) const override;
+  std::optional<FilePlace> place_for(const WantedFile& wanted, std::string& why) const override;
+  std::vector<std::string> names(std::string_view beginning) const override;
+
+ private:
+  WrittenFiles taken_;
+};
+
+}  // namespace s7200::tools

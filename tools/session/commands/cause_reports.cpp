@@ -1,0 +1,86 @@
+#include "tools/session/commands/cause_reports.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "tools/session/causes/memory_cause.hpp"
+#include "tools/session/causes/writer.hpp"
+#include "tools/session/commands/instruction_words.hpp"
+#include "tools/session/commands/memory_words.hpp"
+#include "tools/session/commands/running.hpp"
+#include "tools/session/observers/timeline_of_past.hpp"
+#include "tools/session/words/bad_pointers.hpp"
+#include "tools/views/machine_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// `places`: what it was about; what of it is forced is said if the system wrote it.
+FoundInPast found(const Session& session, const WriterSearch& search, const std::vector<Bits>& places) {
+  if (search.interrupted) return {interrupted(session)};
+  if (!search.writer) return {{.text = search.none + "\n", .json = {{"text", search.none}}}};
+  const Writer& writer = *search.writer;
+  Json json{{"text", writer.text}};
+  if (writer.by) json.update(instruction_json(session, *writer.by));
+  const std::string forced = writer.by_system ? forced_text(session, session.cpu(), places) : "";
+  return {{.text = writer.text + forced + "\n", .json = std::move(json)}, writer.moment};
+}
+
+}  // namespace
+
+FoundInPast last_writer(Session& session, const MemoryRange& range, std::string_view name) {
+  return found(session,
+               find_writer(session.history, session.focus(), session.listing(), range, name, session.setup.stop_request),
+               {bits_of(range)});
+}
+
+FoundInPast last_writer(Session& session, std::uint8_t event) {
+  return found(session, find_writer(session.history, session.focus(), session.listing(), event, session.setup.stop_request),
+               {});
+}
+
+FoundInPast last_decider(Session& session) {
+  const DecisionSearch search =
+      find_last_decision(session.history, session.focus(), session.stepper.host_timeout(), session.setup.stop_request);
+  const std::string text = fmt::format("{}", fmt::join(to_lines(search, session.listing()), "\n"));
+  if (search.interrupted) {
+    Reply reply = interrupted(session);
+    return {{.text = (text.empty() ? "" : text + "\n") + reply.text, .interrupted = true}};
+  }
+  FoundInPast found{{.text = text + "\n", .json = {{"text", text}}}};
+  if (const auto origin = search.origin()) {
+    found.reply.json.update(instruction_json(session, origin->by));
+    found.moment = origin->moment;
+  } else {
+    found.reply.json["whyNoMoment"] = search.why_no_origin();
+  }
+  return found;
+}
+
+Reply cause_of(Session& session, const MemoryRange& range, std::string_view name) {
+  const Cpu& cpu = session.cpu();
+  const std::string value = value_of(cpu, range);
+  const auto lines = memory_cause(session.history, session.focus(), range, session.setup.stop_request);
+  if (!lines) return interrupted(session);
+  const std::string forced = forced_text(session, cpu, {bits_of(range)});
+  return {
+      .text = fmt::format("{} is {}; {}\n{}{}", name, value, fmt::join(*lines, "\n  "), forced, forced.empty() ? "" : "\n"),
+      .json = {{"name", name}, {"value", value}, {"causes", *lines}}};
+}
+
+Reply timeline_since(Session& session, Time from, const serial::Exchange& exchange) {
+  const std::shared_ptr<const Program> program(std::shared_ptr<void>(), &session.program());  // not owned
+  const auto report = timeline_of_past(session.history, session.focus(), program, from, session.setup.stop_request);
+  if (!report) return interrupted(session);
+  return {.text = stl::wrapped(to_text(*report, exchange, session.setup.colour), session.setup.width),
+          .json = {{"text", to_text(*report, exchange, false)}, {"timeline", to_json(*report, exchange)}}};
+}
+
+std::string bad_pointer_report(Session& session, const std::string& name, const MemoryRange& pointer) {
+  const std::string address = address_name(session.program(), pointer, pointer.name_of(0));
+  return bad_pointer_text(session.cpu(), pointer, name, address) + "\n" + last_writer(session, pointer, address).reply.text;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,111 @@
+// The commands that ask what was before: who wrote it, why it is so, what ran.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/trace/text_trace.hpp"
+#include "tools/session/causes/memory_cause.hpp"
+#include "tools/session/commands/cause_reports.hpp"
+#include "tools/session/commands/commands.hpp"
+#include "tools/session/commands/instruction_words.hpp"
+#include "tools/session/commands/memory_words.hpp"
+#include "tools/session/commands/running.hpp"
+#include "tools/session/observers/last_instructions.hpp"
+#include "tools/session/observers/timeline_of_past.hpp"
+#include "tools/session/past/past_words.hpp"
+#include "tools/session/words/words.hpp"
+#include "tools/views/execution_text.hpp"
+
+namespace s7200::tools::commands {
+namespace {
+
+/// `VW100`, or `event 8`.
+FoundInPast writer_of(Session& session, const Words& arguments, std::string_view command) {
+  if (const auto event = event_of(arguments)) return last_writer(session, *event);
+  if (!arguments.empty() && stl::lower_case(arguments[0]) == "event") return {wrong(expects_event(command, arguments))};
+  std::string why;
+  const auto place = one_range(session, arguments, command, why);
+  return place ? last_writer(session, place->range, place->name) : FoundInPast{wrong(why)};
+}
+
+/// Says what was found, and goes there.
+Reply gone_back(Session& session, FoundInPast found) {
+  session.said << std::exchange(found.reply.text, {});
+  found.reply.moved = found.moment.has_value();  // though it may be but to before something that was done there
+  if (found.moment) go_to(session, *found.moment);
+  return std::move(found.reply);
+}
+
+/// Why the memory is as it is that was not as expected here; nothing if no expectation has failed where it stands.
+std::optional<Reply> why_failed(Session& session) {
+  const Session::FailedExpectation& failed = session.failed;
+  if (failed.memory.empty() || failed.station != session.focus() || failed.moment != session.history.now()) return {};
+  Reply all{.json = Json::array()};
+  for (const MemoryRange& range : failed.memory) {
+    Reply one = cause_of(session, range, named(session.program(), range));
+    all.text += one.text;
+    all.json.push_back(std::move(one.json));
+    all.interrupted |= one.interrupted;
+  }
+  return all;
+}
+
+}  // namespace
+
+Reply who(Session& session, const Words& arguments) { return writer_of(session, arguments, "who").reply; }
+
+Reply back_to_write(Session& session, const Words& arguments) {
+  return gone_back(session, writer_of(session, arguments, "rwho"));
+}
+
+Reply why(Session& session, const Words& arguments) {
+  if (arguments.empty()) {
+    auto failed = why_failed(session);
+    return failed ? std::move(*failed) : last_decider(session).reply;
+  }
+  std::string why;
+  const auto place = one_range(session, arguments, "why", why);
+  return place ? cause_of(session, place->range, named(session.program(), place->range)) : wrong(why);
+}
+
+Reply back_to_decision(Session& session, const Words&) {
+  FoundInPast found = last_decider(session);
+  if (found.reply.json.contains("whyNoMoment"))
+    found.reply.text += fmt::format("rwhy goes nowhere: {}\n", found.reply.json["whyNoMoment"].get<std::string>());
+  return gone_back(session, std::move(found));
+}
+
+Reply history(Session& session, const Words& arguments) {
+  const auto count = arguments.empty() ? kUsualInstructions : parse_count(arguments);
+  if (!count || *count > kMostInstructions)
+    return wrong(
+        expects("history", fmt::format("how many instructions, up to {}, for example: history 30", kMostInstructions)));
+  const auto found = last_instructions(session.history, session.focus(), *count, session.setup.stop_request);
+  if (!found) return interrupted(session);
+  Reply reply{.json = {{"instructions", Json::array()}}};
+  for (const Execution& one : *found) {
+    reply.text += fmt::format("{}  {:<7} {}\n", clock_text(one.record.at), session.listing().routine_of(one.record.op),
+                              execution_text(one, session.program()));
+    reply.json["instructions"].push_back(execution_json(session, one));
+  }
+  return reply;
+}
+
+Reply timeline(Session& session, const Words& arguments) {
+  serial::Exchange exchange =
+      session.simulation().has_master() ? session.simulation().master().exchange() : serial::Exchange{};
+  if (arguments.empty() && exchange.request.empty())
+    return wrong(expects("timeline", "a duration before the first 'send', for example: timeline 50ms"));
+  if (!arguments.empty()) {
+    const auto before = parse_duration(joined(arguments));
+    if (!before || *before == 0)
+      return wrong(expects("timeline", fmt::format("a duration above 0 in {}, for example: timeline 50ms", kTimeUnits)));
+    const Time now = session.history.now().time;
+    exchange.request_start = now - std::min(now, *before);
+  }
+  return timeline_since(session, exchange.request_start, exchange);
+}
+
+}  // namespace s7200::tools::commands

@@ -1,0 +1,26 @@
+#include "tools/session/commands/instruction_words.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/trace/text_trace.hpp"
+
+namespace s7200::tools {
+
+std::string op_text(const Listing& listing, std::uint32_t op) {
+  return fmt::format("{} line {}: {}", listing.routine_of(op), listing.line_of(op), listing.text_of(op));
+}
+
+Json instruction_json(const Session& session, const InstructionRecord& record) {
+  return {{"instruction", execution_text(record, session.program())},
+          {"routine", session.listing().routine_of(record.op)},
+          {"op", record.op}};
+}
+
+Json execution_json(const Session& session, const Execution& execution) {
+  return {{"time", clock_text(execution.record.at)},
+          {"routine", session.listing().routine_of(execution.record.op)},
+          {"text", execution_text(execution, session.program())},
+          {"op", execution.record.op}};
+}
+
+}  // namespace s7200::tools

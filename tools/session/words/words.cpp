@@ -1,0 +1,66 @@
+#include "tools/session/words/words.hpp"
+
+#include <fmt/format.h>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/model/cpu_model.hpp"
+
+namespace s7200::tools {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
+  std::vector<std::string> texts;
+  bool open = false;
+  for (const std::string& argument : arguments) {
+    if ((open || argument.front() == '=') && !texts.empty())
+      texts.back() += argument;
+    else
+      texts.push_back(argument);
+    open = argument.back() == '=';
+  }
+  return texts;
+}
+
+std::string expects(std::string_view command, std::string_view what) { return fmt::format("{} expects {}", command, what); }
+
+std::string no_argument(std::string_view command) { return fmt::format("{} takes no argument", command); }
+
+std::string without_power_text(std::string_view plc) {
+  return fmt::format("{} is without power; 'power on' brings it back", plc);
+}
+
+std::optional<std::uint32_t> parse_count(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return 1;
+  const auto number = parse_decimal<std::uint32_t>(arguments[0]);
+  return arguments.size() == 1 && number && *number > 0 ? number : std::nullopt;
+}
+
+std::optional<std::uint8_t> event_of(const std::vector<std::string>& words) {
+  if (words.size() != 2 || stl::lower_case(words[0]) != "event") return {};
+  const auto number = parse_decimal<std::uint8_t>(words[1]);
+  return number && find_event(*number) ? number : std::nullopt;
+}
+
+std::string expects_event(std::string_view command, const std::vector<std::string>& words) {
+  std::uint8_t last = kEvents - 1;
+  while (!find_event(last)) --last;
+  const auto number = words.size() == 2 ? parse_decimal<std::uint64_t>(words[1]) : std::nullopt;
+  return fmt::format("{}{} one address, or event and a number up to {}, for example: {}{}event 8",
+                     number ? fmt::format("there is no event {}; ", *number) : "",
+                     command.empty() ? "expected" : fmt::format("{} expects", command), last, command,
+                     command.empty() ? "" : " ");
+}
+
+std::optional<bool> wants_end(const std::vector<std::string>& arguments) {
+  const std::string word = arguments.empty() ? "begins" : stl::lower_case(joined(arguments));
+  if (word == "begins" || word == "begin") return false;
+  return word == "ends" || word == "end" ? std::optional(true) : std::nullopt;
+}
+
+}  // namespace s7200::tools
