@@ -19,6 +19,7 @@
 #include "tools/command/rig_output.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/usage.hpp"
+#include "tools/faces/dap/sources.hpp"
 #include "tools/faces/files/host_files.hpp"
 #include "tools/json/json.hpp"
 #include "tools/rig/bridge_kinds.hpp"

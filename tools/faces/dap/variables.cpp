@@ -15,8 +15,8 @@
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/faces/dap/addresses.hpp"
-#include "tools/session/words/element_text.hpp"
 #include "tools/session/observers/call_stack.hpp"
+#include "tools/session/words/element_text.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 

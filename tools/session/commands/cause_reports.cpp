@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "tools/session/causes/last_decision.hpp"
 #include "tools/session/causes/memory_cause.hpp"
 #include "tools/session/causes/writer.hpp"
 #include "tools/session/commands/instruction_words.hpp"
@@ -12,7 +13,6 @@
 #include "tools/session/commands/running.hpp"
 #include "tools/session/observers/timeline_of_past.hpp"
 #include "tools/session/words/bad_pointers.hpp"
-#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

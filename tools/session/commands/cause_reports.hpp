@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "tools/session/causes/last_decision.hpp"
 #include "tools/session/commands/reply.hpp"
 #include "tools/session/commands/session.hpp"
 

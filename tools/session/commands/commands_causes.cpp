@@ -1,9 +1,6 @@
 // The commands that ask what was before: who wrote it, why it is so, what ran.
 #include <fmt/format.h>
 
-#include <memory>
-
-#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/session/causes/memory_cause.hpp"
@@ -13,7 +10,6 @@
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/observers/last_instructions.hpp"
-#include "tools/session/observers/timeline_of_past.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/words/words.hpp"
 #include "tools/views/execution_text.hpp"

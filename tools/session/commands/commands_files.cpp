@@ -199,12 +199,9 @@ Reply load(Session& session, const Words& arguments) {
   remember(session, place);
   session.looked_at.clear();
   note_new_branch(session);
-  session.note_going_elsewhere();
   if (const std::size_t added = add_loaded(session, *stops))
     session.said << fmt::format("breakpoints and watches of that session: {}; 'break' lists them\n", added);
-  show_place(session);
-  note_the_past(session);
-  return {};
+  return arrive(session);
 }
 
 Reply record(Session& session, const Words& arguments) {

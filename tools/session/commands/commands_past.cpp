@@ -12,7 +12,6 @@
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/words/words.hpp"
 #include "tools/views/machine_text.hpp"
-#include "tools/views/text_frame.hpp"
 
 namespace s7200::tools::commands {
 
@@ -41,14 +40,10 @@ Reply back(Session& session, const Words& arguments) {
 Reply back_step(Session& session, const Words& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return wrong(expects("rstep", "how many instructions, for example: rstep 5"));
-  go_back(session, goal::back_instruction(), *count);
-  return {};
+  return go_back(session, goal::back_instruction(), *count);
 }
 
-Reply back_over(Session& session, const Words&) {
-  go_back(session, goal::back_over(session.cpu().state()), 1);
-  return {};
-}
+Reply back_over(Session& session, const Words&) { return go_back(session, goal::back_over(session.cpu().state()), 1); }
 
 Reply back_out(Session& session, const Words&) {
   const State& now = session.cpu().state();
@@ -57,41 +52,33 @@ Reply back_out(Session& session, const Words&) {
         << "this is the main program, in no subroutine and no interrupt routine; 'rscan' goes to the start of its scan\n";
     return {};
   }
-  go_back(session, goal::back_out(now), 1);
-  return {};
+  return go_back(session, goal::back_out(now), 1);
 }
 
 Reply back_network(Session& session, const Words&) {
-  go_back(session, goal::back_network_over(session.cpu().state(), session.listing()), 1);
-  return {};
+  return go_back(session, goal::back_network_over(session.cpu().state(), session.listing()), 1);
 }
 
 Reply back_interrupt(Session& session, const Words& arguments) {
   const auto ends = wants_end(arguments);
   if (!ends) return wrong(expects("rinterrupt", kBeginsOrEnds));
   const Program& program = session.program();
-  go_back(session, *ends ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1);
-  return {};
+  return go_back(session, *ends ? goal::back_interrupt_ends(program) : goal::back_interrupt_begins(program), 1);
 }
 
 Reply back_scan(Session& session, const Words& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return wrong(expects("rscan", "how many scans, for example: rscan 3"));
-  go_back(session, goal::back_scan(), *count);
-  return {};
+  return go_back(session, goal::back_scan(), *count);
 }
 
-Reply back_continue(Session& session, const Words&) {
-  go_back(session, goal::none(), 1, true);
-  return {};
-}
+Reply back_continue(Session& session, const Words&) { return go_back(session, goal::none(), 1, true); }
 
 Reply back_until(Session& session, const Words& arguments) {
   std::string why;
   const auto target = find_op(session, arguments, "runtil", why);
   if (!target) return wrong(why);
-  go_back(session, goal::place(*target), 1);
-  return {};
+  return go_back(session, goal::place(*target), 1);
 }
 
 Reply at(Session& session, const Words& arguments) {
@@ -105,10 +92,7 @@ Reply at(Session& session, const Words& arguments) {
     session.said << session.setup.interruption() << '\n';
     return {};
   }
-  session.note_going_elsewhere();
-  show_place(session);
-  note_the_past(session);
-  return {};
+  return arrive(session);
 }
 
 Reply fork(Session& session, const Words&) {
@@ -138,9 +122,7 @@ Reply restart(Session& session, const Words&) {
   session.history.restart();
   session.looked_at.clear();
   note_new_branch(session);
-  session.note_going_elsewhere();
-  show_place(session);
-  return {};
+  return arrive(session);
 }
 
 }  // namespace s7200::tools::commands

@@ -15,9 +15,6 @@
 #include "tools/session/words/line_words.hpp"
 #include "tools/session/words/mode_words.hpp"
 #include "tools/session/words/words.hpp"
-#include "tools/views/machine_text.hpp"
-#include "tools/views/memory.hpp"
-#include "tools/views/text_frame.hpp"
 
 namespace s7200::tools::commands {
 namespace {
@@ -101,9 +98,7 @@ Reply switch_power(Session& session, bool on) {
   session.said << fmt::format(
       "{} {}\n", session.name_of(session.focus()),
       on ? "has power again, and begins with what it has kept" : "has no power from now on; 'power on' brings it back");
-  session.note_going_elsewhere();
-  show_place(session);
-  return {};
+  return arrive(session);
 }
 
 }  // namespace
@@ -151,9 +146,7 @@ Reply mode(Session& session, const Words& arguments) {
   const auto set = mode_of(joined(arguments), session.simulation(), why);
   if (!set) return wrong(why);
   act(session, *set);
-  session.note_going_elsewhere();
-  show_place(session);
-  return {};
+  return arrive(session);
 }
 
 Reply power(Session& session, const Words& arguments) {
@@ -184,9 +177,7 @@ Reply power(Session& session, const Words& arguments) {
   if (!requests.empty())
     session.said << fmt::format("under way when power went off, and nobody waits for an answer any more: {}\n", requests);
   note_new_branch(session);
-  session.note_going_elsewhere();
-  show_place(session);
-  return {};
+  return arrive(session);
 }
 
 Reply send(Session& session, const Words& arguments) {

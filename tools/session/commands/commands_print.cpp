@@ -5,7 +5,6 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
-#include "interpreter/model/ports.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/commands/cause_reports.hpp"
 #include "tools/session/commands/commands.hpp"

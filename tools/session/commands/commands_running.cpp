@@ -8,20 +8,17 @@
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/words/words.hpp"
-#include "tools/views/text_frame.hpp"
 
 namespace s7200::tools::commands {
 
 Reply step(Session& session, const Words& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return wrong(expects("step", "how many instructions, for example: step 5"));
-  go(session, {.goal = goal::instructions(*count), .show = Session::Show::All});
-  return {};
+  return go(session, {.goal = goal::instructions(*count), .show = Session::Show::All});
 }
 
 Reply over(Session& session, const Words&) {
-  go(session, {.goal = goal::over(session.cpu().state()), .show = Session::Show::Started});
-  return {};
+  return go(session, {.goal = goal::over(session.cpu().state()), .show = Session::Show::Started});
 }
 
 Reply out(Session& session, const Words&) {
@@ -30,28 +27,24 @@ Reply out(Session& session, const Words&) {
     session.said << "this is the main program, in no subroutine and no interrupt routine; 'scan' runs to the next scan\n";
     return {};
   }
-  go(session, {.goal = goal::out(now)});
-  return {};
+  return go(session, {.goal = goal::out(now)});
 }
 
 Reply network(Session& session, const Words&) {
-  go(session, {.goal = goal::network_over(session.cpu().state(), session.listing())});
-  return {};
+  return go(session, {.goal = goal::network_over(session.cpu().state(), session.listing())});
 }
 
 Reply interrupt(Session& session, const Words& arguments) {
   const auto ends = wants_end(arguments);
   if (!ends) return wrong(expects("interrupt", kBeginsOrEnds));
   const Cpu& cpu = session.cpu();
-  go(session, {.goal = *ends ? goal::interrupt_ends(cpu.state()) : goal::interrupt_begins(cpu.program())});
-  return {};
+  return go(session, {.goal = *ends ? goal::interrupt_ends(cpu.state()) : goal::interrupt_begins(cpu.program())});
 }
 
 Reply scan(Session& session, const Words& arguments) {
   const auto count = parse_count(arguments);
   if (!count) return wrong(expects("scan", "how many scans, for example: scan 3"));
-  go(session, {.goal = goal::scan(session.cpu().state(), *count)});
-  return {};
+  return go(session, {.goal = goal::scan(session.cpu().state(), *count)});
 }
 
 Reply continue_run(Session& session, const Words& arguments) {
@@ -68,16 +61,14 @@ Reply continue_run(Session& session, const Words& arguments) {
                                           kTimeUnits)));
     run.limit = *time;
   }
-  go(session, run);
-  return {};
+  return go(session, run);
 }
 
 Reply until(Session& session, const Words& arguments) {
   std::string why;
   const auto target = find_op(session, arguments, "until", why);
   if (!target) return wrong(why);
-  go(session, {.goal = goal::place(*target)});
-  return {};
+  return go(session, {.goal = goal::place(*target)});
 }
 
 }  // namespace s7200::tools::commands

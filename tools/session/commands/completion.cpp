@@ -1,7 +1,5 @@
 #include "tools/session/commands/completion.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "interpreter/base/text.hpp"

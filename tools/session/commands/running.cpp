@@ -65,10 +65,10 @@ std::optional<Stop> run_through(Session& session, const RunTo& run) {
 
 }  // namespace
 
-void go(Session& session, const RunTo& run) {
+Reply go(Session& session, const RunTo& run) {
   if (!session.simulation().plc().executes() && !run.of_all) {
     session.said << standstill_text(session);
-    return;
+    return {};
   }
   remember(session);
   session.show = run.show;
@@ -80,12 +80,13 @@ void go(Session& session, const RunTo& run) {
   const auto stop = run_through(session, run);
   session.onlooker.run_ended();
   session.trace.write(kNever);
-  if (!stop) return;
+  if (!stop) return {};
   session.look_at(stop->station);
   report(session, *stop, run, errors_of_all(session) - errors_before);
+  return {};
 }
 
-void go_back(Session& session, const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
+Reply go_back(Session& session, const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
   remember(session);
   session.first_error.reset();
   const Stop stop = session.stepper.run_back(goal, count, stop_at_answer);
@@ -95,16 +96,13 @@ void go_back(Session& session, const Stepper::Goal& goal, std::uint64_t count, b
   report_reason(session, stop, {});
   for (const std::size_t asker : stop.answered)
     session.said << answer_text(session, asker, session.stations[asker].simulation->master().exchange());
-  show_place(session);
-  note_the_past(session);
+  return arrive(session);
 }
 
 void go_to(Session& session, const Moment& moment) {
   remember(session);
   session.history.go_to(moment);
-  session.note_going_elsewhere();
-  show_place(session);
-  note_the_past(session);
+  arrive(session);
 }
 
 void remember(Session& session, History::Place place) {
@@ -149,11 +147,13 @@ void show_place(Session& session) {
     session.said << session.said_of(station) << memory_text(session, station, range);
 }
 
-/// Each time that someone goes back.
-void note_the_past(Session& session) {
-  if (!session.history.in_the_past()) return;
-  session.said << fmt::format("  in the past; going forward plays what has run, up to {}\n",
-                              moment_text(session.history.newest().time));
+Reply arrive(Session& session) {
+  session.note_going_elsewhere();
+  show_place(session);
+  if (session.history.in_the_past())
+    session.said << fmt::format("  in the past; going forward plays what has run, up to {}\n",
+                                moment_text(session.history.newest().time));
+  return {};
 }
 
 std::string place_line(const Session& session, std::size_t station) {

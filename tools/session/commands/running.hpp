@@ -21,8 +21,8 @@ struct RunTo {
 };
 
 /// Runs, and says why it has stopped and where.
-void go(Session& session, const RunTo& run);
-void go_back(Session& session, const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
+Reply go(Session& session, const RunTo& run);
+Reply go_back(Session& session, const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer = false);
 
 /// To a moment of this branch, and says where that is.
 void go_to(Session& session, const Moment& moment);
@@ -40,8 +40,9 @@ void note_new_branch(Session& session);
 
 /// Where it stands, and what is displayed.
 void show_place(Session& session);
-/// Says that it stands in the past, if it does.
-void note_the_past(Session& session);
+
+/// It has come elsewhere: what ran before says nothing of what comes. Says where, and whether that is in the past.
+Reply arrive(Session& session);
 
 /// `412.345678 ms  scan 7  INT 123 …`, without the line that it stands in front of.
 std::string place_line(const Session& session, std::size_t station);

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "interpreter/base/text.hpp"
-#include "tools/session/causes/two_masters.hpp"
 #include "tools/session/commands/stop_reports.hpp"
 #include "tools/session/stops/stop_words.hpp"
 #include "tools/views/execution_text.hpp"

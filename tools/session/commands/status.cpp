@@ -4,11 +4,9 @@
 
 #include <algorithm>
 
-#include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/views/execution_text.hpp"
-#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/session/causes/two_masters.hpp"
@@ -14,10 +12,8 @@
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/stops/stop_words.hpp"
 #include "tools/session/words/bad_pointers.hpp"
-#include "tools/session/words/words.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/machine_text.hpp"
-#include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/text_frame.hpp"
 

@@ -9,7 +9,9 @@
 #include "interpreter/program/stand_ins.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/faces/dap/addresses.hpp"
-#include "tools/faces/dap/session.hpp"
+#include "tools/faces/dap/conversation.hpp"
+#include "tools/faces/dap/requests.hpp"
+#include "tools/faces/dap/variables.hpp"
 #include "tools/session/commands/cause_reports.hpp"
 #include "tools/session/commands/command_table.hpp"
 #include "tools/session/commands/completion.hpp"
@@ -77,35 +79,33 @@ std::string words_of(const Cpu& cpu, const MemoryRange& range) {
   return words;
 }
 
-}  // namespace
-
-Json Session::threads(const Json&) {
+Json threads(Conversation& talk, const Json&) {
   Json threads = Json::array();
-  if (!debuggee_) threads.push_back({{"id", 1}, {"name", "CPU"}});
-  for (std::size_t station = 0; debuggee_ && station < stations(); ++station) {
-    const std::string alone = fmt::format("CPU {}", program_of(station).model->name);
+  if (!talk.debuggee) threads.push_back({{"id", 1}, {"name", "CPU"}});
+  for (std::size_t station = 0; talk.debuggee && station < talk.stations(); ++station) {
+    const std::string alone = fmt::format("CPU {}", talk.program_of(station).model->name);
     threads.push_back(
-        {{"id", station + 1}, {"name", session_->is_system() ? session_->setup.stations[station].name : alone}});
+        {{"id", station + 1}, {"name", talk.session->is_system() ? talk.session->setup.stations[station].name : alone}});
   }
   return {{"threads", threads}};
 }
 
-Json Session::stack_frame(std::uint32_t number, std::uint32_t op, const std::string& name) const {
-  Json frame{{"id", static_cast<std::int64_t>(looks_at()) * kFramesOfAStation + number + 1}, {"name", name}};
-  frame.update(client_place(op));
-  frame["instructionPointerReference"] = at_station(instruction_reference(op), looks_at());
+Json stack_frame(Conversation& talk, std::uint32_t number, std::uint32_t op, const std::string& name) {
+  Json frame{{"id", static_cast<std::int64_t>(talk.looks_at()) * kFramesOfAStation + number + 1}, {"name", name}};
+  frame.update(talk.client_place(op));
+  frame["instructionPointerReference"] = at_station(instruction_reference(op), talk.looks_at());
   return frame;
 }
 
-Json Session::stack_trace(const Json& arguments) {
-  const State& state = cpu().state();
+Json stack_trace(Conversation& talk, const Json& arguments) {
+  const State& state = talk.cpu().state();
   Json frames = Json::array();
   const auto add = [&](std::uint32_t op, const std::string& name) {
-    frames.push_back(stack_frame(static_cast<std::uint32_t>(frames.size()), op, name));
+    frames.push_back(stack_frame(talk, static_cast<std::uint32_t>(frames.size()), op, name));
   };
-  const bool powered = simulation().plc().powered();
+  const bool powered = talk.simulation().plc().powered();
   for (const OpenRoutine& open : powered ? open_routines(state) : std::vector<OpenRoutine>{}) {
-    const std::string& routine = listing().routine_of(open.op);
+    const std::string& routine = talk.listing().routine_of(open.op);
     add(open.op, open.event ? fmt::format("{} for {}", routine, event_text(*open.event)) : routine);
   }
   if (frames.empty())
@@ -119,93 +119,83 @@ Json Session::stack_trace(const Json& arguments) {
   return {{"stackFrames", shown}, {"totalFrames", total}};
 }
 
-Json Session::scopes(const Json& arguments) {
+Json scopes(Conversation& talk, const Json& arguments) {
   const auto frame = number_at<std::uint32_t>(arguments, "frameId");
-  if (frame > std::max<std::size_t>(open_routines(cpu().state()).size(), 1))
+  if (frame > std::max<std::size_t>(open_routines(talk.cpu().state()).size(), 1))
     throw Refused(fmt::format("there is no frame {}", frame));
   Json scopes = Json::array();
-  for (const Scope& scope : scopes_of(simulation(), frame == 0 ? 0 : frame - 1)) {
-    Json json{{"name", scope.name}, {"variablesReference", container_at(looks_at(), scope.variables)}, {"expensive", false}};
+  for (const Scope& scope : scopes_of(talk.simulation(), frame == 0 ? 0 : frame - 1)) {
+    Json json{
+        {"name", scope.name}, {"variablesReference", container_at(talk.looks_at(), scope.variables)}, {"expensive", false}};
     if (scope.registers) json["presentationHint"] = "registers";
-    if (!scope.memory.empty()) json["memoryReference"] = at_station(scope.memory, looks_at());
+    if (!scope.memory.empty()) json["memoryReference"] = at_station(scope.memory, talk.looks_at());
     scopes.push_back(std::move(json));
   }
   return {{"scopes", scopes}};
 }
 
-Json Session::variables(const Json& arguments) {
+Json variables(Conversation& talk, const Json& arguments) {
   const auto container = number_at<Container>(arguments, "variablesReference");
-  const auto all = variables_of(simulation(), debuggee_->history(), container);
+  const auto all = variables_of(talk.simulation(), talk.debuggee->history(), container);
   const auto start = std::min(amount_from_0(arguments, "start"), all.size());
   const auto count = amount_from_0(arguments, "count");
   const auto end = count == 0 ? all.size() : std::min(all.size(), start + count);
   Json variables = Json::array();
   for (std::size_t i = start; i < end; ++i) {
-    variables.push_back(to_json(all[i], looks_at()));
+    variables.push_back(to_json(all[i], talk.looks_at()));
     if (wants_hex(arguments) && !all[i].memory.empty()) variables.back()["value"] = hex_of(all[i].value);
   }
   return {{"variables", variables}};
 }
 
 /// Of the stand-ins for libraries, which are no files.
-Json Session::source(const Json& arguments) {
+Json source(Conversation&, const Json& arguments) {
   const std::string text = stand_in_text(static_cast<std::size_t>(number_at<std::int64_t>(arguments, "sourceReference")));
   if (text.empty()) throw Refused("sources that have no reference are files: read them by their paths");
   return {{"content", text}, {"mimeType", "text/plain"}};
 }
 
-Json Session::loaded_sources(const Json&) {
+Json loaded_sources(Conversation& talk, const Json&) {
   Json all = Json::array();
-  for (const Sources& sources : sources_)
+  for (const Sources& sources : talk.sources_of)
     for (const Json& source : sources.all())
       if (std::ranges::find(all, source) == all.end()) all.push_back(source);
   return {{"sources", all}};
 }
 
-// --- expressions ---
-
-/// Its value and, while the program stands still, who wrote it.
-std::string Session::text_of_bad_pointer(const std::string& name, const MemoryRange& pointer) {
-  const std::string address = pointer.name_of(0);
-  std::string text = bad_pointer_text(cpu(), pointer, name, address);
-  if (runs()) return text;
-  const Reply reply = last_writer(*session_, pointer, address).reply;
-  return text + "\n" + (reply.interrupted ? std::string("cancelled") : text_in(reply.json, "text"));
-}
-
-Json Session::evaluated(const std::string& expression, bool hex) {
+Json evaluated(Conversation& talk, const std::string& expression, bool hex) {
   std::string why, why_no_expression;
-  if (const auto place = parse_place(expression, cpu().program(), why)) {
-    const auto range = range_now(*place, cpu());
-    if (!range) throw Refused(text_of_bad_pointer(expression, place->range));
-    const Variable variable = variable_of(cpu(), *range, expression);
-    return {{"result", hex ? hex_of(variable.value) : variable.value + words_of(cpu(), *range)},
+  if (const auto place = parse_place(expression, talk.cpu().program(), why)) {
+    const auto range = range_now(*place, talk.cpu());
+    if (!range) throw Refused(text_of_bad_pointer(talk, expression, place->range));
+    const Variable variable = variable_of(talk.cpu(), *range, expression);
+    return {{"result", hex ? hex_of(variable.value) : variable.value + words_of(talk.cpu(), *range)},
             {"type", variable.type},
             {"variablesReference", 0},
-            {"memoryReference", at_station(variable.memory, looks_at())}};
+            {"memoryReference", at_station(variable.memory, talk.looks_at())}};
   }
-  const auto parsed = Expression::parse(expression, cpu().program(), why_no_expression);
+  const auto parsed = Expression::parse(expression, talk.cpu().program(), why_no_expression);
   const bool one_word = expression.find_first_of(" (+-/<>=&") == std::string::npos;
   if (!parsed) throw Refused(one_word ? why : why_no_expression);
-  const auto value = parsed->value(cpu(), why);
+  const auto value = parsed->value(talk.cpu(), why);
   if (!value) throw Refused("cannot be computed: " + why);
   const auto bits = bits_of(*value);
   const std::string text = hex && bits ? fmt::format("16#{:X}", *bits) : number_text(*value);
   return {{"result", text}, {"type", value->real ? "REAL" : "DINT"}, {"variablesReference", 0}};
 }
 
-Json Session::evaluate(const Json& arguments) {
+Json evaluate(Conversation& talk, const Json& arguments) {
   const std::string expression(stl::trim(text_at(arguments, "expression")));
   const bool is_typed = text_at(arguments, "context", "") == "repl";
-  if (is_typed && is_command(expression, cpu().program())) return console(expression);
-  return evaluated(expression, wants_hex(arguments));
+  if (is_typed && is_command(expression, talk.cpu().program())) return console(talk, expression);
+  return evaluated(talk, expression, wants_hex(arguments));
 }
 
 /// Of a command: what its last word may become.
-Json Session::offers_of_command(const std::string& before) const {
-  const Offers offers = tools::completions(*session_, before);
+Json offers_of_command(Conversation& talk, const std::string& before) {
+  const Offers offers = tools::completions(*talk.session, before);
   const std::string written = before.substr(before.size() - offers.word);
-  const std::size_t start = units_of(before) - units_of(written) + column_base_;
+  const std::size_t start = units_of(before) - units_of(written) + talk.column_base;
   Json targets = Json::array();
   for (const std::string& label : offers.candidates)
     targets.push_back({{"label", label}, {"start", start}, {"length", units_of(written)}});
@@ -213,31 +203,30 @@ Json Session::offers_of_command(const std::string& before) const {
 }
 
 /// What the last word before the cursor may become.
-Json Session::completions(const Json& arguments) {
+Json completions(Conversation& talk, const Json& arguments) {
   const auto text = text_at(arguments, "text");
   const auto column = number_at<std::uint32_t>(arguments, "column");
-  const std::string before = first_units(text, column - std::min(column, column_base_));
-  if (before.find(' ') != std::string::npos && is_command(before, cpu().program())) return offers_of_command(before);
+  const std::string before = first_units(text, column - std::min(column, talk.column_base));
+  if (before.find(' ') != std::string::npos && is_command(before, talk.cpu().program()))
+    return offers_of_command(talk, before);
   const std::size_t begin = before.find_last_of(" (*=<>+-/") + 1;
-  const std::size_t start = units_of(before.substr(0, begin)) + column_base_;
+  const std::size_t start = units_of(before.substr(0, begin)) + talk.column_base;
   const std::string word = stl::upper_case(before.substr(begin));
   std::set<std::string> found;
   const auto offer = [&](std::string_view label) {
     if (stl::upper_case(label).starts_with(word)) found.insert(std::string(label));
   };
   if (begin == 0) std::ranges::for_each(command_names(), offer);
-  std::ranges::for_each(area_words(*cpu().program().model), offer);
-  std::ranges::for_each(address_words(cpu().program()), offer);
+  std::ranges::for_each(area_words(*talk.cpu().program().model), offer);
+  std::ranges::for_each(address_words(talk.cpu().program()), offer);
   Json targets = Json::array();
   for (const std::string& label : found) targets.push_back({{"label", label}, {"start", start}, {"length", units_of(word)}});
   return {{"targets", targets}};
 }
 
-// --- instructions ---
-
 /// The addresses that pointers lead to now, and how long it takes.
-std::string Session::resolved_text(std::uint32_t number) const {
-  const Program& program = cpu().program();
+std::string resolved_text(Conversation& talk, std::uint32_t number) {
+  const Program& program = talk.cpu().program();
   const Op& op = program.ops[number];
   const stl::Statement& statement = program.statement(number);
   std::string text = stl::to_text(statement), resolved;
@@ -247,7 +236,7 @@ std::string Session::resolved_text(std::uint32_t number) const {
     const std::string pointer = stl::to_text(statement.operands[i]);
     static constexpr std::string_view kWidths[] = {"", "", ":word", "", ":dword"};
     const auto place = parse_place(pointer + std::string(kWidths[std::min<std::size_t>(op[i].width, 4)]), program, why);
-    const auto range = place ? range_now(*place, cpu()) : std::nullopt;
+    const auto range = place ? range_now(*place, talk.cpu()) : std::nullopt;
     resolved += fmt::format("{} = {}, ", pointer, range ? range->name_of(0) : "nowhere");
   }
   const std::string each =
@@ -255,30 +244,53 @@ std::string Session::resolved_text(std::uint32_t number) const {
   return fmt::format("{:<28} // {}{}{}", text, resolved, format_duration(static_cast<Time>(op.cost)), each);
 }
 
-Json Session::disassemble(const Json& arguments) {
+Json disassemble(Conversation& talk, const Json& arguments) {
   const auto reference = text_at(arguments, "memoryReference");
   const auto number = find_instruction_number(reference);
   if (!number) throw Refused(fmt::format("'{}' is not an instruction of this program", stl::shortened(reference)));
   const std::int64_t first = *number + amount_in(arguments, "offset", 0) + amount_in(arguments, "instructionOffset", 0);
   constexpr std::int64_t kMost = 10'000;
   const auto count = std::clamp<std::int64_t>(amount_in(arguments, "instructionCount", 0), 0, kMost);
-  const auto size = static_cast<std::int64_t>(cpu().program().ops.size());
+  const auto size = static_cast<std::int64_t>(talk.cpu().program().ops.size());
   Json instructions = Json::array();
   for (std::int64_t i = first; i < first + count; ++i) {
-    Json one{{"address", at_station(instruction_reference(i), looks_at())}};
+    Json one{{"address", at_station(instruction_reference(i), talk.looks_at())}};
     if (i < 0 || i >= size) {
       one.update({{"instruction", "-"}, {"presentationHint", "invalid"}});
     } else {
       const auto op = static_cast<std::uint32_t>(i);
-      const Json place = client_place(op);
-      one["instruction"] = resolved_text(op);
+      const Json place = talk.client_place(op);
+      one["instruction"] = resolved_text(talk, op);
       one["location"] = place["source"];
       one["line"] = place["line"];
-      if (op == 0 || listing().routine_of(op) != listing().routine_of(op - 1)) one["symbol"] = listing().routine_of(op);
+      if (op == 0 || talk.listing().routine_of(op) != talk.listing().routine_of(op - 1))
+        one["symbol"] = talk.listing().routine_of(op);
     }
     instructions.push_back(std::move(one));
   }
   return {{"instructions", instructions}};
+}
+
+}  // namespace
+
+std::string text_of_bad_pointer(Conversation& talk, const std::string& name, const MemoryRange& pointer) {
+  const std::string address = pointer.name_of(0);
+  std::string text = bad_pointer_text(talk.cpu(), pointer, name, address);
+  if (talk.runs()) return text;
+  const Reply reply = last_writer(*talk.session, pointer, address).reply;
+  return text + "\n" + (reply.interrupted ? std::string("cancelled") : text_in(reply.json, "text"));
+}
+
+std::vector<Request> seeing_requests() {
+  return {{"threads", threads, Needs::Nothing},
+          {"stackTrace", stack_trace},
+          {"scopes", scopes},
+          {"variables", variables},
+          {"loadedSources", loaded_sources},
+          {"source", source, Needs::Nothing},
+          {"evaluate", evaluate},
+          {"completions", completions},
+          {"disassemble", disassemble}};
 }
 
 }  // namespace s7200::tools::dap

@@ -1,4 +1,6 @@
 // Reading and writing memory, and what the client is told when it changes.
+#include "tools/views/memory.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,11 +9,11 @@
 #include "interpreter/base/text.hpp"
 #include "tools/faces/dap/addresses.hpp"
 #include "tools/faces/dap/base64.hpp"
-#include "tools/faces/dap/session.hpp"
+#include "tools/faces/dap/conversation.hpp"
+#include "tools/faces/dap/requests.hpp"
+#include "tools/faces/dap/variables.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/words/force_words.hpp"
-#include "tools/views/machine_text.hpp"
-#include "tools/views/memory.hpp"
 
 namespace s7200::tools::dap {
 namespace {
@@ -39,51 +41,50 @@ std::vector<Assignment> assignments_of(const AreaInfo& area, std::uint32_t first
   return all;
 }
 
-}  // namespace
-
-Json Session::read_memory(const Json& arguments) {
-  const MemoryPlace place = memory_at(arguments, cpu().program());
-  const std::vector<std::uint8_t> all = bytes_of(place, cpu().state());
+Json read_memory(Conversation& talk, const Json& arguments) {
+  const MemoryPlace place = memory_at(arguments, talk.cpu().program());
+  const std::vector<std::uint8_t> all = bytes_of(place, talk.cpu().state());
   const std::int64_t area_end = place.begin + static_cast<std::int64_t>(all.size());
   const std::int64_t count = amount_in(arguments, "count", 0);
   if (count < 0) throw Refused(fmt::format("count: {} is less than 0", count));
   const std::int64_t first = place.at + amount_in(arguments, "offset", 0);
   const std::int64_t begin = std::clamp<std::int64_t>(first, place.begin, area_end);
   const std::int64_t end = std::clamp<std::int64_t>(first + count, begin, area_end);
-  Json body{{"address", at_station(address_text(begin), looks_at())}};
+  Json body{{"address", at_station(address_text(begin), talk.looks_at())}};
   if (first + count > end) body["unreadableBytes"] = std::max<std::int64_t>(0, first + count - end);
   if (begin == end) return body;
   body["data"] = to_base64(
       std::span(all).subspan(static_cast<std::size_t>(begin - place.begin), static_cast<std::size_t>(end - begin)));
   // to tell when it changes, an area is looked at as a whole
-  ReadArea& area = read_.try_emplace({looks_at(), place.begin}, ReadArea{.bytes = all}).first->second;
-  area.references.insert(at_station(text_at(arguments, "memoryReference"), looks_at()));
+  ReadArea& area = talk.read.try_emplace({talk.looks_at(), place.begin}, ReadArea{.bytes = all}).first->second;
+  area.references.insert(at_station(text_at(arguments, "memoryReference"), talk.looks_at()));
   return body;
 }
 
-void Session::write_image(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes) {
+void write_image(Conversation& talk, const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes) {
   const auto area = std::ranges::find(all_areas(), place.begin, &AreaInfo::base);
-  SetMemory set{assignments_of(*area, first, bytes, cpu().state())};
+  SetMemory set{assignments_of(*area, first, bytes, talk.cpu().state())};
   for (const Assignment& assignment : set.assignments)
     if (const std::string refused = not_settable(assignment.place); !refused.empty()) throw Refused(refused);
-  act(std::move(set));
+  act(talk, std::move(set));
 }
 
 /// Of the logic stack: a byte is a level.
-void Session::write_levels(const MemoryPlace& place, std::uint32_t first, const std::vector<std::uint8_t>& bytes) {
+void write_levels(Conversation& talk, const MemoryPlace& place, std::uint32_t first,
+                  const std::vector<std::uint8_t>& bytes) {
   if (place.open != 0) throw Refused("only the logic stack of the routine that runs can be set; the others wait");
-  if (!standing_at(cpu().state())) throw Refused("no program runs now whose logic stack could be set");
-  std::uint16_t bits = cpu().state().stack.bits();
+  if (!standing_at(talk.cpu().state())) throw Refused("no program runs now whose logic stack could be set");
+  std::uint16_t bits = talk.cpu().state().stack.bits();
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     if (bytes[i] > 1) throw Refused(fmt::format("a level of the logic stack is 0 or 1, not {}", bytes[i]));
     const unsigned level = first - place.begin + static_cast<unsigned>(i);
     bits = static_cast<std::uint16_t>((bits & ~(1u << level)) | static_cast<unsigned>(bytes[i]) << level);
   }
-  act(SetStack{LogicStack::from_bits(bits)});
+  act(talk, SetStack{LogicStack::from_bits(bits)});
 }
 
-Json Session::write_memory(const Json& arguments) {
-  const MemoryPlace place = memory_at(arguments, cpu().program());
+Json write_memory(Conversation& talk, const Json& arguments) {
+  const MemoryPlace place = memory_at(arguments, talk.cpu().program());
   auto bytes = from_base64(text_at(arguments, "data"));
   if (!bytes) throw Refused("data is not base64");
   if (place.owner == Owner::SavedAccumulators)
@@ -96,100 +97,100 @@ Json Session::write_memory(const Json& arguments) {
     bytes->resize(static_cast<std::size_t>(room));
   }
   if (place.owner == Owner::LogicStack)
-    write_levels(place, static_cast<std::uint32_t>(first), *bytes);
+    write_levels(talk, place, static_cast<std::uint32_t>(first), *bytes);
   else
-    write_image(place, static_cast<std::uint32_t>(first), *bytes);
+    write_image(talk, place, static_cast<std::uint32_t>(first), *bytes);
   return {{"bytesWritten", bytes->size()}};
 }
 
-MemoryRange Session::range_for(const std::string& expression) const {
+MemoryRange range_for(Conversation& talk, const std::string& expression) {
   std::string why;
-  const auto place = parse_place(expression, cpu().program(), why);
+  const auto place = parse_place(expression, talk.cpu().program(), why);
   if (!place) throw Refused(why);
-  const auto range = range_now(*place, cpu());
+  const auto range = range_now(*place, talk.cpu());
   if (!range) throw Refused(fmt::format("{} points nowhere", expression));
   return *range;
 }
 
-Json Session::assign(const std::string& expression, const std::string& value) {
-  const MemoryRange range = range_for(expression);
+Json assign(Conversation& talk, const std::string& expression, const std::string& value) {
+  const MemoryRange range = range_for(talk, expression);
   const auto assignment = parse_value(range, value);
   if (range.count != 1) throw Refused(fmt::format("'{}' is not one value but {}", stl::shortened(expression), range.count));
   if (!assignment)
     throw Refused(
         fmt::format("'{}' is not a value that fits {}: {}", stl::shortened(value), expression, values_text(range)));
   if (const std::string refused = not_settable(range); !refused.empty()) throw Refused(refused);
-  act(SetMemory{{*assignment}});
-  const Variable variable = variable_of(cpu(), range, expression);
+  act(talk, SetMemory{{*assignment}});
+  const Variable variable = variable_of(talk.cpu(), range, expression);
   Json body{
-      {"value", variable.value}, {"type", variable.type}, {"memoryReference", at_station(variable.memory, looks_at())}};
-  if (range.area == Area::I && standing_at(cpu().state()))
-    print("the input points are set; the program finds them in I when the next scan reads its inputs");
+      {"value", variable.value}, {"type", variable.type}, {"memoryReference", at_station(variable.memory, talk.looks_at())}};
+  if (range.area == Area::I && standing_at(talk.cpu().state()))
+    talk.print("the input points are set; the program finds them in I when the next scan reads its inputs");
   return body;
 }
 
-Json Session::set_level(const Variable& level, const std::string& value) {
+Json set_level(Conversation& talk, const Variable& level, const std::string& value) {
   const auto bit = parse_decimal<std::uint8_t>(stl::trim(value));
   if (!bit || *bit > 1) throw Refused(fmt::format("'{}' is not a level of the logic stack: 0 or 1", stl::shortened(value)));
-  const auto place = find_memory(level.memory, cpu().program());
-  write_levels(*place, place->at, {*bit});
-  return {{"value", std::to_string(*bit)}, {"type", level.type}, {"memoryReference", at_station(level.memory, looks_at())}};
+  const auto place = find_memory(level.memory, talk.cpu().program());
+  write_levels(talk, *place, place->at, {*bit});
+  return {
+      {"value", std::to_string(*bit)}, {"type", level.type}, {"memoryReference", at_station(level.memory, talk.looks_at())}};
 }
 
-Json Session::set_variable(const Json& arguments) {
+Json set_variable(Conversation& talk, const Json& arguments) {
   const auto name = text_at(arguments, "name");
   const auto container = number_at<Container>(arguments, "variablesReference");
-  for (const Variable& variable : variables_of(simulation(), debuggee_->history(), container))
+  for (const Variable& variable : variables_of(talk.simulation(), talk.debuggee->history(), container))
     if (variable.name == name && variable.settable) {
       const auto value = text_at(arguments, "value");
-      return variable.expression.empty() ? set_level(variable, value) : assign(variable.expression, value);
+      return variable.expression.empty() ? set_level(talk, variable, value) : assign(talk, variable.expression, value);
     }
   throw Refused(fmt::format("'{}' cannot be set", stl::shortened(name)));
 }
 
-Json Session::set_expression(const Json& arguments) {
-  return assign(text_at(arguments, "expression"), text_at(arguments, "value"));
+Json set_expression(Conversation& talk, const Json& arguments) {
+  return assign(talk, text_at(arguments, "expression"), text_at(arguments, "value"));
 }
 
-std::string Session::without_power() const {
-  return simulation().plc().powered()
+}  // namespace
+
+std::string without_power(Conversation& talk) {
+  return talk.simulation().plc().powered()
              ? std::string()
-             : said_of(looks_at()) + "the PLC is without power; 'power on' in the console brings it back";
+             : talk.said_of(talk.looks_at()) + "the PLC is without power; 'power on' in the console brings it back";
 }
 
-/// In the past it begins a new branch, and says so.
-void Session::act(Action action) {
-  if (const std::string why = without_power(); !why.empty()) throw Refused(why);
-  const History::BranchPtr before = debuggee_->history().here().branch;
-  tools::act(*session_, std::move(action));
-  print(session_->take_said());
-  note_branch(before);
-  note_change();
+void act(Conversation& talk, Action action) {
+  if (const std::string why = without_power(talk); !why.empty()) throw Refused(why);
+  const History::BranchPtr before = talk.debuggee->history().here().branch;
+  tools::act(*talk.session, std::move(action));
+  talk.print(talk.session->take_said());
+  note_branch(talk, before);
+  note_change(talk);
 }
 
-/// What the client shows of memory may be another one now.
-void Session::note_change() {
-  after_response([this] {
-    if (client_takes_invalidation_ && !runs()) send_event("invalidated", {{"areas", Json::array({"variables"})}});
-    report_memory_changes();
+void note_change(Conversation& talk) {
+  talk.after_response([&talk] {
+    if (talk.client_takes_invalidation && !talk.runs())
+      talk.send_event("invalidated", {{"areas", Json::array({"variables"})}});
+    report_memory_changes(talk);
   });
 }
 
-/// On a branch that has begun, frames that were sent later than where it begins are still to be sent.
-void Session::note_branch(const History::BranchPtr& before) {
-  if (debuggee_->history().here().branch == before) return;
-  std::erase_if(frames_sent_, [now = debuggee_->history().now().time](Time sent) { return sent > now; });
+void note_branch(Conversation& talk, const History::BranchPtr& before) {
+  if (talk.debuggee->history().here().branch == before) return;
+  std::erase_if(talk.frames_sent, [now = talk.debuggee->history().now().time](Time sent) { return sent > now; });
 }
 
-/// Of what the client has read: the bytes from the first to the last that is different now.
-void Session::report_memory_changes() {
-  if (!client_takes_memory_events_) return;
-  for (auto& [key, area] : read_) {
-    const LookAt look(*this, key.first);
-    const auto place_of = [this](const std::string& reference) {
-      return *find_memory(find_station(reference, stations())->reference, cpu().program());
+void report_memory_changes(Conversation& talk) {
+  if (!talk.client_takes_memory_events) return;
+  for (auto& [key, area] : talk.read) {
+    const LookAt look(talk, key.first);
+    const auto place_of = [&talk](const std::string& reference) {
+      return *find_memory(find_station(reference, talk.stations())->reference, talk.cpu().program());
     };
-    auto now = bytes_of(place_of(*area.references.begin()), cpu().state());
+    auto now = bytes_of(place_of(*area.references.begin()), talk.cpu().state());
     const auto& before = area.bytes;
     const std::size_t size = std::max(before.size(), now.size());  // one of them is none: the routine is not open
     const auto same = [&](std::size_t i) { return i < before.size() && i < now.size() && before[i] == now[i]; };
@@ -198,11 +199,19 @@ void Session::report_memory_changes() {
     if (first == size) continue;
     while (same(last - 1)) --last;
     for (const std::string& reference : area.references)
-      send_event("memory", {{"memoryReference", reference},
-                            {"offset", std::int64_t{key.second} + static_cast<std::int64_t>(first) - place_of(reference).at},
-                            {"count", last - first}});
+      talk.send_event("memory",
+                      {{"memoryReference", reference},
+                       {"offset", std::int64_t{key.second} + static_cast<std::int64_t>(first) - place_of(reference).at},
+                       {"count", last - first}});
     area.bytes = std::move(now);
   }
+}
+
+std::vector<Request> memory_requests() {
+  return {{"readMemory", read_memory},
+          {"writeMemory", write_memory},
+          {"setVariable", set_variable},
+          {"setExpression", set_expression}};
 }
 
 }  // namespace s7200::tools::dap

@@ -11,8 +11,9 @@
 #include "interpreter/program/networks.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/faces/dap/addresses.hpp"
+#include "tools/faces/dap/conversation.hpp"
 #include "tools/faces/dap/exception_filters.hpp"
-#include "tools/faces/dap/session.hpp"
+#include "tools/faces/dap/requests.hpp"
 #include "tools/session/stops/stop_words.hpp"
 #include "tools/session/words/words.hpp"
 #include "tools/views/text_frame.hpp"
@@ -21,6 +22,8 @@ namespace s7200::tools::dap {
 namespace {
 
 using On = StopPoint::On;
+using MakeStops = std::function<std::vector<StopPoint>(const Json& wanted, Json& answer)>;
+using StopOfStation = std::function<std::optional<StopPoint>(std::string& why)>;
 
 /// `5`, `>= 5`, `> 4`: the first hit that stops.
 std::uint64_t first_hit(const std::string& text) {
@@ -46,18 +49,16 @@ bool take_always(std::string& condition) {
 
 bool is_wanted(const Json& wanted, const char* key) { return !text_at(wanted, key, "").empty(); }
 
-}  // namespace
-
-StopPoint Session::stop_at(std::uint32_t op) const {
-  return {.station = looks_at(),
+StopPoint stop_at(Conversation& talk, std::uint32_t op) {
+  return {.station = talk.looks_at(),
           .on = On::Place,
           .op = op,
-          .name = fmt::format("{} line {}", listing().routine_of(op), listing().line_of(op)),
+          .name = fmt::format("{} line {}", talk.listing().routine_of(op), talk.listing().line_of(op)),
           .needs_power = true};
 }
 
-StopPoint Session::with_conditions(StopPoint stop, const Json& wanted) const {
-  const Program& program = cpu().program();
+StopPoint with_conditions(Conversation& talk, StopPoint stop, const Json& wanted) {
+  const Program& program = talk.cpu().program();
   std::string why;
   if (is_wanted(wanted, "condition")) {
     auto condition = text_at(wanted, "condition");
@@ -79,21 +80,15 @@ StopPoint Session::with_conditions(StopPoint stop, const Json& wanted) const {
   return stop;
 }
 
-void Session::take_away(int number) {
-  placed_.erase(number);
-  session_->stepper.remove(number);
-}
-
-/// Those that a command has set are known to the client by what they are called, as functions are.
-Session::StopKind Session::kind_of(int number) const {
-  const auto placed = placed_.find(number);
-  return placed == placed_.end() ? StopKind::Function : placed->second.kind;
+void take_away(Conversation& talk, int number) {
+  talk.placed.erase(number);
+  talk.session->stepper.remove(number);
 }
 
 /// Replaces those of a kind and group. One that was wanted before in the same way stays, with its hits.
-Json Session::place(StopKind kind, const std::string& group, const Json& wanted, const MakeStops& make) {
+Json place(Conversation& talk, StopKind kind, const std::string& group, const Json& wanted, const MakeStops& make) {
   std::map<int, Placed> before;
-  for (const auto& [number, placed] : placed_)
+  for (const auto& [number, placed] : talk.placed)
     if (placed.kind == kind && placed.group == group) before.emplace(number, placed);
   Json answers = Json::array();
   for (const Json& one : wanted) {
@@ -103,7 +98,7 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
       before.erase(same);
       continue;
     }
-    const int number = session_->next_number++;
+    const int number = talk.session->next_number++;
     Json answer{{"id", number}, {"verified", true}};
     const auto refuse = [&answer](const std::string& why) {
       answer.update({{"verified", false}, {"message", why}, {"reason", "failed"}});
@@ -111,149 +106,148 @@ Json Session::place(StopKind kind, const std::string& group, const Json& wanted,
     try {
       for (StopPoint& stop : make(one, answer)) {
         stop.number = number;
-        if (stop.range) stop.value = stop.range->bytes_in(debuggee_->history().station(stop.station).cpu().state().image);
-        if (!no_debug_) session_->stepper.add(std::move(stop));
+        if (stop.range)
+          stop.value = stop.range->bytes_in(talk.debuggee->history().station(stop.station).cpu().state().image);
+        if (!talk.no_debug) talk.session->stepper.add(std::move(stop));
       }
     } catch (const Refused& refused) {
       refuse(refused.what());
     } catch (const WrongValue& wrong) {
       refuse(wrong.what());
     }
-    placed_[number] = {kind, group, one, answer};
+    talk.placed[number] = {kind, group, one, answer};
     answers.push_back(std::move(answer));
   }
-  for (const auto& [number, placed] : before) take_away(number);
+  for (const auto& [number, placed] : before) take_away(talk, number);
   return {{"breakpoints", std::move(answers)}};
 }
 
-// --- lines, routines, events, instructions ---
-
 /// Of the stations at which `find` finds one; the answer says where the first is.
-std::vector<StopPoint> Session::at_all_stations(const Json& wanted, Json& answer, const StopOfStation& find) {
+std::vector<StopPoint> at_all_stations(Conversation& talk, const Json& wanted, Json& answer, const StopOfStation& find) {
   std::vector<StopPoint> stops;
   std::string why_none;
-  for (std::size_t station = 0; station < stations(); ++station) {
-    const LookAt look(*this, station);
+  for (std::size_t station = 0; station < talk.stations(); ++station) {
+    const LookAt look(talk, station);
     std::string why;
     auto stop = find(why);
     if (!stop && why_none.empty()) why_none = why;
     if (!stop) continue;
     stop->station = station;
     if (stop->on == On::Place && stops.empty()) {
-      answer.update(client_place(stop->op));
+      answer.update(talk.client_place(stop->op));
       answer["instructionReference"] = at_station(instruction_reference(stop->op), station);
     }
-    stops.push_back(with_conditions(std::move(*stop), wanted));
+    stops.push_back(with_conditions(talk, std::move(*stop), wanted));
   }
   if (stops.empty()) throw Refused(why_none);
   return stops;
 }
 
-std::vector<StopPoint> Session::line_stops(const std::string& path, const Json& wanted, Json& answer) {
-  const auto wanted_line = client_line_in(wanted);
-  const LookAt look(*this, station_with(path));
-  const auto lines = sources().lines_of(path);
+std::vector<StopPoint> line_stops(Conversation& talk, const std::string& path, const Json& wanted, Json& answer) {
+  const auto wanted_line = talk.client_line_in(wanted);
+  const LookAt look(talk, talk.station_with(path));
+  const auto lines = talk.sources().lines_of(path);
   if (!lines) throw Refused(fmt::format("{} is not a file of this program", path));
-  if (line_of_client(wanted_line) > *lines)
+  if (talk.line_of_client(wanted_line) > *lines)
     throw Refused(fmt::format("{} has no line {}; its last one is {}", std::filesystem::path(path).filename().string(),
-                              wanted_line, client_line(*lines)));
-  return at_all_stations(wanted, answer, [&](std::string& why) -> std::optional<StopPoint> {
-    const auto line = sources().line_in(path, line_of_client(wanted_line));
-    const auto op = line ? listing().op_from_line(*line) : std::nullopt;
-    if (line && !op) why = fmt::format("the last instruction is in line {}", client_line(listing().last_line()));
+                              wanted_line, talk.client_line(*lines)));
+  return at_all_stations(talk, wanted, answer, [&](std::string& why) -> std::optional<StopPoint> {
+    const auto line = talk.sources().line_in(path, talk.line_of_client(wanted_line));
+    const auto op = line ? talk.listing().op_from_line(*line) : std::nullopt;
+    if (line && !op) why = fmt::format("the last instruction is in line {}", talk.client_line(talk.listing().last_line()));
     if (!op) return {};
-    if (listing().line_of(*op) != *line)
+    if (talk.listing().line_of(*op) != *line)
       answer["message"] = fmt::format("line {} has no instruction; this is the next one", wanted_line);
-    return stop_at(*op);
+    return stop_at(talk, *op);
   });
 }
 
-Json Session::set_breakpoints(const Json& arguments) {
-  const std::string path = source_path(arguments);
-  return place(StopKind::Line, path, list_at(arguments, "breakpoints"),
-               [&](const Json& wanted, Json& answer) { return line_stops(path, wanted, answer); });
+Json set_breakpoints(Conversation& talk, const Json& arguments) {
+  const std::string path = talk.source_path(arguments);
+  return place(talk, StopKind::Line, path, list_at(arguments, "breakpoints"),
+               [&](const Json& wanted, Json& answer) { return line_stops(talk, path, wanted, answer); });
 }
 
 /// `SBR 51`, `INT 123`, `NETWORK 4`, `event 8 occurs`, `received` …, or what causes an event: `port 0: character received`.
-std::vector<StopPoint> Session::function_stops(const Json& wanted, Json& answer) {
+std::vector<StopPoint> function_stops(Conversation& talk, const Json& wanted, Json& answer) {
   const auto name = text_at(wanted, "name");
   std::vector<std::string> words = stl::split_words(name);
   if (words.empty()) throw Refused("the name is empty; write for example SBR 51, INT 123, event 8 or received");
   for (const InterruptEvent& event : all_events())
     if (stl::lower_case(event.cause) == stl::lower_case(stl::trim(name)))
       words = {"event", std::to_string(event.number), "served"};
-  return at_all_stations(wanted, answer, [&](std::string& why) {
+  return at_all_stations(talk, wanted, answer, [&](std::string& why) {
     const bool is_main = stl::lower_case(name) == "main";
     std::string note;
-    auto stop = find_stop(is_main ? std::vector{std::to_string(listing().line_of(0))} : words, cpu().program(), listing(),
-                          why, note);
+    auto stop = find_stop(is_main ? std::vector{std::to_string(talk.listing().line_of(0))} : words, talk.cpu().program(),
+                          talk.listing(), why, note);
     if (stop) stop->name = name;
     return stop;
   });
 }
 
-Json Session::set_function_breakpoints(const Json& arguments) {
-  return place(StopKind::Function, "", required_list(arguments, "breakpoints"),
-               [&](const Json& wanted, Json& answer) { return function_stops(wanted, answer); });
+Json set_function_breakpoints(Conversation& talk, const Json& arguments) {
+  return place(talk, StopKind::Function, "", required_list(arguments, "breakpoints"),
+               [&](const Json& wanted, Json& answer) { return function_stops(talk, wanted, answer); });
 }
 
-Json Session::set_instruction_breakpoints(const Json& arguments) {
-  return place(StopKind::Instruction, "", required_list(arguments, "breakpoints"), [&](const Json& wanted, Json& answer) {
-    const auto reference = text_at(wanted, "instructionReference");
-    const auto of = find_station(reference, stations());
-    const LookAt look(*this, of ? of->station : looks_at());
-    const auto number = of ? find_instruction_number(of->reference) : std::nullopt;
-    const std::int64_t op = number.value_or(-1) + amount_in(wanted, "offset", 0);
-    if (!number || op < 0 || op >= static_cast<std::int64_t>(cpu().program().ops.size()))
-      throw Refused(fmt::format("{} is not an instruction of this program", stl::shortened(reference)));
-    StopPoint stop = stop_at(static_cast<std::uint32_t>(op));
-    stop.needs_power = false;
-    if (depends_on_power_flow(cpu().program().ops[stop.op])) answer["message"] = "stops without power flow, too";
-    answer.update(client_place(stop.op));
-    answer["instructionReference"] = at_station(instruction_reference(op), looks_at());
-    return std::vector{with_conditions(std::move(stop), wanted)};
-  });
+Json set_instruction_breakpoints(Conversation& talk, const Json& arguments) {
+  return place(talk, StopKind::Instruction, "", required_list(arguments, "breakpoints"),
+               [&](const Json& wanted, Json& answer) {
+                 const auto reference = text_at(wanted, "instructionReference");
+                 const auto of = find_station(reference, talk.stations());
+                 const LookAt look(talk, of ? of->station : talk.looks_at());
+                 const auto number = of ? find_instruction_number(of->reference) : std::nullopt;
+                 const std::int64_t op = number.value_or(-1) + amount_in(wanted, "offset", 0);
+                 if (!number || op < 0 || op >= static_cast<std::int64_t>(talk.cpu().program().ops.size()))
+                   throw Refused(fmt::format("{} is not an instruction of this program", stl::shortened(reference)));
+                 StopPoint stop = stop_at(talk, static_cast<std::uint32_t>(op));
+                 stop.needs_power = false;
+                 if (depends_on_power_flow(talk.cpu().program().ops[stop.op]))
+                   answer["message"] = "stops without power flow, too";
+                 answer.update(talk.client_place(stop.op));
+                 answer["instructionReference"] = at_station(instruction_reference(op), talk.looks_at());
+                 return std::vector{with_conditions(talk, std::move(stop), wanted)};
+               });
 }
 
-Json Session::breakpoint_locations(const Json& arguments) {
-  const std::string path = source_path(arguments);
-  const LookAt look(*this, station_with(path));
-  const auto first = client_line_in(arguments);
-  const auto last = std::min(member(arguments, "endLine") ? client_line_in(arguments, "endLine") : first,
-                             client_line(listing().last_line()));
+Json breakpoint_locations(Conversation& talk, const Json& arguments) {
+  const std::string path = talk.source_path(arguments);
+  const LookAt look(talk, talk.station_with(path));
+  const auto first = talk.client_line_in(arguments);
+  const auto last = std::min(member(arguments, "endLine") ? talk.client_line_in(arguments, "endLine") : first,
+                             talk.client_line(talk.listing().last_line()));
   Json locations = Json::array();
   for (std::uint32_t line = first; line <= last; ++line) {
-    const auto of_program = sources().line_in(path, line_of_client(line));
-    const auto op = of_program ? listing().op_from_line(*of_program) : std::nullopt;
-    if (op && listing().line_of(*op) == of_program) locations.push_back({{"line", line}});
+    const auto of_program = talk.sources().line_in(path, talk.line_of_client(line));
+    const auto op = of_program ? talk.listing().op_from_line(*of_program) : std::nullopt;
+    if (op && talk.listing().line_of(*op) == of_program) locations.push_back({{"line", line}});
   }
   return {{"breakpoints", locations}};
 }
 
-// --- data ---
-
-Json Session::data_breakpoint_info(const Json& arguments) {
+Json data_breakpoint_info(Conversation& talk, const Json& arguments) {
   const auto name = text_at(arguments, "name");
   std::string text = name.substr(0, name.find(' ', name.starts_with('"') ? quotation_length(name) : 0));
   if (truth_at(arguments, "asAddress", false)) {
-    const auto place = find_memory(text, cpu().program());
+    const auto place = find_memory(text, talk.cpu().program());
     if (!place) throw Refused(fmt::format("'{}' is not an address of memory", stl::shortened(text)));
     for (const AreaInfo& area : all_areas())
       if (area.base == place->begin && area.element == 0) text = fmt::format("{}B{}", area.name, place->at - place->begin);
   }
   std::string why;
-  const auto where = parse_place(text, cpu().program(), why);
-  auto range = where ? range_now(*where, cpu()) : std::nullopt;
+  const auto where = parse_place(text, talk.cpu().program(), why);
+  auto range = where ? range_now(*where, talk.cpu()) : std::nullopt;
   if (!range) return {{"dataId", nullptr}, {"description", where ? text + " points nowhere" : why}};
   if (const auto bytes = number_at<std::uint32_t>(arguments, "bytes", kWhole<std::uint32_t>, 0); bytes > 0) {
     text = fmt::format("{}B{}:{}", info(range->area).name, range->number, bytes);
-    range = parse_range(text, cpu().program(), why);
+    range = parse_range(text, talk.cpu().program(), why);
     if (!range) return {{"dataId", nullptr}, {"description", why}};
   } else if (where->pointer || text.starts_with('"')) {
     text = range->count > 1 ? fmt::format("{}:{}", range->name_of(0), range->count) : range->name_of(0);
   }
   const bool every_write = stl::lower_case(name).ends_with(" write");
-  const std::string id = at_station(text, looks_at());
+  const std::string id = at_station(text, talk.looks_at());
   return {{"dataId", every_write ? id + " write" : id},
           {"description", every_write ? text + ", each write" : text},
           {"accessTypes", Json::array({"read", "write", "readWrite"})},
@@ -261,30 +255,28 @@ Json Session::data_breakpoint_info(const Json& arguments) {
 }
 
 /// `write` stops when the value changes, whoever changes it; with `write` in the name at each write of an instruction.
-std::vector<StopPoint> Session::data_stops(const Json& wanted) {
+std::vector<StopPoint> data_stops(Conversation& talk, const Json& wanted) {
   const auto id = text_at(wanted, "dataId");
-  const auto of = find_station(id.substr(0, id.find(' ')), stations());
+  const auto of = find_station(id.substr(0, id.find(' ')), talk.stations());
   if (!of) throw Refused(fmt::format("'{}' is of no station of this system", stl::shortened(id)));
-  const LookAt look(*this, of->station);
+  const LookAt look(talk, of->station);
   const std::string &name = of->reference, access = text_at(wanted, "accessType", "write");
   std::string why;
-  const auto range = parse_range(name, cpu().program(), why);
+  const auto range = parse_range(name, talk.cpu().program(), why);
   if (!range) throw Refused(why);
   if (access != "read" && access != "write" && access != "readWrite")
     throw Refused(fmt::format("accessType: '{}' is not read, write or readWrite", stl::shortened(access)));
   const On written = stl::lower_case(id).ends_with(" write") ? On::Write : On::Change;
   const On on = access == "read" ? On::Read : access == "write" ? written : On::ReadWrite;
-  return {with_conditions({.station = of->station, .on = on, .range = *range, .name = name}, wanted)};
+  return {with_conditions(talk, {.station = of->station, .on = on, .range = *range, .name = name}, wanted)};
 }
 
-Json Session::set_data_breakpoints(const Json& arguments) {
-  return place(StopKind::Data, "", required_list(arguments, "breakpoints"),
-               [&](const Json& wanted, Json&) { return data_stops(wanted); });
+Json set_data_breakpoints(Conversation& talk, const Json& arguments) {
+  return place(talk, StopKind::Data, "", required_list(arguments, "breakpoints"),
+               [&](const Json& wanted, Json&) { return data_stops(talk, wanted); });
 }
 
-// --- exceptions ---
-
-std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
+std::vector<StopPoint> exception_stops(const Json& wanted) {
   const std::string id = text_at(wanted, "filterId", "");
   const auto filter = std::ranges::find(kExceptionFilters, id, &ExceptionFilter::id);
   if (filter == std::end(kExceptionFilters))
@@ -303,41 +295,61 @@ std::vector<StopPoint> Session::exception_stops(const Json& wanted) const {
   return stops;
 }
 
-std::size_t Session::first_on(std::size_t line) const {
-  const PlcRequests& requests = debuggee_->history().requests();
-  for (std::size_t station = 0; station < stations(); ++station)
-    for (std::uint8_t port = 0; port < program_of(station).model->ports; ++port)
+std::size_t first_on(Conversation& talk, std::size_t line) {
+  const PlcRequests& requests = talk.debuggee->history().requests();
+  for (std::size_t station = 0; station < talk.stations(); ++station)
+    for (std::uint8_t port = 0; port < talk.program_of(station).model->ports; ++port)
       if (requests.line_of(station, port) == line) return station;
   return 0;
 }
 
 /// At each PLC; on each line once, for the first PLC on it.
-std::vector<StopPoint> Session::at_each_station(StopPoint stop) const {
+std::vector<StopPoint> at_each_station(Conversation& talk, StopPoint stop) {
   const bool of_lines = stop.is_of_requests();
-  const std::size_t count = of_lines ? debuggee_->history().requests().lines().size() : stations();
+  const std::size_t count = of_lines ? talk.debuggee->history().requests().lines().size() : talk.stations();
   std::vector<StopPoint> stops;
   for (std::size_t number = 0; number < count; ++number) {
-    stop.station = of_lines ? first_on(number) : number;
+    stop.station = of_lines ? first_on(talk, number) : number;
     if (of_lines) stop.line = number;
     stops.push_back(stop);
   }
   return stops;
 }
 
-Json Session::set_exception_breakpoints(const Json& arguments) {
+Json set_exception_breakpoints(Conversation& talk, const Json& arguments) {
   Json wanted = list_at(arguments, "filterOptions");
   for (const Json& filter : list_at(arguments, "filters")) wanted.push_back({{"filterId", filter}});
-  return place(StopKind::Exception, "", wanted, [&](const Json& one, Json&) {
+  return place(talk, StopKind::Exception, "", wanted, [&](const Json& one, Json&) {
     std::vector<StopPoint> stops;
-    for (const StopPoint& stop : exception_stops(one)) std::ranges::copy(at_each_station(stop), std::back_inserter(stops));
+    for (const StopPoint& stop : exception_stops(one))
+      std::ranges::copy(at_each_station(talk, stop), std::back_inserter(stops));
     return stops;
   });
 }
 
-Json Session::exception_info(const Json&) {
-  const auto exception = exceptions_.find(looks_at());
-  if (exception == exceptions_.end()) throw Refused(said_of(looks_at()) + "it has not stopped for an exception");
+Json exception_info(Conversation& talk, const Json&) {
+  const auto exception = talk.exceptions.find(talk.looks_at());
+  if (exception == talk.exceptions.end())
+    throw Refused(talk.said_of(talk.looks_at()) + "it has not stopped for an exception");
   return exception->second;
+}
+
+}  // namespace
+
+StopKind kind_of(const Conversation& talk, int number) {
+  const auto placed = talk.placed.find(number);
+  return placed == talk.placed.end() ? StopKind::Function : placed->second.kind;
+}
+
+std::vector<Request> breakpoints_requests() {
+  return {{"setBreakpoints", set_breakpoints},
+          {"setFunctionBreakpoints", set_function_breakpoints},
+          {"setDataBreakpoints", set_data_breakpoints},
+          {"setInstructionBreakpoints", set_instruction_breakpoints},
+          {"setExceptionBreakpoints", set_exception_breakpoints},
+          {"breakpointLocations", breakpoint_locations},
+          {"dataBreakpointInfo", data_breakpoint_info},
+          {"exceptionInfo", exception_info}};
 }
 
 }  // namespace s7200::tools::dap
