@@ -220,6 +220,25 @@ class Dap(Case):
         self.assertTrue((self.folder / "run.trace").exists())
         server.end()
 
+    def typed(self, server, line):
+        """What the console answers to a line, in a session that ends."""
+        data = heard(server.connect(request(1, "initialize"), request(2, "launch", token=server.token, program=str(SLAVE), stopOnEntry=True),
+                                    request(3, "configurationDone"), request(4, "evaluate", expression=line, context="repl"),
+                                    request(5, "disconnect")))
+        return next(m for m in messages(data) if m.get("command") == "evaluate")
+
+    def test_commands_read_and_write_files_only_if_the_command_line_allows_it(self):
+        server = self.start(self.LISTEN, folder=self.folder)
+        for command in ("save owned.json", "load /etc/passwd"):
+            with self.subTest(command):
+                self.assertIn("--allow files", self.typed(server, command)["message"])
+        self.assertEqual(list(self.folder.iterdir()), [])
+        server.end()
+        server = self.start(self.LISTEN, "--allow", "files", folder=self.folder)
+        self.assertTrue(self.typed(server, "save kept.json")["success"])
+        self.assertTrue((self.folder / "kept.json").exists())
+        server.end()
+
     def test_a_system_file_writes_and_opens_no_more(self):
         system = self.folder / "system.yaml"
         system.write_text(f"plcs: {{a: {{program: {SLAVE}}}}}\nbridges: {{b: {{tcp: 0}}}}\nlines: {{l: {{stations: [a, b], capture: [l.pcap]}}}}\n",

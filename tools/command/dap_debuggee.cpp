@@ -55,7 +55,12 @@ class RigDebuggee final : public dap::Debuggee {
     return options_->rig.plan() ? options_->program.path : rig_->plan().plcs.front().program->source.name;
   }
   History& history() override { return *history_; }
-  SessionSetup setup() override { return session_setup(*options_, *rig_, live_, may_use_files_ ? &files_ : nullptr); }
+  SessionSetup setup() override {
+    SessionSetup setup = session_setup(*options_, *rig_, live_, may_use_files_ ? &files_ : nullptr);
+    setup.why_no_files = fmt::format(
+        "this server lets no command read or write files; s7200 dap --listen PORT --allow {} does", kFilesOfCommands);
+    return setup;
+  }
 
   void when_saying(std::function<void(const std::string&)> say) override {
     say_ = std::move(say);

@@ -97,7 +97,7 @@ std::string said_by(Conversation& talk, const std::string& command) {
 
 /// What has come of what was typed.
 void report_console(Conversation& talk, bool has_moved) {
-  if (!has_moved && !talk.session->quit_asked) return note_change(talk);
+  if (!has_moved && !talk.session->quit_asked) return;
   talk.running.reset();
   talk.after_response([&talk, station = talk.looks_at(), command = talk.session->command] {
     if (talk.session->quit_asked) return end_debuggee(talk);
@@ -143,10 +143,12 @@ Json stl_status(Conversation& talk, const Json& arguments) {
 
 Reply executed(Conversation& talk, const Words& command) {
   const std::set<int> stops = stop_numbers(talk);
-  const History::BranchPtr before = talk.debuggee->history().here().branch;
+  const History::Place before = talk.debuggee->history().here();
   Reply reply = execute(*talk.session, command);
-  note_branch(talk, before);
+  const History::Place now = talk.debuggee->history().here();
+  note_branch(talk, before.branch);
   note_changed_stops(talk, stops);
+  if (now.branch != before.branch || now.moment.actions != before.moment.actions) note_change(talk);
   if (reply.interrupted) refuse_interrupted();
   if (reply.error) {
     talk.print(reply.text);
@@ -163,7 +165,6 @@ Json run_command(Conversation& talk, const std::string& request, const Json& arg
   Json body = placed(talk, reply.json);
   if (row.description.empty()) {
     if (row.is_told) talk.print(reply.text);
-    note_change(talk);
     return body;
   }
   const std::string text = text_in(body, "text"), why = text_in(body, "whyNoMoment");

@@ -26,8 +26,8 @@ std::string without_quotes(const std::string& text) {
   return length > 1 && length == text.size() ? text.substr(1, length - 2) : text;
 }
 
-std::string no_files(std::string_view command) {
-  return fmt::format("{}: files are neither read nor written here", command);
+std::string no_files(const Session& session, std::string_view command) {
+  return fmt::format("{}: {}", command, session.setup.why_no_files);
 }
 
 /// Object `i` of a range, with its value; a whole accumulator, which has no parts in a scenario.
@@ -54,7 +54,7 @@ std::optional<FilePlace> place_of(const Session& session, const Words& arguments
                   fmt::format("a file, and ! if it may replace one that exists, for example: {} a.txt", wanted.command));
     return {};
   }
-  if (!session.setup.files) return why = no_files(wanted.command), std::nullopt;
+  if (!session.setup.files) return why = no_files(session, wanted.command), std::nullopt;
   wanted.path = without_quotes(arguments[0]);
   if (replaces) wanted.replacing = Replacing::Anything;
   auto to = session.setup.files->place_for(wanted, why);
@@ -163,7 +163,7 @@ Reply load(Session& session, const Words& arguments) {
   if (arguments.size() != 1 && !however_long) return wrong(expects("load", "a file that 'save' has written"));
   const std::string path = without_quotes(arguments[0]);
   std::string why;
-  if (!session.setup.files) return wrong(no_files("load"));
+  if (!session.setup.files) return wrong(no_files(session, "load"));
   const auto text = session.setup.files->read(path, why);
   if (!text) return wrong(fmt::format("cannot read {}: {}", path, why));
   const SessionFile here = session_file(session);

@@ -48,8 +48,9 @@ struct SessionSetup {
   std::string records{};                          ///< that traces and captures write: "the trace"; "" for none
   bool colour = false;                            ///< timelines have colours
   std::size_t width = stl::kUsualWidth;           ///< of the lines of a timeline
-  const SessionFiles* files = nullptr;            ///< null: commands read and write none
-  std::vector<SessionOption> options{};           ///< that a saved session needs again, besides the master's
+  const SessionFiles* files = nullptr;            ///< null: commands read and write none, for this reason:
+  std::string why_no_files = "files are neither read nor written here";
+  std::vector<SessionOption> options{};  ///< that a saved session needs again, besides the master's
 
   /// Writes a session as a scenario. Returns what was left out, and why that cannot be recorded; nothing, and `why`, if
   /// nothing of it can.
