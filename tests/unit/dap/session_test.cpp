@@ -1118,7 +1118,7 @@ TEST(DapSession, ACommandThatMovesTheSessionStopsThere) {
   editor("continue", {{"threadId", 1}});
   EXPECT_EQ(editor.stopped(), "function breakpoint");
   EXPECT_EQ(editor.line(), 22);
-  EXPECT_TRUE(has(console("back"), "back to before"));
+  EXPECT_TRUE(has(console("back"), "back to before 'continue'")) << "that of the editor";
   EXPECT_EQ(editor.last("stopped")["description"], "back");
   console("delete all");
   EXPECT_EQ(editor.last("breakpoint")["reason"], "removed");

@@ -108,7 +108,7 @@ Json place(Conversation& talk, StopKind kind, const std::string& group, const Js
         stop.number = number;
         if (stop.range)
           stop.value = stop.range->bytes_in(talk.debuggee->history().station(stop.station).cpu().state().image);
-        if (!talk.no_debug) talk.session->stepper.add(std::move(stop));
+        if (!talk.begun.no_debug) talk.session->stepper.add(std::move(stop));
       }
     } catch (const Refused& refused) {
       refuse(refused.what());

@@ -65,20 +65,20 @@ Json Conversation::client_place(std::uint32_t op) const {
   const stl::Position& position = cpu().program().statement(op).position;
   Json place = sources().place_of(position.line);
   place["line"] = client_line(place["line"].get<std::uint32_t>());
-  place["column"] = std::max(position.column, 1u) - 1 + column_base;
+  place["column"] = std::max(position.column, 1u) - 1 + client.column_base;
   return place;
 }
 
 /// The full name of the file that a request is about.
 std::string Conversation::source_path(const Json& arguments) const {
-  return full_name(text_at(required_map(arguments, "source"), "path", ""), folder);
+  return full_name(text_at(required_map(arguments, "source"), "path", ""), begun.folder);
 }
 
 /// As the client counts lines.
 std::uint32_t Conversation::client_line_in(const Json& arguments, const char* key) const {
   const auto line = number_at<std::int64_t>(arguments, key);
-  if (line < std::int64_t{line_base} || line >= std::numeric_limits<std::uint32_t>::max())
-    throw Refused(fmt::format("there is no line {}: lines are counted from {}", line, line_base));
+  if (line < std::int64_t{client.line_base} || line >= std::numeric_limits<std::uint32_t>::max())
+    throw Refused(fmt::format("there is no line {}: lines are counted from {}", line, client.line_base));
   return static_cast<std::uint32_t>(line);
 }
 

@@ -45,6 +45,22 @@ struct ReadArea {
   std::set<std::string> references{};  ///< by which the client has asked for it
 };
 
+/// What the client can do.
+struct ClientTraits {
+  std::uint32_t line_base = 1, column_base = 1;
+  bool shows_progress = false, takes_memory_events = false, takes_invalidation = false, takes_uris = false;
+};
+
+/// What the launch or the attach asks for.
+struct Begun {
+  Json with{};  ///< its arguments
+  bool attached = false, stop_on_entry = false, no_debug = false, steps_are_networks = false;
+  std::string folder{};                 ///< where the client's relative paths begin; empty: at the command's
+  std::vector<serial::Frame> frames{};  ///< to be sent
+  std::uint8_t slave = 1;               ///< of requests that name none
+  Time send_after = 0;
+};
+
 struct Conversation final : Onlooker {
   Conversation(SessionSettings its_settings, Session::Send its_send)
       : settings(std::move(its_settings)), send(std::move(its_send)) {}
@@ -73,9 +89,9 @@ struct Conversation final : Onlooker {
   // Places as the client names them.
   std::size_t station_with(const std::string& path) const;
   std::string source_path(const Json& arguments) const;
-  std::uint32_t client_line(std::uint32_t line) const { return line_base == 1 ? line : line - 1; }
+  std::uint32_t client_line(std::uint32_t line) const { return client.line_base == 1 ? line : line - 1; }
   std::uint32_t client_line_in(const Json& arguments, const char* key = "line") const;
-  std::uint32_t line_of_client(std::uint32_t line) const { return line_base == 1 ? line : line + 1; }
+  std::uint32_t line_of_client(std::uint32_t line) const { return client.line_base == 1 ? line : line + 1; }
   Json client_place(std::uint32_t op) const;
 
   SessionSettings settings;
@@ -83,22 +99,13 @@ struct Conversation final : Onlooker {
   std::int64_t sent = 0, handling = 0;  ///< numbers: of the last message, and of the request
   std::vector<std::function<void()>> later{};
 
-  // What the client can do.
-  std::uint32_t line_base = 1, column_base = 1;
-  bool client_shows_progress = false, client_takes_memory_events = false, client_takes_invalidation = false;
-  bool client_takes_uris = false;
-
-  // What is debugged, as the launch or the attach asks for it.
+  ClientTraits client{};
+  // What is debugged.
   std::shared_ptr<Debuggee> debuggee{};
   std::unique_ptr<tools::Session> session{};
   std::deque<Sources> sources_of{};  ///< by station
-  bool attached = false, stop_on_entry = false, no_debug = false, steps_are_networks = false;
-  std::string folder{};                 ///< where the client's relative paths begin; empty: at the command's
-  std::vector<serial::Frame> frames{};  ///< to be sent
-  std::vector<Time> frames_sent{};      ///< when, on this branch
-  Json begun_with{};                    ///< the arguments of launch or attach
-  std::uint8_t slave = 1;               ///< of requests that name none
-  Time send_after = 0;
+  Begun begun{};
+  std::vector<Time> frames_sent{};  ///< when, on this branch
 
   // The run under way, where it stops, and the last stop.
   std::map<int, Placed> placed{};

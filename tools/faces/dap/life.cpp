@@ -62,44 +62,44 @@ Json capabilities() {
 }
 
 Json initialize(Conversation& talk, const Json& arguments) {
-  talk.line_base = truth_at(arguments, "linesStartAt1", true) ? 1 : 0;
-  talk.column_base = truth_at(arguments, "columnsStartAt1", true) ? 1 : 0;
-  talk.client_shows_progress = truth_at(arguments, "supportsProgressReporting", false);
-  talk.client_takes_memory_events = truth_at(arguments, "supportsMemoryEvent", false);
-  talk.client_takes_invalidation = truth_at(arguments, "supportsInvalidatedEvent", false);
+  talk.client.line_base = truth_at(arguments, "linesStartAt1", true) ? 1 : 0;
+  talk.client.column_base = truth_at(arguments, "columnsStartAt1", true) ? 1 : 0;
+  talk.client.shows_progress = truth_at(arguments, "supportsProgressReporting", false);
+  talk.client.takes_memory_events = truth_at(arguments, "supportsMemoryEvent", false);
+  talk.client.takes_invalidation = truth_at(arguments, "supportsInvalidatedEvent", false);
   const std::string format = text_at(arguments, "pathFormat", "path");
   if (format != "path" && format != "uri")
     throw Refused(fmt::format("pathFormat: '{}' is not path or uri", stl::shortened(format)));
-  talk.client_takes_uris = format == "uri";
+  talk.client.takes_uris = format == "uri";
   return capabilities();
 }
 
 /// The frames that a launch or an attach asks for.
 void read_frames(Conversation& talk, const Json& arguments) {
-  talk.frames.clear();
+  talk.begun.frames.clear();
   for (const std::string& text : texts_at(arguments, "send")) {
     std::string why;
-    const auto frame = parse_frame(text, talk.slave, why);
+    const auto frame = parse_frame(text, talk.begun.slave, why);
     if (!frame) throw Refused(fmt::format("'{}': {}", stl::shortened(text), why));
-    talk.frames.push_back(*frame);
+    talk.begun.frames.push_back(*frame);
   }
   const std::string after = text_at(arguments, "sendAfter", "");
   const auto time = after.empty() ? std::optional(kSendAfter) : parse_duration(after);
   if (!time) throw Refused(fmt::format("sendAfter: '{}' is not a duration; write for example 250ms", stl::shortened(after)));
-  talk.send_after = *time;
+  talk.begun.send_after = *time;
 }
 
 /// What a launch or an attach says to the session itself.
 void read_attributes(Conversation& talk, const Json& arguments, bool stops_on_entry) {
-  talk.stop_on_entry = truth_at(arguments, "stopOnEntry", stops_on_entry);
-  talk.no_debug = truth_at(arguments, "noDebug", false);
+  talk.begun.stop_on_entry = truth_at(arguments, "stopOnEntry", stops_on_entry);
+  talk.begun.no_debug = truth_at(arguments, "noDebug", false);
   const std::string unit = text_at(arguments, "step", "line");
   if (unit != "line" && unit != "network") throw Refused(fmt::format("step: '{}' is not line or network", unit));
-  talk.steps_are_networks = unit == "network";
+  talk.begun.steps_are_networks = unit == "network";
   const auto station = number_at<std::int64_t>(arguments, "station", kWhole<std::int64_t>, 1);
   if (station < 0 || station > 255) throw Refused(fmt::format("station: {} is not from 0 to 255", station));
-  talk.slave = static_cast<std::uint8_t>(station);
-  talk.folder = text_at(arguments, "cwd", "");
+  talk.begun.slave = static_cast<std::uint8_t>(station);
+  talk.begun.folder = text_at(arguments, "cwd", "");
   read_frames(talk, arguments);
 }
 
@@ -117,15 +117,15 @@ void note_without_effect(Conversation& talk, const Json& arguments, std::initial
 
 void begin(Conversation& talk, std::shared_ptr<Debuggee> debuggee) {
   SessionSetup setup = debuggee->setup();
-  if (!talk.frames.empty() && !debuggee->history().station(setup.station).has_master())
+  if (!talk.begun.frames.empty() && !debuggee->history().station(setup.station).has_master())
     throw Refused(fmt::format("send: {}", kNoRoomForMaster));
   setup.stop_request = talk.settings.stop_request;
-  setup.slave = talk.slave;
+  setup.slave = talk.begun.slave;
   talk.debuggee = std::move(debuggee);
   talk.session = std::make_unique<tools::Session>(talk.debuggee->history(), std::move(setup), static_cast<Onlooker&>(talk));
   talk.sources_of.clear();
   for (std::size_t station = 0; station < talk.stations(); ++station)
-    talk.sources_of.emplace_back(talk.program_of(station), talk.client_takes_uris);
+    talk.sources_of.emplace_back(talk.program_of(station), talk.client.takes_uris);
   talk.session->stepper.set_host_timeout(talk.master().timeout);
   talk.debuggee->when_saying([&talk](const std::string& text) { talk.print(text, "important"); });
   talk.session->stepper.on_message = [&talk](const StopPoint& stop, const Hit& hit) {
@@ -141,7 +141,7 @@ Json launch(Conversation& talk, const Json& arguments) {
   read_attributes(talk, arguments, false);
   begin(talk, talk.settings.launch(arguments));
   note_without_effect(talk, arguments, {AttributeUse::OfOthers}, "of other debuggers");
-  talk.begun_with = arguments;
+  talk.begun.with = arguments;
   return {};
 }
 
@@ -157,8 +157,8 @@ Json attach(Conversation& talk, const Json& arguments) {
   rest.erase("port");  // where the server is: for the editor
   note_without_effect(talk, rest, {AttributeUse::OfOthers, AttributeUse::Program},
                       "the command line of s7200 dap says how this PLC runs");
-  talk.begun_with = arguments;
-  talk.attached = true;
+  talk.begun.with = arguments;
+  talk.begun.attached = true;
   return {};
 }
 
@@ -169,12 +169,12 @@ Json configuration_done(Conversation& talk, const Json&) {
 
 /// Of a launch or an attach that has changed since: what is about the session itself; the program is the one that is loaded.
 void take_changed_arguments(Conversation& talk, const Json& arguments) {
-  read_attributes(talk, arguments, talk.attached);
-  talk.session->setup.slave = talk.slave;
+  read_attributes(talk, arguments, talk.begun.attached);
+  talk.session->setup.slave = talk.begun.slave;
   std::vector<std::string> changed;
   for (const auto& [key, value] : arguments.items())
-    if (use_of(key) == AttributeUse::Program && talk.begun_with.value(key, Json()) != value) changed.push_back(key);
-  for (const auto& [key, value] : talk.begun_with.items())
+    if (use_of(key) == AttributeUse::Program && talk.begun.with.value(key, Json()) != value) changed.push_back(key);
+  for (const auto& [key, value] : talk.begun.with.items())
     if (use_of(key) == AttributeUse::Program && !arguments.contains(key)) changed.push_back(key);
   if (!changed.empty())
     talk.print(fmt::format(
@@ -190,7 +190,8 @@ Json restart(Conversation& talk, const Json& arguments) {
   executed(talk, {"restart"});
   talk.frames_sent.clear();
   talk.after_response([&talk] {
-    if (!talk.stop_on_entry) talk.send_event("continued", {{"threadId", talk.thread()}, {"allThreadsContinued", true}});
+    if (!talk.begun.stop_on_entry)
+      talk.send_event("continued", {{"threadId", talk.thread()}, {"allThreadsContinued", true}});
     start(talk);
   });
   return {};
@@ -216,10 +217,10 @@ Json cancel(Conversation&, const Json&) { return {}; }
 }  // namespace
 
 void start(Conversation& talk) {
-  const std::string mode = talk.attached ? "attach" : "launch";
+  const std::string mode = talk.begun.attached ? "attach" : "launch";
   talk.send_event("process", {{"name", talk.debuggee->source()}, {"isLocalProcess", false}, {"startMethod", mode}});
-  if (!talk.stop_on_entry) return run_to(talk, goal::none(), "");
-  if (talk.attached && standing_at(talk.cpu().state())) return stopped_at(talk, "entry", "attached");
+  if (!talk.begun.stop_on_entry) return run_to(talk, goal::none(), "");
+  if (talk.begun.attached && standing_at(talk.cpu().state())) return stopped_at(talk, "entry", "attached");
   run_to(
       talk, [](const State&, std::uint32_t, const Stepper::Progress&) { return true; }, "entry");
 }
@@ -231,12 +232,12 @@ void end_debuggee(Conversation& talk) {
   bool fatal = false;
   for (std::size_t station = 0; station < talk.stations(); ++station)
     fatal |= talk.debuggee->history().station(station).cpu().state().fatal_code != 0;
-  if (!talk.attached) talk.send_event("exited", {{"exitCode", fatal ? 3 : 0}});
+  if (!talk.begun.attached) talk.send_event("exited", {{"exitCode", fatal ? 3 : 0}});
   talk.send_event("terminated", {});
 }
 
 void leave(Conversation& talk) {
-  if (!talk.attached)
+  if (!talk.begun.attached)
     for (const std::string& text : talk.debuggee->finish()) talk.print(text, "important");
   talk.debuggee->when_saying([](const std::string&) {});
 }

@@ -172,7 +172,7 @@ void act(Conversation& talk, Action action) {
 
 void note_change(Conversation& talk) {
   talk.after_response([&talk] {
-    if (talk.client_takes_invalidation && !talk.runs())
+    if (talk.client.takes_invalidation && !talk.runs())
       talk.send_event("invalidated", {{"areas", Json::array({"variables"})}});
     report_memory_changes(talk);
   });
@@ -184,7 +184,7 @@ void note_branch(Conversation& talk, const History::BranchPtr& before) {
 }
 
 void report_memory_changes(Conversation& talk) {
-  if (!talk.client_takes_memory_events) return;
+  if (!talk.client.takes_memory_events) return;
   for (auto& [key, area] : talk.read) {
     const LookAt look(talk, key.first);
     const auto place_of = [&talk](const std::string& reference) {

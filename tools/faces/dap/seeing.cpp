@@ -195,7 +195,7 @@ Json evaluate(Conversation& talk, const Json& arguments) {
 Json offers_of_command(Conversation& talk, const std::string& before) {
   const Offers offers = tools::completions(*talk.session, before);
   const std::string written = before.substr(before.size() - offers.word);
-  const std::size_t start = units_of(before) - units_of(written) + talk.column_base;
+  const std::size_t start = units_of(before) - units_of(written) + talk.client.column_base;
   Json targets = Json::array();
   for (const std::string& label : offers.candidates)
     targets.push_back({{"label", label}, {"start", start}, {"length", units_of(written)}});
@@ -206,11 +206,11 @@ Json offers_of_command(Conversation& talk, const std::string& before) {
 Json completions(Conversation& talk, const Json& arguments) {
   const auto text = text_at(arguments, "text");
   const auto column = number_at<std::uint32_t>(arguments, "column");
-  const std::string before = first_units(text, column - std::min(column, talk.column_base));
+  const std::string before = first_units(text, column - std::min(column, talk.client.column_base));
   if (before.find(' ') != std::string::npos && is_command(before, talk.cpu().program()))
     return offers_of_command(talk, before);
   const std::size_t begin = before.find_last_of(" (*=<>+-/") + 1;
-  const std::size_t start = units_of(before.substr(0, begin)) + talk.column_base;
+  const std::size_t start = units_of(before.substr(0, begin)) + talk.client.column_base;
   const std::string word = stl::upper_case(before.substr(begin));
   std::set<std::string> found;
   const auto offer = [&](std::string_view label) {

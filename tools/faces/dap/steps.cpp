@@ -12,6 +12,7 @@
 #include "tools/faces/dap/requests.hpp"
 #include "tools/session/causes/two_masters.hpp"
 #include "tools/session/causes/writer.hpp"
+#include "tools/session/commands/running.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/stops/stop_words.hpp"
@@ -39,7 +40,7 @@ Json go_on(Conversation& talk, const Json&) {
 /// Without a granularity a step is what the launch says: a line, or a network.
 bool by_networks(Conversation& talk, const Json& arguments) {
   const Json* const wanted = member(arguments, "granularity");
-  if (!wanted) return talk.steps_are_networks;
+  if (!wanted) return talk.begun.steps_are_networks;
   if (*wanted != "statement" && *wanted != "line" && *wanted != "instruction")
     throw Refused(fmt::format("granularity: {} is not statement, line or instruction", shown(*wanted)));
   return *wanted == "statement";
@@ -85,11 +86,11 @@ Json pause(Conversation& talk, const Json&) {
 bool send_what_is_due(Conversation& talk) {
   const std::size_t first = talk.session->setup.station;
   serial::Simulation& there = talk.debuggee->history().station(first);
-  if (talk.frames_sent.size() == talk.frames.size() || talk.debuggee->history().in_the_past() || there.master().busy() ||
-      there.time() < talk.send_after || !there.plc().executes())
+  if (talk.frames_sent.size() == talk.begun.frames.size() || talk.debuggee->history().in_the_past() ||
+      there.master().busy() || there.time() < talk.begun.send_after || !there.plc().executes())
     return false;
   const serial::MasterSettings& master = talk.session->master(first);
-  const serial::Frame& frame = talk.frames[talk.frames_sent.size()];
+  const serial::Frame& frame = talk.begun.frames[talk.frames_sent.size()];
   talk.frames_sent.push_back(there.time());
   talk.debuggee->history().act(SendFrame{master.over(there.port_format()), master.request(frame)}, first);
   return true;
@@ -103,7 +104,7 @@ Stop searched_back(Conversation& talk, const Stepper::Goal& goal, std::uint64_t 
   const std::string id = fmt::format("back {}", talk.handling);
   bool shown = false;
   talk.session->stepper.on_search = [&](Time from) {
-    if (!talk.client_shows_progress || Clock::now() - since < talk.settings.patience) return;
+    if (!talk.client.shows_progress || Clock::now() - since < talk.settings.patience) return;
     const double share =
         start == 0 ? 100 : 100.0 * static_cast<double>(start - std::min(from, start)) / static_cast<double>(start);
     Json body{{"progressId", id}, {"message", "at " + moment_text(from)}, {"percentage", static_cast<int>(share)}};
@@ -272,10 +273,17 @@ void report(Conversation& talk, const Stop& stop, const std::string& reason) {
   report_stopped(talk, body_of(talk, stop, reason));
 }
 
+/// `back` in the console takes back what a request runs, too.
+void remember_as(Conversation& talk, const std::string& command) {
+  talk.session->command = command;
+  remember(*talk.session);
+  talk.session->first_error.reset();
+  talk.exceptions.clear();
+}
+
 void run_back(Conversation& talk, Stepper::Goal goal, std::uint64_t count) {
   talk.after_response([&talk, goal = std::move(goal), count] {
-    talk.session->first_error.reset();
-    talk.exceptions.clear();
+    remember_as(talk, "step back");
     const Stop stop = searched_back(talk, goal, count);
     report(talk, stop, stop.reason == StopReason::Request ? "pause" : "step");
   });
@@ -376,11 +384,10 @@ void report_failure(Conversation& talk, const Stop& stop, const std::string& fai
 void run_to(Conversation& talk, Stepper::Goal goal, const std::string& reason) {
   const bool passes_time = talk.stations() == 1 && !talk.simulation().plc().powered() && reason == "step";
   talk.running = RunUnderWay{std::move(goal), reason, passes_time ? talk.simulation().time() + kStepWithoutPower : kNever};
-  talk.session->first_error.reset();
+  remember_as(talk, reason.empty() ? "continue" : reason);
   talk.session->show = tools::Session::Show::None;
   talk.session->unasked = 0;
   talk.session->trace.follow();
-  talk.exceptions.clear();
 }
 
 void stopped_at(Conversation& talk, const std::string& reason, const std::string& description) {
@@ -399,9 +406,9 @@ void run_on(Conversation& talk) {
     if (stands && !waits && !passes_time && !history.in_the_past())
       return report(talk, {.reason = StopReason::CpuStopped, .station = talk.looks_at()}, "");
     send_what_is_due(talk);
-    const bool more = talk.frames_sent.size() < talk.frames.size();
+    const bool more = talk.frames_sent.size() < talk.begun.frames.size();
     const Time now = talk.simulation().time();
-    Time limit = std::min(more && now < talk.send_after ? talk.send_after : kNever, talk.running->until);
+    Time limit = std::min(more && now < talk.begun.send_after ? talk.begun.send_after : kNever, talk.running->until);
     if (stands && !waits && !passes_time) limit = history.newest().time;
     const Stop stop = talk.session->stepper.run(talk.running->goal, limit, more || stands);
     if (const std::string failure = talk.session->setup.take_failure(); !failure.empty())
