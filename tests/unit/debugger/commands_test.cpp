@@ -58,6 +58,13 @@ TEST(Commands, AnswerProgramsToo) {
   EXPECT_TRUE(session("regs").json.is_null()) << "nothing for programs";
 }
 
+TEST(Commands, NameTheMemoryThatWasNotAsExpected) {
+  Alone session(kNested);
+  session("scan 4");
+  EXPECT_TRUE(session("expect VW20 = 8").error.has_value());
+  EXPECT_EQ(session("why").json["failed"][0]["name"], "VW20");
+}
+
 TEST(Commands, SayWhetherTheSessionHasMoved) {
   Alone session(kNested);
   for (const std::string_view moves : {"step", "scan", "at start", "back", "restart"})

@@ -163,11 +163,13 @@ Json run_command(Conversation& talk, const std::string& request, const Json& arg
   words.insert(words.begin(), std::string(row.command));
   const Reply reply = executed(talk, words);
   Json body = placed(talk, reply.json);
+  const std::string why = text_in(body, "whyNoMoment");
+  if (body.contains("whyNoMoment")) body.erase("whyNoMoment");
   if (row.description.empty()) {
     if (row.is_told) talk.print(reply.text);
     return body;
   }
-  const std::string text = text_in(body, "text"), why = text_in(body, "whyNoMoment");
+  const std::string text = text_in(body, "text");
   if (!reply.moved) throw Refused(why.empty() ? text : text + "\n" + why);
   talk.after_response([&talk, text, description = std::string(row.description)] {
     talk.print(text);

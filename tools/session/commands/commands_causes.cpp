@@ -38,13 +38,14 @@ Reply gone_back(Session& session, FoundInPast found) {
 std::optional<Reply> why_failed(Session& session) {
   const Session::FailedExpectation& failed = session.failed;
   if (failed.memory.empty() || failed.station != session.focus() || failed.moment != session.history.now()) return {};
-  Reply all{.json = Json::array()};
+  Reply all{.json = {{"text", ""}, {"failed", Json::array()}}};
   for (const MemoryRange& range : failed.memory) {
     Reply one = cause_of(session, range, named(session.program(), range));
     all.text += one.text;
-    all.json.push_back(std::move(one.json));
+    all.json["failed"].push_back(std::move(one.json));
     all.interrupted |= one.interrupted;
   }
+  all.json["text"] = all.text;
   return all;
 }
 

@@ -99,7 +99,7 @@ struct ToJson {
               {"sent_until", cancel.sent_until},
               {"answering", cancel.answering}}}};
   }
-  /// Debugger::save() refuses a session that has one.
+  /// `save` refuses a session that has one.
   Json operator()(const SystemEvent& event) const { return {{"event", event.words}}; }
   Json operator()(const SetPower& power) const { return {{"power", power.on ? "on" : "off"}}; }
   Json operator()(const SetMode& set) const { return {{"mode", set.mode == Mode::Run ? "run" : "stop"}}; }
