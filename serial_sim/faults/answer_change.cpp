@@ -12,7 +12,7 @@ constexpr std::size_t kCrcLength = 2, kShortenedBy = 2;
 constexpr std::size_t kShortestFrame = 1 + 1 + kCrcLength;  // station, function
 constexpr std::uint8_t kExceptionBit = 0x80;
 
-/// How long the changed frame is without its CRC.
+/// The length in bytes that the changed frame has without its CRC.
 std::size_t body_length(const Fault& fault, const AnswerInProgress& answer) {
   switch (fault.misbehaviour) {
     case Misbehaviour::Exception:

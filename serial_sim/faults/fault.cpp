@@ -21,7 +21,7 @@ struct Parameter : FaultParameter {
   std::string (*write)(const Fault&);
 };
 
-/// A whole number from `least` on.
+/// Parses a whole number of at least `least` into a member of Fault.
 template <auto Fault::*member>
 std::string read_count(std::string_view text, Fault& fault, std::uint64_t least, std::uint64_t most) {
   const auto value = parse_decimal<std::uint64_t>(text);
@@ -32,7 +32,7 @@ std::string read_count(std::string_view text, Fault& fault, std::uint64_t least,
 
 constexpr std::uint64_t kMost = std::uint64_t{1} << 53;  // fits every language's number
 
-/// A share of one: `0.01`, `1e-4`, `5%`.
+/// Parses a probability: `0.01`, `1e-4`, `5%`.
 std::optional<double> share(std::string_view text) {
   const bool percent = text.ends_with('%');
   if (percent) text.remove_suffix(1);
@@ -66,7 +66,7 @@ std::string read_length(std::string_view text, Fault& fault) {
   return {};
 }
 
-/// format_duration without its blank, exact.
+/// The exact text of format_duration without its blank.
 std::string duration_text(Time duration) {
   if (duration == 0) return "0s";
   std::string text = format_duration(duration, 9);
@@ -155,7 +155,7 @@ std::string read_behind(std::string_view text, Fault& fault) {
 
 std::string write_behind(const Fault& fault) { return fmt::format("{}", fault.character.value_or(0)); }
 
-/// So that the sum of two such times, and what comes after it, still fits a Time.
+/// The latest time that a fault may name: two such times and what follows them can be added without exceeding Time.
 constexpr Time kLatest = Time{10'000} * 3600 * kSecond;
 
 std::string read_from(std::string_view text, Fault& fault) {
@@ -264,7 +264,7 @@ std::string write_code(const Fault& fault) {
   return fault.misbehaviour == misbehaviour ? fmt::format("{}", fault.code) : std::string(kLeftOut);
 }
 
-/// Without a value: it is enough to name it.
+/// Parses a misbehaviour that has no value: its name is enough.
 template <Misbehaviour misbehaviour>
 std::string read_named(std::string_view, Fault& fault) {
   if (fault.misbehaviour != Misbehaviour::Nothing) return "comes after another misbehaviour of the same answer: give one of them";
@@ -277,7 +277,7 @@ std::string write_named(const Fault& fault) {
   return fault.misbehaviour == misbehaviour ? std::string() : std::string(kLeftOut);
 }
 
-/// Of a whole answer; `station` means something else elsewhere.
+/// The parameters of a fault that changes a whole answer; `station` means something else for other faults.
 const std::array kAnswerParameters{
     Parameter{{"delay", "time, bits", "how late the answer begins"},
               read_length<&Fault::length, true>,
@@ -311,7 +311,7 @@ const Parameter& parameter_of(FaultKind kind, std::string_view name) {
 
 bool has_value(const Parameter& parameter) { return !parameter.values.empty(); }
 
-/// What every kind has: when it happens.
+/// The parameters that every kind has: they say when the fault happens.
 constexpr std::array kWhen{ParameterOfKind{"exchange", kLeftOut}, ParameterOfKind{"every", "1"},
                            ParameterOfKind{"probability", "1"}, ParameterOfKind{"seed", "1"}};
 
@@ -321,7 +321,7 @@ FaultKindInfo kind_info(FaultKind kind, std::string_view name, std::string_view 
   return {kind, name, meaning, example, std::move(parameters)};
 }
 
-/// What says in which exchange and where contradicts an instant.
+/// A fault at an instant cannot also name an exchange and a place in it.
 bool excluded_by_instant(const Fault& fault, std::string_view parameter) {
   return at_an_instant(fault) && (parameter == "character" || parameter == "at" || parameter == "of" ||
                                   parameter == "exchange" || parameter == "every" || parameter == "probability");

@@ -37,7 +37,7 @@ enum class Half : std::uint8_t { Request, Answer, Both };
 
 enum class Station : std::uint8_t { Master, Plc };
 
-/// What a slave does wrong that sends a whole frame, whose CRC is right. Nothing: it is late, at most.
+/// What a faulty slave does that sends a whole frame with a right CRC. Nothing: the slave is only late.
 enum class Misbehaviour : std::uint8_t {
   Nothing,
   Exception,  ///< it refuses the request, with an exception code
@@ -66,13 +66,13 @@ struct Fault {
 
   FaultKind kind{};
 
-  // In which exchanges, counted from 1 since the fault was injected.
+  // The exchanges in which the fault happens, counted from 1 since its injection.
   std::uint64_t exchange = 0;  ///< this one only; 0: in all
   std::uint64_t every = 1;     ///< in every Nth
-  double probability = 1;      ///< and of those with this probability
+  double probability = 1;      ///< and in each of those with this probability
   std::uint64_t seed = 1;      ///< of all that this fault leaves to chance
 
-  // Where.
+  // The place in an exchange.
   Half of = Half::Request;
   std::optional<std::uint32_t> character;  ///< from 1; kEachCharacter; 0 for the place before the first of Extra
   int bit = 0;                             ///< of the data, LSB first, or one of those above
@@ -80,7 +80,7 @@ struct Fault {
   std::optional<Time> from;                ///< at an instant, since the injection, instead of in an exchange
   Time lasts = kNever;
 
-  // What.
+  // share of the bits that are inverted
   double error_rate = 0;         ///< of bits
   std::int32_t clock_error = 0;  ///< millionths; positive: the station is too fast
   Station station = Station::Master;
@@ -93,10 +93,11 @@ struct Fault {
   bool operator==(const Fault&) const = default;
 };
 
-/// Has an instant, `from` or a cut at once, and not a place in an exchange.
+/// Whether the fault happens at an instant (`from`, or a cut at once) and not at a place in an exchange.
 bool at_an_instant(const Fault& fault);
 
-/// Is about what one station sends, its clock or its adapter: not noise, nor what has an instant.
+/// Whether the fault concerns what one station sends, its clock or its adapter; neither noise nor a fault at an instant
+/// does.
 bool is_of_a_station(const Fault& fault);
 
 struct FaultError {
@@ -121,7 +122,7 @@ struct ParsedFault {
   std::optional<FaultError> error;
   std::vector<GivenParameter> given{};  ///< the others have their standard
 
-  /// Null if it was left out.
+  /// Returns null if the parameter was left out.
   const GivenParameter* find(std::string_view parameter) const;
 
   bool ok() const { return !error; }
@@ -156,7 +157,7 @@ struct FaultKindInfo {
   std::vector<ParameterOfKind> parameters;
 };
 
-/// Every kind, in the order of FaultKind.
+/// All kinds of fault, in the order of FaultKind.
 const std::array<FaultKindInfo, kFaultKinds>& fault_kinds();
 const FaultKindInfo& info_of(FaultKind kind);
 

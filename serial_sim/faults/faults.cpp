@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint8_t kNext = 0;  // the only event
 
-/// So many bits are drawn ahead at most.
+/// The most bits for which noise is drawn ahead.
 constexpr int kNoiseAhead = 4096;
 
 Time later(Time at, Time by) { return by > kNever - at ? kNever : at + by; }
@@ -24,7 +24,7 @@ bool selective(const Fault& fault) { return fault.exchange != 0 || fault.every !
 
 bool works_now(const Faults::Injected& injected) { return injected.applies || !selective(injected.fault); }
 
-/// Has its place after the start edge of a character.
+/// Whether the fault's place is counted from the start edge of a character.
 bool bound_to_character(const Fault& fault) {
   switch (fault.kind) {
     case FaultKind::Flip:
@@ -162,8 +162,8 @@ Mishap Faults::character_begins(int driver, const SerialFormat& format, std::uin
   return mishap;
 }
 
-/// Whether the character belongs to an answer that can be changed as a whole. One that had begun before there was such a fault
-/// cannot.
+/// Whether the character belongs to an answer that can be changed as a whole. An answer that began before there was such a
+/// fault cannot be changed.
 bool Faults::follow_answer(int driver, std::uint8_t byte) {
   const auto is_of_answers = [](const Injected& injected) { return injected.fault.kind == FaultKind::Answer; };
   AnswerInProgress& answer = state_.answer;
@@ -266,7 +266,7 @@ void Faults::disturb_line(Injected& injected, std::uint32_t number, const BitClo
   }
 }
 
-/// From edge to edge of that bit, so that the receiver finds this one and no other changed.
+/// Inverts the bit from its first edge to its last, so that the receiver reads this bit wrong and no other.
 void Faults::invert_bit(Injected& injected, std::uint32_t number, int bit, const BitClock& clock, Time start) {
   const bool has_parity = clock.format.parity != Parity::None;
   int place = 1 + bit;

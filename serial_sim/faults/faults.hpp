@@ -13,7 +13,7 @@
 
 namespace s7200::serial {
 
-/// What a fault does, once: it disturbs the wire, or a sender, during [from, to).
+/// One effect of a fault: it disturbs the wire, or a sender, during [from, to).
 struct FaultHappening {
   std::uint32_t character = 0;  ///< of the request or the answer, or of what its station has sent in this exchange, from 1;
                                 ///< 0: at an instant, or in all of the exchange that begins
@@ -38,7 +38,7 @@ class Faults final : private Interference {
    public:
     explicit Chance(std::uint64_t seed = 0) : state_(seed) {}
     std::uint64_t draw();
-    /// True with this probability.
+    /// Draws at random: true with this probability.
     bool hits(double probability);
     bool operator==(const Chance&) const = default;
 
@@ -83,21 +83,21 @@ class Faults final : private Interference {
   /// rate of the first one. Only answers of a `sender` can be changed as a whole. Not owned.
   void add_plc(const Uart& plc, const FrameSender* sender = nullptr);
 
-  /// What this station sends are requests, and what all PLCs but it send are answers.
+  /// The characters of the station `driver` are requests; those of all other PLCs are answers.
   void set_master(int driver) { state_.master = driver; }
 
   /// Several may be at work at once. With a `driver` the fault is about what that station sends, its clock or its adapter,
   /// whatever its own `of` and `station` say: only that station's characters count, and exchanges as without it.
   void inject(const Fault& fault, Time now, int driver = kAnyDriver);
 
-  /// No fault any more, and the line is whole again.
+  /// Removes all faults and makes the line whole again.
   void clear(Time now);
 
   void handle(const Event& event);
 
   const State& state() const { return state_; }
 
-  /// Who is told of each thing that a fault does, or null. Wiring, not state; not owned.
+  /// The watcher that is told of each effect of a fault, or null. Wiring, not state; not owned.
   void set_watcher(FaultWatcher* watcher) { watcher_ = watcher; }
 
   /// Line and queue are restored by their owner.
@@ -134,7 +134,7 @@ class Faults final : private Interference {
   EventQueue& queue_;
   EventOwner owner_;
   const Uart* first_plc_ = nullptr;
-  std::uint32_t plc_drivers_ = 0;                               // a bit each
+  std::uint32_t plc_drivers_ = 0;                             // a bit each
   std::array<const FrameSender*, Line::kDrivers> senders_{};  // by driver; null: none
   FaultWatcher* watcher_ = nullptr;
   State state_;
@@ -145,7 +145,7 @@ class FaultWatcher {
  public:
   virtual void fault_happens(const Faults::Injected& fault, const FaultHappening& what) = 0;
 
-  /// There is no fault any more from `at` on.
+  /// All faults were removed at `at`.
   virtual void faults_cleared(Time at) = 0;
 
  protected:

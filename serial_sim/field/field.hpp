@@ -11,8 +11,9 @@
 
 namespace s7200::serial {
 
-/// One event is pending at a time, however much there is to come. At the same instant changes come first, in the order of
-/// the script, then the edges of pulses. To whoever handles the events: those of its own number go to handle().
+/// Drives the inputs by a script. One event is pending at a time, however long the script is. At the same instant changes
+/// come first, in the order of the script, then the edges of pulses. The owner passes events of this field's number to
+/// handle().
 class Field {
  public:
   struct Running {

@@ -88,7 +88,7 @@ class Reader {
       add_change(*at, field);
   }
 
-  /// What the field can drive; a message for anything else.
+  /// Checks that the field can drive the memory: it drives inputs. Returns a message for anything else.
   bool drivable(const MemoryRange& range, std::string_view address) {
     const std::size_t potentiometers = is_modelled_special_memory(model_, sm::kPotentiometer[1] - image::kSM) ? 2 : 1;
     const bool potentiometer =
@@ -162,7 +162,7 @@ class Reader {
 
   Busy& busy(std::uint32_t place, std::uint32_t bit) { return busy_[(place - image::kInputs) * 8 + bit]; }
 
-  /// Whether no pulses run on these points at that time; a message if they do.
+  /// Checks that no pulses run on these points at `at`. Returns a message if they do.
   bool is_free(std::uint32_t place, std::uint8_t mask, Time at, std::string_view address) {
     for (std::uint32_t bit = 0; bit < 8; ++bit) {
       if (!(mask >> bit & 1) || busy(place, bit).until <= at) continue;

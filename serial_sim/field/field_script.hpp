@@ -1,4 +1,4 @@
-// What drives the inputs over time, as plain data, and its CSV form.
+// The script that drives the inputs over time, as plain data, and its CSV form.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace s7200::serial {
 
-/// One byte changes, or those bits of it that `mask` has.
+/// A change of one input byte; only the bits in `mask` change.
 struct FieldChange {
   Time at = 0;
   std::uint32_t place = 0;  ///< in the image: an input point's byte, AI, or a potentiometer or the mode switch in SM
@@ -34,7 +34,7 @@ struct FieldPulses {
   bool operator==(const FieldPulses&) const = default;
 };
 
-/// Both in the order of time.
+/// The field's changes and pulses, each in the order of time.
 struct FieldScript {
   std::vector<FieldChange> changes;
   std::vector<FieldPulses> pulses;

@@ -16,7 +16,7 @@ struct BitClock {
 
   bool operator==(const BitClock&) const = default;
 
-  /// As SerialFormat::half_bits: rounded to the nanosecond, never accumulated.
+  /// The length of a number of half bits, as in SerialFormat::half_bits: rounded to the nanosecond, never accumulated.
   Time half_bits(std::int64_t count) const {
     if (clock_error == 0) return format.half_bits(count);
     __extension__ using Wide = __int128;
@@ -33,7 +33,7 @@ constexpr int first_stop_bit(const SerialFormat& format) { return format.bits() 
 /// The levels of a character from its start bit, in bit 0, to its first stop bit: 1 is mark. `data` fits the format.
 unsigned character_levels(const SerialFormat& format, std::uint8_t data, bool parity_bit);
 
-/// When the bits of a character are, worked out once for a clock; from its start edge on.
+/// The instants of a character's bits, counted from its start edge and computed once for a clock.
 struct BitTimes {
   BitTimes() : BitTimes(BitClock{}) {}
   explicit BitTimes(const BitClock& of);

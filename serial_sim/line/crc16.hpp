@@ -7,7 +7,7 @@
 
 namespace s7200::serial {
 
-/// What one byte does to the CRC: polynomial x^16 + x^15 + x^2 + 1, least significant bit first (Modbus over Serial
+/// The effect of one byte on the CRC: polynomial x^16 + x^15 + x^2 + 1, least significant bit first (Modbus over Serial
 /// Line, 6.2.2).
 inline constexpr std::array<std::uint16_t, 256> kCrcTable = [] {
   std::array<std::uint16_t, 256> table{};
@@ -24,14 +24,14 @@ class Crc {
  public:
   void take(std::uint8_t byte) { value_ = static_cast<std::uint16_t>(value_ >> 8 ^ kCrcTable[(value_ ^ byte) & 0xFF]); }
   std::uint16_t value() const { return value_; }
-  /// Whether the last two bytes were the CRC of those before: it leaves nothing.
+  /// Whether the last two bytes were the CRC of the bytes before them: then the remainder is 0.
   bool is_at_its_end() const { return value_ == 0; }
 
  private:
   std::uint16_t value_ = 0xFFFF;
 };
 
-/// Of all bytes in front of it; it is sent low byte first.
+/// The CRC of all bytes in front of it; it is sent low byte first.
 inline std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
   Crc crc;
   for (const std::uint8_t byte : bytes) crc.take(byte);

@@ -48,10 +48,10 @@ struct ParsedFrame {
 /// it with wrong parity. From one to 1024 bytes.
 ParsedFrame parse_hex_frame(std::string_view text);
 
-/// `01 03 00 0a`
+/// Bytes in hex: `01 03 00 0a`
 std::string to_hex(std::span<const std::uint8_t> bytes);
 
-/// The same with its `p`, as parse_hex_frame reads it.
+/// Bytes in hex with `p` for wrong parity, as parse_hex_frame reads them.
 std::string to_hex(std::span<const FrameCharacter> frame);
 
 }  // namespace s7200::serial

@@ -11,7 +11,7 @@ void FrameSplitter::edge(Wire wire, Time at, bool mark, int driver) {
   if (list.empty() || list.back().driver != driver || wire != Wire::Line) list.push_back({at, driver});
 }
 
-/// Whoever spoke last when it began: a disturbance is nobody's.
+/// The sender of a character is the station that spoke last when the character began; a disturbance has no sender.
 int FrameSplitter::sender_of(const ReceivedCharacter& character) {
   const auto later = std::ranges::upper_bound(speakers_, character.start, {}, &Speaker::since);
   if (later == speakers_.begin()) return Line::kNobody;
@@ -19,7 +19,8 @@ int FrameSplitter::sender_of(const ReceivedCharacter& character) {
   return speakers_.front().driver;
 }
 
-/// Its edges may not be seen on the line, which is at space already.
+/// Whether another station drives the line during the character. Its edges cannot be seen while the line is at space
+/// already.
 bool FrameSplitter::another_drives(int sender, const ReceivedCharacter& character) {
   std::erase_if(driving_, [&](const Speaker& each) { return each.since < character.start; });
   return std::ranges::any_of(driving_,
@@ -30,7 +31,7 @@ void FrameSplitter::settled(Time until, const SerialFormat& port) {
   if (port != uart_.state().format) uart_.configure(port, until);
   while (queue_.next() < until)
     if (const auto received = uart_.handle(queue_.pop()).received) take(*received, port);
-  // Before any character still to come: on a line that is cut none may come for ever.
+  // Speakers that ended before any character still to come are forgotten: on a cut line none may ever come.
   std::erase_if(driving_, [&](const Speaker& each) { return each.since < until - port.character_time(); });
   // A character that began within the silence would be complete by then.
   if (until > open_.end + port.silence() + port.character_time()) close();

@@ -11,7 +11,7 @@
 
 namespace s7200::serial {
 
-/// What ran over the line between two silences, or until another station spoke.
+/// A frame on the wire: the characters between two silences, or until another station sends.
 struct WireFrame {
   int driver = Line::kNobody;                 ///< of the station that began it
   std::vector<ReceivedCharacter> characters;  ///< as they were read, those with errors too
@@ -26,7 +26,7 @@ struct WireFrame {
 /// not told from each other until there is silence. All programs behind a bridge are one station.
 class FrameSplitter final : public WireSink {
  public:
-  /// Where no silence comes, a frame ends after so many characters.
+  /// A frame that no silence ends is cut after so many characters.
   static constexpr std::size_t kLongestFrame = 4096;
 
   /// `on_frame` is told in the order in which frames begin.
@@ -35,7 +35,7 @@ class FrameSplitter final : public WireSink {
   void edge(Wire wire, Time at, bool mark, int driver) override;
   void settled(Time until, const SerialFormat& port) override;
 
-  /// What has come of the last frame is told too. An incomplete character does not count.
+  /// Reports the last frame too. An incomplete character does not count.
   void finish() override { close(); }
 
  private:

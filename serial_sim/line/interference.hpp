@@ -1,4 +1,4 @@
-// What can disturb stations and the characters they send: where faults reach the UARTs.
+// The interface through which faults disturb stations and the characters that they send.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace s7200::serial {
 
-/// What becomes of a character that is to be sent.
+/// The change that a fault makes to a character that is to be sent.
 struct Mishap {
   Time delay = 0;                           ///< it begins so much later
   std::vector<std::uint8_t> before, after;  ///< the sender sends these too

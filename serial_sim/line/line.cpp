@@ -74,7 +74,7 @@ Time Line::Periods::next_change(Time from) const {
   return change == changes.end() ? kNever : *change;
 }
 
-/// Lasts from `from` to `to` too.
+/// Adds the period [from, to) to the others.
 void Line::Periods::unite(Time from, Time to) {
   const auto first = std::lower_bound(changes.begin(), changes.end(), from);
   const auto last = to == kNever ? changes.end() : std::upper_bound(first, changes.end(), to);
@@ -112,7 +112,7 @@ void Line::Periods::forget(Time before) {
   changes.erase(changes.begin(), present);
 }
 
-/// With all drivers' edges.
+/// The driver with all its edges: an implied character is revealed first.
 Line::Driver& Line::driver(int number) const {
   assert(number >= 0 && number < kDrivers);
   reveal();
@@ -188,7 +188,7 @@ void Line::note_whether_disturbed() {
   disturbed_ = std::ranges::any_of(disturbances_, any) || std::ranges::any_of(contention_.marks, any);
 }
 
-/// Of the seed and the instant, whoever asks first.
+/// The random level depends only on the seed and the instant, whichever listener asks first.
 static bool toss(std::uint64_t seed, Time at) {
   return (split_mix(seed + static_cast<std::uint64_t>(at) * kSplitMixStep) & 1U) != 0;
 }
@@ -203,7 +203,7 @@ void Line::contend(int number, Time from, Time to) {
   tell(from);
 }
 
-/// What drivers that are on make of it from `at` on, after one of them has gone off or the cable has been cut or mended.
+/// Draws the contended levels anew from `at` on, after a driver has gone off or the cable has been cut or mended.
 void Line::contend_anew(Time at) {
   if (contention_.on_until.empty()) return;
   for (Periods& marks : contention_.marks) marks.end(at);
@@ -265,7 +265,7 @@ std::optional<Line::Separation> Line::separation(Time at) const {
   return *std::prev(after);
 }
 
-/// Of the cable: 0 the near one, and the whole; 1 the far one.
+/// The part of the cable that a driver is on: 0 is the near part or the whole cable, 1 is the far part.
 std::size_t Line::part_of(int driver, Time at) const { return driver == kWholeCable ? 0 : far_at(at) >> driver & 1U; }
 
 std::uint32_t Line::audible(int listener, Time at) const {
@@ -300,7 +300,7 @@ unsigned Line::levels(Time start, const BitTimes& times, int listener) const {
   return levels({middles.data(), static_cast<std::size_t>(times.stop_bit + 1)}, listener);
 }
 
-/// In order of time, that at the first one in bit 0.
+/// The levels at instants in ascending order, that of the first instant in bit 0.
 unsigned Line::levels(std::span<const Time> at, int listener) const {
   if (irregular()) return sampled(at, listener);
   if (std::ranges::equal(answers_.levels_at, at)) return answers_.levels;
@@ -392,7 +392,8 @@ Time Line::irregular_falling_edge(Time from, int listener) const {
   }
 }
 
-/// Until when drivers that were at space already just before `edge` hold it; before `edge` when there are none.
+/// The end of the space that drivers already at space just before `edge` hold; earlier than `edge` if there is no such
+/// driver.
 Time Line::space_held_from_before(Time edge) const {
   Time held = edge - 1;
   each_busy([&](const Driver& driver) {

@@ -16,7 +16,7 @@ namespace s7200::serial {
 
 class Interference;
 
-/// Whoever hears the line.
+/// A listener that hears the line.
 class LineListener {
  public:
   /// A driver has got new edges, the first at `at`, which may lie in the future.
@@ -25,7 +25,7 @@ class LineListener {
   /// Levels before this instant matter no more to this listener; kNever when only those to come do.
   virtual Time needs_from() const = 0;
 
-  /// Whether it waits to be told that levels can change no more, as a tap does.
+  /// Whether the listener waits to be told that past levels can no longer change, as a tap does.
   virtual bool waits_for_settled_levels() const { return false; }
 
  protected:
@@ -61,18 +61,19 @@ class Line {
   /// Every listener is told, so that this is all it takes to send, to collide or to make noise.
   void drive(int driver, Time at, bool mark);
 
-  /// The same for a whole character, as character_levels() gives them, which begins at `at`. One without stop bit ends where
-  /// that would.
+  /// Drives a whole character from `at` on, with levels as in character_levels(). A character without a stop bit ends where
+  /// the stop bit would end.
   void drive(int driver, unsigned levels, const BitTimes& times, Time at);
 
-  /// What listeners have heard before this was called stands: `from` should not lie before now. Every listener is told. Does
-  /// nothing if from >= to.
+  /// Listeners keep what they have heard: `from` should not lie before now. Every listener is told. Does nothing if from >=
+  /// to.
   void disturb(const Disturbance& disturbance);
 
   /// Every disturbance ends at `at`, whoever made it; those to come do not come.
   void heal(Time at);
 
-  /// What disturbs stations and their characters, or null. Like listeners it is wiring, not state, and is not owned.
+  /// The interference that disturbs stations and their characters, or null. Like listeners it is wiring, not state, and is
+  /// not owned.
   Interference* interference() const { return wiring_.interference; }
   void set_interference(Interference* interference) { wiring_.interference = interference; }
 
@@ -80,13 +81,13 @@ class Line {
   /// between them. 0: it is whole again. Instants ascend. Every listener is told.
   void separate(Time at, std::uint32_t far);
 
-  /// Who does not hear the others from an instant on, as separate() has it.
+  /// The drivers that do not hear the others from an instant on, as in separate().
   struct Separation {
     Time at = 0;
     std::uint32_t far = 0;
     bool operator==(const Separation&) const = default;
   };
-  /// In force at an instant that is not forgotten; nothing while the cable is whole.
+  /// The separation in force at an instant that is not forgotten; nothing while the cable is whole.
   std::optional<Separation> separation(Time at) const;
 
   /// From now on the level of a bit for which drivers that are switched on disagree follows from chance: mark or space, for
@@ -120,25 +121,24 @@ class Line {
   /// bit in bit 0.
   unsigned levels(Time start, const BitTimes& times, int listener = kWholeCable) const;
 
-  /// What driver `driver` holds, whatever the others do.
+  /// The level that driver `driver` holds, whatever the other drivers do.
   bool level_of(int driver, Time at) const;
 
   /// The level as it would be without driver `driver`: what it hears of the others and of disturbances.
   bool level_without(int driver, Time at) const;
 
-  /// Who holds the line at space on driver `driver`'s part of the cable: the one with the lowest number, or kNobody.
+  /// The driver with the lowest number that holds the line at space on driver `driver`'s part of the cable, or kNobody.
   int space_holder(int driver, Time at) const { return space_holder_of(audible(driver, at), at); }
-  /// The same of the others, as that driver hears them.
+  /// The driver with the lowest number besides `driver` that holds the line at space, as `driver` hears it, or kNobody.
   int space_holder_besides(int driver, Time at) const { return space_holder_of(audible(driver, at) & ~(1U << driver), at); }
 
-  /// First edge of any driver, begin or end of any disturbance at or after `from` among those known now; kNever when there
-  /// is none.
+  /// First known edge of any driver, or start or end of a disturbance, at or after `from`; kNever when there is none.
   Time next_change(Time from) const;
 
-  /// First change from mark to space at or after `from` among the edges known now; kNever when there is none.
+  /// First known change from mark to space at or after `from`; kNever when there is none.
   Time falling_edge(Time from, int listener = kWholeCable) const;
 
-  /// It is `now`: edges of the past that no listener needs may go.
+  /// Tells the line that it is `now`: past edges that no listener needs may be removed.
   void forget(Time now);
   /// Something disturbs it, or will: what is past of that goes with forget(), too.
   bool disturbed() const { return disturbed_; }
@@ -167,14 +167,15 @@ class Line {
     void release(Time at);
   };
 
-  /// By number. One that is not there has always held mark: a list with such drivers at its end is equal to one without.
+  /// All drivers, by number. A driver that is missing at the end of the list has always held mark; lists that differ only in
+  /// such drivers are equal.
   struct Drivers {
     std::vector<Driver> all;
     bool operator==(const Drivers& other) const;
   };
 
-  /// A character of a driver that is alone on an undisturbed line. Nobody needs its edges while all that is asked for is its
-  /// start and its levels in the middles of its bits; it is revealed, becomes edges, when anything else is, or is done.
+  /// A character of a driver that is alone on an undisturbed line. Its edges are not needed while listeners ask only for its
+  /// start and the levels at the centres of its bits; any other question or action reveals it, which turns it into edges.
   struct Implied {
     int driver = kNone;
     unsigned levels = 0;
@@ -186,7 +187,7 @@ class Line {
     bool in_start_bit(Time at) const { return at >= start && at < start + times.begin_of_bit(1); }
   };
 
-  /// When something lasts: begins and ends in turn.
+  /// Periods as a list of their starts and ends, in turn.
   struct Periods {
     bool lasts_before = false;  // ahead of the first one kept
     std::vector<Time> changes;  // in order of time
@@ -212,8 +213,9 @@ class Line {
     bool operator==(const Contention&) const = default;
   };
 
-  /// What was asked last. All receivers of a line ask the same, one after the other: those that await a character with the
-  /// same clock have the same start edge and sample at the same instants. No state: it follows from the levels.
+  /// The last questions and their answers. All receivers of a line ask the same, one after the other: those that await a
+  /// character with the same clock have the same start edge and sample at the same instants. This is no state: it follows
+  /// from the levels.
   struct Answers {
     Time falling_from = kNever, falling_edge = 0;
     Time level_at = kNever;

@@ -1,4 +1,4 @@
-// How the other end of a line is set.
+// The settings of the station at the other end of a line.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace s7200::serial {
 
-/// What a line may be set to, in bits a second.
+/// The range of a line's baud rate, in bits per second.
 inline constexpr std::uint32_t kSlowestBaud = 50, kFastestBaud = 1'000'000;
 
-/// As far as they are given; what is not given follows the port of the program.
+/// The settings that the user gave; any other setting follows the port of the program.
 struct LineSettings {
   std::optional<std::uint32_t> baud{};  ///< bits a second
   std::optional<Parity> parity{};
@@ -19,7 +19,7 @@ struct LineSettings {
 
   bool operator==(const LineSettings&) const = default;
 
-  /// `port` with what is given instead.
+  /// The format of `port` with the given settings in place of its own.
   SerialFormat over(SerialFormat port) const {
     port.baud = baud.value_or(port.baud);
     port.parity = parity.value_or(port.parity);
@@ -28,7 +28,7 @@ struct LineSettings {
     return port;
   }
 
-  /// What `given` gives holds instead.
+  /// Replaces settings with those that `given` has.
   void override_with(const LineSettings& given) {
     if (given.baud) baud = given.baud;
     if (given.parity) parity = given.parity;

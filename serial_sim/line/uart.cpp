@@ -11,7 +11,7 @@ std::uint8_t data_of(std::uint8_t byte, const SerialFormat& format) {
   return format.data_bits == 7 ? static_cast<std::uint8_t>(byte & 0x7F) : byte;
 }
 
-/// From the level in the middle of each bit, that of the start bit in bit 0.
+/// The character whose bits have these levels at their centres, with the level of the start bit in bit 0.
 ReceivedCharacter character_of(unsigned levels, const BitTimes& times, Time start, Time end) {
   const auto sample = [levels](int bit) { return (levels >> bit & 1U) != 0; };
   const SerialFormat& format = times.clock.format;
@@ -131,7 +131,7 @@ Time Uart::drive_character(unsigned levels, const BitClock& clock, Time at) {
   return end;
 }
 
-/// Worked out once for a clock.
+/// The bit times of a clock, which are computed once for each clock.
 const BitTimes& Uart::times_of(const BitClock& clock, BitTimes& known) {
   if (!(known.clock == clock)) known = BitTimes(clock);
   return known;
@@ -181,7 +181,7 @@ void Uart::tell_missed(ReceivedCharacter character, Time lost_at) {
   bystander_->missed(character);
 }
 
-/// The event that was expected has come.
+/// The expected event has come: the receiver waits for the next start bit.
 void Uart::listen_again(Time now) {
   state_.start_edge = kNever;
   state_.listen_from = now;
@@ -219,7 +219,7 @@ ReceivedCharacter Uart::take_character(Time now) {
   return character;
 }
 
-/// As the others sound, whether this one sends or not.
+/// The character as the other stations send it, whether this UART sends or not.
 ReceivedCharacter Uart::character_of_others(Time start, const BitClock& clock) const {
   const BitTimes& times = times_of(clock, receiving_times_);
   unsigned levels = 0;
@@ -236,7 +236,7 @@ void Uart::power_off(Time at) {
   state_.send_end = state_.off_from = state_.listen_from = at;
 }
 
-/// When the start bit awaited is, or was, to be verified.
+/// The instant at which the awaited start bit is, or was, to be verified.
 Time Uart::start_check() const {
   if (state_.start_edge == kNever) return kNever;
   return state_.start_edge + times_of(clock_of_character(), receiving_times_).middle_of_bit(0);
@@ -278,7 +278,7 @@ void Uart::abandon_character() {
   listen_no_more();
 }
 
-/// From when the receiver is off on.
+/// The receiver is switched off: it hears nothing from now on.
 void Uart::listen_no_more() {
   if (!state_.receiver_enabled()) state_.listen_from = state_.off_from;
 }

@@ -1,4 +1,4 @@
-// Characters to edges, and edges to characters.
+// A UART turns characters into edges, and edges into characters.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace s7200::serial {
 /// is certain what it finds: the start bit is that of a character alone on the line.
 class Uart final : public SerialPort, private LineListener {
  public:
-  /// What handle() reports back to the owner.
+  /// What handle() has found, for the owner.
   struct Report {
     std::optional<ReceivedCharacter> received;
     std::optional<Time> sent;  ///< end of the last stop bit (or of the break)
@@ -58,18 +58,18 @@ class Uart final : public SerialPort, private LineListener {
 
   void plug_in();
 
-  /// Who wants to hear of characters of others that are lost because the receiver is off. It only looks on, and each look
+  /// A bystander hears of others' characters that are lost because the receiver is off. It only looks on, and each look
   /// costs time; so it is asked first.
   class Bystander {
    public:
     virtual bool looks() const = 0;
-    /// Its end is when it was lost: at its start edge, or when the receiver was switched off.
+    /// A character was lost; its end is the instant of the loss: its start edge, or when the receiver was switched off.
     virtual void missed(const ReceivedCharacter& character) = 0;
 
    protected:
     ~Bystander() = default;
   };
-  /// Wiring, not state; not owned.
+  /// The bystander is wiring, not state, and is not owned; null: there is none.
   void set_bystander(Bystander* bystander) { bystander_ = bystander; }
 
   /// A character whose start bit has been verified before `at` is still received in the old format.
@@ -84,11 +84,11 @@ class Uart final : public SerialPort, private LineListener {
   /// A character with its (first) stop bit at space, which takes a bit longer, so that the next start bit has an edge.
   void send_without_stop_bit(std::uint8_t byte, Time at);
 
-  /// When the character being received will be complete; kNever when none has begun.
+  /// The instant when the character being received will be complete; kNever when none has begun.
   Time character_due() const;
 
-  /// Before then it reports nothing, unless something is done to it: the end of the character that it sends, or of the one
-  /// that it receives.
+  /// The earliest instant of the next report, unless something is done to the UART: the end of the character that it sends
+  /// or receives.
   Time next_report() const;
 
   /// A request begins with the next character: faults count exchanges.
@@ -103,10 +103,10 @@ class Uart final : public SerialPort, private LineListener {
   /// Whether another station, or a disturbance, holds the line at space.
   bool others_space(Time at) const { return !line_.level_without(driver_, at); }
 
-  /// Its station loses power: it falls silent in the middle of a character, and hears nothing.
+  /// The station loses power: the UART falls silent in the middle of a character, and hears nothing.
   void power_off(Time at);
 
-  /// An event of this UART's owner is due.
+  /// Handles an event that is due for this UART's owner.
   Report handle(const Event& event);
 
   const State& state() const { return state_; }

@@ -10,7 +10,7 @@
 
 namespace s7200::serial {
 
-/// What there is to see at the port of a PLC, of whatever make: the two directions, and the line, which is one for both.
+/// The wires at the port of a PLC of any make: the two directions, and the line, which carries both.
 enum class Wire : std::uint8_t {
   Rx,    ///< what all others together, and disturbances, make of the line: without what the PLC drives
   Tx,    ///< what the PLC drives
@@ -19,7 +19,7 @@ enum class Wire : std::uint8_t {
 
 inline constexpr std::size_t kWires = 3;
 
-/// Who watches the wires. All are at mark (true) at first.
+/// A sink is told of all edges on the wires. All wires are at mark (true) at first.
 class WireSink {
  public:
   virtual ~WireSink() = default;
@@ -31,7 +31,7 @@ class WireSink {
   /// All edges before `until` have been told. The PLC's port is set to `port`.
   virtual void settled(Time until, const SerialFormat& port) = 0;
 
-  /// Nothing more comes.
+  /// The recording is over: no more edges come.
   virtual void finish() = 0;
 };
 
@@ -48,7 +48,7 @@ class WireTap final : public LineListener {
   /// Tells `sink` what happens from `from` on; null ends that. Not owned.
   void watch(WireSink* sink, Time from);
 
-  /// No driver gets an edge before `until` any more.
+  /// Tells the sink that no driver gets another edge before `until`.
   void settle(Time until, const SerialFormat& port) {
     if (sink_) tell(until, port);
   }

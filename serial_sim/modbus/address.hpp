@@ -13,7 +13,7 @@ namespace s7200::modbus {
 
 enum class Area : std::uint8_t { Coils, Inputs, InputRegisters, HoldingRegisters };
 
-/// What belongs to an area. Functions that write are of the areas that can be written only.
+/// The facts of an area. The functions that write are those of the areas that can be written only.
 struct AreaRow {
   Area area;
   std::string_view word;      ///< on the command line: `holding`
@@ -41,7 +41,7 @@ struct DataAddress {
 /// coil, though only zeros are missing: it might be meant as an address on the wire.
 std::optional<DataAddress> parse_address(std::string_view digits, std::string& why);
 
-/// The same backwards, as short as it goes: 40001, 410000. Empty where the notation does not reach.
+/// The address in the notation, as short as possible: 40001, 410000. Empty if the notation does not reach it.
 std::string notation(const DataAddress& address);
 
 }  // namespace s7200::modbus

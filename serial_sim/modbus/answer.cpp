@@ -13,7 +13,7 @@
 namespace s7200::modbus {
 namespace {
 
-/// Nothing but the data of a PDU: station, function and CRC are off.
+/// The data of a PDU in hex, without station, function and CRC.
 using serial::to_hex;
 using Data = std::span<const std::uint8_t>;
 
@@ -60,7 +60,7 @@ const FunctionRow* row_of(std::span<const std::uint8_t> request) {
   return request.size() - kAroundData < needed ? nullptr : row;
 }
 
-/// Each check returns what is wrong, or nothing when the answer is right and its values are taken.
+/// Each check returns what is wrong, or an empty text if the answer is right; then it stores the values in `result`.
 std::string check_read(Data asked, Data answer, Shape shape, Answer& result) {
   const std::size_t count = load16(&asked[2]);
   const std::size_t bytes = shape == Shape::ReadBits ? (count + 7) / 8 : 2 * count;
@@ -154,7 +154,7 @@ std::string check_data(const FunctionRow& row, Data asked, Data answer, Answer& 
   return {};
 }
 
-/// ` 16#1234 16#0000`
+/// Register values as text: ` 16#1234 16#0000`
 std::string words_text(std::span<const std::uint16_t> values) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string text;
@@ -170,7 +170,7 @@ std::string registers_text(std::span<const std::uint16_t> values) {
   return counted(values.size(), "register") + ":" + words_text(values);
 }
 
-/// From the first on, in groups of four.
+/// Bits as text, the first bit first, in groups of four.
 std::string bits_text(std::span<const std::uint16_t> values) {
   std::string text;
   for (std::size_t bit = 0; bit < values.size(); ++bit) {
@@ -213,7 +213,7 @@ std::string file_text(Data asked, const Answer& answer) {
   return text;
 }
 
-/// What a function reads or writes at an address.
+/// The name of what a function reads or writes at an address.
 std::string place_text(Function function, unsigned address, Numbering numbering) {
   const auto row = std::ranges::find_if(areas(), [&](const AreaRow& area) {
     return area.read == function || area.write_one == function || area.write_many == function;

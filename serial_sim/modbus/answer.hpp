@@ -1,4 +1,4 @@
-// What a slave answered: checked against the request byte by byte, decoded, and said in words.
+// The answer of a slave: checked against the request byte by byte, decoded, and told in words.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ using serial::Verdict;
 /// theirs. Of functions that are not in the table: all data.
 using serial::Answer;
 
-/// Both are RTU frames. An answer of more than 4 characters is never taken for right if its CRC is not.
+/// Checks an answer; both texts are RTU frames. An answer of more than 4 characters is never right if its CRC is wrong.
 Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
 
 /// Whether a frame reads bits or registers, or writes several, and cannot be an answer: its CRC is right, its count may be,
@@ -27,8 +27,8 @@ bool is_request(std::span<const std::uint8_t> frame);
 /// How data are named: `register 1` or `register 40002`.
 enum class Numbering : std::uint8_t { OnTheWire, Notation };
 
-/// What the answer says, in one line for people: `3 registers: 16#1234 16#0000 16#FFFF`, `coils 0…7: 1010 1010`,
-/// `exception 2: illegal data address`, or what is wrong with it.
+/// The answer in one line for people: `3 registers: 16#1234 16#0000 16#FFFF`, `coils 0…7: 1010 1010`, `exception 2: illegal
+/// data address`, or what is wrong with it.
 std::string describe(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
                      Numbering numbering = Numbering::OnTheWire);
 

@@ -15,7 +15,7 @@ using serial::crc16;
 /// Appends the CRC of `bytes`, low byte first.
 void add_crc(Bytes& bytes);
 
-/// The last two bytes are the CRC of those before. Never true of fewer than three bytes.
+/// Whether the last two bytes are the CRC of those before. Never true of fewer than three bytes.
 bool crc_ok(std::span<const std::uint8_t> bytes);
 
 }  // namespace s7200::modbus

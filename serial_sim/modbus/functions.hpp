@@ -24,7 +24,7 @@ enum class Function : std::uint8_t {
   WriteFileRecord = 21,
 };
 
-/// What a request carries and its answer brings.
+/// The data that a request carries and its answer brings.
 enum class Shape : std::uint8_t {
   ReadBits,        ///< address, count; a byte count and bits, lowest first
   ReadRegisters,   ///< address, count; a byte count and registers, high byte first
@@ -47,13 +47,13 @@ struct FunctionRow {
   bool broadcast;      ///< may go to all stations at once: what it does needs no answer
 };
 
-/// By number.
+/// The Modbus functions in the order of their numbers.
 std::span<const FunctionRow> functions();
 
-/// Null for one that is not in the table.
+/// Returns null if the function is not in the table.
 const FunctionRow* find_function(std::uint8_t number);
 
-/// Function 8: what a subfunction does.
+/// A subfunction of function 8 and what it does.
 struct DiagnosticRow {
   std::uint16_t subfunction;
   std::string_view name;
@@ -67,7 +67,7 @@ const DiagnosticRow* find_diagnostics_subfunction(std::uint16_t subfunction);
 std::string_view exception_name(std::uint16_t code);
 
 inline constexpr std::uint8_t kExceptionFlag = 0x80;  ///< in the function code of an exception
-inline constexpr std::uint8_t kBroadcast = 0;         ///< the station that is all of them; none answers
+inline constexpr std::uint8_t kBroadcast = 0;         ///< station address of all stations; none of them answers
 inline constexpr std::uint8_t kLastStation = 247;     ///< Modbus over Serial Line V1.02, 2.2
 inline constexpr std::size_t kLongestRtuFrame = 256;  ///< Modbus over Serial Line V1.02, 2.5.1
 

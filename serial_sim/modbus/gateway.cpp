@@ -13,7 +13,7 @@ bool answers(std::span<const std::uint8_t> frame, const TcpMessage& request) {
   return frame.size() >= 4 && crc_ok(frame) && frame[0] == request.unit && (frame[1] & 0x7F) == (request.pdu[0] & 0x7F);
 }
 
-/// No slave can answer: none has such a station, or all are asked at once what only one could say.
+/// Whether no slave can answer: no slave has the station, or the request is a broadcast that needs an answer.
 bool has_no_path(const TcpMessage& request) {
   if (request.unit != kBroadcast) return request.unit > kLastStation;
   const FunctionRow* const function = find_function(request.pdu[0]);

@@ -16,8 +16,8 @@ namespace s7200::modbus {
 /// - with exception 0B if no such answer came in time
 /// - with exception 0A, at once, for units 248 to 255, which no slave may have (Modbus over Serial Line, 2.2), and for a
 ///   request to unit 0 that needs an answer, such as a read: no slave answers a broadcast
-/// Unit 0 is the broadcast of the serial line: no slave answers, nor does the gateway if it has sent one. A client may send further requests
-/// before the first is answered; kMostOpen of them are taken, the others wait in its stream.
+/// Unit 0 is the broadcast of the serial line: no slave answers, nor does the gateway if it has sent one. A client may send
+/// further requests before the first is answered; kMostOpen of them are taken, the others wait in its stream.
 ///
 /// On a line with an echo the request itself comes back first, and is taken for the answer: station, function and CRC fit.
 class Gateway {
@@ -44,7 +44,7 @@ class Gateway {
   /// A client has gone: what it still waits for is dropped.
   void forget(Client client);
 
-  /// Why a client's stream makes no sense any more; empty as long as it does.
+  /// Why the rest of a client's stream cannot be read; empty while it can.
   std::string error(Client client) const;
 
   /// Whether more may be read from a client: it has neither too many requests open nor a backlog of them.

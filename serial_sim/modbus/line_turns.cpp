@@ -57,7 +57,7 @@ Bytes LineTurns::turn(const Line& line) {
   return phase_ == Phase::Idle ? next_frame(line) : Bytes{};
 }
 
-/// What has become of the request on the line.
+/// Looks at what has become of the request on the line.
 void LineTurns::look(const Line& line) {
   if (phase_ == Phase::Sending && !line.sending) {
     phase_ = Phase::Waiting;

@@ -53,7 +53,8 @@ class LineTurns {
   /// slave is asked until then, because that answer would be taken for its.
   static constexpr Time kLateAnswer = 400 * kMillisecond;
 
-  /// What a master leaves all stations to do what a broadcast says (Modbus over Serial Line V1.02, 2.4.1: 100 to 200 ms).
+  /// The time that a master leaves all stations to carry out a broadcast (Modbus over Serial Line V1.02, 2.4.1: 100 to 200
+  /// ms).
   static constexpr Time kTurnaround = 100 * kMillisecond;
 
   /// How long to wait for the start of an answer, and for a line that is quiet enough to ask.
@@ -61,7 +62,7 @@ class LineTurns {
 
   void ask(Client client, Request request);
 
-  /// Its requests are dropped, and one that is on the line comes to an end without an outcome. The tags of all of them.
+  /// Drops the client's requests; a request on the line ends without an outcome. Returns the tags of all of them.
   std::vector<std::uint64_t> forget(Client client);
 
   /// Requests of a client that have no outcome yet.
@@ -71,11 +72,11 @@ class LineTurns {
   std::size_t waiting(Client client) const;
   bool unsent(Client client) const { return waiting(client) != 0 || (on_line(client) && phase_ == Phase::Sending); }
 
-  /// The client waits for no answer any more: requests of its own that want one are dropped, and one that is on the line
-  /// comes to an end without an outcome. The others stay. How many it gave up.
+  /// The client stops waiting for answers: its requests that want one are dropped, and a request on the line ends without an
+  /// outcome. Its other requests stay. Returns how many were given up.
   std::size_t stop_waiting(Client client);
 
-  /// To be called when anything has happened, and at due(): what is to be put on the line now, mostly nothing.
+  /// Returns the bytes to put on the line now, mostly none. To be called when anything has happened, and at due().
   Bytes turn(const Line& line);
 
   /// A character that came after what turn() gave was sent, whether turn() has seen the end of that or not.

@@ -29,7 +29,7 @@ Bytes to_bytes(const TcpMessage& message);
 std::uint32_t exchange_of(const TcpMessage& message);
 constexpr std::uint32_t kUnitsOfATransaction = 256;  ///< exchanges that follow each other
 
-/// The answer to `request` with an exception.
+/// An answer to `request` that carries an exception.
 TcpMessage exception_to(const TcpMessage& request, GatewayException code);
 
 /// Whether the bytes are one message of Modbus TCP from its first to its last, with a function that requests have.
@@ -40,13 +40,13 @@ class MbapReader {
  public:
   void take(std::span<const std::uint8_t> bytes);
 
-  /// The next complete message, in order.
+  /// The next complete message, in the order of the stream.
   std::optional<TcpMessage> next();
 
-  /// What in the stream is not Modbus TCP. No message comes after it: where the next one begins cannot be known.
+  /// What in the stream is not Modbus TCP. No message follows it: the start of the next message cannot be known.
   const std::string& error() const { return error_; }
 
-  /// Bytes that are in no message yet.
+  /// The number of bytes that are not in a complete message yet.
   std::size_t pending() const { return bytes_.size(); }
 
  private:

@@ -34,7 +34,7 @@ Bytes report_slave_id();
 inline constexpr std::uint8_t kFileReference = 6;
 inline constexpr std::uint8_t kExtendedMemoryReference = 0x33;
 
-/// What functions 20 and 21 are about.
+/// A reference of functions 20 and 21: a place in a file.
 struct Reference {
   std::uint8_t type = kFileReference;
   std::uint16_t file = 0;    ///< or segment
@@ -48,10 +48,10 @@ struct Reference {
 Bytes read_file_record(std::span<const Reference> references);
 Bytes write_file_record(std::span<const Reference> references);
 
-/// Those in the data after the byte count; one that is cut off is left out.
+/// The references in the data after the byte count; one that is cut off is left out.
 std::vector<Reference> references_of(std::span<const std::uint8_t> bytes, bool with_data);
 
-/// Station address, PDU, CRC.
+/// A frame of station address, PDU and CRC.
 Bytes rtu_frame(std::uint8_t station, std::span<const std::uint8_t> pdu);
 
 /// Appends the CRC of the frame's bytes.

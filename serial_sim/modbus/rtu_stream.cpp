@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t kShortest = 4;  // station, function, CRC
 constexpr std::size_t kUnknown = 0;
 
-/// By its function and byte count, if it has one. As long as that is still to come, more than there is.
+/// The length of a request by its function and byte count, if it has one. While the byte count is missing, it is more than
+/// the stream has.
 std::size_t length(std::span<const std::uint8_t> stream) {
   const auto with_byte_count_at = [&](std::size_t place) {
     return stream.size() > place ? place + 1 + stream[place] + 2 : stream.size() + 1;

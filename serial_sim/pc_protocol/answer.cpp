@@ -13,7 +13,7 @@ constexpr std::size_t kStatus = 1, kData = 2, kDataLength = 16;
 
 bool is_refusal(Status status) { return status == Status::WrongCheckCode || status == Status::NotLegal; }
 
-/// What is wrong with the form of any answer, or nothing.
+/// What is wrong with the form of an answer; empty if nothing is.
 std::string fault_of_form(std::span<const std::uint8_t> response, std::uint8_t end_character) {
   if (response[0] != kStart)
     return fmt::format("begins with 16#{:02X}, not with g: {}", response[0], serial::to_hex(response));
@@ -27,7 +27,7 @@ std::string fault_of_form(std::span<const std::uint8_t> response, std::uint8_t e
   return {};
 }
 
-/// What is wrong with the data of a read, or nothing and its bytes.
+/// Takes the data of a read into `bytes`, or returns what is wrong with it.
 std::string take_data(std::span<const std::uint8_t> response, Bytes& bytes) {
   const auto characters = response.subspan(kData, kDataLength);
   const auto code = from_digits(response.subspan(kData + kDataLength, 2));

@@ -17,12 +17,12 @@ namespace s7200::pc_protocol {
 
 inline constexpr std::size_t kAnswerLength = 21;
 
-/// As the text says; the program published with it sends 26.
+/// The end character as in the protocol's text; the program published with it sends 26.
 inline constexpr std::uint8_t kEndCharacter = 0x26;
 
 enum class Status : std::uint8_t { ReadDone = 1, WriteDone = 2, WrongCheckCode = 3, NotLegal = 4 };
 
-/// `check code wrong`, `command not legal`
+/// The name of a refusal: `check code wrong`, `command not legal`
 std::string_view refusal_name(std::uint16_t status);
 
 /// `bytes` of the result are the eight of a read; `values` stay empty, as the command does not say how many are wanted. The

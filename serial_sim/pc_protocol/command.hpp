@@ -20,10 +20,10 @@ namespace s7200::pc_protocol {
 
 inline constexpr std::size_t kCommandLength = 33, kMostBytes = 8;
 
-/// The upper word of an S7-200 pointer.
+/// A memory area, as the upper word of an S7-200 pointer.
 enum class Area : std::uint16_t { I = 0x0000, Q = 0x0100, M = 0x0200, V = 0x0800 };
 
-/// A byte of a CPU.
+/// The address of a byte in a CPU.
 struct Address {
   Area area = Area::V;
   std::uint16_t number = 0;
@@ -34,7 +34,7 @@ struct Address {
 /// Reads `VB100`, `MB8`, `IB0`, `QB0` in either case. Returns nothing and sets `why` for anything else.
 std::optional<Address> parse_address(std::string_view text, std::string& why);
 
-/// `V`, and `VB100`
+/// The name of an area, as in `V`, and of an address, as in `VB100`.
 std::string_view area_name(Area area);
 std::string notation(const Address& address);
 
@@ -49,13 +49,13 @@ struct Command {
   bool operator==(const Command&) const = default;
 };
 
-/// `data` has kMostBytes at most.
+/// The message of a command, whose `data` has kMostBytes at most.
 Bytes to_bytes(const Command& command);
 
 /// A command of the right form. Returns nothing for anything else.
 std::optional<Command> parse_command(std::span<const std::uint8_t> bytes);
 
-/// The XOR of `characters`.
+/// The check code: the XOR of `characters`.
 std::uint8_t check_code(std::span<const std::uint8_t> characters);
 
 /// Appends two hex digits for each byte.

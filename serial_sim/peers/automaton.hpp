@@ -29,14 +29,14 @@ class Automaton {
 
   virtual SerialFormat format() const = 0;
 
-  /// In the middle of its stop bit.
+  /// Is told of each character in the middle of its stop bit.
   virtual void hear(const ReceivedCharacter& character) = 0;
 
   /// The signal beside the data that some lines have.
   virtual void sync(bool /*high*/, Time /*at*/) {}
 
-  /// Its power has gone off, or has come, at `at`: what it was told, and what it was about to say, is gone. Memory and
-  /// settings stay.
+  /// The station's power has gone off, or has come, at `at`: characters that it heard and an answer that it prepared are
+  /// lost. Memory and settings stay.
   void reset(Time at) {
     due_ = kNever;
     answer_.reset();
@@ -44,24 +44,24 @@ class Automaton {
     restart(at);
   }
 
-  /// due() has come, and no character is just coming in.
+  /// Is called when due() has come and no character is coming in.
   virtual void wake(Time /*now*/) {}
 
-  /// What is heard while it sends matters too: its line has wires of its own for either direction.
+  /// Whether the station hears characters while it sends: its line has separate wires for either direction.
   virtual bool full_duplex() const { return false; }
 
   Time due() const { return due_; }
 
-  /// Nothing if it has nothing to say. What it says begins after all it has been told.
+  /// The answer to send; nothing if there is none. It starts after everything that the station was told.
   std::optional<Transmission> take_answer() { return std::exchange(answer_, std::nullopt); }
 
-  /// What it is saying ends with the character on the line.
+  /// Whether what the station is sending is to end with the character on the line.
   bool take_abort() { return std::exchange(abort_, false); }
 
   bool operator==(const Automaton&) const = default;
 
  protected:
-  /// What of its state belongs to a message or a session becomes what it is after power has come at `at`.
+  /// Resets the state that belongs to a message or a session, as when power has come at `at`.
   virtual void restart(Time at) = 0;
 
   Automaton() = default;

@@ -11,7 +11,7 @@
 
 namespace s7200::serial {
 
-/// What is to be put on the line.
+/// A character that waits to be sent.
 struct HostCharacter {
   enum class Fault : std::uint8_t { None, WrongParity, NoStopBit, Break };
   static constexpr int kBreakBits = 20;  ///< longer than any character
@@ -24,7 +24,7 @@ struct HostCharacter {
   bool operator==(const HostCharacter&) const = default;
 };
 
-/// What was asked of a port from outside the simulation, as plain data: it can be done again.
+/// A call to the port from outside the simulation, as plain data: it can be repeated.
 struct HostCall {
   enum class What : std::uint8_t { Attach, ReceiveAs, Send, Drop, TakeReceived };
 
@@ -36,7 +36,7 @@ struct HostCall {
   bool operator==(const HostCall&) const = default;
 };
 
-/// Is told of each call that changes something, before it does.
+/// A journal is told of each call that changes something, before the call acts.
 class HostJournal {
  public:
   virtual void host_called(const HostCall& call) = 0;
@@ -62,7 +62,7 @@ class HostPort {
   /// The UART's receiver is off until attach(). The reference is not owned.
   explicit HostPort(Uart& uart);
 
-  /// Listens from `at` on.
+  /// Plugs the port into the line, where it listens from `at` on.
   void attach(const SerialFormat& format, Time at);
 
   /// How characters are received from the next one after `at` on.
@@ -79,16 +79,16 @@ class HostPort {
   std::size_t waiting() const { return state_.to_send.size(); }
   std::size_t waiting(std::uint64_t sender) const;
 
-  /// Those of `sender` are not sent after all. How many there were.
+  /// Drops the waiting characters of `sender`. Returns how many there were.
   std::size_t drop(std::uint64_t sender);
 
-  /// What was received since the last call, with the errors it came with.
+  /// The characters received since the last call, with their errors.
   std::vector<ReceivedCharacter> take_received();
 
-  /// When a character that is coming in will be complete; kNever when there is none.
+  /// The instant when a character that is coming in will be complete; kNever when there is none.
   Time character_due() const { return uart_.character_due(); }
 
-  /// End of the last character that it has sent, or is sending; 0 if there is none.
+  /// End of the last character that the port has sent, or is sending; 0 if there is none.
   Time sent_until() const { return uart_.state().send_end; }
 
   bool is_on(const Line& line) const { return &uart_.line() == &line; }
@@ -96,10 +96,10 @@ class HostPort {
 
   void on(const Uart::Report& report);
 
-  /// Null: no one is told. Not owned.
+  /// The journal that is told of calls; null: there is none. Not owned.
   void set_journal(HostJournal* journal) { journal_ = journal; }
 
-  /// Does the same again, at `at`; the journal is not told.
+  /// Repeats a call at `at`; the journal is not told.
   void repeat(const HostCall& call, Time at);
 
   const State& state() const { return state_; }

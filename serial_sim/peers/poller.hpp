@@ -10,7 +10,7 @@
 
 namespace s7200::serial {
 
-/// What it asks, and how often.
+/// The requests of a poller, and how often it sends them.
 struct PollPlan {
   std::vector<Request> requests;  ///< at least one
   std::optional<Time> pause{};    ///< between an exchange and the next request; default_quiet() if not given
@@ -18,7 +18,8 @@ struct PollPlan {
   Time every = 0;                 ///< a round of all requests begins no sooner than so long after the one before
 };
 
-/// To whoever handles the events: those of its own number go to handle(), and after each event of its requester go_on().
+/// Sends requests in rounds. The owner passes events of this poller's number to handle(), and calls go_on() after each event
+/// of its requester.
 class Poller {
  public:
   /// Plain, so that a snapshot is a copy. The request of another master answers nothing.
@@ -31,22 +32,23 @@ class Poller {
     bool operator==(const State&) const = default;
   };
 
-  /// What a poller has to know of its line. Wiring, not state.
+  /// What a poller uses of its line. Wiring, not state.
   struct Wiring {
     std::function<SerialFormat()> format = [] { return SerialFormat{}; };  ///< of the next exchange
-    std::function<Verdict(const Exchange&)> verdict = [](const Exchange&) { return Verdict::Right; };  ///< if answered
+    std::function<Verdict(const Exchange&)> verdict = [](const Exchange&) { return Verdict::Right; };  ///< of an answered
+                                                                                                       ///< request
   };
 
   /// `owner`: its number in the queue. Neither reference is owned.
   Poller(Uart& uart, Requester& requester, EventQueue& queue, EventOwner owner, PollPlan plan, Wiring wiring);
 
-  /// The first request is at `at`.
+  /// Sends the first request at `at`.
   void start(Time at);
 
-  /// Its requester has no power, and asks no more.
+  /// The requester has lost power: the poller sends no more requests.
   void power_off();
 
-  /// It asks its first request at `at`, and goes on from there.
+  /// Starts a round with its first request at `at`.
   void begin_round(Time at);
 
   void go_on(Time now);

@@ -19,7 +19,7 @@ constexpr Time default_quiet(const SerialFormat& format) {
   return kQuietSilences * format.silence() + kQuietMilliseconds * kMillisecond;
 }
 
-/// For help texts and reports.
+/// The default quiet time for help texts and reports.
 inline std::string default_quiet_text() { return fmt::format("{} characters + {}ms", kQuietCharacters, kQuietMilliseconds); }
 
 }  // namespace s7200::serial

@@ -42,7 +42,7 @@ struct Listening {
 
 Bytes bytes_of(const std::vector<ReceivedCharacter>& characters);
 
-/// A request and what came of it. After Requester::listen() the request is empty, and its times are when the listening
+/// A request and the answer to it. After Requester::listen() the request is empty, and its times are when the listening
 /// began.
 struct Exchange {
   Frame request;
@@ -50,7 +50,7 @@ struct Exchange {
   Time request_end = 0;                   ///< end of the last stop bit
   std::vector<ReceivedCharacter> echo{};  ///< what the master heard while it sent; nothing on a line without echo
   std::vector<ReceivedCharacter> response{};
-  Time response_start = 0;         ///< start edge of the first character; 0 if there is none, like the next
+  Time response_start = 0;         ///< start edge of the first character, or 0 if there is none; so is the next
   Time response_end = 0;           ///< end of the last character's stop bit
   bool timed_out = false;          ///< no answer began in time
   bool too_long = false;           ///< cut off after Requester::kLongestResponse characters
@@ -63,7 +63,7 @@ struct Exchange {
   std::optional<Time> latency() const;
   bool parity_error() const;
   bool framing_error() const;
-  /// What is wrong with the characters of the answer, whatever they say: `characters with wrong parity`. Empty if it is
+  /// The damage to the answer's characters, whatever they say: `characters with wrong parity`. Empty if the answer is
   /// intact.
   std::string_view damage() const;
   Bytes response_bytes() const { return bytes_of(response); }
@@ -95,20 +95,20 @@ class Requester {
   /// The first start bit begins at `at`. The last exchange is over. What was heard before and not listened to is forgotten.
   void start(const Request& request, Time at);
 
-  /// Takes the first transmission of those heard, or the next one to come: characters with less silence between them than
-  /// ends it. The last exchange is over; this one is, at once, if the transmission is.
+  /// Takes the transmission being heard, or the next one: characters with less silence between them than ends it. The last
+  /// exchange is over; this one ends with the transmission.
   void listen(const Listening& listening, Time at);
 
   /// Gives up what it is doing; the exchange is over. Of a request under way the character on the line, or the one that
   /// waits out its gap, is the last: the next request begins no sooner than that one ends.
   void give_up(Time at);
 
-  /// Its station has lost power: what it was doing is over, and what it heard is forgotten.
+  /// The station has lost power: its exchange is over, and the characters it heard are forgotten.
   void power_off(Time at);
 
   bool busy() const { return state_.phase != Phase::Idle; }
 
-  /// Its request is on the line.
+  /// Whether its request is on the line.
   bool sends() const { return state_.phase == Phase::Sending && state_.sent > 0; }
 
   /// Busy with a request and its answer, not with listening.

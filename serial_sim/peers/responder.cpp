@@ -61,7 +61,7 @@ void Responder::send_next(Time at) {
   uart_.send(state_.on_the_line, at);
 }
 
-/// What the automaton wants after it was told something.
+/// Does what the automaton asks for after it has been told something.
 void Responder::look() {
   if (state_.automaton->take_abort()) {
     queue_.cancel(owner_, kSend);

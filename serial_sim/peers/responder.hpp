@@ -9,10 +9,11 @@
 
 namespace s7200::serial {
 
-/// To whoever handles the events: reports of the UART go to on(), events of its own number to handle().
+/// Lets an automaton answer on a line. The owner passes reports of the UART to on(), and events of this responder's number
+/// to handle().
 ///
-/// A station with a half duplex line has its receiver off while it sends. One with full duplex hears on: what comes back as
-/// it was sent is its own, on the one line that all share, and anything else is another's.
+/// A station with a half duplex line has its receiver off while it sends. A station with a full duplex line hears on: on the
+/// shared line, characters that come back as they were sent are its own, and others are another station's.
 class Responder {
  public:
   /// Plain, so that a snapshot is a copy.
@@ -33,7 +34,7 @@ class Responder {
   /// The sync signal of the line has changed.
   void sync(bool high, Time at);
 
-  /// Its station loses power, and has it again.
+  /// The station loses power, or has power again.
   void power_off(Time at);
   void power_on(Time at);
 

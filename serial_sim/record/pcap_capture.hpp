@@ -16,16 +16,16 @@ class PcapWriter {
  public:
   static constexpr std::uint32_t kLinkType = 147;  ///< LINKTYPE_USER0
 
-  /// Of a longer packet the beginning is kept, and its length. This is in the file's header and tells captures by s7200 from
-  /// others.
+  /// A longer packet is cut to this size; its full length is kept. The number is in the file's header and tells captures by
+  /// s7200 from others.
   static constexpr std::uint32_t kLongestPacket = 7200;
 
-  /// The header of the file.
+  /// The file's header.
   static std::string beginning();
 
   explicit PcapWriter(std::ostream& out);
 
-  /// Packets come in the order of time.
+  /// Writes a packet. Packets come in the order of time.
   void packet(Time at, std::span<const std::uint8_t> bytes);
 
  private:

@@ -11,7 +11,7 @@ namespace s7200::serial {
 /// Wires `rx`, `tx` and `line` in nanoseconds, as Wire has them. The stream is not owned.
 class VcdCapture final : public WireSink {
  public:
-  /// What each capture begins with, one from before there was `line`, too.
+  /// The text at the start of each capture, including those from before there was `line`.
   static constexpr std::string_view kBeginning = "$comment s7200: rx is what ";
 
   explicit VcdCapture(std::ostream& out);
@@ -19,7 +19,7 @@ class VcdCapture final : public WireSink {
   void edge(Wire wire, Time at, bool mark, int driver) override;
   void settled(Time until, const SerialFormat&) override { until_ = until; }
 
-  /// Says how long the last levels lasted.
+  /// Writes how long the last levels lasted.
   void finish() override { go_to(until_); }
 
  private:

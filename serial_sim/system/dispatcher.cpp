@@ -26,7 +26,7 @@ void Dispatcher::handle(const Due& due) {
   }
 }
 
-/// The same when several queues have events of the instant.
+/// Handles the events of an instant for which several queues have events.
 void Dispatcher::handle_those_due(Time at) {
   for (const auto& queue : queues_)
     if (queue->next() == at) due_.push_back(queue.get());

@@ -1,4 +1,4 @@
-// Who handles which event, and in which order those of one instant are handled.
+// Passes events to their handlers, in a fixed order within each instant.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ inline constexpr std::size_t kRanks = static_cast<std::size_t>(Rank::Peer) + 1;
 
 class EventHandler {
  public:
-  /// An event of one of the handler's numbers is due.
+  /// Handles an event of one of this handler's numbers, which is due.
   virtual void handle(const Event& event) = 0;
 
  protected:
@@ -35,7 +35,7 @@ class Dispatcher {
  public:
   static constexpr std::size_t kMostOfARank = 8192;
 
-  /// Of a CPU, and of anything else. They live as long as the dispatcher.
+  /// Adds the queue of a CPU, or of anything else. It lives as long as the dispatcher.
   EventQueue& add_queue() { return *queues_.emplace_back(std::make_unique<EventQueue>()); }
   EventQueue& shared_queue();
 
@@ -59,11 +59,11 @@ class Dispatcher {
     }
     return due;
   }
-  /// When that is; kNever when no event is pending.
+  /// The instant of the next events; kNever when no event is pending.
   Time next() const { return due().at; }
 
-  /// Handles the events of the next instant, which is due(), in their order. One that is scheduled for the same instant
-  /// meanwhile is left to the next call unless its rank is still to come in its queue.
+  /// Handles the events of the next instant, which is due(), in their order. An event scheduled for this instant meanwhile
+  /// is left to the next call unless its rank is still to come in its queue.
   void handle(const Due& due);
 
   /// How many events so far: what a run costs, whatever the host.

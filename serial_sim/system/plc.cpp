@@ -20,7 +20,7 @@ Plc::Port::Port(Plc& of, std::uint8_t its_number, SharedLine& shared_line, Dispa
   line.add_plc(uart, this);
 }
 
-/// Of what XMT sends; the CPU's answers in PPI mode are not Modbus frames.
+/// The characters left of a message that XMT sends; the CPU's answers in PPI mode are not Modbus frames.
 std::optional<std::size_t> Plc::Port::characters_left() const {
   const Freeport& port = plc.cpu_.state().port[number];
   return port.transmitting ? std::optional<std::size_t>(port.left) : std::nullopt;
@@ -37,7 +37,7 @@ void Plc::Port::send_break(int bit_times, Time at) {
   act({.what = PortAction::What::SendBreak, .at = at, .value = bit_times});
 }
 
-/// At once, if its instant is the present one.
+/// Does the action at once if its instant is the present one, else schedules it.
 void Plc::Port::act(const PortAction& action) {
   if (action.at <= plc.handled_) return perform(action);
   actions.insert(std::ranges::upper_bound(actions, action.at, {}, &PortAction::at), action);
@@ -146,7 +146,7 @@ void Plc::wire_output(Dispatcher& events, const OutputPoint& output, std::functi
   output_wires_.push_back({output, std::move(end)});
 }
 
-/// Like what the CPU does to its ports, this comes to pass when the time of the system has come to it.
+/// Output changes take effect when the time of the system has reached them, like what the CPU does to its ports.
 void Plc::outputs_changed(std::uint32_t byte, std::uint8_t points, std::uint8_t changed, Time at) {
   for (std::size_t wire = 0; wire < output_wires_.size(); ++wire) {
     const OutputPoint& output = output_wires_[wire].output;

@@ -18,7 +18,7 @@
 
 namespace s7200::serial {
 
-/// What a CPU does to a port at an instant, as plain data.
+/// An action of a CPU on a port at an instant, as plain data.
 struct PortAction {
   enum class What : std::uint8_t { Configure, EnableReceiver, Send, SendBreak };
   What what{};
@@ -28,14 +28,14 @@ struct PortAction {
   bool operator==(const PortAction&) const = default;
 };
 
-/// An output point, as data.
+/// An output point, as plain data.
 struct OutputPoint {
   std::uint32_t byte = 0;
   std::uint8_t bit = 0;
   bool operator==(const OutputPoint&) const = default;
 };
 
-/// What happens at an output that something is wired to.
+/// An edge at an output that something is wired to.
 struct OutputEdge {
   std::size_t wire = 0;  ///< in the order in which they were wired
   bool on = false;
@@ -63,8 +63,8 @@ class Plc final : private EventHandler, private OutputListener {
   Plc(const Plc&) = delete;
   Plc& operator=(const Plc&) = delete;
 
-  /// It has power from `at` on: the CPU goes into RUN with what its memory has kept, and the field's script starts. In the
-  /// system's time `at` is now, or nothing has run yet.
+  /// Power comes at `at`: the CPU goes into RUN with the retentive memory, and the field's script starts. In the system's
+  /// time `at` is now, or nothing has run yet.
   void power_up(const RetentiveMemory* memory = nullptr, Time at = 0);
 
   /// Power goes off at `at`, and comes back: the CPU keeps what a real one keeps, and begins anew in RUN, or stays in STOP
@@ -86,10 +86,10 @@ class Plc final : private EventHandler, private OutputListener {
   /// the CPU is powered up. Wiring, not state; before anything runs.
   void wire_output(Dispatcher& events, const OutputPoint& output, std::function<void(bool on, Time at)> end);
 
-  /// What the program has set a port to; that of PPI until it has switched it to Freeport mode.
+  /// The format that the program has set a port to; that of PPI until the program has switched it to Freeport mode.
   SerialFormat port_format(std::uint8_t port = 0) const;
 
-  /// How the UART of a port is set: as of the last event that was handled, however far the CPU has run ahead of it.
+  /// The format of a port's UART at the last event that was handled, however far the CPU has run ahead of it.
   const SerialFormat& line_format(std::uint8_t port = 0) const { return ports_.at(port)->uart.state().format; }
 
   /// Characters that a port has received with a stop bit at space level, breaks among them.
@@ -99,7 +99,7 @@ class Plc final : private EventHandler, private OutputListener {
   SharedLine& line(std::uint8_t port = 0) { return ports_.at(port)->line; }
   const SharedLine& line(std::uint8_t port = 0) const { return ports_.at(port)->line; }
 
-  /// Which of the line's drivers a port is.
+  /// The number of the port's driver on the line.
   int driver(std::uint8_t port = 0) const { return ports_.at(port)->uart.driver(); }
 
   /// `follower` is told, at once, each time the program sets a port, and when; an empty function ends that.
@@ -110,13 +110,13 @@ class Plc final : private EventHandler, private OutputListener {
   /// Lets `sink` watch the line at a port from now on; null ends that. Not owned. After restore() it sees time go back.
   void set_wire_sink(WireSink* sink, std::uint8_t port = 0);
 
-  /// Nobody watches the lines any more.
+  /// Ends the watching of the lines.
   void unwatch_lines();
 
   /// How far the CPU may run if nothing happens to the system before `horizon`: until then it hears nothing from others.
   Time may_run_until(Time horizon) const;
 
-  /// No driver of the lines gets an edge before `until` any more: whoever watches them is told.
+  /// Tells those who watch the lines that no driver gets another edge before `until`.
   void settle(Time until);
 
   State state() const;
@@ -142,8 +142,8 @@ class Plc final : private EventHandler, private OutputListener {
     void act(const PortAction& action);
     void act_until(Time now);
 
-    /// No station can make the CPU hear a whole character sooner: the shortest, at the fastest that a faulty clock makes of
-    /// it.
+    /// The shortest character that a station can send, at the fastest clock that a fault can give it: the CPU cannot hear a
+    /// whole character sooner.
     Time shortest_character() const;
 
     Plc& plc;
@@ -172,7 +172,7 @@ class Plc final : private EventHandler, private OutputListener {
 
   EventQueue& queue_;  // of the CPU, its field and what it does to its ports
   EventOwner owner_, field_owner_, outputs_owner_{};
-  Time handled_ = -1;  // the instant whose event the CPU is being told of; before all of them if there is none
+  Time handled_ = -1;  // the instant whose event the CPU is being told of; -1 before the first one
   std::vector<std::unique_ptr<Port>> ports_;
   struct OutputWire {
     OutputPoint output;

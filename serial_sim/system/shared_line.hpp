@@ -12,7 +12,7 @@
 
 namespace s7200::serial {
 
-/// Its levels, its faults, and when it was last in use.
+/// A line with its levels and faults, and the instant when it was last in use.
 class SharedLine final : private EventHandler {
  public:
   /// Plain, so that a snapshot is a copy.
@@ -23,7 +23,7 @@ class SharedLine final : private EventHandler {
     bool operator==(const State&) const = default;
   };
 
-  /// `events` is not owned.
+  /// The dispatcher `events` is not owned.
   explicit SharedLine(Dispatcher& events);
   SharedLine(const SharedLine&) = delete;
   SharedLine& operator=(const SharedLine&) = delete;
@@ -33,7 +33,7 @@ class SharedLine final : private EventHandler {
   Faults& faults() { return faults_; }
   const Faults& faults() const { return faults_; }
 
-  /// One that asks here, and lives as long as the line. Wiring, not state.
+  /// Adds a requester that asks on this line, and lives as long as the line. Wiring, not state.
   void add_master(const Requester& master) { masters_.push_back(&master); }
 
   /// A PLC, whose UART lives as long as the line; as Faults has it, one of several may be their master.
@@ -61,7 +61,7 @@ class SharedLine final : private EventHandler {
 
   State state() const { return {line_, faults_.state(), last_activity_}; }
 
-  /// The queue is restored by its owner.
+  /// Restores the line; the queue is restored by its owner.
   void restore(const State& state);
 
  private:

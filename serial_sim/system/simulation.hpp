@@ -1,5 +1,5 @@
-// What most programs need of a system: one line, and on it a PLC, a requester (the master) and a port for the host. If the
-// PLC has two ports, the other one is alone on a line of its own, unless the system is one that somebody else has built.
+// The system that most programs need: one line, and on it a PLC, a requester (the master) and a port for the host. If the
+// PLC has two ports, the other one is alone on a line of its own, unless the system was built by the caller.
 #pragma once
 
 #include <atomic>
@@ -15,22 +15,22 @@ class Simulation {
   /// `port`: the one of the PLC that is on the line with the others.
   explicit Simulation(std::shared_ptr<const Program> program, FieldScript field = {}, std::uint8_t port = 0);
 
-  /// A system that somebody else has built, as seen from a PLC's port and by those who are on its line: `master` and `host`
-  /// are null if there is none. Nothing is owned.
+  /// A view of a system that the caller has built, from a PLC's port and its line: `master` and `host` are null if there is
+  /// none. Nothing is owned.
   Simulation(System& system, SharedLine& line, Plc& plc, std::uint8_t port, RequesterStation* master, HostStation* host);
 
-  /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
+  /// Each run ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends a run.
   void stop_when(const std::atomic<bool>* request) { system_->stop_when(request); }
 
   /// Powers the CPU up into RUN, at time 0, with what its memory has kept.
   void power_up(const RetentiveMemory* memory = nullptr) { plc_->power_up(memory); }
 
-  /// Runs the CPU and handles what is due, until its clock has reached `end`. A CPU that goes to STOP ends the run if it is
-  /// the only one.
+  /// Runs the CPU and handles events until its clock has reached `end`. A CPU that goes to STOP ends the run if it is the
+  /// only one.
   Halt run_until(Time end);
 
-  /// From now on the master's format is what `of` makes of the port's, and changes with it at once, but not within an
-  /// exchange: what the program sends unasked is heard as well as its answers.
+  /// Lets the master's format follow the port's from now on, through `of`. It changes at once, but not within an exchange:
+  /// frames that the program sends unasked are heard as well as its answers.
   void let_master_follow(std::function<SerialFormat(const SerialFormat& port)> of);
 
   /// Runs on, in STOP too, until a started exchange of the master, or its listening, is over. The master is busy still if a
@@ -43,15 +43,15 @@ class Simulation {
   /// End of the last character that anyone sent or heard.
   Time last_activity() const { return line_->last_activity(); }
 
-  /// Runs until the first scan has ended and the line has been quiet since then for `quiet`, which is asked only after that
-  /// scan: it is there that programs set the rate of their port. False if that has not come by `limit`, the CPU stopped,
-  /// or a stop was asked for.
+  /// Runs until the first scan has ended and the line has been quiet since then for `quiet`. `quiet` is called only after
+  /// that scan, in which programs set the rate of their port. Returns false if `limit` came first, the CPU stopped, or a
+  /// stop was asked for.
   bool run_until_ready(const std::function<Time()>& quiet, Time limit);
   bool run_until_ready(Time quiet, Time limit) {
     return run_until_ready([quiet] { return quiet; }, limit);
   }
 
-  /// From now on. Several may be at work at once.
+  /// Injects a fault now. Several faults may be at work at once.
   void inject(const Fault& fault) { line_->faults().inject(fault, time()); }
   void clear_faults() { line_->faults().clear(time()); }  ///< and every disturbance of the line, whoever made it
   const Faults& faults() const { return line_->faults(); }
@@ -67,14 +67,14 @@ class Simulation {
   const Requester& master() const { return master_->requester(); }
   Uart& master_uart() { return master_->uart(); }
   const Uart& master_uart() const { return master_->uart(); }
-  /// From its next character on, in either direction.
+  /// Sets the master's format from its next character on, in either direction.
   void configure_master(const SerialFormat& format) { master_uart().configure(format, time()); }
   bool has_host_port() const { return host_ != nullptr; }
   HostPort& host_port() { return host_->port(); }
   const HostPort& host_port() const { return host_->port(); }
   Time time() const { return system_->time(); }
 
-  /// What the program has set its port to; that of PPI until it has switched it to Freeport mode.
+  /// The format that the program has set its port to; that of PPI until the program has switched it to Freeport mode.
   SerialFormat port_format() const { return plc_->port_format(port_); }
 
   /// The PLC's port on the line: its number, and what it is doing.
@@ -91,13 +91,13 @@ class Simulation {
  private:
   std::vector<SharedLine*> lines(const CpuModel& model);
 
-  std::unique_ptr<System> own_;  // null if somebody else has built it
+  std::unique_ptr<System> own_;  // null if the caller has built the system
   System* system_;
   std::uint8_t port_;
   SharedLine* line_;
   Plc* plc_;
-  RequesterStation* master_;  // null if there is none
-  HostStation* host_;         // the same
+  RequesterStation* master_;  // null if the line has no master
+  HostStation* host_;         // null if the line has no host port
 };
 
 }  // namespace s7200::serial

@@ -12,7 +12,7 @@
 
 namespace s7200::serial {
 
-/// What they have in common.
+/// The common part of the stations that are not PLCs.
 class PeerStation : protected EventHandler {
  public:
   PeerStation(const PeerStation&) = delete;
@@ -22,11 +22,11 @@ class PeerStation : protected EventHandler {
   const Uart& uart() const { return uart_; }
 
  protected:
-  /// Neither reference is owned. Unless it is plugged in, whoever uses the UART does that.
+  /// Neither reference is owned. If the station is not plugged in, the owner of the UART plugs it in.
   PeerStation(Dispatcher& events, SharedLine& line, bool plugged_in = true);
   ~PeerStation() = default;
 
-  /// An event of the UART.
+  /// Passes an event to the UART.
   Uart::Report hear(const Event& event);
 
   SharedLine& line_;
@@ -73,9 +73,9 @@ class PollerStation final : public PeerStation {
   Poller& poller() { return poller_; }
   const Poller& poller() const { return poller_; }
 
-  /// It falls silent at `at`, in the middle of a character or not.
+  /// The station falls silent at `at`, even in the middle of a character.
   void power_off(Time at);
-  /// It has power again, and begins with its first request at `first`.
+  /// The station has power again, and sends its first request at `first`.
   void power_on(Time at, Time first);
   bool powered() const { return powered_; }
 
@@ -106,7 +106,7 @@ class ResponderStation final : public PeerStation, private FrameSender {
   Responder& responder() { return responder_; }
   const Responder& responder() const { return responder_; }
 
-  /// It falls silent at `at`, in the middle of a character or not; and comes back with its memory and settings.
+  /// The station falls silent at `at`, even in the middle of a character; it comes back with its memory and settings.
   void power_off(Time at);
   void power_on(Time at);
   bool powered() const { return powered_; }
@@ -114,7 +114,7 @@ class ResponderStation final : public PeerStation, private FrameSender {
   /// Lets `sink` watch the line at its port from `from` on; null ends that. Not owned. After restore() it sees time go back.
   void set_wire_sink(WireSink* sink, Time from) { tap_.watch(sink, from); }
 
-  /// No driver of the line gets an edge before `until` any more: whoever watches it is told.
+  /// Tells those who watch the line that no driver gets another edge before `until`.
   void settle(Time until) { tap_.settle(until, uart_.state().format); }
 
   State state() const { return {uart_.state(), responder_.state(), powered_}; }
@@ -132,7 +132,7 @@ class ResponderStation final : public PeerStation, private FrameSender {
   bool powered_ = true;
 };
 
-/// It is plugged into the line when its port is attached.
+/// The host's station. It is plugged into the line when its port is attached.
 class HostStation final : public PeerStation {
  public:
   /// Plain, so that a snapshot is a copy.

@@ -7,11 +7,12 @@
 namespace s7200::serial {
 namespace {
 
-/// So far a CPU runs without a look at a stop request: a moment of the host, even when every instruction is traced. What is
-/// computed does not depend on it.
+/// The simulated time that a CPU runs between two looks at the stop request: a moment of the host, even when every
+/// instruction is traced. The results do not depend on it.
 constexpr Time kLookEvery = 100 * kMillisecond;
 
-/// The same while scans are passed over, which takes a moment however many they are.
+/// The furthest that scans are passed over between two looks at the stop request; passing over takes a moment, however many
+/// scans there are.
 constexpr Time kFurthestAtOnce = 3600 * kSecond;
 
 /// `end`, or `most` from now on if that is earlier.
@@ -132,7 +133,7 @@ const Cpu* System::run_cpus(Time end) {
   return nullptr;
 }
 
-/// To the next event at most, which is not before `end`.
+/// Runs the only CPU to the next event at most; `end` is not after that event.
 const Cpu* System::run_one(Time end) {
   Cpu& cpu = plcs_.front()->cpu();
   const Time until = at_most(cpu.time(), kFurthestAtOnce, end);
@@ -153,8 +154,8 @@ const Cpu* System::run_each(Time end) {
   return nullptr;
 }
 
-/// Either all come to the instant when one of them may act next, or that one acts: until another one may, or to the next
-/// event. At the same instant the one with the lower number is first.
+/// Runs all CPUs to the instant when one of them may act next, or lets that CPU act until another may act, or until the next
+/// event. At the same instant the CPU with the lower number is first.
 const Cpu* System::run_next(Time end) {
   Plc* first = nullptr;
   for (const auto& plc : plcs_)
@@ -169,7 +170,8 @@ const Cpu* System::run_next(Time end) {
   return &cpu;
 }
 
-/// Those that are behind, which do not act until then; a scan may end there. Back with one that was paused, or null.
+/// Runs the CPUs that are behind `now`; they do not act before it, but a scan may end. Returns a CPU that was paused, or
+/// null.
 const Cpu* System::come_to(Time now) {
   const Cpu* paused = nullptr;
   for (const auto& plc : plcs_) {
@@ -181,7 +183,7 @@ const Cpu* System::come_to(Time now) {
   return paused;
 }
 
-/// When one of the others may act next.
+/// The instant when one of the other PLCs may act next.
 Time System::next_action_besides(const Plc& plc) const {
   Time next = kNever;
   for (const auto& other : plcs_)
@@ -196,7 +198,7 @@ Halt System::run_until(Time end) {
   return halt;
 }
 
-/// No CPU runs ahead of an event, as one that is alone never does: what is done after the exchange can be done at its end.
+/// Completes the exchange. No CPU has run ahead of an event, so that the caller can act exactly at the exchange's end.
 const Exchange& System::finish_exchange(const RequesterStation& station) {
   const Requester& requester = station.requester();
   Halt halt = paused() ? Halt::Paused : Halt::Time;
@@ -205,7 +207,8 @@ const Exchange& System::finish_exchange(const RequesterStation& station) {
   return requester.exchange();
 }
 
-/// And does what is scheduled, in one order of time: after the events of its instant. Back with when the next events are.
+/// Handles events and does what is scheduled in the order of time, the events of an instant first. Returns the instant of
+/// the next events.
 Time System::handle_due_events(Time now) {
   bool watched = this->watched();
   Dispatcher::Due next = events_.due();
@@ -224,7 +227,7 @@ Time System::handle_due_events(Time now) {
   return events_.next();
 }
 
-/// Whether somebody waits for settled levels.
+/// Whether a listener of any line waits for settled levels.
 bool System::watched() const {
   for (const auto& line : lines_)
     if (line->line().watched()) return true;

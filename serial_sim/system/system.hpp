@@ -34,7 +34,7 @@
 
 namespace s7200::serial {
 
-/// Why a run came back.
+/// The reason why a run has returned.
 enum class Halt : std::uint8_t {
   Time,     ///< the end was reached
   Paused,   ///< a trace sink stopped a CPU, or a scan ended and a pause was asked for
@@ -53,7 +53,7 @@ class System {
   /// say; without any it goes from event to event.
   SharedLine& add_line();
   Plc& add_plc(std::span<SharedLine* const> lines, std::shared_ptr<const Program> program, FieldScript field = {});
-  /// With port 0 on `line`; a second port is alone on a line of its own.
+  /// Adds a PLC with its port 0 on `line`; a second port is alone on a line of its own.
   Plc& add_plc(SharedLine& line, std::shared_ptr<const Program> program, FieldScript field = {});
   RequesterStation& add_requester(SharedLine& line);
   HostStation& add_host_port(SharedLine& line);
@@ -63,22 +63,22 @@ class System {
   /// An output of a PLC drives the sync signal beside a line, as a responder there sees it. Before anything runs.
   void wire_sync(Plc& from, const OutputPoint& output, ResponderStation& to);
 
-  /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
+  /// Each run ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends a run.
   void stop_when(const std::atomic<bool>* request) { stop_request_ = request; }
 
-  /// From now on CPUs run in step, or ahead of each other.
+  /// Lets CPUs run in step from now on, or ahead of each other.
   void run_in_step(bool on) { in_step_ = on; }
 
   /// Powers up all PLCs, as new. Plc::power_up() does so for one, before anything runs.
   void power_up();
 
-  /// Power of one PLC goes off, and comes back, now(). Its CPU completes an instruction that it has begun, but does nothing
-  /// to the outside any more. Peers have their own: ResponderStation, PollerStation.
+  /// The power of one PLC goes off, or comes back, now(). Its CPU completes an instruction that it has begun, but does
+  /// nothing more to the outside. Peers have calls of their own: ResponderStation, PollerStation.
   void power_off(Plc& plc);
   void power_on(Plc& plc);
 
-  /// What is done to the system from outside at `at`, which is now() then: power, cables, faults, inputs. A CPU that is in
-  /// the middle of an instruction completes it, and sees what is done after it. It is told in the order of the instants,
+  /// Schedules an action from outside at `at`, which is now() then: power, cables, faults, inputs. A CPU that is in the
+  /// middle of an instruction completes it, and sees the effect after it. Actions happen in the order of their instants,
   /// before anything runs.
   void schedule(Time at, std::function<void()> deed);
 
@@ -86,16 +86,16 @@ class System {
   /// state.
   void watch_schedule(std::function<void(std::size_t number, bool done)> watcher) { watcher_ = std::move(watcher); }
 
-  /// Whether anything is scheduled, or was.
+  /// Whether any action is scheduled, or was.
   bool has_schedule() const { return !schedule_.empty(); }
 
   /// How many events have been handled: what a run costs, whatever the host.
   std::uint64_t events_handled() const { return events_.handled(); }
 
-  /// How many PLCs there are.
+  /// The number of PLCs.
   std::size_t plcs() const { return plcs_.size(); }
 
-  /// The earliest clock of those that have power: nothing happens before it any more.
+  /// The earliest clock of the CPUs that have power: nothing more happens before it.
   Time time() const {
     Time earliest = kNever;
     for (const auto& plc : plcs_)
@@ -103,13 +103,13 @@ class System {
     return earliest == kNever ? clock_ : earliest;
   }
 
-  /// When what is done from outside happens: the instant of what is scheduled while that is done, else time().
+  /// The instant of the scheduled action while it is being done, else time().
   Time now() const { return doing_at_ == kNever ? time() : doing_at_; }
 
   /// Whether a CPU was paused when it last ran.
   bool paused() const;
 
-  /// Lets each CPU run once, to `end` at most, and handles what is due then. Time means that there is more to do.
+  /// Lets each CPU run once, to `end` at most, and handles the events due then. Returns Halt::Time if there is more to do.
   Halt step(Time end);
 
   /// Runs until all clocks have reached `end`.
@@ -132,14 +132,14 @@ class System {
   };
   Snapshot snapshot() const;
 
-  /// Of this system, or of one with the same lines and stations.
+  /// Restores a snapshot of this system, or of one with the same lines and stations.
   void restore(const Snapshot& snapshot);
 
  private:
   template <class Part>
   using Parts = std::vector<std::unique_ptr<Part>>;
 
-  /// With when the next events are, before the step and after it.
+  /// Runs a step; `next_event` is the instant of the next events, before the step and after it.
   Halt step(Time end, Time& next_event);
   Time horizon() const;
   bool any_powered() const;
@@ -174,7 +174,7 @@ class System {
   Time doing_at_ = kNever;        // of the one that is done
   std::function<void(std::size_t number, bool done)> watcher_{};
   Time clock_ = 0;        // while no CPU has power
-  bool in_step_ = false;  // how it runs, which is no state
+  bool in_step_ = false;  // the way of running, which is not state
   const std::atomic<bool>* stop_request_ = nullptr;
 };
 

@@ -23,7 +23,7 @@ bool is_error(std::span<const std::uint8_t> response) {
   return response.size() == kErrorLength && response[0] == kHighwayError;
 }
 
-/// How long an answer is that begins like this.
+/// The length in bytes of the answer that begins like this.
 std::size_t length_of_answer(std::span<const std::uint8_t> response) {
   if (response[0] == kHighwayError) return kErrorLength;
   if (opcode_of(response) != Opcode::ReadBlock) return kMessageLength;
@@ -31,7 +31,7 @@ std::size_t length_of_answer(std::span<const std::uint8_t> response) {
   return response.size() > kCount ? kMessageLength + response[kCount] + 2U : kMessageLength + 2;
 }
 
-/// Whether the answer repeats the request as far as its opcode asks for.
+/// Whether the answer repeats the request as far as the request's opcode demands.
 bool repeats(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) {
   std::size_t same = kMessageLength - 1;
   if (opcode_of(request) == Opcode::SetUnitAddress) same = 2;

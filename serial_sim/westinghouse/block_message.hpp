@@ -45,7 +45,7 @@ inline constexpr std::uint8_t kRetestBit = 1;
 
 std::uint8_t sum(std::span<const std::uint8_t> bytes);
 
-/// What the check of a block is: the sum of its data, or their XOR.
+/// The check of a block: the sum of its data, or their XOR.
 enum class DataCheck : std::uint8_t { Sum, Xor };
 inline constexpr auto kDataCheckWords = words_of<DataCheck>({{DataCheck::Sum, "sum"}, {DataCheck::Xor, "xor"}});
 std::uint8_t data_check(std::span<const std::uint8_t> data, DataCheck by);
@@ -61,7 +61,7 @@ Bytes retest();
 Bytes erase();
 Bytes highway(HighwayCommand command, std::uint8_t highway = 0, std::uint8_t drop = 0, std::uint8_t subdrop = 0);
 
-/// Of a message with Opcode::BitWrite: whether it is retest().
+/// Whether a message with Opcode::BitWrite is a retest().
 bool is_retest(std::span<const std::uint8_t> message);
 
 /// The bytes that PLCs want to see before they erase.
@@ -78,13 +78,13 @@ serial::Answer check_block_answer(std::span<const std::uint8_t> request, std::sp
 /// `wrong data check`, and whether it is right by the other rule.
 std::string wrong_data_check(std::span<const std::uint8_t> data, std::uint8_t check, DataCheck by);
 
-/// What `bytes` of the answer to a set unit address say: `keyswitch in stop, fault register 16#0204`.
+/// The meaning of `bytes` in the answer to a set unit address: `keyswitch in stop, fault register 16#0204`.
 std::string unit_text(std::span<const std::uint8_t> bytes);
 
-/// What `bytes` of the answer to a highway command say: `session of 00.22.00`.
+/// The meaning of `bytes` in the answer to a highway command: `session of 00.22.00`.
 std::string highway_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> bytes);
 
-/// `invalid drop addressed`
+/// The name of a highway's error: `invalid drop addressed`
 std::string_view highway_error_name(std::uint16_t code);
 
 }  // namespace s7200::westinghouse

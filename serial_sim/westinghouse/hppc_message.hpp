@@ -21,7 +21,8 @@
 
 namespace s7200::westinghouse {
 
-/// Both are CCITT's but for one entry of the document's table, which is not a misprint according to its text.
+/// The table of the frame check. Both are CCITT's but for one entry of the document's table, which is not a misprint
+/// according to its text.
 enum class FcsTable : std::uint8_t { Document, Polynomial };
 inline constexpr auto kFcsWords =
     words_of<FcsTable>({{FcsTable::Document, "document"}, {FcsTable::Polynomial, "polynomial"}});
@@ -37,7 +38,7 @@ enum class HppcOpcode : std::uint8_t {
   Error = 0x10
 };
 
-/// How the layouts that the document leaves open are meant [H4] [H5] [H6].
+/// The readings of the layouts that the document leaves open [H4] [H5] [H6].
 struct HppcLayout {
   enum class ReadRequest : std::uint8_t { AddressAndNumber, Number };
   enum class BitWrite : std::uint8_t { PatternFirst, MaskFirst };
@@ -60,7 +61,7 @@ inline constexpr std::size_t kShortestHppc = 8, kLongestHppc = 0x400, kHppcHeade
 inline constexpr std::uint32_t kHppcMemory = 0x100000, kParameterTable = 0x80000;
 inline constexpr std::size_t kMostMonitored = 256;
 
-/// With length and frame check.
+/// A message with length and frame check.
 Bytes hppc_message(std::uint8_t destination, std::uint8_t source, HppcOpcode opcode, std::span<const std::uint8_t> operands,
                    FcsTable table);
 
@@ -74,31 +75,31 @@ Bytes hppc_monitor(std::uint32_t network, std::span<const std::uint32_t> bytes, 
 std::uint32_t hppc_address(std::span<const std::uint8_t> bytes);
 void add_hppc_address(Bytes& to, std::uint32_t address);
 
-/// Whether there is as much as the length says.
+/// Whether the message has as many bytes as its length says.
 bool is_whole_hppc(std::span<const std::uint8_t> message);
 
 /// `bytes` of the result: the operands of the answer. An exception is an error response.
 serial::Answer check_hppc_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
                                  FcsTable table);
 
-/// Where holding registers are.
+/// The place of the holding registers.
 struct HoldingRegisters {
   std::uint32_t base;                   ///< of register 1
   std::optional<std::uint16_t> number;  ///< nothing where the table ends before that
 };
 
-/// By the first 34 (hex) bytes of the parameter table or more: at offset 2E, or at 2C where the
-/// table is as the document's example [H10]. Nothing if neither is an address of a register.
+/// Finds the holding registers by the first 34 (hex) bytes of the parameter table or more: at offset 2E, or at 2C in a table
+/// as in the document's example [H10]. Nothing if neither is an address of a register.
 std::optional<HoldingRegisters> holding_registers(std::span<const std::uint8_t> table);
 
-/// Of the operands of an answer to 0D, an address of three bytes at least, and what stands there:
-/// `parameter table at 16#80000, holding register 1 at 16#ABFFE: 8a 00`
+/// The meaning of the operands of an answer to 0D, an address of three bytes and its data: `parameter table at 16#80000,
+/// holding register 1 at 16#ABFFE: 8a 00`
 std::string hppc_parameters_text(std::span<const std::uint8_t> operands);
 
 /// The first byte of an answer to a monitor: `status 16#10: processor not running`
 std::string hppc_status_text(std::uint8_t status);
 
-/// `illegal opcode`
+/// The name of an error: `illegal opcode`
 std::string_view hppc_error_name(std::uint16_t code);
 
 }  // namespace s7200::westinghouse

@@ -37,10 +37,10 @@ class LanPlc final : public PlcOf<LanPlc> {
   bool operator==(const LanPlc&) const = default;
 
  private:
-  /// What a whole message earns; empty for silence.
+  /// The reply to a whole message; empty for silence.
   Bytes reply(std::span<const std::uint8_t> message);
   Bytes set_unit_address(std::span<const std::uint8_t> message);
-  /// Silence, or what is answered instead of it [L8].
+  /// Empty for silence, or the message that is sent instead of it [L8].
   Bytes refusal() const;
   void begin_anew();
 

@@ -15,7 +15,8 @@ constexpr std::size_t kMostArguments = kMostLoaderBytes + 2;
 constexpr std::uint32_t kDirectory = 0xE400;
 constexpr std::uint32_t kBlockHeader = 10;  // bytes before the data of a block
 
-/// What opcode 18 tells: PII, PIQ, flags, timers, counters, system data, software release, end of the program.
+/// The pointers that opcode 18 returns: PII, PIQ, flags, timers, counters, system data, software release, end of the
+/// program.
 constexpr std::array<std::uint16_t, 8> kPointers{0xEF00, 0xEF80, 0xEE00, 0xEC00, 0xED00, 0xEA00, 0x2804, 0xCFFF};
 
 /// The PLC of the document: four outputs, and DB001 with two words.
@@ -51,7 +52,7 @@ void LoaderPlc::go_idle() {
   wake_at(kNever);
 }
 
-/// No byte for too long within a session.
+/// A session ends if no byte comes for too long.
 void LoaderPlc::wake(Time) { go_idle(); }
 
 void LoaderPlc::restart(Time) { go_idle(); }
@@ -68,7 +69,7 @@ void LoaderPlc::refuse(Time end) {
   if (settings_.nak == LoaderSettings::Nak::Sent) say({kRefusal.begin(), kRefusal.end()}, end);
 }
 
-/// Takes its turn.
+/// Takes the PLC's turn in the session.
 void LoaderPlc::go_on(Time end) {
   const bool with_data = has_data(static_cast<LoaderOpcode>(opcode_));
   const LoaderStep step = after(due_, with_data);

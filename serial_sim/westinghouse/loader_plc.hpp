@@ -56,7 +56,7 @@ class LoaderPlc final : public PlcOf<LoaderPlc> {
   void say(Bytes bytes, Time request_end);
   void go_idle();
 
-  /// Does what the arguments say. False if they are wrong.
+  /// Carries out the operation. Returns false if its arguments are wrong.
   bool run();
   bool read();
   bool write();

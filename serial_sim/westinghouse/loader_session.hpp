@@ -22,11 +22,11 @@ namespace s7200::westinghouse {
 
 enum class LoaderOpcode : std::uint8_t { Write = 0x03, Read = 0x04, Pointers = 0x18, Block = 0x1A, Directory = 0x1B };
 
-/// Whether the PLC doubles a data byte 10 in its answers [S3]; the computer does always.
+/// Whether the PLC doubles a data byte 10 in its answers [S3]; the computer always does.
 enum class Dle : std::uint8_t { Doubled, Plain };
 inline constexpr auto kDleWords = words_of<Dle>({{Dle::Doubled, "doubled"}, {Dle::Plain, "plain"}});
 
-/// Whose address is the first of the block directory [S1].
+/// The block whose address is the first of the block directory [S1].
 enum class FirstBlock : std::uint8_t { Db0, Db1 };
 inline constexpr auto kFirstBlockWords = words_of<FirstBlock>({{FirstBlock::Db0, "db0"}, {FirstBlock::Db1, "db1"}});
 
@@ -39,7 +39,7 @@ inline constexpr std::size_t kReadHead = 5;  ///< 00 bytes before the data of a 
 inline constexpr std::string_view kRefusalName = "refused (NAK)";
 inline constexpr std::array kRefusal{kDle, kNak}, kEndOfArguments{kDle, kEot}, kEndOfData{kDle, kEtx};
 
-/// In their order. The computer begins, and the two take turns.
+/// The steps of a session in their order. The computer begins, and the two take turns.
 enum class LoaderStep : std::uint8_t {
   Begin,
   BeginHeard,
@@ -63,15 +63,15 @@ inline bool is_of_plc(LoaderStep step) { return static_cast<unsigned>(step) % 2 
 /// The step after this one, which is not the last; a session without data goes on at its end after the arguments.
 LoaderStep after(LoaderStep step, bool with_data);
 
-/// What a step always is, and how arguments begin; nothing of an opcode and of data.
+/// The fixed bytes of a step, or those in front of its arguments; empty for an opcode and for data.
 Bytes fixed(LoaderStep step);
 
-/// What a session asks for.
+/// The operation of a session.
 struct LoaderOperation {
   LoaderOpcode opcode = LoaderOpcode::Read;
   Bytes arguments{};
   std::size_t data = 0;          ///< bytes that come back; 0 for a write
-  bool more_may_follow = false;  ///< behind them, of which nothing is documented
+  bool more_may_follow = false;  ///< after the data; nothing about it is documented
 };
 
 bool has_data(LoaderOpcode opcode);
@@ -86,7 +86,7 @@ LoaderOperation loader_directory();
 /// `bytes`, with each 10 doubled.
 Bytes stuffed(std::span<const std::uint8_t> bytes);
 
-/// The same taken back; a 10 that is not doubled stays.
+/// The bytes with each doubled 10 taken back; a 10 that is not doubled stays.
 Bytes unstuffed(std::span<const std::uint8_t> bytes);
 
 bool begins_with(std::span<const std::uint8_t> text, std::span<const std::uint8_t> beginning);
@@ -96,22 +96,22 @@ class LoaderSteps {
  public:
   LoaderSteps(LoaderOperation operation, Dle dle) : operation_(std::move(operation)), dle_(dle) {}
 
-  /// Begins anew, with 02.
+  /// Begins a session anew, with 02.
   Bytes first();
 
-  /// What to send after `response`. Nothing if the session is over, or the response does not fit.
+  /// The bytes to send after `response`. Nothing if the session is over, or the response does not fit.
   std::optional<Bytes> next(std::span<const std::uint8_t> response);
 
-  /// The last step is not answered.
+  /// Whether this step is answered: the last one is not.
   bool answered() const { return step_ != LoaderStep::Close; }
 
-  /// All that a PLC answered in a session. `bytes` of the result: the data. An exception 15 is a refusal.
+  /// Judges all that a PLC answered in a session. `bytes` of the result is the data. An exception 15 is a refusal.
   serial::Answer judge(std::span<const std::uint8_t> response) const;
 
   const LoaderOperation& operation() const { return operation_; }
 
  private:
-  /// How much of `response` is this step of the PLC; nothing if it does not fit. Data goes to `data`.
+  /// The number of bytes of `response` that are this step of the PLC; nothing if it does not fit. The data goes to `data`.
   std::optional<std::size_t> length_of(LoaderStep step, std::span<const std::uint8_t> response, Bytes& data) const;
   bool has_all(std::size_t bytes) const;
   std::optional<std::size_t> take_data(std::span<const std::uint8_t> response, Bytes& data) const;
@@ -123,7 +123,7 @@ class LoaderSteps {
   LoaderStep step_ = LoaderStep::Begin;  // that was sent last
 };
 
-/// Whether a PLC says no more until it is told something.
+/// Whether the PLC waits for the computer after these bytes.
 bool is_whole_step(std::span<const std::uint8_t> response);
 
 }  // namespace s7200::westinghouse

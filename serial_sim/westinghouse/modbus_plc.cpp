@@ -28,7 +28,7 @@ constexpr std::uint8_t kOfPc2000[]{1, 2, 3, 4, 5, 6, 8, 16};
 constexpr std::uint8_t kOfNcmz[]{1, 2, 3, 4, 5, 6, 7, 8, 16};
 constexpr std::uint8_t kOfHppc[]{1, 2, 3, 4, 5, 6, 8, 15, 16};
 
-/// [M1] is in supports().
+/// A model and the functions that it supports; choice [M1] is made in supports().
 struct ModelRow {
   Model model;
   std::string_view word;
@@ -239,7 +239,7 @@ Bytes ModbusPlc::slave_id(Data pdu) const {
   if (pdu.size() != 1) return {};
   if (settings_.exception != 0) return exception(pdu, settings_.exception);
   Bytes reply{pdu[0], 0, settings_.slv_id, settings_.run, settings_.mode, settings_.version};
-  // From the start of the message the error register would stand at an odd place with an aligning compiler.
+  // An aligning compiler puts the error register at an even place, counted from the start of the message.
   if (settings_.slave_id_layout == ModbusSettings::Layout::Aligned) reply.push_back(0);
   const bool high_first = settings_.slave_id_order == ModbusSettings::ByteOrder::HighFirst;
   for (const std::uint16_t word : {settings_.err, settings_.mode_chg}) {

@@ -74,7 +74,7 @@ class ModbusPlc final : public PlcOf<ModbusPlc> {
  private:
   using Data = std::span<const std::uint8_t>;
 
-  /// What `pdu` earns, without station and CRC; empty for silence.
+  /// The reply to `pdu`, without station and CRC; empty for silence.
   Bytes reply(Data pdu);
   bool supports(std::uint8_t function) const;
   bool carries_out_broadcast(std::uint8_t function) const;
@@ -90,7 +90,7 @@ class ModbusPlc final : public PlcOf<ModbusPlc> {
   Bytes slave_id(Data pdu) const;
   Bytes general(Data pdu);
 
-  /// Nothing, or the exception that a quantity or an address earns.
+  /// The exception for a wrong quantity or address; 0 if both are right.
   std::uint8_t fault_of_range(bool quantity_right, unsigned address, unsigned count, unsigned size) const;
 
   unsigned holding_registers() const;

@@ -57,7 +57,7 @@ std::uint8_t Pc1000::key_byte() const {
 }
 
 Bytes Pc1000::carry_out(Data message) {
-  // What the messages have at the place of no operand is 00 in all of them.
+  // A message without an operand has 00 in the operand's place.
   switch (static_cast<Opcode>(message[0])) {
     case Opcode::ReadBlock:
       return message[4] == 0 ? read(message) : Bytes{};

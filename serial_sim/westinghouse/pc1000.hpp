@@ -40,11 +40,11 @@ struct Pc1000Settings {
 
 class Pc1000 {
  public:
-  /// How many bytes a message has that begins like this: six or more; 0 if no opcode has this number.
+  /// The length in bytes of a message that begins with these six bytes or more; 0 if no opcode has this number.
   static std::size_t length(std::span<const std::uint8_t> begin);
 
-  /// Does what a whole message says, and returns the answer; empty if it is wrong or refused. Set unit address and the
-  /// highway's commands are not for the PLC.
+  /// Carries out a whole message and returns the answer; empty if it is wrong or refused. Set unit address and the highway's
+  /// commands are not for the PLC.
   Bytes carry_out(std::span<const std::uint8_t> message);
 
   /// Whether the check of a message's first six bytes is right.
@@ -70,7 +70,7 @@ class Pc1000 {
   void set_byte(std::uint32_t address, std::uint8_t value);
 };
 
-/// Messages out of characters.
+/// Joins characters to messages.
 class MessageReader {
  public:
   enum class State : std::uint8_t {

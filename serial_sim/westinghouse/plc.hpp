@@ -1,4 +1,4 @@
-// What the simulated PLCs of this family have in common: they are set, and looked at, by texts.
+// The common part of the simulated PLCs of this family: texts set and check them.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,17 +20,17 @@ class Plc : public serial::Automaton {
   /// A setting, or cells of memory: `key=modify`, `HR1=1234,0001`. Returns false and sets `why` for anything else.
   virtual bool set(std::string_view text, std::string& why) = 0;
 
-  /// Whether such a text is about cells. They are to be set last: where some of them are hangs on settings.
+  /// Whether such a text is about cells. Cells are to be set last: the place of some depends on settings.
   virtual bool names_cells(std::string_view text) const = 0;
 
-  /// Whether a master reaches the cells that such a text sets, as the PLC is set by now. Sets `why` if it does not. Those of
-  /// a setting are none.
+  /// Whether a master reaches the cells that such a text sets, with the PLC's present settings. Sets `why` if it does not. A
+  /// setting has no cells.
   virtual bool still_reaches(std::string_view text, std::string& why) const = 0;
 
-  /// Whether it holds what such a text says. Sets `why` if it does not.
+  /// Whether the PLC has the values of such a text. Sets `why` if it does not.
   virtual bool holds(std::string_view text, std::string& why) const = 0;
 
-  /// It hears nothing without a sync signal beside the data.
+  /// Whether the PLC hears only with a sync signal beside the data.
   virtual bool needs_sync() const { return false; }
 
   bool operator==(const Plc&) const = default;
@@ -40,7 +40,7 @@ class Plc : public serial::Automaton {
   Plc(const Plc&) = default;
   Plc& operator=(const Plc&) = default;
 
-  /// Says nothing if `reply` is empty.
+  /// Sends `reply`, or nothing if it is empty.
   void answer_or_be_silent(Bytes reply, Time at) {
     if (!reply.empty()) answer(std::move(reply), at);
   }
@@ -146,7 +146,7 @@ class PlcOf : public Plc {
     return {};
   }
 
-  /// Whether a master reaches them.
+  /// Whether a master reaches these cells.
   bool are_there(const Cells<Self>& row, const CellsText& text, std::string& why) const {
     if (!row.last) return true;
     const std::uint32_t last = row.last(self());

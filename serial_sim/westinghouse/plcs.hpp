@@ -21,7 +21,7 @@ struct PlcRow {
 
 std::span<const PlcRow> plcs();
 
-/// Null for one that is not there.
+/// Returns null if no PLC has this protocol.
 const PlcRow* find_plc(std::string_view protocol);
 
 /// A model that speaks the protocol, in its bench state. Null, and `why`, if it does not.

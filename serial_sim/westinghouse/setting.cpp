@@ -20,7 +20,7 @@ std::optional<std::uint32_t> parse_number(std::string_view text, int base) {
   return value;
 }
 
-/// `00.11.00`
+/// Parses a drop's address, as in `00.11.00`.
 std::optional<std::uint32_t> parse_drop(std::string_view text) {
   constexpr std::size_t kLength = 8;
   if (text.size() != kLength || text[2] != '.' || text[5] != '.') return {};

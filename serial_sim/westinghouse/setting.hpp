@@ -47,7 +47,7 @@ struct Setting {
   std::function<void(Plc&, std::uint32_t)> set;
 };
 
-/// Of `part(plc).*member`: a number, or an enumeration in the order of the words.
+/// A setting `part(plc).*member`: a number, or an enumeration in the order of the words.
 template <class Plc, class Part, class Member>
 Setting<Plc> setting_of(SettingForm form, Part part, Member member) {
   using Value = std::remove_cvref_t<decltype(part(std::declval<Plc&>()).*member)>;
@@ -55,7 +55,7 @@ Setting<Plc> setting_of(SettingForm form, Part part, Member member) {
           [=](Plc& plc, std::uint32_t value) { part(plc).*member = static_cast<Value>(value); }};
 }
 
-/// Memory of a PLC that texts name.
+/// A kind of cells in a PLC's memory, which texts name.
 template <class Plc>
 struct Cells {
   std::string_view name;      ///< `HR`, `W`
@@ -70,7 +70,7 @@ struct Cells {
   std::string_view last_from{};
 };
 
-/// `W[4000]=0BB8,00FF`, taken apart.
+/// A text such as `W[4000]=0BB8,00FF`, taken apart.
 struct CellsText {
   std::string name;
   bool by_address = false;

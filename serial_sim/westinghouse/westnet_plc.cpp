@@ -24,7 +24,7 @@ void WestnetPlc::wake(Time) {
   wake_at(kNever);
 }
 
-/// No drop is addressed, and no one is in session.
+/// After power-up no drop is addressed and no session is open.
 void WestnetPlc::restart(Time) {
   reader_.begin_anew();
   settings_.remote = settings_.session = kNowhere;

@@ -55,11 +55,11 @@ class WestnetPlc final : public PlcOf<WestnetPlc> {
   Bytes reply(Data message);
   Bytes highway(Data message);
   Bytes set_address(Data message);
-  /// Of open, close and session status, and of commands for the PLC: an error that is in their way, or 0.
+  /// The error that is in the way of open, close and session status, and of commands for the PLC; 0 if there is none.
   std::uint8_t fault_of_plc() const;
   std::uint8_t fault_of_session() const;
   std::uint8_t busy() const { return settings_.busy_code == WestnetSettings::BusyCode::Hex ? 0x12 : 12; }
-  /// What the status of the highway shows from then on; silence if there is no code.
+  /// The error that the highway's status shows from now on; silence if `code` is 0.
   Bytes error(std::uint8_t code);
 
   WestnetSettings settings_;

@@ -15,7 +15,7 @@ struct Named {
   std::string_view word;
 };
 
-/// In the order of the enumeration.
+/// The words of an enumeration, in its order.
 template <std::size_t N>
 struct Words : std::array<std::string_view, N> {
   operator std::vector<std::string_view>() const { return {this->begin(), this->end()}; }
