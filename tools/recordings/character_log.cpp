@@ -15,7 +15,7 @@
 namespace s7200::tools {
 namespace {
 
-/// What a character that cannot be printed is called.
+/// The name of a character that cannot be printed.
 struct ControlName {
   std::string_view name;
   std::uint8_t byte;
@@ -56,7 +56,7 @@ bool has_named_character(std::string_view text) {
   return false;
 }
 
-/// `\r`, `\n`, `\x02`
+/// Whether a text has an escape: `\r`, `\n`, `\x02`.
 bool has_escape(std::string_view text) {
   for (std::size_t at = text.find('\\'); at != std::string_view::npos; at = text.find('\\', at + 1)) {
     const std::string_view after = text.substr(at + 1, 3);
@@ -78,7 +78,7 @@ Bytes with_named_characters(std::string_view text) {
   return bytes;
 }
 
-/// Nothing if an escape is unknown.
+/// The characters of a text with escapes; nothing if an escape is unknown.
 std::optional<Bytes> characters_of(std::string_view text) {
   const std::string_view trimmed = stl::trim(text);
   const bool quoted = trimmed.size() > 1 && trimmed.front() == '"' && trimmed.back() == '"';
@@ -87,7 +87,7 @@ std::optional<Bytes> characters_of(std::string_view text) {
   return bytes_of_literal(text);
 }
 
-/// What a row has: a time, a direction, and the characters after them.
+/// A row of the log: a time, a direction, and the characters after them.
 struct Row {
   std::optional<LeadingTime> time{};
   Direction direction = Direction::Unknown;

@@ -43,7 +43,7 @@ constexpr std::array kProtocols{
     RecordedProtocol{.name = "text", .reader = text_reader},
 };
 
-/// The characters [begin, end) of a frame.
+/// The characters [begin, end) of a frame, as a frame of their own.
 RecordedFrame part_of(const RecordedFrame& frame, std::size_t begin, std::size_t end, const Stamps& stamps) {
   const auto cut = [&](const auto& list) {
     return std::remove_cvref_t<decltype(list)>(list.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -74,8 +74,8 @@ bool may_be_divided(const RecordedFrame& before, const RecordedFrame& after) {
   return before.direction == after.direction && before.stream == after.stream && !before.doubt && !after.doubt;
 }
 
-/// So that a log may have divided a frame there: programs are told late of what has come, and in pieces. In a capture no
-/// frame ends with less than a character of silence.
+/// Whether the second frame follows so soon that a log may have divided one frame there: programs see characters late and in
+/// pieces. In a capture no frame ends with less than a character of silence.
 bool follows_closely(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps) {
   const auto between = silence(before, after, stamps);
   return may_be_divided(before, after) && between &&

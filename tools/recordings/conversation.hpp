@@ -16,7 +16,7 @@
 
 namespace s7200::tools {
 
-/// A frame, read.
+/// A frame and what it says.
 struct ReadFrame {
   RecordedFrame frame{};
   Direction direction = Direction::Unknown;  ///< Unknown: neither a request nor an answer to one
@@ -45,7 +45,7 @@ class FrameReader {
   /// does.
   virtual ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) = 0;
 
-  /// The same, perhaps without its text, for whoever only counts.
+  /// Reads a frame, perhaps without its text, for callers that only count.
   virtual ReadFrame judge(const RecordedFrame& frame, const RecordedFrame* open) { return read(frame, open); }
 
   /// Whether a slave may answer a frame with the same bytes.
@@ -64,7 +64,7 @@ class FrameReader {
   virtual bool messages_share_frames() const { return false; }
 };
 
-/// What the document of a protocol leaves open of its frames: an option with the name that it has for `master`.
+/// An option for something that a protocol's document leaves open of its frames; it has the name that it has for `master`.
 struct ReaderOption {
   std::string_view name, value, meaning;    ///< `--dle`, `FORM`, and for the help
   std::span<const std::string_view> words;  ///< it takes one of them; without it the first one holds
@@ -72,10 +72,10 @@ struct ReaderOption {
 
 constexpr std::size_t kMostReaderOptions = 3;
 
-/// Which of its words, for each option of a protocol in the order of its row.
+/// The chosen word of each option of a protocol, in the order of its row.
 using ChosenWords = std::array<std::uint8_t, kMostReaderOptions>;
 
-/// A protocol that recordings are read in.
+/// A protocol in which recordings are read.
 struct RecordedProtocol {
   std::string_view name;  ///< as for `master --protocol`
   std::unique_ptr<FrameReader> (*reader)(const ChosenWords& chosen);
@@ -90,7 +90,7 @@ struct RecordedProtocol {
 std::span<const RecordedProtocol> recorded_protocols();
 const RecordedProtocol* find_recorded_protocol(std::string_view name);
 
-/// What the directions that a recording says are taken for.
+/// How the directions in a recording are understood.
 enum class DirectionsTaken : std::uint8_t { AsSaid, TheOtherWayRound, Open };
 
 /// Frame after frame; an answer goes to the last request that has none, of Modbus TCP to that of its transaction.
@@ -99,20 +99,20 @@ class Conversation {
   Conversation(const RecordedProtocol& protocol, const Stamps& stamps, DirectionsTaken taken = DirectionsTaken::AsSaid)
       : protocol_(protocol), stamps_(stamps), taken_(taken) {}
 
-  /// From now on frames may come without their texts.
+  /// Lets frames come without their texts from now on.
   void leave_out_texts() { with_texts_ = false; }
 
-  /// What a frame says. One that was put together from characters, and whose direction is not known, may be several messages
-  /// that followed each other closely, and so may every frame of some protocols. Of any other but of a capture several are
-  /// made only if each of them is right: programs print in one line what has come to them together.
+  /// Reads a frame. A frame that was put together from characters, and whose direction is not known, may be several messages
+  /// that followed each other closely, and so may every frame of some protocols. Any other frame, except in a capture,
+  /// becomes several messages only if each of them is right: programs print in one line what has come to them together.
   std::vector<ReadFrame> add(RecordedFrame frame);
 
   /// The messages that characters begin with, as far as they are all there; they are taken off the frame.
   std::vector<ReadFrame> take_complete(RecordedFrame& frame);
 
-  /// What the first of the rows say, which a log may have divided. Those after the first belong to it as long as it says
-  /// that more of it is to come, if the whole is right; and those that follow closely, if only together they are right.
-  /// `rows` is left with the others.
+  /// Reads the first of the rows, which a log may have divided. Later rows belong to it as long as it says that more of it
+  /// is to come, if the whole is right, or if they follow closely and only together they are right. `rows` is left with the
+  /// rest.
   std::vector<ReadFrame> take(std::span<const RecordedFrame>& rows);
 
  private:
@@ -136,7 +136,7 @@ class Conversation {
     bool echo = false;
   };
 
-  /// What is left of a frame after its whole messages, and the request that is open there.
+  /// The rest of a frame after its whole messages, and the request that is open there.
   struct Rest {
     std::size_t begin = 0;
     std::optional<RecordedFrame> open{};
@@ -155,10 +155,10 @@ class Conversation {
   std::size_t announced_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   std::size_t close_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   ReadFrame read(Stream& stream, RecordedFrame frame, bool echo);
-  /// The row with its bytes, if it is not in doubt, or if one reading of it is a right frame.
+  /// The row with its bytes if they are not in doubt, or if one reading of the row is a right frame.
   std::optional<RecordedFrame> settled(const Stream& stream, const RecordedFrame& row, bool& without_word) const;
   ReadFrame not_read(Stream& stream, RecordedFrame row);
-  /// As an answer to the request that is open, or as a request.
+  /// Reads the frame as an answer to the open request, or as a request.
   ReadFrame what_it_says(const Stream& stream, const RecordedFrame& frame) const;
   ReadFrame what_reader_says(const Stream& stream, const RecordedFrame& frame, const RecordedFrame* open) const;
 
@@ -172,7 +172,7 @@ class Conversation {
   std::size_t count_ = 0;
 };
 
-/// How many frames are right.
+/// The share of frames that are right.
 class RightFrames {
  public:
   RightFrames() = default;
@@ -189,7 +189,7 @@ class RightFrames {
   std::size_t right_ = 0, all_ = 0;
 };
 
-/// What is to be said of frames that came in pieces, and of echoes.
+/// The notes on frames that came in pieces, and on echoes.
 class ConversationNotes {
  public:
   void add(const ReadFrame& frame);
@@ -204,8 +204,8 @@ class ConversationNotes {
   NamedRows not_read_{};
 };
 
-/// The protocol that most of a recording can be read in, and half of it at least, if hardly anything can be in `chosen`;
-/// null if there is none.
+/// Another protocol in which most frames of a recording can be read, and at least half of them, if hardly any can be read in
+/// `chosen`; null if there is none.
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
                                           const RightFrames& in_chosen, const Stamps& stamps);
 
@@ -214,7 +214,7 @@ const RecordedProtocol* likelier_protocol(const LineRecording& recording, const 
 void tell_conversation(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps,
                        const std::function<bool(ReadFrame&)>& tell);
 
-/// Which frames of a recording are requests that got an answer, by their number.
+/// For each frame of a recording, by its number, whether it is a request that got an answer.
 std::vector<bool> answered_requests(const LineRecording& recording, const RecordedProtocol& protocol, const Stamps& stamps);
 
 /// A whole recording, each request with its answer.

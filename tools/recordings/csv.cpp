@@ -30,10 +30,10 @@ struct Columns {
   std::optional<std::size_t> sent{}, received{};  ///< instead of direction and data
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
-  std::string unknown_unit{};  ///< the name of the times' column, if what it has in brackets is no unit
+  std::string unknown_unit{};  ///< the name of the times' column, if its text in brackets is not a unit
 };
 
-/// `text` in any case, `words` in capitals.
+/// Whether `text`, in any case, contains one of `words`, which are in capitals.
 bool contains(std::string_view text, std::initializer_list<std::string_view> words) {
   const std::string capitals = stl::upper_case(text);
   return std::ranges::any_of(words, [&](std::string_view word) { return capitals.find(word) != std::string::npos; });
@@ -112,7 +112,7 @@ std::optional<LeadingTime> time_of(std::string_view field, const Columns& column
   return time && time->length == local.size() ? time : std::nullopt;
 }
 
-/// What a column of errors holds where there is none.
+/// Whether a field of an error column reports an error.
 bool says_error(std::string_view field) {
   static constexpr std::array<std::string_view, 8> kNone{"", "0", "-", "NO", "NONE", "FALSE", "OK", "NO ERROR"};
   return std::ranges::find(kNone, stl::upper_case(stl::trim(field))) == kNone.end();
@@ -126,13 +126,13 @@ bool has_bytes_below(std::string_view bytes, const Columns& columns) {
   return *columns.data < fields.size() && bytes_of_text(fields[*columns.data]);
 }
 
-/// What a cell has without blanks around it. A blank or a line end alone is a recorded character, unless the row has a
-/// column for each direction: then it is the empty one.
+/// The content of a cell without blanks around it. A blank or a line end alone is a recorded character, unless the row has a
+/// column for each direction: then the cell is empty.
 std::string_view content_of(std::string_view field, const Columns& columns) {
   return field.size() == 1 && !columns.sent ? field : stl::trim(field);
 }
 
-/// What the bytes below the names are written in. Null, and `why`, if they have no notation.
+/// The notation of the bytes below the names. Null with `why` set if they have none.
 struct ColumnNotation {
   const Notation* notation = nullptr;
   bool characters = false;  ///< each row has one

@@ -26,7 +26,7 @@ std::string painted(const std::string& text, const char* paint, bool colour) {
   return colour ? fmt::format("\x1b[{}m{}\x1b[0m", paint, text) : text;
 }
 
-/// `25.000`, to the nearest microsecond.
+/// A time in milliseconds, to the nearest microsecond: `25.000`.
 std::string milliseconds(Time time) {
   const auto magnitude = static_cast<std::uint64_t>(time < 0 ? -time : time);
   const std::uint64_t rounded = (magnitude + kMicrosecond / 2) / kMicrosecond;
@@ -37,7 +37,7 @@ std::string milliseconds(Time time) {
   return time < 0 ? '-' + text : text;
 }
 
-/// To the right of a column.
+/// Appends a text at the right of its column.
 void append_column(std::string& line, std::string_view text, std::size_t width) {
   const std::size_t characters = stl::count_characters(text);
   line.append(characters < width ? width - characters : 0, ' ').append(text);

@@ -1,4 +1,4 @@
-// A conversation for people and for machines.
+// A decoded conversation as text and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 
 namespace s7200::tools {
 
-/// What became of the requests.
+/// The numbers of requests by their outcome.
 class DecodedSummary {
  public:
   void add(const ReadFrame& frame);
@@ -33,10 +33,10 @@ std::string decoded_heading(bool colour);
 std::string decoded_text(const ReadFrame& frame, bool unanswered, bool colour);
 nlohmann::ordered_json decoded_json(const ReadFrame& frame);
 
-/// All frames and a summary.
+/// All frames and a summary, as text.
 std::string decoded_text(const std::vector<ReadFrame>& frames, bool colour);
 
-/// The keys `frames` and `summary`.
+/// Adds the keys `frames` and `summary`.
 void add_decoded(nlohmann::ordered_json& results, const std::vector<ReadFrame>& frames);
 
 }  // namespace s7200::tools

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kHead = "Id,Time[ns],";
 constexpr std::size_t kTime = 1, kFirstData = 2;
 
-/// What the decoder says of a character rather than the character.
+/// A remark of the decoder in place of a character.
 enum class Remark : std::uint8_t { None, Damage, Bit };
 Remark remark_of(std::string_view cell) {
   const std::string words = stl::lower_case(cell);

@@ -16,7 +16,7 @@
 namespace s7200::tools {
 namespace {
 
-/// `Sent packet: @3FFCED70/8:`
+/// The heading of a dump: `Sent packet: @3FFCED70/8:`
 struct Heading {
   std::string_view text{};  ///< what stands before the address
   std::size_t length = 0;   ///< bytes of the rows below it
@@ -57,7 +57,7 @@ std::optional<DumpRow> row_of(std::string_view line) {
   return row.bytes.empty() || scan.skip(kAllBlanks, 1) == 0 ? std::nullopt : std::optional(std::move(row));
 }
 
-/// `[D] 1234|`: milliseconds since the start.
+/// The time of a line in milliseconds since the start: `[D] 1234|`
 std::optional<LeadingTime> time_of(std::string_view line) {
   Scan scan(line);
   const bool has_level = scan.take("[") != '\0' && scan.take_while(is_word_sign, 1).size() == 1 && scan.take("]") != '\0';

@@ -24,7 +24,7 @@ struct LoggedBytes {
   std::string_view written{};
 };
 
-/// Without what colours a line: ESC [ ... m.
+/// The line without the sequence that sets its colour: ESC [ ... m.
 std::string_view after_colour(std::string_view line) {
   if (!line.starts_with("\x1b[")) return line;
   const std::size_t end = line.find('m');

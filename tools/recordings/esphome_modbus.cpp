@@ -38,7 +38,7 @@ std::optional<Bytes> written_bytes(std::string_view text) {
   return bytes_of_text(plain);
 }
 
-/// `18 (0X12)`
+/// A received byte: `18 (0X12)`
 std::optional<Bytes> received_byte(std::string_view text) {
   const std::size_t bracket = text.find('(');
   if (bracket == std::string_view::npos) return {};

@@ -17,7 +17,7 @@ constexpr Time kDay = 86'400 * kSecond, kFarthest = 36'525 * kDay;
 
 constexpr std::string_view kBeforeTime = " \t\n\v\f\r[(", kAfterTime = " \t\n\v\f\r]):,;|";
 
-/// `5` of a fraction is 500 ms.
+/// The time of a fraction's digits in seconds: `5` is 500 ms.
 Time fraction(std::string_view digits) {
   Time time = decimal_number(digits);
   for (std::size_t i = digits.size(); i < 9; ++i) time *= 10;
@@ -130,7 +130,7 @@ constexpr std::array kTimeUnits{TimeUnit{"ms", kMillisecond}, TimeUnit{"us", kMi
 
 bool goes_on_as_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.'; }
 
-/// The unit after a number, if no word begins with it; null: there is none.
+/// Takes the unit after a number, if it is a word of its own; null if there is none.
 const TimeUnit* take_unit(Scan& scan) {
   const std::size_t begin = scan.at();
   scan.skip(kAllBlanks);
@@ -150,7 +150,7 @@ bool is_list_of_bytes(std::string_view whole, std::string_view part, std::string
          std::isxdigit(static_cast<unsigned char>(after[2])) != 0;
 }
 
-/// `0.123456`, `-12.3 ms`, `+7us`
+/// A time since the start: `0.123456`, `-12.3 ms`, `+7us`
 std::optional<LeadingTime> time_since(std::string_view text) {
   Scan scan(text);
   scan.skip(" \t\n\v\f\r[(+");
@@ -179,7 +179,7 @@ bool is_marked(std::string_view text) { return text.starts_with("0x") || text.st
 
 bool is_word_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// The first blank, or the first sign that is none, from a place on; the length of the line if there is no more.
+/// The place of the first blank, or of the first other sign, from `at` on; the length of the line if there is none.
 std::size_t end_of_word(std::string_view line, std::size_t at) {
   while (at < line.size() && !is_word_blank(line[at])) ++at;
   return at;
@@ -189,7 +189,7 @@ std::size_t begin_of_word(std::string_view line, std::size_t at) {
   return at;
 }
 
-/// `2026-11-22`
+/// Whether a word begins with a date: `2026-11-22`
 bool has_date(std::string_view word) {
   constexpr std::string_view kForm = "dddd-dd-dd";
   const auto is_date = [&](std::string_view text) {
@@ -202,8 +202,8 @@ bool has_date(std::string_view word) {
   return false;
 }
 
-/// Appends the bytes of `01`, `0103`, `0x1`, `01-03`, `[01][03]`, `0x01,`. False, and nothing is appended, for anything
-/// else; a date is no byte.
+/// Appends the bytes of `01`, `0103`, `0x1`, `01-03`, `[01][03]`, `0x01,`. Returns false and appends nothing for anything
+/// else; a date is not a byte.
 bool append_bytes(Bytes& bytes, std::string_view word) {
   constexpr std::string_view kOpening = "[<(\"", kBetween = ",;-[]<>()\"";
   if (word.size() == 2 && is_hex_digit(word[0]) && is_hex_digit(word[1])) {
@@ -231,7 +231,7 @@ bool append_bytes(Bytes& bytes, std::string_view word) {
   return bytes.size() > before;
 }
 
-/// Where a `;` closes bytes, of which there are two at least: `01 0x03;`. Otherwise where the line ends.
+/// The end of the bytes before a comment: at a `;` after at least two bytes, `01 0x03;`, otherwise at the end of the line.
 std::size_t end_of_bytes_before_comment(std::string_view line) {
   for (std::size_t at = line.find(';'); at != std::string_view::npos; at = line.find(';', at + 1)) {
     const bool closes = at + 1 == line.size() || kAllBlanks.find(line[at + 1]) != std::string_view::npos;
@@ -268,7 +268,7 @@ bool is_port_of_host(std::string_view name, std::string_view number) {
   return four_digits || (number.size() <= 5 && name.find('.') != std::string_view::npos);
 }
 
-/// Also a part of one that is not ASCII.
+/// Whether `c` is a letter, or part of a letter that is not ASCII.
 bool is_letter_of_any_language(char c) { return is_letter(c) || (c & 0x80) != 0; }
 
 /// Whether a name may end there: `Tx:`, and after a sign that takes three bytes in UTF-8, an arrow or one of Chinese.
@@ -289,7 +289,7 @@ std::size_t length_of_name(std::string_view word) {
   return named && name.find('=') == std::string_view::npos && !is_port_of_host(name, word.substr(end)) ? name.size() : 0;
 }
 
-/// Words beside a number that say what it is.
+/// Words beside a number that say what the number is.
 struct NumberName {
   std::string_view word;
   bool with_colon;  ///< `length: 12` is a length; `line: 12` is what was on a line
@@ -303,7 +303,7 @@ constexpr std::array kBeforeNumbers{NumberName{"LENGTH", true}, NumberName{"LEN"
 constexpr std::array<std::string_view, 10> kAfterNumbers{"BYTE",    "BYTES", "CHARS",   "CHARACTERS", "OCTETS",
                                                          "SECONDS", "BAUD",  "RETRIES", "REGISTERS",  "COILS"};
 
-/// `slave 1 01 03`: of a number that is no pair of digits.
+/// Words before a number that is not a byte: `slave 1 01 03`
 constexpr std::array<std::string_view, 8> kStations{"SLAVE", "MASTER", "STATION", "UNIT",
                                                     "NODE",  "DEVICE", "ADDRESS", "ADDR"};
 
@@ -351,8 +351,8 @@ bool counts_bytes_after(Words words, std::string_view digits) {
   return decimal == bytes || (hex && *hex == static_cast<std::int64_t>(bytes));
 }
 
-/// Numbers that are no bytes, as words beside them say: `length 12`, `12 bytes`, `18 (0X12)`. One with bytes after it may be
-/// the first of them.
+/// Marks numbers that are not bytes, by the words beside them: `length 12`, `12 bytes`, `18 (0X12)`. A number with bytes
+/// after it may be the first of them.
 void take_numbers_out(std::vector<Word>& words) {
   constexpr std::string_view kAround = "()[],;:";
   const auto is_number = [](Word& word) {
@@ -390,7 +390,7 @@ bool may_be_a_damaged_byte(const Word& word) {
          (std::ranges::all_of(word.text, is_hex_digit) && !is_of_a_language(word.text));
 }
 
-/// `12.5`, `0,123`
+/// Whether a text ends with a fraction: `12.5`, `0,123`
 bool ends_with_fraction(std::string_view text) {
   constexpr std::size_t kMostDigits = 9;
   std::size_t point = text.size();
@@ -425,8 +425,8 @@ bool has_mark(const Word& word) {
 /// `01 03 04 12 34 81 07 4660`: a number of several digits after pairs of them.
 bool ends_with_number(Words run) { return run.size() > 2 && run[0].bytes == 1 && run[1].bytes == 1 && run.back().bytes > 1; }
 
-/// A word of the bytes that may be something else; null if there is none. A number before pairs of digits counts lines or
-/// seconds; and no tool writes `0x` before some bytes only.
+/// A word among the bytes that may be something else; null if there is none. A number before pairs of digits counts lines or
+/// seconds; and no tool writes `0x` before only some of its bytes.
 const Word* what_is_no_byte(Words run) {
   const auto perhaps = std::ranges::find(run, Word::Number::Perhaps, &Word::number);
   if (perhaps != run.end()) return &*perhaps;
@@ -439,8 +439,8 @@ const Word* what_is_no_byte(Words run) {
   return ends_with_number(run) ? &run.back() : nullptr;  // last: all but it may be a frame
 }
 
-/// Of what stands before the bytes and after them; null if all is well. Bytes before them may be a number or a date in
-/// front of the direction.
+/// A word before or after the bytes that makes them doubtful; null if there is none. Bytes before them may be a number or a
+/// date in front of the direction.
 const Word* what_is_doubtful(Words before, Words run, Words after) {
   if (!before.empty() && (may_be_a_damaged_byte(before.back()) || ends_with_digits(before.back()))) return &before.back();
   const auto other = std::ranges::find_if(before, [](const Word& word) { return word.bytes > 0; });
@@ -474,7 +474,7 @@ bool is_a_number(const Word& word, Words run) {
   return word.bytes == 0 || is_decimal(digits) || (is_marked(digits) && !has_mark(run.front()));
 }
 
-/// `8 01 03`: how many bytes follow.
+/// Whether a word is the number of bytes after it: `8 01 03`
 bool counts_bytes(const Word& word, Words after) {
   constexpr std::size_t kMostDigits = 3;
   if (after.empty() || word.text.size() > kMostDigits || !is_decimal(word.text)) return false;
@@ -509,8 +509,8 @@ std::vector<Words> possible_runs(Words words) {
   return runs;
 }
 
-/// What the bytes are if all of them are no right frame: without the number that counts them, `8 01 03 …`, or the word with
-/// which the comment begins, `… be careful`.
+/// Another reading of the bytes if all of them are not a right frame: without the number that counts them, `8 01 03 …`, or
+/// without the word that begins the comment, `… be careful`.
 struct OtherRun {
   Words words{};
   std::string_view without{};
@@ -524,13 +524,13 @@ std::optional<OtherRun> other_run(Words run, Words after) {
   return OtherRun{run.first(run.size() - 1), run.back().text};
 }
 
-/// `|....4...|` of hexdump -C.
+/// The text between the bars of hexdump -C: `|....4...|`
 std::string_view without_bars(std::string_view text) {
   const bool barred = text.size() > 2 && text.front() == '|' && text.back() == '|';
   return barred ? text.substr(1, text.size() - 2) : text;
 }
 
-/// What is not ASCII as one sign, whatever it takes in UTF-8.
+/// The text with one sign for each character that is not ASCII, whatever its length in UTF-8.
 std::string in_single_bytes(std::string_view text) {
   std::string single;
   for (const char c : text)
@@ -587,7 +587,8 @@ std::optional<Run> last_run(Words words) {
   return Run{{words.begin(), first}, {first, last}};
 }
 
-/// In English, German, French, Spanish, Italian, Portuguese, Russian and Chinese; ASCII letters in capitals.
+/// The words for a request in English, German, French, Spanish, Italian, Portuguese, Russian and Chinese; ASCII letters in
+/// capitals.
 constexpr std::array<std::string_view, 33> kRequestWords{"TX",
                                                          "SENT",
                                                          "SEND",
@@ -654,9 +655,9 @@ constexpr std::array<std::string_view, 33> kAnswerWords{"RX",
                                                         "\u6536",
                                                         "\u63A5\u6536",
                                                         "\u63A5\u6536\u6570\u636E"};
-constexpr std::size_t kLongestDirection = 20;  // in UTF-8
+constexpr std::size_t kLongestDirection = 20;  // bytes of UTF-8
 
-/// Signs that are no letters, from U+2000 to U+2FFF and the wide ones from U+FF00 on, as blanks.
+/// The text with blanks in place of signs that are not letters: U+2000 to U+2FFF and the wide ones from U+FF00 on.
 std::string without_signs(std::string_view text) {
   std::string letters(text);
   for (std::size_t i = 0; i + 2 < letters.size(); ++i)
@@ -846,7 +847,7 @@ void BytesOfLines::take_apart(std::string_view line) {
   if (has_others) take_numbers_out(words_);
 }
 
-/// Where the characters stand that a tool puts beside the hex; the length of the line if there are none. The first of them
+/// The place of the characters that a tool puts beside the hex; the length of the line if there are none. The first of them
 /// may be blanks.
 std::size_t BytesOfLines::end_of_hex(std::string_view line) const {
   constexpr std::size_t kFullRow = 16, kShortestFullRow = 2 * kFullRow, kLongest = 1000, kBars = 2, kLongestSign = 4;

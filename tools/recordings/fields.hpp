@@ -20,9 +20,8 @@ inline constexpr Time kFurthestTime = 4'000'000'000 * kSecond;
 /// tools write both; nothing for one that does not exist.
 using ReadDate = std::array<std::optional<std::int32_t>, 2>;
 
-/// A time at the beginning of a text, and what comes after it: `12:34:56.789`, `2026-11-22 12:34:56,789`,
-/// `3/1/2026 1:02:03.5 PM`, `[0.123456]`, `-12.3 ms`. A plain number is one only with a fraction or a unit.
-/// It is no further than kFurthestTime from 0.
+/// A time at the beginning of a text: `12:34:56.789`, `2026-11-22 12:34:56,789`, `3/1/2026 1:02:03.5 PM`, `[0.123456]`,
+/// `-12.3 ms`. A plain number is a time only with a fraction or a unit. The time is no further than kFurthestTime from 0.
 struct LeadingTime {
   Time time = 0;           ///< of day: since midnight
   std::size_t length = 0;  ///< of its text
@@ -41,21 +40,21 @@ std::optional<Time> unit_of(std::string_view name);
 /// Whether the name of a column says that it has times, in one of several languages: `Time [s]`, `Zeit`.
 bool is_name_of_time(std::string_view name);
 
-/// What a word says: TX, sent, request, > … ask; RX, received, response, < … answer.
+/// The direction that a word names: TX, sent, request, > … ask; RX, received, response, < … answer.
 Direction direction_of(std::string_view text);
 
-/// Of bytes in brackets: what is sent stands as [01][03], what is received as <01><03>.
+/// The direction of bytes in brackets: [01][03] was sent, <01><03> was received.
 Direction direction_of_brackets(std::string_view bytes);
 
-/// `01 03 00`, `0x01,0x3`, `[01][03]`, `010300`; nothing if there is anything else.
+/// The bytes of a text such as `01 03 00`, `0x01,0x3`, `[01][03]`, `010300`; nothing if there is anything else in it.
 std::optional<Bytes> bytes_of_text(std::string_view text);
 
-/// What stands between blanks, or the part of it that has bytes.
+/// A word between blanks, or the part of it that has bytes.
 struct Word {
   std::string_view text;
   std::size_t begin = 0;
-  std::size_t first_byte = 0, bytes = 0;  ///< of those of its line; none: it is something else
-  enum class Number : std::uint8_t { No, Yes, Perhaps } number = Number::No;  ///< one that is no byte
+  std::size_t first_byte = 0, bytes = 0;  ///< of those of its line; 0: the word is something else
+  enum class Number : std::uint8_t { No, Yes, Perhaps } number = Number::No;  ///< the word is a number that is not a byte
 };
 
 /// Whether there is a time of day in a text: `10:00`.
@@ -66,7 +65,7 @@ struct BytesInLine {
   Bytes bytes{};
   std::size_t begin = 0;              ///< of the run
   std::size_t next_cell = 0;          ///< after a bar that ends the bytes; 0: there is none
-  bool has_characters = false;        ///< they stand once more as characters behind it
+  bool has_characters = false;        ///< the bytes stand once more as characters after it
   std::string_view not_understood{};  ///< what makes it doubtful which bytes there were; empty: nothing does
   std::vector<Reading> readings{};    ///< what the bytes of a doubtful line may be, the likelier first
 };
@@ -74,8 +73,8 @@ struct BytesInLine {
 /// Finds the bytes of lines, one after the other.
 class BytesOfLines {
  public:
-  /// Nothing if there is no byte in it. The characters that some tools put beside the hex, after two blanks or more, or
-  /// after one in a full row, are none.
+  /// The bytes of a line; nothing if there are none. The characters that some tools put beside the hex, after two blanks or
+  /// more, or after one in a full row, are not bytes.
   std::optional<BytesInLine> in(std::string_view line);
 
  private:
@@ -110,7 +109,7 @@ void join_characters(LineRecording& recording, const ReadingChoices& choices);
 /// date, midnight has passed where the time goes back by more than half a day.
 class DayCounter {
  public:
-  /// Since the midnight before the first time of day; of any other time, what was read.
+  /// The time since the midnight before the first time of day; a time that is not a time of day is returned as read.
   Time since_first_midnight(const LeadingTime& read);
 
  private:

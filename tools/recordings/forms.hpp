@@ -5,13 +5,13 @@
 
 namespace s7200::tools {
 
-/// Whether there is no byte 00 in it.
+/// Whether the bytes are a text: there is no byte 00 among them.
 bool is_text(std::string_view bytes);
 
-/// What a text shows its form by.
+/// The part of a text by which its form is recognised.
 inline std::string_view beginning_of(std::string_view bytes) { return bytes.substr(0, std::size_t{1} << 16); }
 
-/// By the first four bytes: pcap in microseconds and nanoseconds, in either order of bytes, and pcapng.
+/// Recognises a capture by its first four bytes: pcap in microseconds and nanoseconds, in either order of bytes, and pcapng.
 bool looks_like_pcap(std::string_view bytes);
 std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
@@ -19,28 +19,28 @@ std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoi
 bool looks_like_csv(std::string_view bytes);
 std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By a line that says it is mbpoll, or one that is a frame in brackets.
+/// Recognises libmodbus by a line that names mbpoll, or by a line that is a frame in brackets.
 bool looks_like_libmodbus(std::string_view bytes);
 std::optional<LineRecording> read_libmodbus(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
 /// The frames of the reads whose values mbpoll printed.
 void read_values_of_mbpoll(std::string_view bytes, const ReadingChoices& choices, LineRecording& recording);
 
-/// By a line of its own about bytes that are on their way; those with bytes once more are none of the line.
+/// Recognises pymodbus by a line of its own about bytes that are on their way; lines that repeat the bytes do not count.
 bool looks_like_pymodbus(std::string_view bytes);
 std::optional<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By names or escapes of characters that cannot be printed: `<CR>`, `\r`.
+/// Recognises a log of characters by names or escapes of those that cannot be printed: `<CR>`, `\r`.
 bool looks_like_character_log(std::string_view bytes);
 std::optional<LineRecording> read_character_log(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
 std::optional<LineRecording> read_text_log(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// Frames of a log that are messages of Modbus TCP, with their heads, become frames as on a serial line; then a note says
-/// so, and what is no such message is left out.
+/// Turns frames of a log that are messages of Modbus TCP, with their heads, into frames of a serial line; then a note says
+/// so, and other frames are left out.
 void read_modbus_tcp(LineRecording& recording);
 
-/// By the sections of its head.
+/// Recognises VCD by the sections of its head.
 bool looks_like_vcd(std::string_view bytes);
 std::optional<LineRecording> read_vcd(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
@@ -48,52 +48,52 @@ std::optional<LineRecording> read_vcd(std::string_view bytes, const ReadingChoic
 bool looks_like_sigrok_session(std::string_view bytes);
 std::optional<LineRecording> read_sigrok_session(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By rows that have nothing but levels after the time.
+/// Recognises a table of levels by rows that have only levels after the time.
 bool looks_like_levels_table(std::string_view bytes);
 std::optional<LineRecording> read_levels_table(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By the names of its columns.
+/// Recognises DSView by the names of its columns.
 bool looks_like_dsview(std::string_view bytes);
 std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By a line of its decoder `uart`.
+/// Recognises sigrok's annotations by a line of its decoder `uart`.
 bool looks_like_sigrok_annotations(std::string_view bytes);
 std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, const ReadingChoices& choices,
                                                      std::string& why);
 
-/// By its tag `uart_debug`.
+/// Recognises ESPHome by its tag `uart_debug`.
 bool looks_like_esphome(std::string_view bytes);
 std::optional<LineRecording> read_esphome(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By what its component `modbus` writes.
+/// Recognises ESPHome's component `modbus` by its messages.
 bool looks_like_esphome_modbus(std::string_view bytes);
 std::optional<LineRecording> read_esphome_modbus(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By a line with an address and a length before a dump.
+/// Recognises eModbus by a line with an address and a length before a dump.
 bool looks_like_emodbus(std::string_view bytes);
 std::optional<LineRecording> read_emodbus(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By SerialSend or SerialReceived with bytes in hex.
+/// Recognises Tasmota by SerialSend or SerialReceived with bytes in hex.
 bool looks_like_tasmota(std::string_view bytes);
 std::optional<LineRecording> read_tasmota(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By a call that reads or writes, with its result.
+/// Recognises strace by a call that reads or writes, with its result.
 bool looks_like_strace(std::string_view bytes);
 std::optional<LineRecording> read_strace(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By a line about a packet with a row of its bytes below it.
+/// Recognises tcpdump by a line about a packet with a row of its bytes below it.
 bool looks_like_tcpdump(std::string_view bytes);
 std::optional<LineRecording> read_tcpdump(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By an object in a line that has bytes.
+/// Recognises JSON lines by an object in a line that has bytes.
 bool looks_like_json_lines(std::string_view bytes);
 std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By a line with several pairs, one of which has bytes.
+/// Recognises key-value lines by a line with several pairs, one of which has bytes.
 bool looks_like_key_values(std::string_view bytes);
 std::optional<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// By bytes as Python shows them.
+/// Recognises bytes as Python shows them.
 bool looks_like_python_bytes(std::string_view bytes);
 std::optional<LineRecording> read_python_bytes(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 

@@ -135,7 +135,8 @@ class HppcReader final : public FrameReader {
     std::string_view name() const { return bytes == 1 ? "byte" : bytes == 2 ? "word" : "double word"; }
   };
 
-  /// In the order of the message; nothing if its operands are not those of a monitor with addresses of such a length.
+  /// The monitored places in the order of the message; nothing if its operands are not those of a monitor with addresses of
+  /// this length.
   std::optional<std::vector<Monitored>> monitored_by(Data operands) const {
     const std::size_t width = layout_.monitor_address_bytes;
     constexpr std::size_t kSizes = 3, kHead = kAddress + kSizes;

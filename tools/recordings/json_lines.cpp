@@ -33,7 +33,7 @@ std::size_t count_lines(std::string_view text) {
   return lines;
 }
 
-/// Of `{"` or `{ "`, or of a brace at the end of its line.
+/// The place of an object that begins with `{"` or `{ "`, or with a brace at the end of its line.
 std::size_t begin_of_object(std::string_view line) {
   for (std::size_t at = line.find('{'); at != std::string_view::npos; at = line.find('{', at + 1)) {
     const std::size_t next = line.find_first_not_of(" \t", at + 1);
@@ -42,7 +42,8 @@ std::size_t begin_of_object(std::string_view line) {
   return std::string_view::npos;
 }
 
-/// Up to its last brace; 0 if it has no end within its line, or not far below it. A text of JSON ends in its line.
+/// The length of an object up to its last brace; 0 if it does not end within its line, or not far below it. A string of JSON
+/// ends in its line.
 std::size_t length_of_object(std::string_view text) {
   constexpr std::size_t kFarthest = std::size_t{1} << 16;
   std::size_t depth = 0;
@@ -71,7 +72,7 @@ class Pieces {
  public:
   explicit Pieces(std::string_view text) : rest_(text) {}
 
-  /// Nothing at the end.
+  /// The next piece; nothing at the end.
   std::optional<Piece> next() {
     pass(std::min(rest_.find_first_not_of(kBetween), rest_.size()));
     if (rest_.empty()) return {};
@@ -116,7 +117,7 @@ std::optional<Bytes> bytes_of_list(const json& list) {
   return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
 }
 
-/// Those of an object in an object come with the outer name before their own.
+/// Adds the fields of an object. Fields of an object within it come with the outer name before their own.
 void add_fields(const json& object, const std::string& outer, NamedFields& fields) {
   for (const auto& [key, value] : object.items()) {
     const std::string name = outer.empty() ? key : outer + ' ' + key;
@@ -140,7 +141,7 @@ void add_records(const json& object, std::vector<NamedFields>& records) {
   add_fields(object, "", records.emplace_back());
 }
 
-/// None if it is not JSON.
+/// The records of a piece; none if it is not JSON.
 std::vector<NamedFields> records_of(const Piece& piece) {
   std::vector<NamedFields> records;
   std::string why;

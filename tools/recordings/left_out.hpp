@@ -14,7 +14,7 @@ namespace s7200::tools {
 /// `why`: `it says 9 bytes, and 3 are below it`.
 RecordedFrame row_not_read(std::size_t number, std::string why, std::optional<Time> at, Direction direction);
 
-/// `'0x1 0x' is not understood`
+/// The reason for an unreadable text: `'0x1 0x' is not understood`
 std::string not_understood(std::string_view what);
 
 /// The notes name the rows that are not read, the first ten of them, before all else. Not those of which a reading may be
@@ -26,7 +26,7 @@ class LeftOut {
  public:
   void without_bytes(std::size_t number);
 
-  /// The note comes after those of `recording`.
+  /// Adds the note after the notes of `recording`.
   void tell(LineRecording& recording) const;
 
  private:

@@ -47,7 +47,7 @@ Wire wire_of(const Channel& channel, Time end) {
           .edges = channel.edges};
 }
 
-/// Its level changes at equal distances all the time.
+/// Whether the wire is a clock: its level changes at equal distances all the time.
 bool is_clock(const Wire& wire) {
   constexpr std::size_t kFewestEdges = 32;
   if (wire.edges.size() < kFewestEdges) return false;
@@ -65,7 +65,7 @@ std::size_t damaged(const Characters& characters) {
   return static_cast<std::size_t>(std::ranges::count_if(characters, is_damaged));
 }
 
-/// What the receiver makes of the first `most` edges.
+/// The characters that the receiver finds in the first `most` edges.
 Characters characters_on(const Wire& wire, const SerialFormat& format, std::size_t most) {
   serial::Line line;
   EventQueue queue;
@@ -186,7 +186,8 @@ std::string names_of(const std::vector<ReadWire>& wires) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// By the names of two wires, else the first that speaks asks; settle_directions() knows better where that is wrong.
+/// The directions by the names of two wires, else the wire that speaks first asks; settle_directions() corrects what is
+/// wrong.
 std::vector<Direction> directions_of(const std::vector<ReadWire>& wires) {
   if (wires.size() != 2) return std::vector<Direction>(wires.size(), Direction::Unknown);
   const Direction first = direction_of(wires[0].wire.name), second = direction_of(wires[1].wire.name);
@@ -219,7 +220,7 @@ std::optional<SerialFormat> fitting_format(const Wire& wire, const ReadingChoice
   return baud ? std::optional(format_of(wire, *baud, choices)) : std::nullopt;
 }
 
-/// That of the wire with the most characters that are right.
+/// The format of the wire with the most right characters.
 std::optional<SerialFormat> format_of_line(const std::vector<Wire>& wires, const ReadingChoices& choices) {
   std::optional<SerialFormat> best;
   std::size_t most = 0;
@@ -233,7 +234,7 @@ std::optional<SerialFormat> format_of_line(const std::vector<Wire>& wires, const
   return best;
 }
 
-/// Of what the user has said of the line, whether it can be so.
+/// How well the user's rate fits the levels, as the end of a sentence.
 std::string how_it_fits(const Wire& wire, const SerialFormat& format, const ReadingChoices& choices) {
   if (!choices.line.baud || fit_of(wire, format.baud)) return ", which fit";
   const auto other = rate_of(wire);

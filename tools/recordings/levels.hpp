@@ -15,7 +15,7 @@ struct Channel {
   std::vector<Time> edges{};    ///< in order of time; each one changes the level
   bool level = false;           ///< after the last edge
 
-  /// From `at` on it has this level.
+  /// Sets the level from `at` on.
   void set(Time at, bool to) {
     if (first && level != to) edges.push_back(at);
     if (!first) first = to, since = at;
@@ -29,9 +29,9 @@ struct Levels {
   std::vector<std::string> notes{};
 };
 
-/// Frames of the characters on the channels. The rate, the parity and the data bits that `choices` do not give are those
-/// that fit the levels; a note says which. Channels that repeat others, or have no characters of that line, are left out by
-/// name. Returns nothing and sets `why` if there is no such channel.
+/// Makes frames of the characters on the channels. The rate, the parity and the data bits that `choices` do not give are
+/// those that fit the levels; a note says which. Channels that repeat others, or have no characters of that line, are left
+/// out by name. Returns nothing and sets `why` if there is no frame.
 std::optional<LineRecording> frames_of(Levels levels, const ReadingChoices& choices, std::string& why);
 
 }  // namespace s7200::tools

@@ -26,7 +26,7 @@ char separator_of(std::string_view line) {
   return at == std::string_view::npos ? ',' : line[at];
 }
 
-/// What comments and the names of columns say.
+/// The information in comments and in the names of columns.
 struct Head {
   std::vector<std::string> names{};  ///< of the columns
   bool has_time = false;             ///< the first column is one
@@ -47,7 +47,7 @@ std::optional<std::string_view> said_in(std::string_view comment, std::string_vi
   return colon == std::string_view::npos ? std::nullopt : std::optional(stl::trim(comment.substr(colon + 1)));
 }
 
-/// Nothing if the first row has names, and comes before anything else.
+/// Takes the sample rate and the channels' names from a comment.
 void take_comment(std::string_view comment, Head& head) {
   for (const std::string_view name : {"samplerate", "sample rate"})
     if (const auto said = said_in(comment, name)) head.samplerate = samplerate_of(*said).value_or(head.samplerate);

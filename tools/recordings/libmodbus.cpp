@@ -1,4 +1,4 @@
-// What mbpoll and other programs with libmodbus print when they are to show frames.
+// The frames that mbpoll and other programs with libmodbus print on demand.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace s7200::tools {
 namespace {
 
-/// Only bytes in brackets are a frame: `[1]:  4369` is a register.
+/// The frame in a line. Only bytes in brackets are a frame: `[1]:  4369` is a register.
 std::optional<RecordedFrame> frame_in(std::string_view line) {
   constexpr std::size_t kByte = 4;
   const std::string_view text = stl::trim(line);
@@ -27,7 +27,7 @@ std::optional<RecordedFrame> frame_in(std::string_view line) {
   return RecordedFrame{.direction = direction, .bytes = *bytes_of_text(text)};
 }
 
-/// `<01><03><0`: a frame that is not whole.
+/// Whether a line begins a frame that is not whole: `<01><03><0`
 bool begins_frame(std::string_view line) {
   const std::string_view text = stl::trim(line);
   constexpr std::size_t kShortest = 5;

@@ -1,4 +1,4 @@
-// The lines of a recording, however many: nothing of it is copied.
+// The lines of a recording of any length; its text is not copied.
 #pragma once
 
 #include <iterator>

@@ -1,4 +1,4 @@
-// What mbpoll prints of its polls without its option -v: values, and no frames.
+// The values that mbpoll prints of its polls without its option -v; it prints no frames then.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr std::array kDataTypes{
     DataType{"discrete output", Function::ReadCoils}, DataType{"discrete input", Function::ReadInputs},
     DataType{"input register", Function::ReadInputRegisters}, DataType{"output (holding)", Function::ReadHoldingRegisters}};
 
-/// As libmodbus words them, in `Read coils failed: Illegal data address`.
+/// The exceptions as libmodbus words them, in `Read coils failed: Illegal data address`.
 struct Refusal {
   std::string_view words;
   std::uint8_t code;
@@ -43,7 +43,7 @@ constexpr std::string_view kFailed = " failed: ", kTimedOut = "Connection timed 
 
 constexpr std::uint16_t kMostValues = 125;  // that mbpoll reads at once
 
-/// The number after `name` in a line.
+/// The number that follows `name` in a line.
 std::optional<std::uint16_t> number_after(std::string_view line, std::string_view name) {
   const std::size_t at = line.find(name);
   if (at == std::string_view::npos) return {};
@@ -51,7 +51,7 @@ std::optional<std::uint16_t> number_after(std::string_view line, std::string_vie
   return parse_decimal<std::uint16_t>(rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size())));
 }
 
-/// `[11]: 	4660`, `[11]: 	0x1234`, `[12]: 	65535 (-1)`
+/// A printed value: `[11]:         4660`, `[11]:   0x1234`, `[12]:         65535 (-1)`
 struct PrintedValue {
   std::uint16_t reference = 0, value = 0;
 };

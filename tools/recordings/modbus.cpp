@@ -18,7 +18,7 @@ using Data = std::span<const std::uint8_t>;
 
 constexpr std::size_t kShortestRtu = 4;
 
-/// `16#1234 16#0000`
+/// Registers as text: `16#1234 16#0000`
 std::string words_text(Data bytes) {
   std::string text;
   for (std::size_t at = 0; at + 1 < bytes.size(); at += 2)
@@ -26,7 +26,7 @@ std::string words_text(Data bytes) {
   return text;
 }
 
-/// `1010 1010 11`, the first one first
+/// Bits as text, the first bit first: `1010 1010 11`
 std::string bits_text(Data bytes, std::size_t count) {
   std::string text;
   for (std::size_t bit = 0; bit < std::min(count, 8 * bytes.size()); ++bit)
@@ -48,7 +48,7 @@ std::string reference_text(const modbus::Reference& reference) {
   return text;
 }
 
-/// What stands in a request after its function, for those whose data say more than an address and a number.
+/// The rest of a request after its function, for functions that carry more than an address and a number.
 std::string carried_text(const modbus::FunctionRow& row, Data data) {
   using modbus::Shape;
   constexpr std::size_t kBeforeWritten = 5;  // address, count, byte count
@@ -103,7 +103,7 @@ std::string modbus_request_text(const RecordedFrame& recorded) {
   return text + carried;
 }
 
-/// As long as its function says, if that does.
+/// Whether a request is as long as its function says, if the function determines the length.
 bool has_length_of_request(Data bytes) {
   if (bytes.size() < kShortestRtu || (bytes[1] & modbus::kExceptionFlag) != 0) return false;
   const modbus::Extent extent = modbus::extent_of_request(bytes);
@@ -142,7 +142,7 @@ bool has_crc_turned_round(Data bytes) {
   return modbus::crc_ok(turned);
 }
 
-/// What a frame whose CRC is wrong is, where that shows; else empty.
+/// The nature of a frame whose CRC is wrong, if it can be told; else empty.
 std::string what_it_is_instead(Data bytes, const RecordedFrame* open) {
   if (is_ppi(bytes)) return "a frame of PPI, not of Modbus RTU";
   if (is_modbus_tcp(bytes)) return "a message of Modbus TCP, not of Modbus RTU: it has a head and no CRC";
@@ -161,7 +161,7 @@ std::string no_message(Data bytes, const RecordedFrame* open) {
   return instead.empty() ? "wrong CRC, or not a whole frame" : instead;
 }
 
-/// What a frame is; its text is left to whoever wants it.
+/// Judges a frame without its text, which callers add if they want it.
 ReadFrame judge_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   const Data bytes(frame.bytes);
   ReadFrame read;
@@ -202,7 +202,8 @@ ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
   return read;
 }
 
-/// Only what the function says of its length counts: part of a long frame may have a right CRC by chance.
+/// The length of the first message. Only the length that the function determines counts: part of a long frame may have a
+/// right CRC by chance.
 std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
   constexpr std::size_t kLongest = 2 * modbus::kLongestRtuFrame;  // PLCs with limits of their own
   modbus::Crc crc;

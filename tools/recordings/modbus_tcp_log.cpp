@@ -24,7 +24,7 @@ bool may_begin_message(const Bytes& bytes) {
   return bytes.size() >= kLength && load16(&bytes[kProtocol]) == 0;
 }
 
-/// Most rows are one message.
+/// Whether the bytes are one message, as in most rows.
 bool is_one_message(const Bytes& bytes) {
   constexpr std::size_t kHead = 6, kShortest = kHead + 2;
   return bytes.size() >= kShortest && bytes.size() <= kHead + 1 + modbus::kLongestPdu &&
@@ -62,7 +62,7 @@ RecordedFrame on_a_line(const RecordedFrame& frame, const modbus::TcpMessage& me
           .exchange = modbus::exchange_of(message)};
 }
 
-/// The same of a row that is one message, whose bytes become those of the frame.
+/// Turns a row that is one message into a frame on a serial line.
 RecordedFrame on_a_line(RecordedFrame row) {
   constexpr std::size_t kUnit = 6;
   row.stream = 1;
@@ -72,7 +72,7 @@ RecordedFrame on_a_line(RecordedFrame row) {
   return row;
 }
 
-/// What it is, is not known: a request before it may have got it for an answer.
+/// A row that is not a message: a request before it may have got it for an answer.
 RecordedFrame not_a_message(const RecordedFrame& row) {
   return {.at = row.at,
           .direction = row.direction,
@@ -81,7 +81,7 @@ RecordedFrame not_a_message(const RecordedFrame& row) {
           .doubt = row.doubt ? row.doubt : std::make_shared<Doubt>(Doubt{.why = "it is not a whole message of Modbus TCP"})};
 }
 
-/// The reading of a row in doubt that is one message; null if there is none.
+/// The reading of a doubtful row that is one message; null if there is none.
 const Reading* reading_of(const RecordedFrame& row) {
   const auto& readings = row.doubt->readings;
   const auto found = std::ranges::find_if(readings, is_message, &Reading::bytes);
@@ -117,7 +117,7 @@ struct Counted {
   void add(const std::string& what) {
     if (count++ == 0) first = what;
   }
-  /// `, and 3 more`
+  /// The number of further rows: `, and 3 more`
   std::string more() const { return count == 1 ? "" : fmt::format(", and {} more", count - 1); }
 };
 

@@ -59,7 +59,7 @@ std::string words_of_name(std::string_view name) {
   return stl::lower_case(words);
 }
 
-/// By the last word that is known: `uart data` is data.
+/// The meaning of a name, by its last known word: `uart data` is data.
 FieldMeaning meaning_of(std::string_view name) {
   const std::string words = words_of_name(name);
   FieldMeaning meaning{.direction = direction_of(words), .unit = unit_of(words)};
@@ -70,7 +70,7 @@ FieldMeaning meaning_of(std::string_view name) {
   return meaning;
 }
 
-/// `01:03:00`, `01.03.00`
+/// Bytes with signs between them: `01:03:00`, `01.03.00`
 std::optional<Bytes> bytes_with_signs_between(std::string_view text) {
   constexpr std::size_t kPlace = 3;  // two digits and a sign
   if (text.size() % kPlace != kPlace - 1) return {};
@@ -92,7 +92,7 @@ bool may_hold_frame(const FieldMeaning& meaning) {
   return meaning.holds == Holds::Data || (meaning.holds == Holds::Nothing && meaning.direction != Direction::Unknown);
 }
 
-/// `data`, and `tx` where that is no count: `tx=8`. Nothing if it holds no frame.
+/// The frame in the field `data`, or in `tx` where that is not a count, as in `tx=8`. Nothing if the field holds no frame.
 std::optional<Bytes> frame_in(const NamedField& field, const FieldMeaning& meaning) {
   return may_hold_frame(meaning) ? bytes_of(field) : std::nullopt;
 }

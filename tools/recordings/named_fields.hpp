@@ -24,17 +24,17 @@ bool has_frame(const NamedFields& fields);
 /// Whether one of them holds characters of a text, with a line end or another one that cannot be printed.
 bool has_characters(const NamedFields& fields);
 
-/// What the name of a field says of it.
+/// The meaning of a field's name.
 struct FieldMeaning {
   enum class Holds : std::uint8_t { Nothing, Time, Direction, Data } holds = Holds::Nothing;
   Direction direction = Direction::Unknown;  ///< `rx`, `SerialSend`
   std::optional<Time> unit{};                ///< of a time: `time_ms`
 };
 
-/// Makes frames of records.
+/// Turns records into frames.
 class NamedFieldsReader {
  public:
-  /// From now on what the fields hold is characters, not bytes in hex.
+  /// Reads the fields' contents as characters from now on, not as bytes in hex.
   void take_characters() { are_characters_ = true; }
 
   /// The record of line `number`; `before`: what stands in the line before it, a time perhaps.

@@ -16,7 +16,7 @@ namespace {
 
 std::optional<Bytes> one(std::optional<std::uint8_t> byte) { return byte ? std::optional(Bytes{*byte}) : std::nullopt; }
 
-/// All of `digits` as a byte in that base.
+/// The byte that all of `digits` are in that base.
 std::optional<std::uint8_t> byte_in_base(std::string_view digits, int base) {
   std::uint8_t byte = 0;
   const char* const end = digits.data() + digits.size();
@@ -32,16 +32,16 @@ std::optional<Bytes> with_hex(std::string_view cell) {
   return hex.starts_with("(0X") ? one(byte_in_base(std::string_view(hex).substr(3), 16)) : std::nullopt;
 }
 
-/// `0b00010010`, and `00010010` of sigrok.
+/// Binary: `0b00010010`, and `00010010` of sigrok.
 std::optional<Bytes> binary(std::string_view cell) {
   const std::string_view digits = cell.starts_with("0b") ? cell.substr(2) : cell;
   return digits.size() == 8 ? one(byte_in_base(digits, 2)) : std::nullopt;
 }
 
-/// `001`, `344` of sigrok.
+/// Octal: `001`, `344` of sigrok.
 std::optional<Bytes> octal(std::string_view cell) { return cell.size() == 3 ? one(byte_in_base(cell, 8)) : std::nullopt; }
 
-/// `1`, `16`, `132`, without zeros in front.
+/// Decimal without leading zeros: `1`, `16`, `132`.
 std::optional<Bytes> decimal(std::string_view cell) {
   return cell.size() > 1 && cell.front() == '0' ? std::nullopt : one(parse_decimal<std::uint8_t>(cell));
 }
@@ -156,7 +156,7 @@ const Notation* NotationFinder::found(std::string& why) const {
     why = fmt::format("line {}: '{}' may be a number or a character; write the column in hex", first_line_, first_);
     return nullptr;
   }
-  // Of those that read as many cells the message names hex, the notation that most tools write.
+  // If several notations read as many cells, the message names hex, which most tools write.
   const auto nearest = std::ranges::max_element(
       candidates_, {}, [](const Candidate& each) { return std::pair(each.read, each.notation->name == kHex.name); });
   const auto all = std::ranges::find(candidates_, cells_, &Candidate::read);

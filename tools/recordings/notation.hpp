@@ -36,7 +36,8 @@ class NotationFinder {
   /// A cell that is not empty. `line`: its number, for the message.
   void take(std::string_view cell, std::size_t line);
 
-  /// Null after a message in `why`, `line 3: '256' is not bytes in decimal`: none reads all, or it is open which does.
+  /// The notation found. Null with a message in `why`, `line 3: '256' is not bytes in decimal`, if no notation reads all
+  /// cells, or several do.
   const Notation* found(std::string& why) const;
 
   /// Whether each cell is one character, in that notation.
@@ -47,7 +48,7 @@ class NotationFinder {
     const Notation* notation;
     std::size_t read = 0;    ///< cells before the first that it does not read
     bool characters = true;  ///< each of them is one
-    std::string wrong{};     ///< that cell
+    std::string wrong{};     ///< text of that cell
     std::size_t line = 0;
   };
 

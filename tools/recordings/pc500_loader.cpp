@@ -72,7 +72,7 @@ class LoaderReader final : public FrameReader {
     return frame.bytes.size() == 1 && westinghouse::is_loader_opcode(frame.bytes[0]) && fits(Step::Opcode, frame);
   }
 
-  /// The step that is due, or a landmark; nothing if the frame is neither.
+  /// The step that the frame is, which is the expected one or a landmark; nothing if it is neither.
   std::optional<Step> step_of(const RecordedFrame& frame, const RecordedFrame* open) const {
     if (fits(Step::Begin, frame) && is_late(frame, open)) return Step::Begin;
     const bool ends_without_data = step_ == Step::DataSent && !opcode_ && fits(Step::End, frame);
@@ -107,7 +107,8 @@ class LoaderReader final : public FrameReader {
     }
   }
 
-  /// Up to `end`, a DLE and another, included; 0 if that has not come. A doubled DLE is one of the data.
+  /// The length up to and including `end`, which is a DLE and another character; 0 if that has not come. A doubled DLE is
+  /// data.
   static std::size_t up_to(Data bytes, std::size_t from, Data end) {
     using westinghouse::kDle;
     for (std::size_t at = from; at + 1 < bytes.size(); at += bytes[at] == kDle && bytes[at + 1] == kDle ? 2U : 1U)
@@ -115,8 +116,8 @@ class LoaderReader final : public FrameReader {
     return 0;
   }
 
-  /// Where a 10 stands for itself only the number of bytes says where data end; if that is not known, or the PLC sends
-  /// more than is known of it ([S2] leaves open what comes last), where the frame does.
+  /// The end of data in which a 10 is not doubled: their number says it; if the number is not known, or the PLC sends more
+  /// than is known of it ([S2] leaves open what comes last), the data end with the frame.
   std::size_t up_to_plain_end(Data bytes) const {
     using westinghouse::kEndOfData;
     const auto is_end = [&](std::size_t end) {
@@ -141,7 +142,7 @@ class LoaderReader final : public FrameReader {
     }
   }
 
-  /// What the step says; the next one is due.
+  /// Describes the step and expects the next one.
   std::string go_on(Data bytes) {
     const Step step = step_;
     const bool refused = is_of_plc(step) && westinghouse::begins_with(bytes, westinghouse::kRefusal);

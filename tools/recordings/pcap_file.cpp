@@ -68,7 +68,7 @@ std::optional<Segment> tcp_of(Data packet) {
   return segment;
 }
 
-/// What a link layer's packet carries, if that is IP.
+/// The IP packet in a packet of the link layer, if there is one.
 Data ip_of(Data packet, int link_type) {
   const auto after = [&](std::size_t head, std::size_t type) {
     if (packet.size() < head) return Data{};
@@ -96,8 +96,8 @@ struct Stream {
   bool out_of_step = false;  ///< where the next message begins is not known
 };
 
-/// Where the messages begin that a segment ends with, after something was lost: their heads lead from one to the next, up to
-/// the end of the segment. Only the first byte may begin a message that goes on in the next segment.
+/// The place of the first message of a segment after something was lost: the messages' heads lead from one to the next, up
+/// to the end of the segment. Only the first byte may begin a message that goes on in the next segment.
 std::optional<std::size_t> first_message_in(Data data) {
   constexpr std::size_t kHead = 6;
   const auto after_message = [&](std::size_t begin) {
@@ -131,13 +131,13 @@ class Reader {
       ++others_;
   }
 
-  /// What comes after the last frame of every connection is missing.
+  /// The capture lacks everything after the last frame of each connection.
   void cut_off() {
     for (const auto& [connection, frame] : last_) recording_.frames[frame].more_was_lost = true;
     serial_.cut_off();
   }
 
-  /// Nothing, and `why`, if nobody can say which of several devices the line is.
+  /// The recording. Nothing with `why` set if several devices are captured and none is known to be the line.
   std::optional<LineRecording> finish(std::string& why) {
     if (!serial_.finish(recording_, why)) return {};
     note_left_out(others_, fmt::format("not of TCP port {}", choices_.tcp_port));
@@ -202,7 +202,7 @@ class Reader {
                                             : fmt::format("{} packets {} were left out", packets, kind));
   }
 
-  /// Up to the next segment that a message begins in. The last frame of the connection may have lost its answer.
+  /// Skips to the next segment in which a message begins. The last frame of the connection may have lost its answer.
   void lose(Stream& stream, const std::string& place, const std::string& why) {
     stream.out_of_step = true;
     const auto last = last_.find(stream.connection);
@@ -226,7 +226,7 @@ class Reader {
   std::size_t others_ = 0, broken_ = 0;
 };
 
-/// What libpcap reads at once: it refuses a pcapng whose interfaces have several link types.
+/// The part of a capture that libpcap reads at once: it refuses a pcapng whose interfaces have several link types.
 struct CapturePart {
   std::string_view bytes;
   std::vector<std::size_t> numbers{};  ///< of its packets in the whole file; empty: all of them, from 1 on
@@ -314,16 +314,16 @@ class CaptureReader {
     Data data{};  ///< until the next one is read
   };
 
-  /// Null, and `why`, for what is no capture.
+  /// Opens a part. Null with `why` set if it is not a capture.
   static std::unique_ptr<CaptureReader> open(CapturePart part, std::string& why) {
     auto reader = std::unique_ptr<CaptureReader>(new CaptureReader(std::move(part)));
     return reader->open_file(why) ? std::move(reader) : nullptr;
   }
 
   int link_type() const { return link_type_; }
-  /// From where on the part could not be read.
+  /// The error that ended the reading of the part; empty if there was none.
   const std::string& error() const { return error_; }
-  /// Nothing at its end.
+  /// The present packet; nothing at the end.
   const std::optional<Packet>& packet() const { return packet_; }
 
   /// False, and `why`, if the packet has a time that no recording has.

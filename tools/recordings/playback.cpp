@@ -16,7 +16,7 @@
 namespace s7200::tools {
 namespace {
 
-/// What keeps requests and their answers out of a scenario.
+/// The reasons why requests and their answers are not in a scenario.
 class Omissions {
  public:
   Omissions(const std::vector<ReadFrame>& frames, const Stamps& stamps) : frames_(frames), stamps_(stamps) {
@@ -30,7 +30,8 @@ class Omissions {
 
   using Named = std::set<const ReadFrame*>;
 
-  /// Empty if nothing does. `named`: the frames that are no requests and that a reason names.
+  /// The reason why a request is left out; empty if it is not. `named` are the frames that are not requests and that a
+  /// reason names.
   std::string why(const ReadFrame& request, Named& named) const {
     if (!request.frame.damaged.empty()) return "the request is damaged";
     if (!request.right) return "the request is wrong: " + request.text;
@@ -64,7 +65,8 @@ class Omissions {
     return fmt::format("what follows it ({}) may be its answer: {}", stray.frame.place, stray.text);
   }
 
-  /// What else was in its frame, and is no message: whoever was asked heard both as one. Null: nothing.
+  /// The rest of a request's frame that is not a message: the station that was asked heard both as one frame. Null: there is
+  /// none.
   const ReadFrame* rest_of(const ReadFrame& request) const {
     const ReadFrame* next = &request + 1;
     const bool same = next != frames_.data() + frames_.size() && next->direction == Direction::Unknown &&
@@ -96,7 +98,7 @@ class Omissions {
   std::map<std::uint32_t, Connection> connections_;
 };
 
-/// Who plays a scenario hears no echo.
+/// The frames without echoes: the player of a scenario hears none.
 std::vector<ReadFrame> without_echoes(std::span<const ReadFrame> frames) {
   std::vector<std::size_t> number;  // of each frame, without those before it that are left out
   std::size_t kept = 0;
@@ -120,7 +122,7 @@ bool waits_with_others(const std::vector<ReadFrame>& frames, std::size_t number,
          std::any_of(at(number + 1), at(answer), [](const ReadFrame& each) { return each.direction == Direction::Request; });
 }
 
-/// Who was asked anything.
+/// The stations that were asked.
 std::set<std::uint8_t> stations_asked(const std::vector<ReadFrame>& frames) {
   std::set<std::uint8_t> stations;
   for (const ReadFrame& frame : frames)
@@ -190,7 +192,7 @@ class Steps {
     steps_ += fmt::format("      # {}: left out: {}\n", frame.frame.place, frame.text);
   }
 
-  /// It was put off, and the same station is asked once more.
+  /// Whether a request was put off and the same station is asked again.
   bool is_asked_again(std::size_t number) const {
     const ReadFrame& request = frames_[number];
     if (!request.other || !frames_[*request.other].puts_off) return false;
@@ -226,7 +228,7 @@ class Steps {
     steps_ += fmt::format("        # {}: {}{}\n", request.frame.place, request.text, answer ? "; " + answer->text : "");
   }
 
-  /// As long as it was in the recording.
+  /// Adds the pause in front of a request, as long as in the recording.
   void pause_before(const ReadFrame& request) {
     const auto gap = last_ ? silence(last_->frame, request.frame, stamps_) : std::nullopt;
     if (!gap || is_untimed(request, *gap)) return;
@@ -246,7 +248,7 @@ class Steps {
     waited_ = 0;
   }
 
-  /// Nothing is expected where the next frame has come too early to say how long it was silent.
+  /// Expects silence, unless the next frame came too early to say how long it was silent.
   void expect_silence(std::size_t number) {
     const auto listened = silence_after(number);
     waited_ = 0;
@@ -262,7 +264,7 @@ class Steps {
     return true;
   }
 
-  /// Up to the next frame; of Modbus TCP, where answers to others may come meanwhile, to the next request.
+  /// The silence up to the next frame; in Modbus TCP, where answers to others may come meanwhile, up to the next request.
   std::optional<Time> silence_after(std::size_t number) const {
     const auto after = frames_.begin() + static_cast<std::ptrdiff_t>(number) + 1;
     if (after == frames_.end()) return {};

@@ -1,4 +1,4 @@
-// A conversation as a scenario.
+// A recorded conversation as a scenario.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ std::optional<std::uint8_t> ppi_station_asked(const std::vector<ReadFrame>& fram
 /// Why a playback has no scenario: no request, or none to that station.
 std::string why_nothing_is_asked(const std::vector<ReadFrame>& frames, const PlaybackChoices& choices);
 
-/// `Run by s7200 test --target TARGET.`
+/// The command that plays the scenario: `Run by s7200 test --target TARGET.`
 std::string how_to_run(const RecordedProtocol& protocol, const PlaybackChoices& choices);
 
 /// A scenario that sends the requests with their gaps and expects the answers. Left out are requests that are damaged, or

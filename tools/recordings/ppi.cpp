@@ -21,7 +21,7 @@ using Data = std::span<const std::uint8_t>;
 
 // --- variables and values ---
 
-/// Of what a variable's count counts; nothing for a type that the S7-200 does not have.
+/// The width of the units in which a variable's count counts; nothing for a type that the S7-200 does not have.
 std::optional<Width> width_of(std::uint8_t type, const AreaInfo& area) {
   if (area.element != 0) {
     if (type != s7::code_of(area.area)) return {};
@@ -30,11 +30,11 @@ std::optional<Width> width_of(std::uint8_t type, const AreaInfo& area) {
   return s7::width_of(type);
 }
 
-/// What a request reads or writes.
+/// A variable that a request reads or writes.
 struct Variable {
   std::optional<MemoryRange> range{};  ///< nothing for an area or a type that is not known
   std::string name{};                  ///< `VW100:3`, `V100.7`, `T37`, as for `master --protocol ppi`
-  bool identification = false;         ///< of the CPU, all of it
+  bool identification = false;         ///< the CPU's identification, all of it
 };
 
 std::string name_of(const MemoryRange& range) {
@@ -63,7 +63,7 @@ std::vector<Variable> variables_in(Data parameters) {
   return variables;
 }
 
-/// In the data of a write, or of the answer to a read.
+/// A value in the data of a write, or of the answer to a read.
 struct Value {
   std::uint8_t code = 0;
   Data bytes{};
@@ -95,7 +95,7 @@ std::string element_text(const MemoryRange& range, const std::uint8_t* at) {
   return {};
 }
 
-/// `VW100:2 = 16#04D2 16#FFFB`
+/// A value as text: `VW100:2 = 16#04D2 16#FFFB`
 std::string value_text(const Variable& variable, Data bytes) {
   if (variable.identification) return fmt::format("{} = {}", variable.name, s7_identification_text(bytes));
   if (!variable.range) return fmt::format("{} = {}", variable.name, serial::to_hex(bytes));
@@ -110,7 +110,7 @@ std::string value_text(const Variable& variable, Data bytes) {
 
 // --- requests and answers ---
 
-/// What a frame carries.
+/// The data unit of a frame, taken apart.
 struct Pdu {
   std::uint8_t kind = 0;
   std::uint16_t number = 0;
@@ -148,7 +148,7 @@ std::string forced_text(const s7::ForcedList& list) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// What has become of each variable that was to be forced.
+/// The result for each variable that was to be forced.
 std::string forced_answer_text(Data data) {
   const auto codes = s7::list_in(data);
   if (!codes || codes->size() < 3) return "user data";
@@ -299,7 +299,7 @@ std::string answer_text(const Pdu& pdu, const std::vector<Variable>& variables) 
   }
 }
 
-/// Of a frame without data.
+/// The name of a frame without data.
 std::string_view function_text(std::uint8_t function) {
   if ((function & ppi::kIsRequest) == 0) {
     switch (function) {

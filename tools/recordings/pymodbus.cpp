@@ -36,7 +36,7 @@ Bytes take_bytes(std::string_view& text) {
   return bytes.value_or(Bytes{});
 }
 
-/// What stands after a word, if that is not the end of another.
+/// The text after a word in the line, unless the word is the end of another.
 std::optional<std::string_view> what_follows(std::string_view line, std::string_view word) {
   const std::size_t at = line.find(word);
   if (at == std::string_view::npos || (at > 0 && std::isalnum(static_cast<unsigned char>(line[at - 1])) != 0)) return {};

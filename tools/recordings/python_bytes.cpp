@@ -19,7 +19,7 @@ struct ShownBytes {
   std::optional<Bytes> bytes{};  ///< nothing: they are not understood
 };
 
-/// Where the next `b'` or `b"` is that does not end a word; npos if there is none.
+/// The place of the next `b'` or `b"` that does not end a word; npos if there is none.
 std::size_t find_literal(std::string_view line, std::size_t from) {
   for (std::size_t at = line.find('b', from); at != std::string_view::npos; at = line.find('b', at + 1)) {
     const bool opens = at + 1 < line.size() && (line[at + 1] == '\'' || line[at + 1] == '"');
@@ -29,7 +29,7 @@ std::size_t find_literal(std::string_view line, std::size_t from) {
   return std::string_view::npos;
 }
 
-/// Nothing if there are none. Those of several texts in a line are not understood.
+/// The bytes shown in a line; nothing if there are none. The bytes of several texts in a line are not understood.
 std::optional<ShownBytes> shown_bytes(std::string_view line) {
   const std::size_t begin = find_literal(line, 0);
   if (begin == std::string_view::npos) return {};

@@ -21,7 +21,7 @@ std::unique_ptr<FrameReader> freeport_pc_reader(const ChosenWords& chosen);
 /// is for the recording to say.
 std::unique_ptr<FrameReader> text_reader(const ChosenWords& chosen);
 
-/// Of a protocol whose frames say all by themselves: it keeps nothing from frame to frame.
+/// The reader of a protocol whose frames can each be read alone: it keeps nothing from frame to frame.
 template <ReadFrame (*Read)(const RecordedFrame& frame, const RecordedFrame* open),
           std::size_t (*First)(std::span<const std::uint8_t> bytes, const RecordedFrame* open)>
 class PlainReader : public FrameReader {

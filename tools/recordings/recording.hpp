@@ -1,4 +1,4 @@
-// What somebody recorded on a line: frames with their times, whatever tool wrote them.
+// A recording of a line: frames with their times, whatever tool wrote them.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace s7200::tools {
 
 enum class Direction : std::uint8_t { Unknown, Request, Answer };
 
-/// What the bytes of a row may be.
+/// A possible reading of a row's bytes.
 struct Reading {
   Bytes bytes{};
   bool without_word = true;  ///< the word that is in doubt is none of them
@@ -40,7 +40,8 @@ struct RecordedFrame {
   std::uint32_t stream = 0;    ///< of Modbus TCP: which connection; a request and its answer are of the same
   std::uint32_t exchange = 0;  ///< of Modbus TCP: transaction and unit; a request and its answer have the same
   std::vector<Time> times{};   ///< of each character, if the recording says; the first is `at`
-  /// Which of the bytes had a parity or framing error, from 0; all if the recording says it of the frame as a whole.
+  /// The places of the bytes that had a parity or framing error, from 0; all of them if the recording says it of the whole
+  /// frame.
   std::vector<std::size_t> damaged{};
   std::shared_ptr<const Doubt> doubt{};  ///< null: none. `bytes` hold if no reading is right; empty: the row is not read
   bool more_was_lost = false;            ///< what came after it on its line or connection is missing
@@ -64,11 +65,11 @@ struct ReadingChoices {
   serial::LineSettings line{};   ///< as far as the user knows them
   SerialFormat usual{};          ///< of the protocol, for what the user does not know
   std::uint64_t samplerate = 0;  ///< samples a second of a recording that counts them; 0: as it says itself, or not known
-  /// mbpoll had its option -0: references count from 0. They do without this, too, in a run of it that starts at 0.
+  /// mbpoll had its option -0: references count from 0. A run of mbpoll that starts at 0 counts so without this, too.
   bool mbpoll_from_zero = false;
 };
 
-/// What tools write.
+/// A form in which tools write recordings.
 struct RecordingForm {
   std::string_view name;     ///< `pcap`
   std::string_view meaning;  ///< for the help

@@ -1,4 +1,4 @@
-// Rates of logic analysers.
+// Sample rates of logic analysers.
 #pragma once
 
 #include <cstdint>

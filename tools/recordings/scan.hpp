@@ -11,7 +11,7 @@ namespace s7200::tools {
 
 inline constexpr std::string_view kAllBlanks = " \t\n\v\f\r";
 
-/// For short lists: std::string_view::find is made for long ones.
+/// Whether `c` is in a short list; std::string_view::find is made for long ones.
 inline bool is_any_of(char c, std::string_view list) {
   for (const char each : list)
     if (each == c) return true;
@@ -24,7 +24,7 @@ inline std::uint8_t value_of_digit(char digit) {
   return static_cast<std::uint8_t>(stl::is_digit(digit) ? digit - '0' : (digit | 0x20) - 'a' + 10);
 }
 
-/// Of digits that are few enough.
+/// The number of digits that fit in 64 bits.
 inline std::int64_t decimal_number(std::string_view digits) {
   std::int64_t number = 0;
   for (const char digit : digits) number = 10 * number + value_of_digit(digit);
@@ -36,7 +36,7 @@ inline std::size_t hex_number(std::string_view digits) {
   return number;
 }
 
-/// What stands before the bytes of a line is no longer.
+/// The most characters in front of the bytes of a line.
 inline constexpr std::size_t kLongestHead = 256;
 
 /// Takes parts off the beginning of a text, no further than a head goes.
@@ -49,7 +49,7 @@ class Scan {
   char next() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   bool at_end() const { return at_ == text_.size(); }
 
-  /// The character itself, or 0 if it is none of those.
+  /// Takes the next character and returns it, or 0 if it is not one of `any`.
   char take(std::string_view any) {
     const char c = next();
     if (c == '\0' || !is_any_of(c, any)) return '\0';
@@ -61,7 +61,7 @@ class Scan {
     at_ += found ? word.size() : 0;
     return found;
   }
-  /// How many were taken.
+  /// Skips characters of `any` and returns their number.
   std::size_t skip(std::string_view any, std::size_t most = kLongestHead) {
     return take_while([any](char c) { return is_any_of(c, any); }, most).size();
   }

@@ -12,7 +12,7 @@
 
 namespace s7200::tools {
 
-/// What a packet of a USB capture moved over a device's endpoint.
+/// A packet of a USB capture that moved data over a device's endpoint.
 struct UsbTransfer {
   std::uint32_t device = 0;  ///< bus and address: 16#00010005 is 1.5
   bool is_bulk = false, is_control = false;
@@ -45,7 +45,7 @@ class SerialLinks {
   /// The file ends before its end: what comes after the last frame is missing.
   void cut_off() { ends_early_ = true; }
 
-  /// Adds the frames. False, and `why`, if nobody can say which of several devices the line is.
+  /// Adds the frames. Returns false and sets `why` if several devices are captured and none is known to be the line.
   bool finish(LineRecording& recording, std::string& why);
 
  private:

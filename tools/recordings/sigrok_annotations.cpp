@@ -24,7 +24,7 @@ struct Annotation {
   std::string_view text{};
 };
 
-/// Nothing if the line is not of the decoder `uart`.
+/// The annotation in a line; nothing if it is not one of the decoder `uart`.
 std::optional<Annotation> annotation_of(std::string_view line) {
   constexpr std::size_t kMostDigits = 18;
   Scan scan(line);
@@ -53,7 +53,7 @@ struct Character {
   bool damaged = false;
 };
 
-/// Where all classes of annotations were printed, each bit of a character has one of its own: `0` or `1` after a start bit.
+/// Whether all classes of annotations were printed: then each bit of a character has its own, `0` or `1` after a start bit.
 bool has_bits(std::string_view bytes) {
   std::size_t start_bits = 0, bits = 0;
   for (const std::string_view line : Lines(beginning_of(bytes)))

@@ -17,7 +17,7 @@
 namespace s7200::tools {
 namespace {
 
-/// What `metadata` says of the first device.
+/// The first device in `metadata`.
 struct Device {
   std::string capture_file{};
   std::uint64_t samplerate = 0;
@@ -46,7 +46,7 @@ Device device_of(std::string_view metadata) {
   return device;
 }
 
-/// Samples to edges.
+/// Turns samples into edges.
 class Sampler {
  public:
   Sampler(const Device& device, std::uint64_t samplerate) : unit_size_(device.unit_size), samplerate_(samplerate) {
@@ -75,7 +75,7 @@ class Sampler {
   }
 
  private:
-  /// Nothing if it is further away than a recording can be.
+  /// The time of a sample; nothing if it is further away than a recording can be.
   std::optional<Time> time_of(std::uint64_t sample) const {
     const long double seconds = static_cast<long double>(sample) / static_cast<long double>(samplerate_);
     return seconds < kFurthestTime / kSecond ? std::optional(static_cast<Time>(seconds * kSecond)) : std::nullopt;
@@ -97,7 +97,7 @@ class Sampler {
   Levels levels_;
 };
 
-/// `logic-1-1`, `logic-1-2` …, of older files `logic-1`.
+/// The files of the samples: `logic-1-1`, `logic-1-2` …, or `logic-1` in older sessions.
 std::vector<std::string> files_of(const Zip& zip, const Device& device) {
   if (zip.has(device.capture_file)) return {device.capture_file};
   std::vector<std::string> files;
@@ -108,7 +108,7 @@ std::vector<std::string> files_of(const Zip& zip, const Device& device) {
   }
 }
 
-/// What a zip without sigrok's `metadata` may be.
+/// The likely nature of a zip without sigrok's `metadata`.
 std::string why_not_sigrok(const Zip& zip) {
   if (zip.has("meta.json")) return "a session of Saleae Logic 2; export its decoded table, or its raw data, as CSV";
   if (zip.has("header")) return "a session of DSView; export its decoder list as CSV, or its levels as CSV or VCD";

@@ -1,4 +1,4 @@
-// What the times of a recording say: when frames began and ended, and how long nothing was on the line between them.
+// The times of a recording: when frames began and ended, and how long the line was silent between them.
 #pragma once
 
 #include <optional>
@@ -7,29 +7,30 @@
 
 namespace s7200::tools {
 
-/// How long a master waits for an answer, at least, where nobody says so. Few slaves are slower.
+/// The least time that a master waits for an answer, where the user gives none. Few slaves are slower.
 inline constexpr Time kMasterTimeout = 100 * kMillisecond;
 
-/// What a recording leaves open about its times.
+/// The properties of a recording's times.
 struct Stamps {
   Time character = 0;   ///< how long one takes on the line; 0 on TCP
   bool at_end = false;  ///< a frame's time is that of its end; otherwise of its begin
-  /// The same frame as the request, of unknown direction and after a longer silence, is the request repeated; else its echo.
+  /// A frame equal to the request, of unknown direction and after a longer silence than this, is the request repeated; else
+  /// its echo.
   Time timeout = kMasterTimeout;
-  /// So that a frame that begins before the end of the one before is one that a second station sent into it. A log's
-  /// times are not: programs note when they were told.
+  /// The times are exact: a frame that begins before the end of the one before was sent into it by a second station. The
+  /// times of a log are not exact: programs note when they were told.
   bool exact = false;
 };
 
-/// The frame has a time.
+/// The begin and the end of a frame that has a time.
 Time begin_of(const RecordedFrame& frame, const Stamps& stamps);
 Time end_of(const RecordedFrame& frame, const Stamps& stamps);
 
-/// How long nothing was on the line, from the end of one frame to the begin of another, 0 at least; between a request and
-/// its answer the latency. Nothing if the recording has no times, or they run backwards.
+/// The silence on the line from the end of one frame to the begin of another, 0 at least; between a request and its answer
+/// it is the latency. Nothing if the recording has no times, or they run backwards.
 std::optional<Time> silence(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps);
 
-/// The same, and nothing if frames with one time each overlap: what there was of silence is not known then. The times of
+/// The silence as above, or nothing if frames with one time each overlap: the silence is not known then. The times of
 /// characters are those of their arrival, which differ by chance.
 std::optional<Time> known_silence(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps);
 

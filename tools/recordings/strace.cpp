@@ -18,7 +18,7 @@
 namespace s7200::tools {
 namespace {
 
-/// Calls that move bytes.
+/// A call that moves bytes.
 struct Mover {
   std::string_view name;
   Direction direction;
@@ -87,7 +87,7 @@ std::optional<Call> call_of(std::string_view line) {
   return call;
 }
 
-/// `3`, `3</dev/ttyUSB0>`.
+/// A descriptor: `3`, `3</dev/ttyUSB0>`.
 struct Descriptor {
   int number = -1;
   std::string path{};  ///< empty if the line does not say
@@ -128,7 +128,7 @@ Literals literals_of(std::string_view rest) {
   return found;
 }
 
-/// The number after the `=` that ends a line; nothing if there is none, or an error, as `-1 EAGAIN`.
+/// The number after the `=` that ends a line; nothing if there is none, or an error, as in `-1 EAGAIN`.
 std::optional<std::size_t> result_of(std::string_view rest) {
   const std::size_t equals = rest.rfind(" = ");
   if (equals == std::string_view::npos) return {};
@@ -136,7 +136,7 @@ std::optional<std::size_t> result_of(std::string_view rest) {
   return parse_decimal<std::size_t>(number.substr(0, number.find_first_of(" <")));
 }
 
-/// What a descriptor is. Not every line of a trace says it.
+/// The kind of a descriptor. Not every line of a trace tells it.
 enum class Kind : std::uint8_t { Unknown, Line, Other };
 
 Kind kind_of_path(std::string_view path) {
@@ -144,7 +144,7 @@ Kind kind_of_path(std::string_view path) {
   return is_line && path != "/dev/null" ? Kind::Line : Kind::Other;
 }
 
-/// Of these a terminal is the user's.
+/// Whether it is a standard descriptor, whose terminal is the user's; /dev/tty… is a line.
 bool is_standard(const Descriptor& descriptor) {
   constexpr int kLastStandard = 2;
   return descriptor.number <= kLastStandard && !descriptor.path.starts_with("/dev/tty");
@@ -224,7 +224,7 @@ class Reader {
     }
   }
 
-  /// Of which descriptor the bytes are is not known.
+  /// Reports that the descriptor of the bytes is not known.
   void not_read(std::string_view what) {
     moved_.push_back({.frame = {.at = now_}, .descriptor = kNotKnown, .number = number_, .doubt = not_understood(what)});
   }

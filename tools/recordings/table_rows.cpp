@@ -9,10 +9,10 @@ constexpr std::string_view kLineEnds = "\r\n", kSeparators = ",;\t|";
 
 bool is_line_end(char c) { return kLineEnds.find(c) != std::string_view::npos; }
 
-/// CR LF is one.
+/// The length of a line end; CR LF is one line end.
 std::size_t length_of_line_end(std::string_view text) { return text.starts_with("\r\n") ? 2 : 1; }
 
-/// Where a line end stands after `,"`; that the mark opens a field is for the caller to know.
+/// Whether `,"` stands in front of `at`; the caller knows whether the mark opens a field.
 bool is_after_mark(std::string_view row, std::size_t at) {
   return at >= 2 && row[at - 1] == '"' && kSeparators.find(row[at - 2]) != std::string_view::npos;
 }

@@ -20,7 +20,7 @@ class TableRows {
  public:
   explicit TableRows(std::string_view text) : rest_(text) {}
 
-  /// Nothing at the end.
+  /// The next row; nothing at the end.
   std::optional<TableRow> next();
 
  private:
@@ -31,7 +31,7 @@ class TableRows {
 /// Fields may stand in quotation marks; two marks in such a field are one.
 std::vector<std::string> fields_of(std::string_view row, char separator);
 
-/// The same into a list that is there already: one for all rows saves its memory from row to row.
+/// Splits a row into a list that exists already: one list for all rows saves its memory from row to row.
 void take_fields(std::string_view row, char separator, std::vector<std::string>& fields);
 
 }  // namespace s7200::tools

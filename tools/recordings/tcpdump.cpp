@@ -111,7 +111,7 @@ std::optional<LineRecording> read_tcpdump(std::string_view bytes, const ReadingC
   std::vector<PrintedPacket> packets;
   if (!take_rows(bytes, packets, why)) return {};
   std::erase_if(packets, [](const PrintedPacket& packet) { return packet.bytes.empty() || packet.at < 0; });
-  // With -x and -X the bytes begin with the head of IP, with -xx and -XX with that of the link.
+  // The bytes begin with the head of IP after -x and -X, and with that of the link after -xx and -XX.
   const bool of_ip =
       std::ranges::all_of(packets, [](const PrintedPacket& packet) { return length_of_ip(packet.bytes) != 0; });
   for (const PrintedPacket& packet : packets) {

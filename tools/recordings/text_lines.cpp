@@ -20,7 +20,7 @@ bool is_of_a_text(std::uint8_t byte) {
   return (byte >= ' ' && byte <= '~') || ends_line(byte) || byte == kTab || byte == kEscape;
 }
 
-/// `"R 12.5 kg\r\n"`
+/// Bytes as a quoted text: `"R 12.5 kg\r\n"`
 std::string quoted(Data bytes) {
   std::string text = "\"";
   for (const std::uint8_t byte : bytes) {
@@ -123,7 +123,7 @@ bool begins_text(Data bytes) {
          (text.size() < bytes.size() || bytes.empty() || !ends_line(bytes.back()));
 }
 
-/// What is sent back is not told from what is said again.
+/// Reads lines of text. An answer that repeats the request cannot be told from the request sent again.
 class TextReader final : public FrameReader {
  public:
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame*) override { return read_text(frame); }

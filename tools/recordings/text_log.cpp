@@ -33,7 +33,7 @@ Direction direction_of_heading(std::string_view text) {
   return direction_of(head);
 }
 
-/// `Tx:000001-` of Modbus Poll: its number is no byte.
+/// The length of Modbus Poll's counter, which is not a byte: `Tx:000001-`
 std::size_t length_of_counter(std::string_view line) {
   Scan scan(line);
   scan.skip(kAllBlanks);
@@ -170,7 +170,7 @@ class LogReader {
     recording_.notes.push_back(fmt::format("line {}: {}{}: {}", lines.first, what, more, why));
   }
 
-  /// `0010  ` before a row.
+  /// The offset before a row: `0010  `
   struct Offset {
     std::string_view digits{};  ///< empty: there is none
     std::size_t length = 0;
@@ -189,7 +189,7 @@ class LogReader {
     return is_offset && blanks > 0 && (colon || blanks > 1 || before_pair) ? Offset{digits, begin} : Offset{};
   }
 
-  /// Offsets count in hex, rarely in decimal.
+  /// Whether the offset continues the dump. Offsets count in hex, rarely in decimal.
   bool is_right(const Offset& offset) const {
     const bool decimal = std::ranges::all_of(offset.digits, stl::is_digit);
     return hex_number(offset.digits) == bytes_above() ||
@@ -223,7 +223,7 @@ class LogReader {
     in_characters_ = has_other_rows_ = true;
   }
 
-  /// What is not said before the bytes may stand in the cells after them: `01 03 | TX | 10:00:00.000`.
+  /// Takes bytes whose direction or time may stand in the cells after them: `01 03 | TX | 10:00:00.000`.
   void take_with_cells(BytesInLine found, std::string_view line, Direction direction, std::optional<Time> at) {
     for (std::size_t begin = found.next_cell; begin != 0 && begin < line.size();) {
       const std::size_t end = std::min(line.find('|', begin), line.size());
@@ -272,8 +272,8 @@ class LogReader {
     if (!found.not_understood.empty()) recording_.frames.back().doubt = doubt_of(found, std::move(found.readings));
   }
 
-  /// A part of a frame would be one that nobody sent. The place where it was is kept: a request before it may have got it
-  /// for an answer.
+  /// Leaves a row out, since a part of a frame would be a frame that nobody sent. Its place is kept: a request before it may
+  /// have got it for an answer.
   void leave_out(const BytesInLine& found, std::optional<Time> at, Direction direction) {
     RecordedFrame frame{.at = at, .direction = direction, .place = fmt::format("line {}", number_)};
     const bool goes_on = goes_on_ || has_offsets_;

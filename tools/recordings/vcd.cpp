@@ -45,7 +45,7 @@ struct Unit {
 constexpr std::array kUnits{Unit{"s", {kSecond, 1}}, Unit{"ms", {kMillisecond, 1}}, Unit{"us", {kMicrosecond, 1}},
                             Unit{"ns", {1, 1}},      Unit{"ps", {1, 1000}},         Unit{"fs", {1, 1'000'000}}};
 
-/// `1 ns`, `10us`.
+/// A time scale: `1 ns`, `10us`.
 std::optional<Scale> scale_of(const std::vector<std::string_view>& words) {
   std::string text;
   for (const std::string_view word : words) text += word;
@@ -97,14 +97,14 @@ class Reader {
     } else if (name == "$var") {
       add_variable(take_section(rest_));
     } else if (name.starts_with("$dump") || name == "$end") {
-      // What such a section has are values like all others.
+      // The values in such a section are like all others.
     } else {
       take_section(rest_);
     }
     return true;
   }
 
-  /// `wire 1 ! rx`
+  /// Adds a variable: `wire 1 ! rx`
   void add_variable(const std::vector<std::string_view>& words) {
     constexpr std::size_t kWidth = 1, kCode = 2, kName = 3;
     if (words.size() <= kName) return;

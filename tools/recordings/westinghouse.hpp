@@ -13,7 +13,7 @@ std::unique_ptr<FrameReader> block_reader(const ChosenWords& chosen);
 /// Step after step of the handshake. Its sides take turns, so that a step says whose it is.
 std::unique_ptr<FrameReader> pc500_loader_reader(const ChosenWords& chosen);
 
-/// With either table of the frame check.
+/// Reads HPPC frames with either table of the frame check.
 std::unique_ptr<FrameReader> hppc_reader(const ChosenWords& chosen);
 
 }  // namespace s7200::tools

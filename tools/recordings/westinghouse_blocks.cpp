@@ -21,7 +21,8 @@ class BlockReader final : public FrameReader {
  public:
   explicit BlockReader(westinghouse::DataCheck by) : by_(by) {}
 
-  /// Its answer says where the key of the unit is, so one bit of it is always set: it never repeats the message.
+  /// The answer to a set unit address tells the position of the unit's key, so one bit of it is always set: it never repeats
+  /// the message.
   static constexpr auto kSetUnit = static_cast<std::uint8_t>(westinghouse::Opcode::SetUnitAddress);
 
   ReadFrame read(const RecordedFrame& frame, const RecordedFrame* open) override {
@@ -74,13 +75,13 @@ class BlockReader final : public FrameReader {
     return length <= bytes.size() ? length : 0;
   }
 
-  /// By which the check of a block may be, and is not.
+  /// The other rule by which the check of a block could be made.
   westinghouse::DataCheck other_rule() const {
     using enum westinghouse::DataCheck;
     return by_ == Sum ? Xor : Sum;
   }
 
-  /// Of a whole message; those without data have none.
+  /// Whether the data check of a whole message is right; messages without data have none.
   bool data_check_right(Data bytes) const {
     if (bytes[0] != static_cast<std::uint8_t>(westinghouse::Opcode::WriteBlock)) return true;
     const Data data = bytes.subspan(westinghouse::kMessageLength);

@@ -74,7 +74,7 @@ class Inflater {
 std::optional<Zip> Zip::open(std::string_view bytes, std::string& why) {
   Zip zip;
   zip.bytes_ = bytes;
-  const std::size_t at = bytes.rfind(kEnd);  // behind it, there is only a comment
+  const std::size_t at = bytes.rfind(kEnd);  // only a comment can follow
   const std::string_view end = at == std::string_view::npos ? std::string_view{} : bytes.substr(at);
   if (end.size() < kEndLength) return why = "the zip cannot be read: it is cut off", std::nullopt;
   std::string_view directory = from(bytes, size_at(end, 16));
@@ -89,7 +89,7 @@ std::optional<Zip> Zip::open(std::string_view bytes, std::string& why) {
   return zip;
 }
 
-/// Nothing for a file that is encrypted, packed in another way or outside the archive.
+/// The entry of a header; nothing for a file that is encrypted, packed in another way or outside the archive.
 std::optional<Zip::Entry> Zip::entry_at(std::string_view header) const {
   constexpr std::uint32_t kEncrypted = 1, kStored = 0, kDeflated = 8;
   const std::size_t method = length_at(header, 10);
