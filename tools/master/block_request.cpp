@@ -19,7 +19,7 @@ std::uint16_t word_address(const std::string& text) {
   return static_cast<std::uint16_t>(parse_number(text, 0, UINT16_MAX, "address"));
 }
 
-/// `words 16#1234…1235`
+/// The name of a block of words: `words 16#1234…1235`
 std::string words_text(std::uint16_t first, std::size_t count) {
   if (count == 1) return fmt::format("word 16#{:04X}", first);
   return fmt::format("words 16#{:04X}…{:04X}", first, first + count - 1);

@@ -1,4 +1,4 @@
-// What the PC1000 LAN and Westnet II have in common for a master: blocks of words, bits, retest.
+// The common part of PC1000 LAN and Westnet II for a master: blocks of words, bits, retest.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class BlockRequest final : public ProtocolRequest {
     bool sync = false;  ///< the line has a sync signal
     DataCheck check = DataCheck::Sum;
     std::string subject{};                 ///< `words 16#1234…1235`
-    std::optional<std::uint16_t> first{};  ///< word
+    std::optional<std::uint16_t> first{};  ///< address of the first word
     std::size_t count = 0;                 ///< words that are read, or written
     std::string done{};                    ///< what a right answer without values says
   };
@@ -47,7 +47,7 @@ class BlockRequest final : public ProtocolRequest {
   About about_;
 };
 
-/// The verbs that both have.
+/// A parser of the verbs that both protocols have.
 class BlockParser : public WordParser {
  public:
   BlockParser(const ProtocolUse& use, bool sync);
@@ -70,7 +70,7 @@ class BlockParser : public WordParser {
   DataCheck check_;
 };
 
-/// The rows of those verbs, for a parser derived from it. `reads`: what stands beside `read`.
+/// The table rows of those verbs, for a parser derived from it. `reads` is the help beside `read`.
 template <class Parser>
 constexpr std::array<Verb<Parser>, 7> block_verbs(std::string_view reads) {
   return {Verb<Parser>{"read", "ADDRESS[:COUNT]…", reads, 1, kMany, &Parser::read},
@@ -82,7 +82,7 @@ constexpr std::array<Verb<Parser>, 7> block_verbs(std::string_view reads) {
           Verb<Parser>{"wait", "TIME", "before the next action", 1, 1, &Parser::wait}};
 }
 
-/// One table of two.
+/// Joins two tables into one.
 template <class Row, std::size_t M, std::size_t N>
 constexpr std::array<Row, M + N> joined(const std::array<Row, M>& first, const std::array<Row, N>& second) {
   std::array<Row, M + N> all{};

@@ -49,7 +49,7 @@ class PcRequest final : public ProtocolRequest {
   std::uint8_t end_character_;
 };
 
-/// `VB1000`, `VB1000…1007`
+/// The name of a range: `VB1000`, `VB1000…1007`
 std::string range_text(const pc_protocol::Address& first, std::size_t count) {
   const std::string text = pc_protocol::notation(first);
   return count == 1 ? text : fmt::format("{}…{}", text, first.number + count - 1);
@@ -91,7 +91,7 @@ nlohmann::ordered_json PcRequest::subject_json(Data) const {
   return json;
 }
 
-/// Throws std::invalid_argument.
+/// Parses the end character. Throws std::invalid_argument.
 std::uint8_t end_character(const std::string& text) {
   return static_cast<std::uint8_t>(parse_number(text, 0, UINT8_MAX, "the end character"));
 }

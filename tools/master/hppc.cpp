@@ -27,7 +27,7 @@ serial::Frame frame_of(HppcOpcode opcode, const Bytes& operands, FcsTable table)
   return serial::to_frame(westinghouse::hppc_message(westinghouse::kIop, westinghouse::kApl, opcode, operands, table));
 }
 
-/// What the document leaves open of messages.
+/// The choices that the document leaves open for messages.
 struct Form {
   FcsTable table = FcsTable::Document;
   HppcLayout layout{};
@@ -83,7 +83,7 @@ class HppcRequest final : public ProtocolRequest {
 
  private:
   std::string why_not_there(Data table) const;
-  /// What the operands of the last answer say; empty if they are right.
+  /// Takes the operands of the last answer. Returns what is wrong with them; empty if they are right.
   std::string take(serial::Answer& answer) const;
   std::vector<std::string> monitored_lines(const serial::Answer& answer) const;
 
@@ -99,7 +99,7 @@ Data first_message(Data stream) {
   return stream.first(std::min(std::max<std::size_t>(length, 1), stream.size()));
 }
 
-/// Of the registers that are asked for; empty if they are there.
+/// Why the registers that are asked for do not exist; empty if they do.
 std::string HppcRequest::why_not_there(Data table) const {
   const auto found = westinghouse::holding_registers(table);
   if (!found) return "the parameter table does not say where the holding registers are";

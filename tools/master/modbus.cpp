@@ -1,4 +1,4 @@
-// Modbus, RTU and TCP.
+// Modbus RTU and Modbus TCP for a master.
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -24,7 +24,7 @@ using Data = std::span<const std::uint8_t>;
 constexpr std::string_view kAs = "--as", kLowWordFirst = "--low-word-first", kAlways15 = "--always-15",
                            kAlways16 = "--always-16", kCrc = "--crc", kBeyondLimits = "--beyond-limits";
 
-/// `holding registers 10…11`, `coil 3`
+/// The name of a range: `holding registers 10…11`, `coil 3`
 std::string range_text(const modbus::DataAddress& first, std::uint16_t count) {
   const std::string_view object = modbus::row_of(first.area).singular;
   if (count <= 1) return fmt::format("{} {}", object, first.address);

@@ -18,7 +18,7 @@ using Data = std::span<const std::uint8_t>;
 
 constexpr std::string_view kDle = "--dle", kDirectory = "--directory";
 
-/// Bytes that have names beside their addresses.
+/// A memory area whose bytes have names beside their addresses.
 struct Area {
   std::string_view name;
   std::uint16_t first, count;
@@ -28,7 +28,7 @@ constexpr std::array kAreas{Area{"IB", 0xEF00, 0x80}, Area{"QB", 0xEF80, 0x80}, 
 constexpr std::array<std::string_view, 8> kPointers{"PII",      "PIQ",         "flags",   "timers",
                                                     "counters", "system data", "release", "program end"};
 
-/// Of a block: places of its number and its length, and words of its header, which the length counts.
+/// The places of a block's number and of its length in its header, and the header's words, which the length counts.
 constexpr std::size_t kBlockNumber = 6, kBlockLength = 11, kBlockHeader = 5;
 
 class LoaderRequest final : public ProtocolRequest {
@@ -65,7 +65,7 @@ class LoaderRequest final : public ProtocolRequest {
   About about_;
 };
 
-/// A raw step of a session.
+/// A request that sends one raw step of a session.
 class RawStep final : public ProtocolRequest {
  public:
   explicit RawStep(serial::Frame frame) : frame_(std::move(frame)) {}
@@ -162,7 +162,7 @@ nlohmann::ordered_json LoaderRequest::subject_json(Data) const {
 
 Dle dle_of(const ProtocolUse& use) { return static_cast<Dle>(use.chosen(kDle, kDleWords)); }
 
-/// `QB3`, `16#EF83`
+/// Parses an address: `QB3`, `16#EF83`
 std::uint16_t address_of(const std::string& text) {
   const std::string upper = stl::upper_case(text);
   for (const Area& area : kAreas)

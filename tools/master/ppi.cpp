@@ -18,7 +18,7 @@ using Data = std::span<const std::uint8_t>;
 constexpr std::string_view kOwnStation = "--own-station";
 constexpr std::uint8_t kStation = 2, kProgrammingDevice = 0;
 
-/// Its number: there is one at a time.
+/// The request's number: there is one request at a time.
 constexpr std::uint16_t kOnlyRequest = 1;
 
 bool is_element(const MemoryRange& range) { return info(range.area).element != 0; }
@@ -53,7 +53,7 @@ struct Wanted {
 
   bool has_value() const { return kind == Kind::Variable || kind == Kind::Identification; }
   bool is_forced() const { return kind == Kind::Forced || kind == Kind::Unforced; }
-  /// In the answer.
+  /// The number of data bytes in the answer.
   std::size_t bytes() const {
     if (!range) return s7::kIdentificationBytes;
     return is_element(*range) ? range->count * s7::bytes_of_element(range->area) : range->bytes();
@@ -112,7 +112,7 @@ serial::Answer wrong(std::string fault) {
   return answer;
 }
 
-/// What follows the acceptances: those of the request and of polls that came too early.
+/// The answer after the acceptances of the request and of polls that came too early.
 Data after_acceptances(Data response) {
   while (!response.empty() && response[0] == ppi::kAccepted) response = response.subspan(1);
   return response;
@@ -149,7 +149,7 @@ serial::Answer PpiRequest::judge(Data, Data response) const {
   return answer;
 }
 
-/// The same group and service as in the request.
+/// Whether the answer has the group and the service of the request.
 bool PpiRequest::is_to_this(const s7::UserData& answer) const {
   const auto asked = s7::user_data_in(Data(wanted_.pdu).subspan(s7::kRequestHead));
   return answer.is_answer && answer.group == asked->group && answer.service == asked->service;
@@ -204,7 +204,7 @@ void PpiRequest::take_value(Data data, serial::Answer& answer) const {
   }
 }
 
-/// What has become of the only variable.
+/// Takes the result for the only variable.
 void PpiRequest::take_forced(Data data, serial::Answer& answer) {
   const auto codes = s7::list_in(data);
   if (!codes || codes->empty()) {
@@ -359,7 +359,7 @@ std::vector<MasterAction> Parser::parse(const Words& words) {
   return parse_with(*this, std::span<const PpiVerb>(kVerbs), words, "read VB100:4");
 }
 
-/// Which CPU it is, is not known: what only the largest has may be asked for.
+/// Parses a range. The CPU is not known: memory that only the largest CPU has may be asked for.
 MemoryRange Parser::range_of(const std::string& text) {
   static const CpuModel boundless = [] {
     CpuModel model = cpu226();
@@ -413,7 +413,7 @@ Bytes value_bytes(MemoryRange& range, const std::string& values, const std::stri
   return bytes;
 }
 
-/// As they stand in data.
+/// The values as they stand in the data of a write.
 Bytes elements_of(Area area, Data values) {
   Bytes elements;
   for (std::size_t at = 0; at < values.size(); at += info(area).element)
@@ -421,7 +421,7 @@ Bytes elements_of(Area area, Data values) {
   return elements;
 }
 
-/// Words.
+/// Whether any of the words is negative.
 bool has_negative(Data values) {
   for (std::size_t at = 0; at + 1 < values.size(); at += 2)
     if (values[at] > 0x7F) return true;

@@ -1,4 +1,5 @@
-// What a master needs of a protocol. Each is a file of its own that implements this, and a row in protocols.cpp.
+// The interface of a protocol for a master. Each protocol is a file of its own that implements it, and a row in
+// protocols.cpp.
 #pragma once
 
 #include <functional>
@@ -23,11 +24,11 @@ class ProtocolRequest {
  public:
   virtual ~ProtocolRequest() = default;
 
-  /// What to send next. Mostly the same each time.
+  /// The next frame to send. Mostly the same each time.
   virtual serial::Frame frame() = 0;
 
-  /// Of a request in several steps: what to send after this answer to the last step, `elapsed` after the end of the first.
-  /// Nothing when it is over. An exchange then has the characters of all steps.
+  /// The next step of a request in several steps, after this answer to the last step, `elapsed` after the end of the first.
+  /// Nothing when the request is over. An exchange then has the characters of all steps.
   virtual std::optional<serial::Frame> next(std::span<const std::uint8_t> /*response*/, Time /*elapsed*/) { return {}; }
 
   /// Whether anything comes after the step that was sent last.
@@ -36,21 +37,21 @@ class ProtocolRequest {
   /// The line has a sync signal, which is high while the request is sent.
   virtual bool with_sync() const { return false; }
 
-  /// For a request that none answers, a broadcast: how long the line is left to the slaves.
+  /// How long the line is left to the slaves after a broadcast, which none answers; nothing for any other request.
   virtual std::optional<Time> turnaround() const { return {}; }
 
   virtual serial::Answer judge(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response) const = 0;
 
-  /// What the code of a refusal means: `illegal data address`.
+  /// The meaning of a refusal's code: `illegal data address`.
   virtual std::string_view error_name(std::uint16_t code) const = 0;
 
-  /// The same with its code.
+  /// The meaning of a refusal's code together with the code.
   virtual std::string error_text(std::uint16_t code) const { return serial::error_text(code, error_name(code)); }
 
-  /// Who is asked for what: `station 1, function 3, holding registers 10…11`. Empty for a raw frame.
+  /// The station and the data that are asked for: `station 1, function 3, holding registers 10…11`. Empty for a raw frame.
   virtual std::string subject() const = 0;
 
-  /// What a right answer says: in one line, and in a line for each value with its address. `response` is not empty.
+  /// The content of a right answer: in one line, and in a line for each value with its address. `response` is not empty.
   virtual std::string in_short(const serial::Answer& answer, std::span<const std::uint8_t> request,
                                std::span<const std::uint8_t> response) const = 0;
   virtual std::vector<std::string> in_lines(const serial::Answer& answer, std::span<const std::uint8_t> request,
@@ -61,7 +62,7 @@ class ProtocolRequest {
   virtual nlohmann::ordered_json decoded_json(const serial::Answer& answer) const = 0;
 };
 
-/// What is to be done.
+/// An action of the master.
 struct MasterAction {
   enum class Kind : std::uint8_t {
     Request,
@@ -86,7 +87,7 @@ struct ProtocolOption {
   std::function<std::string(const std::string&)> check{};  ///< what is wrong with a value; nothing if it is right
 };
 
-/// How a protocol is to be used.
+/// The user's choices for a protocol.
 struct ProtocolUse {
   std::uint8_t station = 1;                                 ///< until an action changes it
   bool over_modbus_tcp = false;                             ///< stations are units
@@ -105,7 +106,7 @@ struct Patience {
   Time timeout = kSecond;
   int retries = 0;
   Time pause = 0;  ///< before it asks again
-  /// Is sent before that, whatever is answered; null: nothing.
+  /// The frame to send before all others, whatever is answered; null: there is none.
   serial::Frame (*first)(const ProtocolUse& use) = nullptr;
   std::string_view without_first{};                ///< the option that leaves that out
   bool (*repeats)(std::uint16_t error) = nullptr;  ///< a refusal that it asks again after; null: none
@@ -126,7 +127,7 @@ struct Protocol {
   /// Whether characters are a complete answer: nothing more has to be waited for.
   bool (*is_complete)(std::span<const std::uint8_t> response);
 
-  /// What is probably meant otherwise; nothing if all is well. Null: never.
+  /// A warning about actions that probably mean something else; empty if all is well. Null: never.
   std::string (*doubt)(const std::vector<MasterAction>& actions, const ProtocolUse& use) = nullptr;
 
   Patience patience{};
@@ -141,19 +142,19 @@ struct Protocol {
   const westinghouse::PlcRow* plcs = nullptr;
 };
 
-/// All of them; the first is spoken if none is named.
+/// All protocols; the first is spoken if the user names none.
 std::span<const Protocol* const> protocols();
 
 /// The keys of ProtocolRequest::subject_json(), all null: what a request does not have stays so.
 nlohmann::ordered_json empty_subject();
 
-/// Null if there is none of this name.
+/// Returns null if no protocol has this name.
 const Protocol* find_protocol(std::string_view name);
 
 /// The frames of the actions that are raw ones, as they were written.
 std::vector<std::string> raw_frames(const std::vector<MasterAction>& actions);
 
-/// All of them with their actions, for the help.
+/// All protocols with their actions, for the help.
 std::string protocols_help();
 
 /// The settings of simulated PLCs of another make, by protocol and model.

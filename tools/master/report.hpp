@@ -1,4 +1,4 @@
-// What came of the actions of `s7200 master`, as text, as a live table, and as JSON.
+// The results of the actions of `s7200 master`, as text, as a live table, and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@
 
 namespace s7200::tools {
 
-/// An action that sends something, done.
+/// The result of an action that sends something.
 struct MasterResult {
   const MasterAction* action = nullptr;
   serial::Exchange exchange{};
@@ -26,11 +26,11 @@ serial::Answer assess(const MasterAction& action, const serial::Exchange& exchan
 /// `16#04D2 16#FFFB`, `exception 2: illegal data address`, `error 16#12: no session`, `no answer`: all in one line.
 std::string short_text(const MasterResult& result);
 
-/// What was asked, and how long after it the last answer began: `read 40011:2   station 1, function 3, holding registers
-/// 10…11   12.3 ms`.
+/// What was asked, and how long after the request the last answer began: `read 40011:2   station 1, function 3, holding
+/// registers 10…11   12.3 ms`.
 std::string heading(const MasterResult& result);
 
-/// What came of it: a line for each value, with its address; or what is wrong.
+/// The result: a line for each value, with its address; or what is wrong.
 std::vector<std::string> lines(const MasterResult& result);
 
 /// Request and answer in hex.

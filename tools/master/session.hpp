@@ -30,10 +30,10 @@ class MasterSession {
     std::function<void()> end_of_round;
   };
 
-  /// Neither is owned.
+  /// Neither the slave nor the actions are owned.
   MasterSession(Slave& slave, const std::vector<MasterAction>& actions, const SessionSettings& settings);
 
-  /// Does all rounds, or as many as there are until `over` says so or an interruption comes. Throws SlaveUnreachable, and
+  /// Performs all rounds, or those until `over` returns true or an interruption comes. Throws SlaveUnreachable, and
   /// std::invalid_argument for a frame that cannot be sent to this slave.
   void run(const Listener& listener, const std::function<bool()>& over);
 
@@ -41,10 +41,10 @@ class MasterSession {
 
  private:
   void run_round(const Listener& listener, const std::function<bool()>& over);
-  /// Nothing after an interruption.
+  /// Performs an action; nothing after an interruption.
   std::optional<MasterResult> perform(const MasterAction& action);
   serial::Request request_of(const MasterAction& action) const;
-  /// All its steps.
+  /// Exchanges all steps of an action.
   serial::Exchange exchange(const MasterAction& action);
   bool settled(const serial::Answer& answer) const;
   void prepare_to_repeat(const MasterAction& action);

@@ -15,17 +15,17 @@ namespace s7200::tools {
 
 class ExchangeStatistics {
  public:
-  /// What came of a request in the end; the latency of what answered it, right or not.
+  /// Counts the final verdict on a request, and the latency of its answer, right or not.
   void add(serial::Verdict verdict, std::optional<Time> latency);
   void add_retry() { ++retries_; }
 
   std::uint64_t sent() const;
   std::uint64_t count(serial::Verdict verdict) const { return counts_[static_cast<std::size_t>(verdict)]; }
 
-  /// Not all were right.
+  /// Whether any request was not answered right.
   bool any_failed() const { return sent() != count(serial::Verdict::Right); }
 
-  /// Of answers, exceptions among them; nothing before the first. The percentile is that of the last kKept.
+  /// The latency of answers, exceptions among them; nothing before the first. The percentile is that of the last kKept.
   struct Latency {
     Time least = 0, mean = 0, p99 = 0, most = 0;
   };
@@ -44,7 +44,7 @@ class ExchangeStatistics {
   std::vector<Time> last_;
 };
 
-/// `right`, `exception`, `silent`, `wrong`
+/// The verdict's name: `right`, `exception`, `silent`, `wrong`
 const char* verdict_name(serial::Verdict verdict);
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-// Words on the command line to actions: what all protocols have in common.
+// Words of the command line become actions: the common part of all protocols.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,16 +26,16 @@ using Words = std::vector<std::string>;
 /// `text` up to `separator`, and what comes after it; nothing if it is not there.
 std::optional<std::pair<std::string, std::string>> split_at(const std::string& text, char separator);
 
-/// Its parts between commas, one at least.
+/// The parts of `text` between commas, one at least.
 std::vector<std::string> split_at_commas(const std::string& text);
 
 /// The numbers of such a list. Throws std::invalid_argument.
 std::vector<std::int64_t> values_of(const std::string& text, std::int64_t least, std::int64_t most);
 
-/// Of bytes, signed or not.
+/// The values of bytes, signed or not.
 Bytes byte_values_of(const std::string& text);
 
-/// Throws std::invalid_argument.
+/// Parses a frame in hex. Throws std::invalid_argument.
 serial::Frame parse_hex(const std::string& text);
 
 /// An option that takes one of these words, which live as long as it; without it the first one holds. `kind`: what they are
@@ -53,7 +53,7 @@ struct Verb {
 
 inline constexpr std::size_t kMany = SIZE_MAX;
 
-/// What a parser of words has for every protocol: a station that an action changes, pauses, and the actions so far.
+/// The common part of the parsers of words: a station that an action changes, pauses, and the actions so far.
 class WordParser {
  public:
   WordParser(std::uint8_t station, std::uint8_t last_station) : station_(station), last_station_(last_station) {}
@@ -63,7 +63,7 @@ class WordParser {
 
  protected:
   void add(std::shared_ptr<ProtocolRequest> request);
-  /// `text`: the frame as it was written.
+  /// Adds a raw frame; `text` is the frame as the user wrote it.
   void add_raw(const std::string& text, std::uint8_t station, std::shared_ptr<ProtocolRequest> request);
 
   /// Each verb with the words up to the next one. `example`: an action.
@@ -114,7 +114,7 @@ std::vector<std::string> verb_words(std::span<const Verb<Parser>> verbs) {
   return words;
 }
 
-/// The verbs in a table for people.
+/// A table of the verbs for people.
 template <class Parser>
 std::string verbs_help(std::span<const Verb<Parser>> verbs) {
   std::string text;

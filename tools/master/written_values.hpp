@@ -9,7 +9,7 @@
 
 namespace s7200::tools {
 
-/// `on,off,1,0`. Throws std::invalid_argument.
+/// Parses bits such as `on,off,1,0`. Throws std::invalid_argument.
 std::vector<std::uint16_t> parse_bits(std::string_view text);
 
 /// `1234,-5,16#04D2,2#1010`: registers from -32768 to 65535. In a form of 32 bits each value takes two registers, and the
