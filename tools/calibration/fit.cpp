@@ -37,7 +37,7 @@ void divide(Equation& equation, double by) {
   for (double& loop : equation.of) loop /= by;
 }
 
-/// By how much less is known how long a run took in which interrupts came: half a millisecond more, to one and a half.
+/// The factor by which the time of a run with interrupts is less certain: half a millisecond is added to one and a half.
 constexpr double kWithInterrupts = 4.0 / 3;
 
 LoopTime time_of(const Equation& equation, const std::vector<LoopTime>& times) {
@@ -61,7 +61,7 @@ Equation equation_of(const Loops& loops, std::size_t loop, std::vector<LoopTime>
   return equation;
 }
 
-/// Of the equations from `first` on that have the form, the surest one; equations.size() if none has it.
+/// The most certain of the equations from `first` on that have the form; equations.size() if none has it.
 std::size_t surest_equation(const std::vector<Equation>& equations, std::size_t first, std::size_t form,
                             const std::vector<LoopTime>& times) {
   std::size_t best = equations.size();
@@ -93,7 +93,7 @@ void eliminate(std::vector<Equation>& equations, std::size_t forms, const std::v
 
 bool is_there(double count) { return count != 0; }
 
-/// What an equation says once the forms are eliminated: the time of the only form that is left, or by how much the loops
+/// Reads an equation after the elimination of forms: the time of the only form that is left, or by how much the loops
 /// contradict each other. A form that is found goes out of `loops`.
 void read_off(const Equation& equation, const std::vector<LoopTime>& times, Fit& fit, std::vector<Equation>& loops) {
   const LoopTime time = time_of(equation, times);
@@ -109,12 +109,13 @@ void read_off(const Equation& equation, const std::vector<LoopTime>& times, Fit&
     if (loop.counts[form] != 0) subtract(loop, equation, loop.counts[form]);
 }
 
-/// What the tables of the CPU say of a form, if it may be as much slower as the figures that were measured.
+/// The range of a form in the tables of the CPU, if it may be as much slower as the figures that were measured.
 TimeRange known_range(const TimeRange& range, double ratio) {
   return {range.least * std::min(1.0, ratio), range.most * std::max(1.0, ratio)};
 }
 
-/// What is left of a loop without the forms that were found, if it has the same number of each and any is in no earlier sum.
+/// The rest of a loop without the forms that were found, if it has the same number of each and no earlier sum has any of
+/// them.
 std::optional<Sum> sum_of(const Equation& loop, const std::vector<LoopTime>& times, const Fit& fit) {
   Sum sum;
   std::vector<std::string> names;
@@ -154,8 +155,8 @@ void add_sums(const std::vector<Equation>& loops, const std::vector<LoopTime>& t
   }
 }
 
-/// What each form can be: what is known of it, as far as the sums leave it that. Where they cannot be what is known, all
-/// between nothing and the whole sum.
+/// The possible range of each form: the known range, as far as the sums permit it. If the sums contradict it, the range is
+/// from nothing to the whole sum.
 std::vector<TimeRange> ranges_of_parts(const Fit& fit) {
   const double ratio = ratio_to_known(fit).value_or(1);
   std::vector<TimeRange> ranges;
@@ -246,7 +247,7 @@ void state(Time& figure, Time& within, const Fitted& fitted, Time shortest) {
   state(figure, within, fitted.ns, {fitted.ns - fitted.within, fitted.ns + fitted.within}, shortest);
 }
 
-/// In a table labels alone may take no time, and of units any.
+/// The shortest base in a table: only labels may take no time; the time of a unit may be 0.
 constexpr Time kShortest = 1;
 
 /// The lines of what was found, and those of the sums. Base and unit are of use only together.
@@ -279,7 +280,7 @@ std::vector<TimeRow> measured_rows(const Fit& fit, const std::string& source) {
   return rows;
 }
 
-/// By what the figures that were not measured are multiplied. The EEPROM is a part of its own.
+/// Multiplies the figures that were not measured by `ratio`. The time of the EEPROM is left as it is.
 void estimate(TimeRow& row, std::optional<double> ratio) {
   if (!ratio || row.mnemonics.front() == name_of(SystemTime::EepromSave)) {
     row.source = "not measured; " + row.source;
@@ -323,7 +324,7 @@ TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& ow
     const std::string of_others = row.source;
     estimate(row, ratio);
     if (is_known(row)) return;
-    // What an area adds and the CPU's own table does not know: as good as nothing, up to what the others say.
+    // The time that an area adds and the CPU's own table does not have: almost nothing, up to the times of the other tables.
     state(row.base, row.base_within, 0, range_of_base(row), kShortest);
     row.source = "not measured: nothing, as in the CPU's own table, up to what others say; " + of_others;
   });
@@ -333,7 +334,7 @@ TimeTable calibrated(const Fit& fit, const TimeTable& known, const TimeTable& ow
 
 namespace {
 
-/// What operands in an area add to any instruction.
+/// Whether the time that operands in an area add to any instruction was measured.
 bool is_measured(const Fit& fit, Area area) {
   return std::ranges::any_of(fit.forms, [&](const Fitted& each) {
     return each.found && each.form.mnemonic == name_of(SystemTime::OperandArea) && contains(each.form.row->areas, area);
@@ -344,7 +345,7 @@ bool is_measured(const Fit& fit, Area area) {
 
 namespace {
 
-/// What the program does not run, and why.
+/// A figure that the program cannot measure, and the reason.
 struct Unfit {
   std::string_view mnemonics, why;
 };
@@ -371,7 +372,7 @@ std::string_view reason_for(const Fit& fit, const Instruction& instruction) {
                                     : "the program runs on a CPU 214, which does not have it";
 }
 
-/// Found, or a part of a sum.
+/// Whether a figure was found, or is a part of a sum.
 bool has_figure(const Fit& fit, std::string_view mnemonic) {
   return std::ranges::any_of(fit.forms, [&](const Fitted& each) {
     return (each.found || each.sum) && !each.form.per_unit && each.form.mnemonic == mnemonic;

@@ -1,4 +1,4 @@
-// Figures out of the times of loops.
+// Computes figures from the times of loops.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,7 @@ struct Kind {
   Areas areas = 0;
 };
 
-/// Those of an instruction. What an area adds to any instruction is no kind of its own.
+/// The kinds of an instruction. The time that an area adds to any instruction is not a kind of its own.
 std::vector<Kind> kinds_of(const Instruction& instruction, const CpuModel& model,
                            const std::vector<const NamedTimes*>& tables) {
   const TimeTable& own_table = tables.front()->table();
@@ -43,7 +43,7 @@ std::vector<Kind> kinds_of(const Instruction& instruction, const CpuModel& model
   return kinds;
 }
 
-/// With bounds in place of a percentage, which hold what all the tables say of it for its operands.
+/// The row with bounds in place of a percentage; they include the figures of all tables for its operands.
 TimeRow bounded(TimeRow row, const std::vector<const NamedTimes*>& tables) {
   TimeRange base = range_of_base(row), unit = range_of_unit(row);
   const auto hold = [](TimeRange& range, const TimeRange& other) {
@@ -78,7 +78,7 @@ TimeRow bounded(TimeRow row, const std::vector<const NamedTimes*>& tables) {
 /// A scan with all loops stays below the watchdog's 300 ms with them.
 constexpr Time kBase = 100'000, kPerUnit = 1'000, kPointer = 100, kArea = 10;
 
-/// What an instruction that took so long consisted of, besides itself.
+/// The parts of an instruction's time besides its base.
 struct Parts {
   explicit Parts(Time took)
       : units(static_cast<double>(took % kBase / kPerUnit)),
@@ -131,7 +131,7 @@ class FormCounter final : public TraceSink {
   Counts take() { return std::exchange(counts_, {}); }
 
  private:
-  /// Of the operands that are addresses.
+  /// The areas of those operands that are addresses.
   std::vector<Area> areas_of(std::uint32_t op) const {
     std::vector<Area> areas;
     for (const stl::Operand& operand : program_.statement(op).operands)
@@ -153,7 +153,7 @@ class FormCounter final : public TraceSink {
   Counts counts_;
 };
 
-/// As if it had come over the line.
+/// Gives the CPU a command as if it had come over the line.
 void command(Cpu& cpu, const Command& command) {
   cpu.poke(image::kV + measuring::kCommandAt, command.bytes());
   cpu.poke(image::kM + measuring::kCompleteByte, std::array{measuring::kCompleteBit});
@@ -182,7 +182,7 @@ class Window final : public TraceSink {
     if (record.kind == TraceKind::ScanBegin) repetitions_.count(SystemTime::ScanOverhead, {}, 1);
   }
 
-  /// How many interrupts there were.
+  /// The number of interrupts that were served.
   int services() const { return services_; }
 
  private:

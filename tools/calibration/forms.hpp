@@ -1,4 +1,4 @@
-// What the loops of measure_times.stl are made of: which figures of a table of times one repetition of each consists of.
+// The contents of the loops of measure_times.stl: which figures of a table of times one repetition of each consists of.
 #pragma once
 
 #include <cstddef>

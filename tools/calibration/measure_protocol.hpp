@@ -1,4 +1,4 @@
-// What measure_times.stl is asked and answers, and where it keeps that: as the head of the program says, byte by byte.
+// The commands and answers of measure_times.stl and their places in memory, byte by byte as in the head of the program.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace s7200::tools::measuring {
 
-/// Of the meaning of commands and answers; the program's answers name it.
+/// The version of the commands' and answers' meaning; the program's answers name it.
 inline constexpr std::uint8_t kVersion = 3;
 
 inline constexpr std::uint8_t kCommandMark = 0x6D, kAnswerMark = 0x4D;
 
-/// Places in an answer, behind its mark and what it repeats of the command.
+/// Places in an answer after its mark and the repeated part of the command.
 inline constexpr std::size_t kMilliseconds = 6, kIdentification = 8, kVersionPlace = 9, kLoops = 10, kCheck = 11,
                              kAnswerLength = 13;
 

@@ -24,19 +24,19 @@ struct Patience {
   int attempts;
   Time timeout;
 };
-/// Longer than any run: 32767 ms.
+/// Patience for a run: longer than any run takes (32767 ms).
 constexpr Patience kForARun{3, 40 * kSecond};
-/// No loop runs, so it answers soon, unless an interrupted calibration has left it a long run.
+/// Patience for the first answer: no loop runs, so it comes soon, unless an interrupted calibration has left a long run.
 constexpr Patience kForTheFirstAnswer{14, 3 * kSecond};
 
-/// The words of `bytes`, exclusive or.
+/// The exclusive or of the words of `bytes`.
 std::uint16_t check_of(std::span<const std::uint8_t> bytes) {
   std::uint16_t check = 0;
   for (std::size_t at = 0; at + 1 < bytes.size(); at += 2) check = static_cast<std::uint16_t>(check ^ load16(&bytes[at]));
   return check;
 }
 
-/// Of this version. One before had no check, and fewer characters.
+/// Whether an answer of this version is whole. Answers of the version before had no check, and fewer characters.
 bool is_whole(std::span<const std::uint8_t> answer) {
   return answer.size() == measuring::kAnswerLength && answer[0] == measuring::kAnswerMark &&
          check_of(answer.subspan(1)) == 0;
@@ -47,7 +47,8 @@ bool is_whole(std::span<const std::uint8_t> answer) {
       "the CPU runs {} of measure_times.stl, this command knows version {}: download that one", found, measuring::kVersion));
 }
 
-/// Nothing once the command is interrupted. `silent`: after each attempt that got no answer.
+/// Asks until an answer comes; nothing once the command is interrupted. `silent` is called after each attempt that got no
+/// answer.
 std::optional<Measured> ask(Slave& slave, const Command& command, const Patience& patience = kForARun,
                             const std::function<void()>& silent = {}) {
   const Bytes request = command.bytes();
@@ -71,7 +72,7 @@ std::optional<Measured> ask(Slave& slave, const Command& command, const Patience
   throw std::runtime_error("no answer from measure_times.stl");
 }
 
-/// As ask(), and nothing with `why` if the CPU is no longer there.
+/// Asks like ask(); nothing and `why` if the CPU is no longer there.
 std::optional<Measured> ask_on(Slave& slave, const Command& command, std::string& why) {
   try {
     return ask(slave, command);
