@@ -21,11 +21,11 @@ namespace s7200::tools {
 /// Empty: the CPU's own is the first.
 std::vector<std::string> names_in_band(const CpuModel& model, const std::string& table);
 
-/// These, of a table as load_times() takes it, and random ones. Nothing, with errors, as load_times().
+/// Loads the given tables, as load_times() takes them, and random ones. Nothing, with errors, as in load_times().
 std::optional<TimesBand> load_band(const CpuModel& model, const std::string& table, const FileSource& files,
                                    const BandSettings& settings, std::vector<std::string>& errors);
 
-/// The same of a table that has been read already, as `times`.
+/// Makes the band around a table that has been read already, as `times`.
 TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable times, const BandSettings& settings);
 
 /// A program that has no errors, with each of the tables. It is checked for a table when that is first asked for, from any
@@ -51,7 +51,7 @@ class ProgramBand {
   mutable std::vector<std::shared_ptr<const Program>> kept_;
 };
 
-/// From the shortest to the longest.
+/// A range of latencies, from the shortest to the longest.
 struct LatencyRange {
   Time least = kNever, most = 0;
 
@@ -60,12 +60,12 @@ struct LatencyRange {
   bool any() const { return least <= most; }
 };
 
-/// `15.8 … 19.6 ms`; empty if there is none.
+/// A range as text: `15.8 … 19.6 ms`; empty if there is none.
 std::string to_text(const LatencyRange& range);
-/// {"least": …, "most": …}; null if there is none.
+/// A range as JSON: {"least": …, "most": …}; null if there is none.
 nlohmann::ordered_json to_json(const LatencyRange& range);
 
-/// What came of one exchange with one table.
+/// The outcome of one exchange with one table.
 struct BandOutcome {
   std::optional<serial::Exchange> exchange{};  ///< nothing: it was not come to
   std::string verdict{};                       ///< in a word or two: `answered`, `no answer`
@@ -73,7 +73,7 @@ struct BandOutcome {
   std::string stop{};                          ///< why the CPU was in STOP afterwards; empty in RUN
 };
 
-/// The same with all tables.
+/// The outcomes of an exchange with all tables.
 class ExchangeBand {
  public:
   void add(const BandOutcome& outcome);
@@ -95,7 +95,7 @@ class ExchangeBand {
   const Counts& verdicts() const { return verdicts_; }
   const Counts& stops() const { return stops_; }
 
-  /// With how many tables.
+  /// The number of tables with this verdict.
   std::size_t count(const std::string& verdict) const;
 
   /// `after 15.8 … 19.6 ms   answered: 200 of 202 tables; no answer: 2 of 202; CPU in STOP: 2 of 202; characters or events
@@ -115,7 +115,7 @@ class LostEvents final : public TraceSink {
   void record(const TraceRecord& record) override { count_ += record.kind == TraceKind::EventLost; }
   bool wants_scans() const override { return false; }
 
-  /// Since it was last asked.
+  /// The number since the last call.
   std::size_t take() { return std::exchange(count_, 0); }
 
  private:

@@ -6,8 +6,8 @@
 
 namespace s7200::tools {
 
-/// So many lines, six at least, always the same for a number: networks with titles, comments and statements as people write
-/// them. From some thousand lines on it is larger than any CPU's program memory, which is its only mistake.
+/// A listing of `lines` lines, six at least, always the same for a number: networks with titles, comments and statements as
+/// people write them. From some thousand lines on it is larger than any CPU's program memory, which is its only mistake.
 std::string long_listing(std::uint32_t lines);
 
 }  // namespace s7200::tools

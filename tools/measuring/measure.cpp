@@ -53,7 +53,7 @@ Lap timed(Work work) {
   return {done, HostClock::now() - begin};
 }
 
-/// Of the best round: what the machine can do, not what else it was doing.
+/// The result of the best round: it shows what the machine can do, not what else it was doing.
 template <class Round>
 double best_rate(const Effort& effort, Round round) {
   const std::chrono::nanoseconds each(effort.each / kRounds);
@@ -70,7 +70,7 @@ double best_rate(const Effort& effort, Round round) {
   return best;
 }
 
-/// Without one that was stopped, which is not of all rounds.
+/// Adds a figure, unless its measurement was stopped before all rounds.
 void add(std::vector<Figure>& figures, Figure figure, const Effort& effort) {
   if (!effort.stop) figures.push_back(std::move(figure));
 }
@@ -94,7 +94,7 @@ class CharacterPort final : public SerialPort {
     queue_.schedule(at, kUart, kReceived);
   }
 
-  /// True when an answer has ended.
+  /// Handles an event. Returns true when an answer has ended.
   bool handle(Cpu& cpu, const Event& event) {
     if (event.what == kSent) {
       cpu.character_sent(event.at);
@@ -113,7 +113,7 @@ class CharacterPort final : public SerialPort {
   std::size_t next_ = 0;
 };
 
-/// A port with nothing on it.
+/// A port with nothing connected to it.
 class IdlePort final : public SerialPort {
   void configure(const SerialFormat&, Time) override {}
   void enable_receiver(bool, Time) override {}
@@ -124,7 +124,7 @@ class IdlePort final : public SerialPort {
 /// A CPU that is asked for 10 registers again and again.
 class Serving {
  public:
-  /// At 300 baud the request and the answer take 1.2 s.
+  /// The longest exchange: at 300 baud the request and the answer take 1.2 s.
   static constexpr Time kLongestExchange = 10 * kSecond;
 
   explicit Serving(std::shared_ptr<const Program> program)
@@ -133,7 +133,7 @@ class Serving {
     run_until(kSecond);
   }
 
-  /// One exchange; the instructions it took, idle scans included.
+  /// Runs one exchange and returns the number of instructions, idle scans included.
   double operator()() {
     const std::uint64_t before = cpu_.state().instructions;
     port_.request(cpu_.time());
@@ -167,7 +167,7 @@ class Serving {
   bool answered_ = false;
 };
 
-/// The same on the whole line, with its master.
+/// Runs an exchange on the whole line, with its master.
 void exchange(serial::Simulation& simulation) {
   constexpr std::size_t kAnswer = 25;
   simulation.master().start({.frame = ten_registers()}, simulation.time());
@@ -182,7 +182,7 @@ void exchange(serial::Simulation& simulation) {
 Lap first_scans(serial::Simulation& simulation, const serial::Simulation::Snapshot& fresh) {
   constexpr int kScans = 32;
   const auto power_up = [&] {
-    simulation.restore(fresh);  // nothing is on the line any more
+    simulation.restore(fresh);  // the line is idle again
     simulation.power_up();
   };
   simulation.cpu().pause_at_scan_end(true);
@@ -203,7 +203,7 @@ Lap first_scans(serial::Simulation& simulation, const serial::Simulation::Snapsh
   return {with.work, with.time - without.time};
 }
 
-/// With every scan run.
+/// Measures idle scans, each of which is run.
 double idle_scans(serial::Simulation& simulation) {
   const std::uint64_t before = simulation.cpu().state().instructions;
   simulation.run_until(simulation.time() + kSecond);
@@ -231,7 +231,7 @@ double polled_minute(serial::Simulation& simulation) {
   return kPolls;
 }
 
-/// While a trace of it is written and thrown away.
+/// Measures `work` while a trace of it is written and thrown away.
 template <class Work>
 double traced(serial::Simulation& simulation, const std::shared_ptr<const Program>& program, TraceDetail detail,
               const Effort& effort, Work work) {
@@ -267,7 +267,7 @@ std::vector<Figure> measure(const std::shared_ptr<const Program>& program, const
   const auto quiet = [&] { return serial::default_quiet(simulation.freeport().format); };
   simulation.run_until_ready(quiet, 60 * kSecond);
   simulation.configure_master(simulation.freeport().format);
-  exchange(simulation);  // which a program that is no such slave does not get past
+  exchange(simulation);  // fails for a program that is not such a slave
   simulation.cpu().use_steady_scans(SteadyScansUse::Off);
   add(figures,
       {"idle scans", "instructions", best_rate(effort, [&] { return timed([&] { return idle_scans(simulation); }); })},
@@ -385,7 +385,7 @@ std::vector<Figure> measure_files(const Effort& effort) {
 
 namespace {
 
-/// Ends with the process.
+/// A started process; the destructor waits for its end.
 class Started {
  public:
   explicit Started(const std::string& command) {
@@ -413,7 +413,7 @@ class Started {
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
   }
 
-  /// False if it ends without any.
+  /// Waits for output. Returns false if the process ends without any.
   bool wait_for_output() const {
     char first = 0;
     ssize_t count = 0;

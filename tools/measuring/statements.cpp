@@ -149,7 +149,7 @@ class Tip41 {
     return check(std::move(parsed), model_, times_).program;
   }
 
-  /// In SBR 62.
+  /// Replaces WDR in SBR 62.
   static void replace_wdr(stl::Source& source) {
     bool inside = false;
     for (stl::Line& line : source.lines) {
@@ -181,7 +181,7 @@ bool is_fitted_to_first_scan(const TimeTable& times) {
   return std::ranges::any_of(times.rows(), [](const TimeRow& row) { return is_fitted(row, kFirstScanOfTip41); });
 }
 
-/// Its text rounds: 690 in one place, 700 in another.
+/// The time of the first scan; the tip's text rounds it: 690 ms in one place, 700 ms in another.
 constexpr Between<Time> kFirstScan{655 * kMillisecond, 735 * kMillisecond};
 
 void check_first_scan(const Tip41& tip, Statement& statement) {
@@ -217,7 +217,7 @@ void check_38400(const Tip41& tip, Statement& statement) {
                                 served.all_answered ? "answers" : "no answer", served.lost);
 }
 
-/// What the tip says of itself, and how that is checked.
+/// A statement of the tip about itself, and how it is checked.
 struct OfTip41 {
   std::string_view what, where;
   bool of_first_scan;  ///< to which figures may be fitted

@@ -1,4 +1,4 @@
-// What is known of the times of real CPUs, and whether a table of execution times agrees with it.
+// The known statements about the times of real CPUs, and whether a table of execution times agrees with them.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ struct Statement {
   bool fitted = false;  ///< figures of the table are from there, so that it says nothing about the others
 };
 
-/// Those about this CPU. `tip41`: Application Tip 41, a program for the CPU 214 that is not part of this project; null if it
-/// is not at hand.
+/// Checks the statements about this CPU. `tip41`: Application Tip 41, a program for the CPU 214 that is not part of this
+/// project; null if it is not at hand.
 std::vector<Statement> check_statements(const CpuModel& model, const TimeTable& times, const SourceText* tip41);
 
 /// Whether a program is Application Tip 41, by its routines.
