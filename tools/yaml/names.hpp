@@ -8,7 +8,7 @@
 
 namespace s7200::tools {
 
-/// As YamlValues::text(), but complains about NUL too, at which the name would end for the system.
+/// Reads a name like YamlValues::text(), but complains about NUL too, at which the name would end for the system.
 std::optional<std::string> name_from(const YamlNode& node, YamlValues& values);
 
 }  // namespace s7200::tools

@@ -17,8 +17,8 @@
 
 namespace s7200::tools {
 
-/// What goes wrong in one file. A mistake in a loop is made in every turn of it and told once, as is one that was found
-/// before, by the parser of YAML.
+/// Collects the mistakes in one file. A mistake in a loop is made in every turn of it and told once; so is a mistake that
+/// the parser of YAML has found before.
 class Complaints {
  public:
   explicit Complaints(stl::Diagnostics& list);
@@ -35,7 +35,7 @@ std::string beside(const std::string& file, const std::string& path);
 
 inline constexpr Time kLongestYamlDuration = 24 * 3600 * kSecond;
 
-/// Of a node that is null nothing comes and nothing is complained about.
+/// Reads the values of nodes. A node that is null gives nothing and no complaint.
 class YamlValues {
  public:
   explicit YamlValues(stl::Diagnostics& diagnostics) : complaints(diagnostics) {}
@@ -45,13 +45,13 @@ class YamlValues {
 
   virtual void wrong(const YamlNode& node, std::string message, std::string hint = {});
 
-  /// A scalar; nothing after a complaint.
+  /// Reads a scalar; nothing after a complaint.
   virtual std::optional<std::string> text(const YamlNode& node);
 
-  /// The same of a key, if it is there and not empty.
+  /// Reads the scalar of a key, if it is there and not empty.
   std::optional<std::string> optional_text(const YamlNode& map, std::string_view key);
 
-  /// What `parse` makes of the value, if it is there; `what` it is and an `example` for the complaint.
+  /// Reads the value with `parse`, if it is there; `what` it is and an `example` are for the complaint.
   template <class Parse>
   auto value(const YamlNode* node, std::string_view what, std::string_view example, Parse parse)
       -> decltype(parse(std::string())) {
@@ -80,7 +80,7 @@ class YamlValues {
 
   static constexpr std::string_view kDuration = "a duration with its unit, of a day at most";
 
-  /// A day at most.
+  /// Reads a duration of at most a day.
   std::optional<Time> duration(const YamlNode* node);
 
   /// `true` or `false`; false if it is left out.

@@ -12,12 +12,12 @@
 namespace s7200::tools {
 namespace {
 
-/// Nothing more can be made of the text.
+/// Is thrown when no more of the text can be read.
 struct Unreadable {
   stl::Diagnostic diagnostic;
 };
 
-/// yaml-cpp counts from 0, and bytes.
+/// Converts a place of yaml-cpp, which counts from 0, and in bytes.
 stl::Position place(const YAML::Mark& mark, const stl::SourceLines& source) {
   if (mark.is_null()) return {};
   const auto line = static_cast<std::size_t>(std::max(0, mark.line));
@@ -29,7 +29,7 @@ stl::Position place(const YAML::Mark& mark, const stl::SourceLines& source) {
 
 // --- what the parser complains about ---
 
-/// The name of what is read follows.
+/// The end of a complaint, which the name of the document follows.
 constexpr std::string_view kNoPlace = "have no place in ";
 constexpr std::string_view kNoAliases = "anchors and aliases (& and *) have no place in ";
 constexpr std::string_view kNoTags = "tags (!) have no place in ";
@@ -40,7 +40,7 @@ constexpr std::string_view kNotOfIt = "this does not belong to the map or list b
 constexpr std::string_view kIndentAlike =
     "the keys of one map, and the '-' of one list, stand below each other; nothing follows a closing quotation mark";
 
-/// Words of yaml-cpp, or how they begin, and ours.
+/// The beginning of a message of yaml-cpp, and our words for it.
 struct Complaint {
   std::string_view parser, message, hint;
 };
@@ -83,7 +83,8 @@ const Complaint kComplaints[] = {
     {YAML::ErrorMsg::REPEATED_TAG_DIRECTIVE, "directives (%) have no place in ", "leave the line out"},
 };
 
-/// The tab in the indentation of a line, from 1; 0 if there is none. The '-' of lists is part of it.
+/// The column of a tab in the indentation of a line, from 1; 0 if there is none. The '-' of lists is part of the
+/// indentation.
 std::uint32_t column_of_tab(std::string_view line) {
   const std::size_t tab = line.substr(0, line.find_first_not_of(" \t-")).find('\t');
   return tab == std::string_view::npos ? 0 : static_cast<std::uint32_t>(tab + 1);
@@ -117,14 +118,14 @@ class TreeBuilder final : public YAML::EventHandler {
 
   std::optional<YamlNode> take() { return std::move(root_); }
 
-  /// Of the map or list that is being read; none at the top.
+  /// The place of the map or list that is being read; nothing at the top.
   std::optional<stl::Position> innermost() const {
     return open_.empty() ? std::nullopt : std::optional(open_.back().node.position);
   }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  /// What is not written stands where its key does; the parser has the place of what comes next.
+  /// A value that is not written has the place of its key; the parser gives the place of what comes next.
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const bool has_key = !open_.empty() && open_.back().node.is_map() && !open_.back().key_next;
     if (!has_key) return scalar(mark, "", anchor, "");
@@ -208,7 +209,7 @@ class TreeBuilder final : public YAML::EventHandler {
     }
   }
 
-  /// As many characters as stand there, as far as they do.
+  /// The number of characters to underline: those of the node, as far as the line has them.
   std::uint32_t underline(const YamlNode& node) const {
     if (node.position.column == 0) return 1;
     const std::size_t rest = stl::count_characters(source_.text[node.position.line - 1]) - (node.position.column - 1);

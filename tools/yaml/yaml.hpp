@@ -33,14 +33,14 @@ struct YamlNode {
   const YamlNode* find(std::string_view key) const;
 };
 
-/// For a complaint about a part of a scalar that was read as `text`: `length` bytes from byte `begin` on. The whole of it if
+/// A part of a scalar that was read as `text`, for a complaint: `length` bytes from byte `begin` on. The whole scalar if
 /// another text stands there.
 YamlNode part_of(const YamlNode& node, std::string_view text, std::size_t begin, std::size_t length);
 
-/// By its name: .yaml or .yml, in any case.
+/// Whether a file is YAML by its name: .yaml or .yml, in any case.
 bool is_yaml_file(const std::filesystem::path& path);
 
-/// For messages: "a map", "a list", "'text'".
+/// The kind of a node for messages: "a map", "a list", "'text'".
 std::string to_text(const YamlNode& node);
 
 inline constexpr int kDeepestYaml = 24;             ///< maps and lists inside each other
@@ -49,7 +49,7 @@ inline constexpr std::size_t kMostYamlKeys = 1000;  ///< in one map
 /// A text with the name that messages have for it.
 std::shared_ptr<const stl::SourceLines> source_of(const std::string& text, const std::string& path);
 
-/// What is being read, for messages, and how much it may have.
+/// The document being read, for messages, and its limits.
 struct YamlDocument {
   std::string_view name = "a scenario";
   std::string_view least = "'program:' and 'steps:'";  ///< it has these keys
