@@ -15,7 +15,7 @@ class io_context;
 
 namespace s7200::tools {
 
-/// What there is to say while a run goes on, a line each.
+/// Takes messages while a run goes on, a line each.
 struct LiveMessages {
   using Say = std::function<void(const std::string& text)>;
   Say serving = [](const std::string&) {};  ///< `listening on 127.0.0.1:5020`: clients may come now
@@ -33,10 +33,10 @@ class LiveLine {
   /// Puts characters on the line from now on.
   virtual void send(std::span<const serial::HostCharacter> characters) = 0;
 
-  /// What `sender` has put on the line and is still waiting there is not sent after all. How many characters that were.
+  /// Drops the characters of `sender` that are waiting to be sent. Returns how many there were.
   virtual std::size_t drop(std::uint64_t sender) = 0;
 
-  /// What the program has set its port to, with what the options say instead.
+  /// The format that the program has set its port to, with the options' settings in place of its own.
   virtual SerialFormat format() const = 0;
 
   virtual const LiveMessages& messages() const = 0;
@@ -45,13 +45,13 @@ class LiveLine {
   /// The end of the line where the bridge stands.
   virtual const serial::HostPort& host_port() const = 0;
 
-  /// What the program writes its port's format with, Freeport mode or not.
+  /// The format that the program sets its port to, Freeport mode or not.
   virtual SerialFormat program_format() const = 0;
 
   /// Whether the program's first scan has ended: before that it has hardly set its port.
   virtual bool program_is_up() const = 0;
 
-  /// Why nobody on the line answers Modbus, as the programs stand now; empty if somebody may.
+  /// Why no station on the line answers Modbus, with the programs as they are now; empty if one may.
   virtual std::string why_no_modbus() const = 0;
 
   /// End of the last character that anyone sent or heard.
@@ -79,10 +79,10 @@ class Bridge {
   /// Whether it carries any characters, PPI too, and not only frames of Modbus.
   virtual bool carries_ppi() const { return true; }
 
-  /// How characters from the line are heard.
+  /// The format in which characters from the line are received.
   virtual SerialFormat receive_format() const = 0;
 
-  /// The line has said this.
+  /// Is told of characters from the line.
   virtual void received(std::span<const ReceivedCharacter> characters) = 0;
 
   /// Comes after each stretch of simulation, and then not later than due().

@@ -11,7 +11,7 @@
 namespace s7200::tools {
 namespace {
 
-// Telnet.
+// Codes of Telnet.
 constexpr std::uint8_t kIac = 255, kDont = 254, kDo = 253, kWont = 252, kWill = 251, kSub = 250, kSubEnd = 240;
 constexpr std::uint8_t kBinary = 0, kSuppressGoAhead = 3, kComPort = 44;
 constexpr std::array kOptions{kBinary, kSuppressGoAhead, kComPort};
@@ -33,14 +33,14 @@ enum Command : std::uint8_t {
 constexpr std::uint8_t kAnswer = 100;
 constexpr std::string_view kName = "s7200";
 
-/// Of SET-PARITY, by Parity.
+/// The code of SET-PARITY for a Parity.
 constexpr std::uint8_t parity_code(Parity parity) { return parity == Parity::None ? 1 : parity == Parity::Odd ? 2 : 3; }
 constexpr std::optional<Parity> parity_of(std::uint8_t code) {
   constexpr std::array<std::optional<Parity>, 4> kParities{std::nullopt, Parity::None, Parity::Odd, Parity::Even};
   return code < kParities.size() ? kParities[code] : std::nullopt;
 }
 
-// SET-CONTROL: what asks and what sets.
+// Codes of SET-CONTROL: those that ask and those that set.
 constexpr std::uint8_t kFlowOutAsked = 0, kFlowOutLast = 3, kBreakAsked = 4, kBreakOn = 5, kBreakOff = 6, kDtrAsked = 7,
                        kDtrOn = 8, kDtrOff = 9, kRtsAsked = 10, kRtsOn = 11, kRtsOff = 12, kFlowInAsked = 13,
                        kFlowInLast = 16;
@@ -112,7 +112,8 @@ void ComPort::take(std::uint8_t byte) {
   if (command_.size() > kMostOfCommand) error_ = "this is not RFC 2217: a command of it has at most 10 bytes";
 }
 
-/// What both have agreed on is not answered again, or the two would go on for ever (RFC 854).
+/// Answers a verb of Telnet. An option that both sides have agreed on is not answered again, or the two would go on for ever
+/// (RFC 854).
 void ComPort::negotiate(std::uint8_t verb, std::uint8_t option) {
   const bool known = std::ranges::find(kOptions, option) != kOptions.end();
   const bool about_client = verb == kWill || verb == kWont, on = verb == kWill || verb == kDo;

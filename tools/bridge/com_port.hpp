@@ -1,4 +1,4 @@
-// One client of a serial port over TCP: Telnet (RFC 854, 855, 856) with the COM-PORT-OPTION (RFC 2217), as the port's server.
+// A client of a serial port over TCP: Telnet (RFC 854, 855, 856) with the COM-PORT-OPTION (RFC 2217), as the port's server.
 #pragma once
 
 #include <cstdint>
@@ -31,14 +31,14 @@ class ComPort {
 
   explicit ComPort(Port port) : port_(std::move(port)) {}
 
-  /// What the client sends. Returns what is to be answered.
+  /// Takes bytes from the client. Returns the bytes to answer.
   std::vector<std::uint8_t> take(std::span<const std::uint8_t> bytes);
 
-  /// What goes to the client for characters from the line: an error that it has asked to be told of comes in front of its
+  /// The bytes for the client for characters from the line: an error that it has asked to be told of comes in front of its
   /// character.
   std::vector<std::uint8_t> received(std::span<const ReceivedCharacter> characters) const;
 
-  /// Of the client's characters.
+  /// The format of the client's characters.
   SerialFormat format() const;
 
   /// Why nothing more can come of what the client says; empty as long as something can.
@@ -64,7 +64,7 @@ class ComPort {
   std::uint32_t baud_ = 0;  // 0: as the PLC is set, here and below
   std::uint8_t data_bits_ = 0, parity_ = 0, stop_bits_ = 0;
   bool dtr_ = false, rts_ = false, break_ = false;
-  std::uint8_t flow_out_ = 1, flow_in_ = 14;  // none
+  std::uint8_t flow_out_ = 1, flow_in_ = 14;  // no flow control
   std::uint8_t line_errors_ = 0;              // the mask of what it wants to be told
   std::uint32_t confirmed_ = 0;               // options that both ends have agreed on, a bit each, ours and the client's
 };

@@ -107,7 +107,8 @@ class DeviceBridge final : public Bridge {
     if (!sent.empty()) line_->send(sent);
   }
 
-  /// What the device does not take now stays for the next turn. With --speed the line may bring more than it takes.
+  /// Writes to the device. Bytes that it does not take now stay for the next turn. With --speed the line may bring more than
+  /// it takes.
   void write() {
     while (!output_.empty() && failure_.empty()) {
       std::string why;

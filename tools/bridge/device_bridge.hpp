@@ -1,4 +1,4 @@
-// `--device /dev/ttyUSB0`: the line goes on in a real one, behind a serial device of this computer.
+// `--device /dev/ttyUSB0`: joins the line to a real one, at a serial device of this computer.
 #pragma once
 
 #include <memory>

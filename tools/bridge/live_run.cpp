@@ -40,7 +40,7 @@ class SimulationMachine final : public LiveMachine {
   }
   Time silent_until() const override { return simulation_.cpu().alike_until(); }
 
-  /// A look at every pair of scans costs too much while masters ask, and is worth it while nobody does.
+  /// Passes steady scans over eagerly only while nobody asks: a look at every pair of scans costs too much while masters do.
   void is_in_use(bool in_use) override {
     const SteadyScansUse wanted = in_use ? SteadyScansUse::On : SteadyScansUse::Eager;
     if (std::exchange(steady_, wanted) != wanted) simulation_.cpu().use_steady_scans(wanted);
@@ -119,7 +119,7 @@ class LiveRun::Engine {
     bool is_on(const serial::SharedLine* line) const { return end_.line == line; }
     std::uint64_t collisions() const { return collisions_; }
     bool has_failed() const { return !gone_ && !end_.bridge->failure().empty(); }
-    /// From now on nobody stands at this end.
+    /// Stops the bridge; nothing is at this end of the line from now on.
     void give_up() {
       gone_ = true;
       end_.bridge->stop();
@@ -161,7 +161,7 @@ class LiveRun::Engine {
     const LiveMessages& messages() const override { return engine_.options_.messages; }
 
    private:
-    /// Each once: what is mixed up stays so.
+    /// Tells each mistake once, since it stays the same.
     void tell_mix_up(std::span<const serial::HostCharacter> characters) {
       constexpr std::size_t kLooksAtOnly = 512;  // longer than any frame
       if (characters.size() > kLooksAtOnly || !program_is_up()) return;
@@ -228,7 +228,7 @@ class LiveRun::Engine {
     return machine_.silent_until() > now() ? kQuietSlice : kIdleSlice;
   }
 
-  /// Until the next instant that matters, or something comes in.
+  /// Sleeps until the next instant that matters, or until something comes in.
   void sleep() {
     Time due = end_;
     for (const auto& line : lines_) due = std::min({due, line->due(), line->host_port().character_due()});

@@ -24,17 +24,17 @@ struct LiveRunOptions {
   std::function<void()> before_wait{};      ///< is told when the simulation has caught up with the clock; may be null
 };
 
-/// What runs in real time: a simulation, or a system.
+/// A machine that runs in real time: a simulation, or a system.
 class LiveMachine {
  public:
   virtual ~LiveMachine() = default;
   virtual Time time() const = 0;
   virtual serial::Halt run_until(Time end) = 0;
 
-  /// Until when its programs are known to send nothing; a time that is past if it is not known.
+  /// The time until which its programs are known to send nothing; a past time if it is not known.
   virtual Time silent_until() const { return 0; }
 
-  /// Whether somebody has said something of late.
+  /// Tells whether anyone has sent something of late.
   virtual void is_in_use(bool /*in_use*/) {}
 };
 
@@ -45,9 +45,9 @@ struct LiveEnd {
   const serial::SharedLine* line = nullptr;
   const serial::Plc* plc = nullptr;  ///< null: there is no program on that line
   std::uint8_t plc_port = 0;
-  SerialFormat without_program{};   ///< how the line is set if there is none
+  SerialFormat without_program{};   ///< format of a line without a program
   serial::LineSettings settings{};  ///< the other end of the line
-  /// Why nobody on that line answers Modbus, at the moment; empty if somebody may. Left out: somebody may.
+  /// Why no station on that line answers Modbus at the moment; empty if one may. If the function is left out, one may.
   std::function<std::string()> why_no_modbus{};
 };
 
@@ -55,7 +55,7 @@ struct LiveEnd {
 /// waits.
 class LiveRun {
  public:
-  /// Neither is owned; `bridge` may be null.
+  /// Neither the simulation nor the bridge is owned; `bridge` may be null.
   LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge);
   /// Any number of bridges on the lines of one machine, which is not owned.
   LiveRun(LiveMachine& machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options);

@@ -42,7 +42,7 @@ class PtyBridge final : public Bridge {
 
   SerialFormat receive_format() const override { return format_of(speaker_->settings()); }
 
-  /// As the serial drivers of Linux hand characters over (termios(3)): one with an error as it is, or with INPCK as 0, or
+  /// Passes characters on as the serial drivers of Linux do (termios(3)): one with an error as it is, or with INPCK as 0, or
   /// with IGNPAR not at all. PARMRK cannot mark through a pty.
   void received(std::span<const ReceivedCharacter> characters) override {
     look();
@@ -81,7 +81,7 @@ class PtyBridge final : public Bridge {
  private:
   static constexpr std::size_t kMostUnread = 65'536;  // besides what the pty itself holds; a real port holds less
 
-  /// What a program wrote before it left is still sent, but not longer than this; a real port (closing_wait, setserial(8))
+  /// The longest time for which a program's bytes are still sent after it has left; a real port (closing_wait, setserial(8))
   /// lets the program wait for 30 s and drops the rest too.
   static constexpr Time kLinger = 10 * kSecond;
 
@@ -115,7 +115,7 @@ class PtyBridge final : public Bridge {
     while (fars_.size() < pty_->port_count()) await_input(fars_.emplace_back(*context_, pty_->port(fars_.size())));
   }
 
-  /// What a program that has the port open is to read. False if there is none.
+  /// Makes the characters ready for a program that has the port open. Returns false if there is none.
   bool take(Far& far, std::span<const ReceivedCharacter> characters) {
     const PtySettings settings = far.port.settings();
     if (far.port.open_now() == 0 || settings.baud == 0) return false;
@@ -133,7 +133,7 @@ class PtyBridge final : public Bridge {
     return true;
   }
 
-  /// What is left to send of a program that has left.
+  /// Sends the rest of a program's bytes after it has left.
   void follow(Far& far) {
     const bool left = far.port.open_now() == 0;
     if (left) far.output.clear();
@@ -178,7 +178,7 @@ class PtyBridge final : public Bridge {
     line_->send(characters);
   }
 
-  /// What the far side does not take now stays for the next turn.
+  /// Writes to the far side. Bytes that it does not take now stay for the next turn.
   void write(Far& far) {
     if (far.reader != far.port.session()) far.output.clear();
     while (!far.output.empty()) {

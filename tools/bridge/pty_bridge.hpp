@@ -14,7 +14,8 @@
 
 namespace s7200::tools {
 
-/// What `line` says holds whatever a program sets; what a pty cannot show and `line` leaves open is as the PLC has it.
+/// Makes a bridge to a pty. The settings in `line` hold whatever a program sets; settings that a pty cannot show and `line`
+/// leaves open are those of the PLC.
 std::unique_ptr<Bridge> make_pty_bridge(const std::string& link, const serial::LineSettings& line);
 
 }  // namespace s7200::tools

@@ -32,7 +32,7 @@ void put_on_line(LiveLine& line, std::span<const std::uint8_t> bytes, Client sen
   if (!characters.empty()) line.send(characters);
 }
 
-/// What all have in common: a server, and the line in the PLC's own format.
+/// The common part of the TCP bridges: a server, and the line in the PLC's own format.
 class TcpBridge : public Bridge, protected TcpServer::Protocol {
  public:
   TcpBridge(BridgeKind kind, const ListenAddress& address) : kind_(row_of(kind).word()), address_(address) {}
@@ -74,8 +74,8 @@ class TcpBridge : public Bridge, protected TcpServer::Protocol {
 
   LiveLine& line() const { return *line_; }
 
-  /// No slave is asked until the first scan has ended and the line has been quiet since: only then a program has set up its
-  /// port.
+  /// The state of the line. No slave is asked until the first scan has ended and the line has been quiet since: only then a
+  /// program has set up its port.
   modbus::LineTurns::Line line_state() {
     if (!up_since_ && line_->program_is_up()) {
       up_since_ = line_->now();
@@ -113,7 +113,7 @@ class RawBridge final : public TcpBridge {
   void turn() override { server().turn(); }
 
  private:
-  /// After its last word a client has a second, of the line's time, to hear what comes of it.
+  /// How long a client can still hear answers after its last bytes: a second of the line's time.
   static constexpr Time kHearsOn = kSecond;
 
   void take(Client client, std::span<const std::uint8_t> bytes) override {
@@ -145,7 +145,7 @@ class Rfc2217Bridge final : public TcpBridge {
   void turn() override { server().turn(); }
 
  private:
-  static constexpr Time kHearsOn = kSecond;  // after its last word, as of --tcp
+  static constexpr Time kHearsOn = kSecond;  // after the client's last bytes, as with --tcp
 
   SerialFormat format_of(const ComPort& port) const { return options_.over(port.format()); }
 
@@ -234,7 +234,7 @@ class RtuBridge final : public TcpBridge {
   static constexpr std::chrono::milliseconds kFrameEnd{20}, kGivenUp{1000};
   static constexpr std::size_t kMostOpen = 4;
 
-  /// What has come of a client's next frame.
+  /// The state of a client's next frame.
   struct Part {
     Bytes bytes;
     std::size_t after_pause = 0;  ///< where that begins which came after the last pause
@@ -253,8 +253,8 @@ class RtuBridge final : public TcpBridge {
 
   bool takes_more(Client client) const { return turns_.open(client) < kMostOpen; }
 
-  /// What is too long to become a frame goes out as it is. A whole frame after a pause shows that what came before it never
-  /// becomes one.
+  /// Asks complete frames. Bytes too many for a frame are sent as they are. A whole frame after a pause shows that the bytes
+  /// before it never become one.
   void ask_complete(Client client, Part& part) {
     while (takes_more(client)) {
       std::size_t size = modbus::first_request(part.bytes);
@@ -293,8 +293,9 @@ class RtuBridge final : public TcpBridge {
     ++incomplete_;
   }
 
-  /// One that sends again has stopped waiting, also when both frames came at once: RTU does not say which answer belongs to
-  /// which request, so that an answer to the earlier one would be taken for the later one's. Broadcasts are not waited for.
+  /// Asks a frame. A client that sends again has stopped waiting, also when both frames came at once: RTU does not say which
+  /// answer belongs to which request, so that an answer to the earlier one would be taken for the later one's. Broadcasts
+  /// are not waited for.
   void ask(Client client, Part& part, std::size_t size) {
     ++frames_;
     given_up_ += turns_.stop_waiting(client);

@@ -24,7 +24,7 @@ std::unique_ptr<Bridge> make_rfc2217_bridge(const ListenAddress& address, const 
 /// has stopped waiting: what it sent before and is not on the line yet is dropped, except broadcasts.
 std::unique_ptr<Bridge> make_rtu_over_tcp_bridge(const ListenAddress& address, Time timeout);
 
-/// A gateway, see modbus::Gateway.
+/// Makes a gateway, see modbus::Gateway.
 std::unique_ptr<Bridge> make_modbus_tcp_bridge(const ListenAddress& address, Time timeout);
 
 }  // namespace s7200::tools

@@ -44,7 +44,7 @@ void keep_alive(tcp::socket& socket) {
   set(TCP_USER_TIMEOUT, 60'000);
 }
 
-/// As /proc/net/tcp writes an end of a connection: words of 32 bits in the order of this computer.
+/// An end of a connection as /proc/net/tcp writes it: words of 32 bits in the order of this computer.
 std::string end_text(const asio::ip::address& address, std::uint16_t port) {
   std::string text;
   const auto add = [&](const auto& bytes) {
