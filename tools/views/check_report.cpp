@@ -61,7 +61,7 @@ std::vector<std::string_view> names_of(const std::vector<const CpuModel*>& model
 
 using s7200::counted;
 
-/// `208 errors with 7 causes`
+/// The number of errors or warnings with that of their causes: `208 errors with 7 causes`
 std::string counted(stl::Severity severity, const stl::Diagnostics& all) {
   stl::Diagnostics of_severity = all;
   std::erase_if(of_severity, [&](const stl::Diagnostic& d) { return d.severity != severity; });

@@ -14,7 +14,7 @@ namespace s7200::tools {
 
 namespace {
 
-/// As values of operands are written in a line of an executed instruction.
+/// The value of a parameter as it is written in the line of an executed instruction.
 std::string value_text(const Parameter& parameter, const State& state) {
   if (parameter.width == Width::Bit) return fmt::format("{}", state.image[parameter.local.at] >> parameter.local.bit & 1);
   std::uint32_t value = 0;

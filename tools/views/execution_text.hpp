@@ -19,13 +19,13 @@ struct Execution {
   std::string parameters{};  ///< of a CALL: those it has handed over, ` VW10=16#0005`
 };
 
-/// Of the instruction that the CPU has just executed.
+/// The execution of the instruction that the CPU has just executed.
 Execution execution_of(const InstructionRecord& record, const Cpu& cpu);
 
-/// `line 42    =       Q0.0   S0=1 Q0.0=1`
+/// An execution as text: `line 42    =       Q0.0   S0=1 Q0.0=1`
 std::string describe(const Execution& execution, const Program& program);
 
-/// The same with what the program says about it: `  // of the line  [Q0.0 Pump // contactor]`
+/// An execution as text with the program's comment and symbols: `  // of the line  [Q0.0 Pump // contactor]`
 std::string execution_text(const InstructionRecord& record, const Program& program);
 std::string execution_text(const Execution& execution, const Program& program);
 

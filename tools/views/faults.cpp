@@ -17,7 +17,7 @@ struct Counts {
 
 Counts counts_of(const Faults::Injected& injected) { return {injected.count, injected.impossible}; }
 
-/// Of the same fault as it stood then; none if it was injected since.
+/// The counts of the same fault at that time; none if it was injected since.
 Counts counts_then(const Faults::Injected& injected, const Faults::State& then) {
   const auto same = [&](const Faults::Injected& i) {
     return i.fault == injected.fault && i.at == injected.at && i.driver == injected.driver;
@@ -26,7 +26,7 @@ Counts counts_then(const Faults::Injected& injected, const Faults::State& then) 
   return found == then.injected.end() ? Counts{} : counts_of(*found);
 }
 
-/// Nothing if it is of the whole line.
+/// The name of the fault's station; nothing if the fault is of the whole line.
 std::string name_of(const Faults::Injected& injected, const StationName& station) {
   return injected.driver == Faults::kAnyDriver ? "" : station(injected.driver);
 }
@@ -54,7 +54,8 @@ std::string note_of(const Faults::Injected& injected, std::uint64_t count, const
   return fmt::format("{}: {}×", note_of(injected, station), count);
 }
 
-/// When a cut in a character began is not kept: only one for ever is known to last.
+/// Whether the fault still cuts the line. The start of a cut in a character is not kept: only a cut for ever is known to
+/// last.
 bool still_cuts(const Faults::Injected& injected, Time now) {
   const serial::Fault& fault = injected.fault;
   if (fault.kind != serial::FaultKind::Cut || injected.count == 0) return false;

@@ -1,4 +1,4 @@
-// What the faults of a line have done.
+// The effects of a line's faults, as text and as JSON.
 #pragma once
 
 #include <functional>
@@ -20,18 +20,17 @@ inline std::string without_names(int) { return {}; }
 /// The kinds of faults, an example and its meaning for each, one a line.
 std::string fault_kinds_text();
 
-/// What has happened so far, a line for each fault.
+/// The effects so far, a line for each fault.
 std::vector<std::string> fault_notes(const serial::Faults& faults, const StationName& station = without_names);
 
-/// The same of what happened from `since` on: `fault missing:of=answer: 2×`. A line that was cut then, and still is `now`,
-/// counts too.
+/// The effects from `since` on: `fault missing:of=answer: 2×`. A line that was cut then, and still is `now`, counts too.
 std::vector<std::string> fault_notes(const serial::Faults::State& faults, const serial::Faults::State& since, Time now,
                                      const StationName& station = without_names);
 
 /// [{"fault": "flip:bit=3", "count": 2, "impossible": 0}], and "station" if it is of one.
 nlohmann::ordered_json faults_json(const serial::Faults& faults, const StationName& station = without_names);
 
-/// The same of those that have happened since then, with the difference.
+/// The faults that have acted since then, with the difference of their counts.
 nlohmann::ordered_json faults_json(const serial::Faults& faults, const serial::Faults::State& since,
                                    const StationName& station = without_names);
 

@@ -1,4 +1,4 @@
-// What was read of a document, and what the comparison of its drawings with its STL has found.
+// The report on an imported document, and on the comparison of its drawings with its STL.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,10 +16,10 @@ std::size_t count_statements(const stl::Source& source);
 void add_import_results(nlohmann::ordered_json& results, const SourceText& text, const std::string& output,
                         const std::string& stl);
 
-/// One line: how many networks are drawn, how many do what the STL does, and how much was found.
+/// One line with the number of drawn networks, of those that do what the STL does, and of differences.
 std::string comparison_summary(const LadderComparison& comparison);
 
-/// The same and all diagnostics.
+/// Adds the summary as above and all diagnostics.
 void add_comparison(nlohmann::ordered_json& results, const LadderComparison& comparison);
 
 }  // namespace s7200::tools

@@ -88,7 +88,7 @@ std::string ranges_text(const OperandRule& rule, const CpuModel& model) {
   return fmt::format("{}", fmt::join(ranges, ", "));
 }
 
-/// `T33 to T36, T97`
+/// Elements of an area as text: `T33 to T36, T97`
 std::string elements_text(std::string_view area, std::uint32_t size, const std::function<bool(std::uint32_t)>& is_one) {
   std::vector<std::string> runs;
   for (std::uint32_t first = 0; first < size; ++first) {
@@ -112,7 +112,7 @@ std::string resolution_text(TimerKind kind) {
   return text;
 }
 
-/// Which timers or counters keep their current value while the power is off, as the CPUs are delivered.
+/// The timers or counters that keep their current value while the power is off, as the CPUs are delivered.
 std::string retention_text(Area area, const Instruction& instruction) {
   std::vector<std::pair<std::string, CpuSet>> groups;  // what they keep, and which CPUs keep that
   for (const CpuModel* model : all_cpus()) {

@@ -24,7 +24,7 @@ class Listing {
   std::uint32_t line_of(std::uint32_t op) const { return program_.statement(op).position.line; }
   std::uint32_t last_line() const;
 
-  /// `main`, `SBR 51`, `INT 123`
+  /// The name of an instruction's routine: `main`, `SBR 51`, `INT 123`
   const std::string& routine_of(std::uint32_t op) const { return networks_.routine_of(op); }
 
   /// `network 6 "SBR 51: is it undisturbed?"`; nothing in front of the first NETWORK line of a routine, or without any.
@@ -34,11 +34,11 @@ class Listing {
   /// each rung.
   bool begins_network(std::uint32_t op) const { return networks_.begins(op); }
 
-  /// The instruction with its comment.
+  /// The text of an instruction with its comment.
   std::string text_of(std::uint32_t op) const;
 
-  /// Up to `count` lines, without blank ones, from `before` lines ahead of `line`. `mark` gives what stands in front of the
-  /// line of an instruction.
+  /// Up to `count` lines, without blank ones, from `before` lines ahead of `line`. `mark` returns the text in front of an
+  /// instruction's line.
   using Mark = std::function<std::string(std::uint32_t op)>;
   std::string around(std::uint32_t line, std::size_t before, std::size_t count, const Mark& mark) const;
 

@@ -100,7 +100,7 @@ std::string attachments_text(const State& state) {
   return text.empty() ? "attached   no event\n" : text;
 }
 
-/// SMB30 or SMB130 in words.
+/// The settings in SMB30 or SMB130, in words.
 std::string control_words(const State& state, std::size_t port) {
   static constexpr std::string_view kModes[] = {"PPI slave", "Freeport", "PPI master", "reserved, as PPI slave"};
   return fmt::format("{}{}", kModes[state.image[kPorts[port].control] & sm::kProtocol],
@@ -120,7 +120,7 @@ std::string routine_text(const State& state, std::uint8_t event) {
   return fmt::format("event {} → INT {}", event, routine);
 }
 
-/// What a master of the port waits for.
+/// The answer that the port's master waits for.
 std::string ppi_text(const PpiPort& port) {
   switch (port.job) {
     case PpiPort::Job::Waiting:
@@ -155,7 +155,7 @@ std::string network_text(const State& state, std::size_t port) {
   return text.empty() ? text : text + "\n";
 }
 
-/// What RCV does; nothing if it does nothing.
+/// What RCV is doing; empty if it is off.
 std::string message_text(const State& state, std::size_t port) {
   const MessageReceiver& message = state.port[port].message;
   if (message.phase == MessageReceiver::Phase::Off) return {};

@@ -11,26 +11,26 @@
 
 namespace s7200::tools {
 
-/// `412.345678 ms`
+/// A moment as text: `412.345678 ms`
 std::string moment_text(Time time);
 
-/// `event 8 (port 0: character received)`
+/// An interrupt event as text: `event 8 (port 0: character received)`
 std::string event_text(std::uint8_t event);
 
-/// Of an interrupt in a queue, with its character if it is for one: `event 8 (port 0: character received) 41`
+/// An interrupt in a queue, with its character if it has one: `event 8 (port 0: character received) 41`
 std::string waiting_text(const QueuedInterrupt& entry);
 
-/// What the receive message service works towards: `the start of a message: an idle line of 5 ms, then the character
-/// 16#02`, `the end of its message: the character 16#0D or 10 characters (2 so far)`; nothing if it is off.
+/// What the receive message service waits for: `the start of a message: an idle line of 5 ms, then the character 16#02`,
+/// `the end of its message: the character 16#0D or 10 characters (2 so far)`; empty if it is off.
 std::string awaited_text(const MessageReceiver& message, const ReceiveChoices& choices);
 
 /// `412.345678 ms  scan 7  INT 123  S0=1`, and the line it stands in front of: `>  1242  INCB VB101   // one more`.
 std::string place_text(const Cpu& cpu, const Listing& listing);
 
-/// Time, place, calls, accumulators, flags, interrupts.
+/// The registers as text: time, place, calls, accumulators, flags, interrupts.
 std::string registers_text(const Cpu& cpu, const Listing& listing);
 
-/// The nine levels, top first.
+/// The nine levels of the logic stack, top first.
 std::string stack_text(const State& state);
 
 /// `SMB30 = 16#09: Freeport, 9600 baud, 8 data bits, no parity`
@@ -51,7 +51,7 @@ std::string symbol_name(const Program& program, const MemoryRange& range);
 /// `Speed  // of the pump`: that symbol with its comment; nothing without one.
 std::string symbol_text(const Program& program, const MemoryRange& range);
 
-/// One watched value, bytes as MemoryRange::bytes_in() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A
+/// A watched value, bytes as MemoryRange::bytes_in() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A
 /// double word that the program uses as a real is shown as one too: `16#3FC00000 (1069547520, 1.5)`.
 std::string value_text(const Program& program, const MemoryRange& range, std::span<const std::uint8_t> bytes);
 

@@ -29,7 +29,7 @@ std::string bytes_text(const State& state, const MemoryRange& range) {
 
 float real_at(const std::uint8_t* from) { return std::bit_cast<float>(load32(from)); }
 
-/// Of object `i` of a range of words or double words.
+/// The bytes of object `i` of a range of words or double words.
 const std::uint8_t* place_of(const State& state, const MemoryRange& range, std::uint32_t i) {
   return &state.image[range.at + i * (range.area == Area::AC ? 4 : s7200::bytes_of(range.width))];
 }
@@ -65,7 +65,7 @@ std::string_view type_of(const MemoryRange& range) {
   return {};
 }
 
-/// As the instructions for its width take it: bytes without a sign, words and double words with one.
+/// The value as instructions of its width take it: bytes without a sign, words and double words with one.
 nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, std::uint32_t i) {
   switch (range.width) {
     case Width::Bit:

@@ -21,17 +21,17 @@ std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::stri
 /// I addresses set the input points, everything else is written as a programming device would.
 void assign(Cpu& cpu, const Assignment& assignment);
 
-/// What gives the inputs of `cpu` the levels that they had in `before`, as the field has them still.
+/// The assignments that give the inputs of `cpu` the levels that they had in `before`, since the field still drives them so.
 std::vector<Assignment> inputs_as_before(const Cpu& cpu, const State& before);
 
-/// Its value in hex, `16#0005`, in the digits of its place.
+/// An assigned value in hex, with the digits of its width: `16#0005`.
 std::string hex_text(const Assignment& assignment);
 
 /// Lines `VW100  16#0005      5`: hex and decimal for each object, bytes sixteen a line with their characters. A double word
 /// that the program uses as a real is shown as one too.
 std::string dump_text(const Cpu& cpu, const MemoryRange& range);
 
-/// {"type": "word", "hex": "0005", "values": [5]}
+/// A memory range as JSON: {"type": "word", "hex": "0005", "values": [5]}
 nlohmann::ordered_json dump_json(const Cpu& cpu, const MemoryRange& range);
 
 }  // namespace s7200::tools

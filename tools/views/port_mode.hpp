@@ -1,4 +1,4 @@
-// What mode a port of the CPU is in, in words.
+// The mode of a CPU's port, in words.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Characters as a station has heard them.
+// Characters as a station has received them, as text.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ inline std::string received_text(const ReceivedCharacter& character) {
   return fmt::format("{:02x}{}{}", character.byte, character.parity_error ? "p" : "", character.framing_error ? "f" : "");
 }
 
-/// `01 03p 00`
+/// Characters in hex, with their errors: `01 03p 00`
 inline std::string received_text(std::span<const ReceivedCharacter> characters) {
   std::string text;
   for (const ReceivedCharacter& one : characters) text += (text.empty() ? "" : " ") + received_text(one);

@@ -48,7 +48,7 @@ std::string characters(std::span<const std::uint16_t> registers) {
   return text;
 }
 
-/// In quotes, what is not printable ASCII as $hh, as STL writes it.
+/// The registers as a quoted text; characters that are not printable ASCII are $hh, as in STL.
 std::string quoted(std::span<const std::uint16_t> registers) {
   std::string text = "'";
   for (const char c : characters(registers)) {

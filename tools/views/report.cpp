@@ -32,7 +32,7 @@ nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, st
   return json;
 }
 
-/// What the answer says, and what the line looked like to the master when more than bytes came.
+/// The contents of the answer, and what the master noticed on the line besides bytes.
 std::string remarks_on(const serial::Exchange& exchange) {
   std::string text =
       exchange.of_another_master ? "" : answer_text(serial::bytes_of(exchange.request), exchange.response_bytes());

@@ -36,13 +36,13 @@ void mark_request_of_another(serial::Exchange& exchange);
 /// of the request was right. A program that knows no CRC is not expected to send one.
 bool is_damaged(const serial::Exchange& exchange);
 
-/// The same for machines; `unasked`: what came before it.
+/// An exchange as JSON; `unasked` are the bytes that came before it.
 nlohmann::ordered_json exchange_json(const serial::Exchange& exchange, const Bytes& unasked);
 
-/// What came before a request, and no one had asked for; empty if nothing did.
+/// Bytes that came before a request and were not asked for; empty if there were none.
 std::string unasked_text(const Bytes& bytes);
 
-/// `lower-case hex without blanks`
+/// Bytes in `lower-case hex without blanks`.
 std::string plain_hex(std::span<const std::uint8_t> bytes);
 
 }  // namespace s7200::tools

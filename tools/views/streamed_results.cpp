@@ -9,7 +9,7 @@
 namespace s7200::tools {
 namespace {
 
-/// As a part of something that is indented by so much already.
+/// The JSON as a part of a text that is indented by `indent` already.
 std::string text_of(const nlohmann::ordered_json& json, std::size_t indent) {
   std::string text = with_escapes(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))

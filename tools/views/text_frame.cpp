@@ -10,11 +10,11 @@
 namespace s7200::tools {
 namespace {
 
-using Byte = std::optional<std::uint8_t>;  ///< nothing: any
+using Byte = std::optional<std::uint8_t>;  ///< nothing: any byte
 
 constexpr std::uint8_t kSTX = 2, kETX = 3;
 
-/// The escapes that stand for one character.
+/// An escape that stands for one character.
 struct Escape {
   char written, meant;
 };
@@ -22,7 +22,7 @@ constexpr Escape kEscapes[] = {{'r', '\r'}, {'n', '\n'}, {'t', '\t'}, {'\\', '\\
 
 bool is_printable(std::uint8_t byte) { return byte >= 0x20 && byte <= 0x7E; }
 
-/// One character or escape after the other.
+/// Reads a text one character or escape after the other.
 class TextReader {
  public:
   TextReader(std::string_view text, bool any_allowed) : text_(text), any_allowed_(any_allowed) {}

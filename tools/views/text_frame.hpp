@@ -14,17 +14,17 @@
 
 namespace s7200::tools {
 
-/// Reads `HELLO\r`. From one to 1024 bytes.
+/// Reads a frame from a text such as `HELLO\r`: one to 1024 bytes.
 serial::ParsedFrame parse_text(std::string_view text);
 
-/// The same of a text that is expected, in which `\?` is any byte. Returns nothing and sets `why` if it is not one.
+/// Reads an expected text, in which `\?` is any byte. Returns nothing and sets `why` if it is not one.
 std::optional<std::vector<std::optional<std::uint8_t>>> parse_text_pattern(std::string_view text, std::string& why);
 
 /// Reads a frame as it is written where hex is the rule: in quotation marks, single or double, it is text.
 serial::ParsedFrame parse_hex_or_quoted(std::string_view text);
 
-/// Up to which character the quotation goes that begins a text: its length with both marks. 0 if none begins there, npos if
-/// the closing mark is missing.
+/// The length of the quotation that begins a text, with both marks. 0 if none begins there, npos if the closing mark is
+/// missing.
 std::size_t quotation_length(std::string_view text);
 
 /// Whether bytes are shown as text: 20 to 7E, CR, LF, TAB, STX and ETX, and at least one of the first kind.
@@ -34,15 +34,15 @@ bool is_text(std::span<const std::uint8_t> bytes);
 std::string quoted_text(std::span<const std::uint8_t> bytes);
 std::string quoted_text(std::span<const std::optional<std::uint8_t>> pattern);
 
-/// What an answer says. Only a request with a right CRC makes it Modbus, with or without errors. Any other answer is shown
-/// as text; empty if it is not text either.
+/// The contents of an answer. Only a request with a right CRC makes it Modbus, with or without errors. Any other answer is
+/// shown as text; empty if it is not text either.
 std::string answer_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response);
 
-/// The same of the request itself, of which nothing is said if it is Modbus.
+/// The contents of a request as text; empty if it is Modbus.
 std::string request_text(std::span<const std::uint8_t> request);
 
-/// What goes to and fro in an exchange that is not Modbus, as it is; nothing if that is not text. Of what no one asked for
-/// the request is empty.
+/// The bytes of an exchange that is not Modbus, as text; nothing if they are not text. `request` is empty for bytes that
+/// were not asked for.
 std::optional<std::string> plain_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> bytes);
 
 }  // namespace s7200::tools

@@ -122,7 +122,7 @@ class Timeline::Reader {
     }
   }
 
-  /// What the main program did in the scan that ends; the first is how it usually goes.
+  /// Reads the way of the main program through the scan that ends; the first scan shows the usual way.
   void read_way(Time at, std::string way) {
     if (!std::exchange(way_known_, true)) return;
     add({.at = at}, Kind::Way, std::move(way));
@@ -234,7 +234,7 @@ namespace {
 
 // --- text ---
 
-/// As many as fit the column, and how many there are if not all do.
+/// As many characters as fit the column, and their number if not all do.
 std::string characters_text(const TimelineRow& row) {
   std::string text;
   for (const ReceivedCharacter& c : row.characters) {
@@ -341,7 +341,7 @@ class Column {
 
 using StationRow = std::pair<const std::string*, const TimelineRow*>;
 
-/// Of one instant in the order of the stations.
+/// The rows of one instant in the order of the stations.
 std::vector<StationRow> in_order(const std::vector<StationTimeline>& stations) {
   std::vector<StationRow> rows;
   for (const StationTimeline& each : stations)

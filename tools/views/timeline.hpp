@@ -14,7 +14,7 @@
 
 namespace s7200::tools {
 
-/// One thing that happened, or several of the same kind in a row.
+/// An event in the timeline, or several of the same kind in a row.
 struct TimelineRow {
   enum class Kind : std::uint8_t {
     Received,
@@ -42,7 +42,7 @@ struct TimelineRow {
   std::string text{};                           ///< Transmit, Other, LeftOut, Way, Unanswered: in words
   std::string place{};                          ///< Transmit: which part of the program did it
 
-  /// Services by the interrupt routine.
+  /// Interrupts served, by the interrupt routine.
   std::size_t served = 0;
   Time shortest = kNever, longest = 0, in_all = 0, longest_wait = 0;
   std::string why{};  ///< of the longest wait: DISI, or other routines; of Ignored and Unanswered; Transmit: its line
@@ -64,22 +64,22 @@ struct TimelineReport {
 /// keeps no more than it shows.
 class Timeline final : public TraceSink {
  public:
-  /// Which ways the main program takes, and what decides that a frame gets no answer, can be seen only from every
-  /// instruction, and that takes time.
+  /// What the timeline looks at. The way of the main program, and the reason why a frame gets no answer, can be seen only
+  /// from every instruction, which takes time.
   enum class Looks : std::uint8_t { AtRecords, AtInstructions };
 
   Timeline(std::shared_ptr<const Program> program, TraceSink* next, Looks looks = Looks::AtRecords);
   ~Timeline() override;
 
   void begin();
-  /// Without having been told what was before, when interrupts were so.
+  /// Begins in the middle of a run, without the events before; interrupts were disabled as in `interrupts`.
   void begin_amid(const TraceReasons::Disabled& interrupts);
   void end() { looking_ = false; }
 
-  /// What is done to the PLC from outside, in words.
+  /// Notes what is done to the PLC from outside, in words.
   void note(Time at, const std::string& what);
 
-  /// Since begin().
+  /// The report since begin().
   TimelineReport report() const;
 
   void record(const TraceRecord& record) override;
@@ -109,13 +109,13 @@ class Timeline final : public TraceSink {
 std::string to_text(const TimelineReport& report, const serial::Exchange& exchange, bool colour);
 nlohmann::ordered_json to_json(const TimelineReport& report, const serial::Exchange& exchange);
 
-/// What one of several stations did; without a name it is the only one.
+/// The timeline of one of several stations; the only station has no name.
 struct StationTimeline {
   std::string station{};
   TimelineReport report{};
 };
 
-/// All of them in one table, in the order of time, with the name of the station beside each row.
+/// All stations in one table, in the order of time, with the name of the station beside each row.
 std::string to_text(const std::vector<StationTimeline>& stations, const serial::Exchange& exchange, bool colour);
 nlohmann::ordered_json to_json(const std::vector<StationTimeline>& stations, const serial::Exchange& exchange);
 

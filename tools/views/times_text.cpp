@@ -13,7 +13,7 @@
 namespace s7200::tools {
 namespace {
 
-/// What has one figure in each table.
+/// A line of the table with one figure for each table of times.
 struct Line {
   std::vector<std::string_view> mnemonics;
   Areas areas = 0;                    ///< of the first operand; 0: any
@@ -92,14 +92,14 @@ std::vector<Line> lines_of_all(const CpuModel& model, const std::vector<TitledTi
   return lines;
 }
 
-/// `76 + 4`: base and per unit.
+/// A figure as base and time per unit: `76 + 4`.
 std::string figure_text(const TimeRow* row) {
   if (!row) return "–";
   if (row->per_unit == 0) return in_microseconds(row->base);
   return fmt::format("{} + {}", in_microseconds(row->base), in_microseconds(row->per_unit));
 }
 
-/// In how many columns each figure fits.
+/// The width of the column in which each figure fits.
 constexpr std::size_t kColumn = 16;
 
 nlohmann::ordered_json in_us(Time time) { return static_cast<double>(time) / kMicrosecond; }
@@ -112,7 +112,7 @@ std::string within_text(const TimeRow& row) {
   return row.uncertainty > 0 ? fmt::format("{:g}% {}", row.uncertainty, text) : text;
 }
 
-/// What is wider than its column goes on in the next line.
+/// Wraps a text that is wider than its column.
 std::string in_column(const std::string& text, std::size_t begin, std::size_t width) {
   if (stl::count_characters(text) > width) return fmt::format("{}\n{}", text, std::string(begin + width, ' '));
   return fmt::format("{:<{}}", text, width);

@@ -24,7 +24,8 @@ nlohmann::ordered_json table_json(const TimeTable& times);
 std::string tables_text(const CpuModel& model);
 nlohmann::ordered_json tables_json(const CpuModel& model);
 
-/// What is the same in all tables is one line: instructions and the areas of their first operand.
+/// Tables side by side. Rows that are the same in all tables are one line: instructions and the areas of their first
+/// operand.
 std::string side_by_side_text(const CpuModel& model, const std::vector<TitledTimes>& tables);
 nlohmann::ordered_json side_by_side_json(const CpuModel& model, const std::vector<TitledTimes>& tables);
 
