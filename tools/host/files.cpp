@@ -41,7 +41,8 @@ struct OpenFile {
   const int fd;
 };
 
-/// Also waits for a writer. Returns -1 with EINTR after a signal, so that Ctrl-C ends the wait for a pipe without a writer.
+/// Reads, and waits for a writer. Returns -1 with EINTR after a signal, so that Ctrl-C ends the wait for a pipe without a
+/// writer.
 ssize_t read_some(int fd, std::span<char> piece) {
   pollfd written{fd, POLLIN, 0};
   return poll(&written, 1, -1) < 0 ? -1 : read(fd, piece.data(), piece.size());

@@ -15,7 +15,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 
 constexpr unsigned kRemindEvery = 1;  // seconds
 
-/// Without SA_RESTART: a system call that waits ends with EINTR.
+/// Sets a handler without SA_RESTART: a system call that waits ends with EINTR.
 void handle(int number, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;

@@ -12,11 +12,11 @@
 
 namespace s7200::tools {
 
-/// From now on the signals call `end`, which may do what a signal handler may and does not return, until
-/// catch_interruption(). Those that are ignored stay ignored.
+/// Lets the signals call `end` until catch_interruption(); `end` may do what a signal handler may, and does not return.
+/// Signals that are ignored stay ignored.
 void end_at_interruption(void (*end)(int number));
 
-/// From now on the signals are noted.
+/// Lets the signals be noted from now on.
 void catch_interruption();
 
 /// Ends what is going on as a signal does, but without a word: standard output takes nothing more.
@@ -24,7 +24,7 @@ void interrupt_quietly();
 
 bool interrupted();
 
-/// The same, for what runs long and looks at it by itself.
+/// The note of a signal, for long runs that look at it by themselves.
 const std::atomic<bool>& interruption();
 
 /// Takes a Ctrl-C back, which at a prompt gives a new one. False if there was none, and for all that ends the command.

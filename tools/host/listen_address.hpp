@@ -1,4 +1,4 @@
-// Where to listen: `502`, `:502`, `0.0.0.0:502`, `[::1]:502`.
+// An address to listen at: `502`, `:502`, `0.0.0.0:502`, `[::1]:502`.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct ListenAddress {
 /// Returns nothing and sets `why` for anything else.
 std::optional<ListenAddress> parse_listen_address(const std::string& text, std::string& why);
 
-/// `127.0.0.1:502`, `[::1]:502`
+/// An address as text: `127.0.0.1:502`, `[::1]:502`
 std::string to_text(const ListenAddress& address);
 
 }  // namespace s7200::tools

@@ -14,15 +14,17 @@ class Pace {
   /// The simulation stands at `begin` and is to go `speed` times as fast as the clock from now on.
   Pace(Time begin, double speed);
 
-  /// Where the simulation should be at a moment, and when it should be somewhere. Never, when 64 bits do not reach so far.
+  /// The time that the simulation should have at a moment, and the moment at which it should have a time. Never, when 64
+  /// bits do not reach so far.
   Time at(Clock::time_point moment) const;
   Clock::time_point when(Time simulated) const;
 
   /// The furthest to run now without looking at anything else.
   Time next_goal(Time simulated) const;
 
-  /// The simulation was to be woken at `planned` and now stands at `simulated`. Behind by more than kBearable, it does not
-  /// try to catch up: its clock goes on from there, and what it lost is drift. True when that has just happened.
+  /// The simulation was to be woken at `planned` and now stands at `simulated`. If it is late by more than kBearable, it
+  /// does not try to catch up: its clock goes on from there, and the lost time is drift. Returns true when that has just
+  /// happened.
   bool reached(Time simulated, Clock::time_point planned);
 
   struct Report {

@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kPorts = 4;  // to begin with: a next one is ready, however fast programs come and go
 constexpr std::size_t kMostPorts = 64;
 
-/// After a program has set its port, the next that sets it is another call of tcsetattr().
+/// After a program has set its port, a further setting after this time is another call of tcsetattr().
 constexpr std::chrono::seconds kSettled{1};
 
 /// Two flags without effect on a raw pty, the other way round from what programs set: a carrier to wait for, and characters
@@ -39,7 +39,7 @@ void leave_something_to_change(termios2& settings) {
   settings.c_lflag |= IEXTEN;
 }
 
-/// But for those two flags.
+/// Whether the settings are the same but for those two flags.
 bool same(termios2 one, termios2 other) {
   leave_something_to_change(one);
   leave_something_to_change(other);
@@ -47,8 +47,8 @@ bool same(termios2 one, termios2 other) {
          one.c_lflag == other.c_lflag && one.c_ospeed == other.c_ospeed && std::ranges::equal(one.c_cc, other.c_cc);
 }
 
-/// What our links hold: `/dev/pts/./3`, which is /dev/pts/3 in a spelling that no one else uses. A link has no other room
-/// for a mark: extended attributes are for files and folders only (xattr(7)).
+/// The target of our links: `/dev/pts/./3`, which is /dev/pts/3 in a spelling that nothing else uses. A link has no other
+/// room for a mark: extended attributes are for files and folders only (xattr(7)).
 std::string marked(const fs::path& path) { return (path.parent_path() / "." / path.filename()).string(); }
 
 }  // namespace
@@ -105,7 +105,7 @@ std::size_t Pty::Port::unread() const {
   return ioctl(fd_, FIONREAD, &count) == 0 ? static_cast<std::size_t>(count) : 0;
 }
 
-/// What was not read lies in two places: after the near side's output, and in the far side's input.
+/// Drops unread bytes, which are in two places: after the near side's output, and in the far side's input.
 void Pty::Port::all_have_left() {
   {
     const std::lock_guard lock(mutex_);
@@ -197,7 +197,7 @@ bool Pty::is_left_behind(const std::string& link) const {
   return !fs::exists(link, error) || leads_to_us(link);
 }
 
-/// No program has it open, nor is about to.
+/// Makes a port ready that no program has open or is about to open.
 void Pty::make_ready(const Port& port) {
   *offered_with_ = *settings_;
   termios2 settings = settings_->value;
@@ -282,7 +282,7 @@ void Pty::opened(std::size_t index) {
   taken_ |= index == offered_;
 }
 
-/// What all have left is set as they left it, until it is made ready for another.
+/// A port that all programs have left keeps their settings until it is made ready for another program.
 void Pty::closed(std::size_t index) {
   Port& port = *ports_[index];
   if (port.open_now_ == 0 || --port.open_now_ > 0) return;
@@ -290,7 +290,7 @@ void Pty::closed(std::size_t index) {
   read_settings(port.far_, settings_->value);
 }
 
-/// In turn, so that one that was just left rests longest: someone may have been about to open it.
+/// Ports are taken in turn, so that one that was just left rests longest: a program may have been about to open it.
 std::size_t Pty::free_port() {
   for (std::size_t step = 1; step < ports_.size(); ++step) {
     const std::size_t index = (offered_ + step) % ports_.size();
@@ -300,7 +300,7 @@ std::size_t Pty::free_port() {
   return ports_.size() < kMostPorts && add_port(ignored) ? ports_.size() - 1 : offered_;
 }
 
-/// A link that belongs to someone else by now stays, and so does ours if there is no other port: then it is shared.
+/// A link that belongs to another process by now stays, and so does ours if there is no other port: then it is shared.
 void Pty::offer_another() {
   const std::size_t next = free_port();
   std::error_code error;

@@ -43,10 +43,11 @@ class Pty {
     Port(const Port&) = delete;
     Port& operator=(const Port&) = delete;
 
-    /// What a program on the far side writes is read here, and the other way round. It never blocks and never hangs up.
+    /// The near side: bytes that a program writes on the far side are read here, and the other way round. It never blocks
+    /// and never hangs up.
     int fd() const { return fd_; }
 
-    /// Of a program that has left, as it left them.
+    /// The settings of the port; after a program has left, they are as it left them.
     PtySettings settings() const;
 
     int open_now() const { return open_now_; }          ///< how many have it open, as of look()

@@ -20,7 +20,7 @@ class RecordFile {
   /// `files` has one. The others say likewise what failed.
   bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, std::string& why);
 
-  /// Null if it fails, and with an empty `why` if it was interrupted. A pipe is waited for until someone reads from it.
+  /// Opens the file. Returns null if it fails, with an empty `why` if it was interrupted. Waits until a pipe has a reader.
   std::ostream* open(std::string& why);
 
   /// Puts the file in its place: its first line has been written.
@@ -29,7 +29,7 @@ class RecordFile {
   /// Writes what is recorded so far, for whoever follows the file. What cannot be written close() tells.
   void flush();
 
-  /// False if not everything could be written.
+  /// Closes the file. Returns false if not everything could be written.
   bool close(std::string& why);
 
  private:

@@ -24,7 +24,8 @@ bool is_pty(int fd) {
   return fstat(fd, &status) == 0 && major(status.st_rdev) >= 136 && major(status.st_rdev) <= 143;
 }
 
-/// What a device that was given `wanted` says it does. Rates are divided from a crystal: 2 % is what a receiver can bear.
+/// Why a device that was given the settings `wanted` does not have them. Rates are divided from a crystal: a receiver can
+/// bear a difference of 2 %.
 std::string refusal(const termios2& wanted, const termios2& taken, bool pty) {
   const auto far = [](speed_t rate, speed_t from) {
     return rate > from ? rate - from > from / 50 : from - rate > from / 50;

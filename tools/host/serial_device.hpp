@@ -25,7 +25,7 @@ class SerialDevice {
   /// has no parity.
   static std::optional<SerialDevice> open(const std::string& path, const SerialFormat& format, std::string& why);
 
-  /// Puts the settings back that it found.
+  /// Restores the device's settings.
   ~SerialDevice();
   SerialDevice(SerialDevice&& other) noexcept;
   SerialDevice& operator=(SerialDevice&&) = delete;
@@ -35,11 +35,11 @@ class SerialDevice {
   bool set(const SerialFormat& format, std::string& why);
   const SerialFormat& format() const { return format_; }
 
-  /// For poll(2); it never blocks.
+  /// The descriptor for poll(2); it never blocks.
   int fd() const { return fd_; }
 
-  /// Appends what has come in, not more than kMostAtOnce characters of it: a side that never stops talking holds no one up.
-  /// False, and `why`, when the device is gone.
+  /// Appends what has come in, at most kMostAtOnce characters: a side that never stops sending blocks nothing. Returns false
+  /// and sets `why` when the device is gone.
   static constexpr std::size_t kMostAtOnce = 4096;
   bool read(std::vector<Character>& characters, std::string& why);
 

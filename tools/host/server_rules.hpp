@@ -28,13 +28,13 @@ inline constexpr int kMostWaitingClients = 16;  ///< of a server that serves one
 /// Whether a connection begins as that of a browser does: with a method of HTTP, a blank and the path that is wanted.
 bool is_web_request(std::string_view first_bytes);
 
-/// What the note says of such a connection.
+/// The text of the note on such a connection.
 inline constexpr std::string_view kWebRequest = "it began with a request of HTTP, as a web page does";
 
-/// 128 bits that nobody can guess, in hex.
+/// A random token of 128 bits, in hex.
 std::string new_token();
 
-/// In a time that does not depend on where they differ.
+/// Compares tokens in a time that does not depend on where they differ.
 bool is_same_token(std::string_view given, std::string_view token);
 
 }  // namespace s7200::tools

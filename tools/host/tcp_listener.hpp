@@ -11,13 +11,13 @@ namespace s7200::tools {
 
 class TcpListener {
  public:
-  /// Null, and `why`, if it cannot listen there, or the address is not one of this computer alone.
+  /// Listens at an address. Returns null and sets `why` if that fails, or the address is not one of this computer alone.
   static std::unique_ptr<TcpListener> open(const ListenAddress& address, std::string& why);
   ~TcpListener();
   TcpListener(const TcpListener&) = delete;
   TcpListener& operator=(const TcpListener&) = delete;
 
-  /// With the port that was free.
+  /// The address with the actual port.
   const ListenAddress& address() const { return address_; }
 
   /// The descriptor of the next client, to be closed by the caller. -1 after an interruption, or for `why`.

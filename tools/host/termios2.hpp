@@ -13,7 +13,7 @@ namespace s7200::tools {
 bool read_settings(int fd, termios2& settings);
 bool write_settings(int fd, const termios2& settings);
 
-/// No echo, no lines, no characters with a meaning, no flow control; what is read is there at once.
+/// Sets raw mode: no echo, no lines, no characters with a meaning, no flow control; what is read is there at once.
 void make_raw(termios2& settings);
 
 void put_format(termios2& settings, const SerialFormat& format);

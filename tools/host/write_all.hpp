@@ -5,7 +5,7 @@
 
 namespace s7200::tools {
 
-/// Writes all of it: 0, or the error. After an interruption a reader that takes nothing for 5 s is given up.
+/// Writes all bytes. Returns 0 or the error. After an interruption a reader that takes nothing for 5 s is given up.
 int write_all(int fd, std::string_view bytes);
 
 }  // namespace s7200::tools

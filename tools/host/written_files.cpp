@@ -26,7 +26,7 @@ std::string folder_of(const std::string& path) {
 
 FileIdentity identity(const struct stat& status) { return {status.st_dev, status.st_ino}; }
 
-/// What a name stands for, without a look at where a link leads.
+/// The file that a name stands for, without following a link.
 std::optional<struct stat> look_at(const std::string& path) {
   struct stat status {};
   if (lstat(path.c_str(), &status) != 0) return {};
@@ -62,7 +62,8 @@ bool may_replace(const Destination& destination, const struct stat& found) {
   return !beginning.empty() && begins_with(destination.path, beginning);
 }
 
-/// Whoever writes a file holds a lock on it as long as it is open. File systems without locks know nobody.
+/// Whether a file is being written: its writer holds a lock on it while it is open. File systems without locks know no
+/// writer.
 bool is_being_written(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;
@@ -154,7 +155,7 @@ NewFile::~NewFile() {
   if (!beside_.empty()) unlink(beside_.c_str());
 }
 
-/// With the rights of the file it is to replace.
+/// Creates the new file with the rights of the file that it is to replace.
 int NewFile::create(const Destination& destination) {
   const std::string beside = fmt::format("{}.{}.new", destination.path, getpid());
   fd_ = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

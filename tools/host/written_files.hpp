@@ -26,17 +26,17 @@
 
 namespace s7200::tools {
 
-/// What an option writes.
+/// The kind of file that an option writes.
 struct FileKind {
   std::string_view name;    ///< with its article: "a trace"
   std::string beginning{};  ///< of each such file: how it is known
   bool record = false;      ///< of a run, not a result
 };
 
-/// Which of the files that exist may be replaced.
+/// The existing files that may be replaced.
 enum class Replace : std::uint8_t {
   Own,     ///< what the option wrote
-  Never,   ///< none
+  Never,   ///< no existing file
   Judged,  ///< any: --force, or the caller has read the file
 };
 
@@ -61,7 +61,7 @@ struct Destination {
   bool replaces_content() const { return replaced && !replaced->empty; }
 };
 
-/// All files of one command.
+/// All files that one command writes.
 class WrittenFiles {
  public:
   /// Standard output and standard error are among the files that are taken, if they are files. `standard_output`: what `-`
@@ -73,7 +73,7 @@ class WrittenFiles {
   /// The command reads this file, if it is one.
   void reads(const std::string& path);
 
-  /// `option` makes a link of this name.
+  /// Notes that `option` makes a link of this name.
   void links(std::string_view option, const std::string& path);
 
   /// Returns nothing and sets `why` if `option` cannot write there.
@@ -100,10 +100,10 @@ class NewFile {
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
-  /// 0 or the error, like the others.
+  /// Creates the file. Returns 0 or the error, like the others.
   int create(const Destination& destination);
 
-  /// What is written goes to this pipe or device as it is.
+  /// Takes a pipe or device, to which everything is written directly.
   void take(int fd) { fd_ = fd; }
 
   /// Puts it there unless something has come there meanwhile that may not be replaced: EEXIST. It stays open.
