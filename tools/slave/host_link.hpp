@@ -21,27 +21,27 @@ class HostLink {
 
   virtual ~HostLink() = default;
 
-  /// Begins anew, if it was open.
+  /// Opens the link, or opens it anew.
   virtual void open() = 0;
   virtual void close() = 0;
   virtual bool is_open() const = 0;
 
-  /// `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`
+  /// The name of the link: `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`
   virtual std::string name() const = 0;
 
   /// 0 where characters take no time of their own.
   virtual Time character_time() const = 0;
 
-  /// The signal beside the data of a serial line: DTR. False where there is none.
+  /// Drives the signal beside the data of a serial line: DTR. Returns false where there is none.
   virtual bool drive_sync(bool /*high*/) { return false; }
 
   /// Returns when what was written is on its way.
   virtual void drain() {}
 
-  /// Appends what has come in; never waits.
+  /// Appends the characters that have come in; never waits.
   virtual void read(std::vector<Character>& characters) = 0;
 
-  /// All of them. A side that takes none for 5 s counts as gone. Ctrl-C is heard.
+  /// Writes all bytes. A side that takes none for 5 s counts as gone. Ctrl-C ends the wait.
   void write(std::span<const std::uint8_t> bytes);
 
   /// Waits for input, or the end of the connection, until that time of the host; Ctrl-C is heard. Whether there is any.

@@ -128,8 +128,8 @@ serial::Exchange RtuSlave::receive(const serial::Listening& listening) {
   return exchange;
 }
 
-/// What comes in until it ends; its first character comes before `until`. Where others talk all the time, so that no silence
-/// ends it, it ends when it has taken as long as its characters and one time-out.
+/// Collects a transmission until it ends; its first character comes before `until`. Where others talk all the time, so that
+/// no silence ends it, it ends when it has taken as long as its characters and one time-out.
 void RtuSlave::collect(serial::Exchange& exchange, Time until, const std::optional<Time>& silence) {
   const Time character_time = link_->character_time(), timeout = until - exchange.request_end;
   std::vector<HostLink::Character> received;

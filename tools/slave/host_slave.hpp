@@ -8,8 +8,8 @@
 
 namespace s7200::tools {
 
-/// What they have in common. Time is that of the host. Ctrl-C ends an exchange or a wait at once; what was received by then
-/// is the result. A link that broke is opened again by the next exchange.
+/// The common part of slaves outside the simulation. Time is that of the host. Ctrl-C ends an exchange or a wait at once;
+/// the characters received by then are the result. A link that broke is opened again by the next exchange.
 class HostSlave : public Slave {
  public:
   void forget_unasked() override { make_ready(); }
@@ -54,14 +54,15 @@ class RtuSlave final : public HostSlave {
   static constexpr Time kSilence = 20 * kMillisecond;
   static constexpr Time kSilenceInside = 200 * kMillisecond;
 
-  /// Throws SlaveUnreachable.
+  /// Opens the device. Throws SlaveUnreachable.
   RtuSlave(const std::string& device, const SerialFormat& format, IsComplete is_complete);
   RtuSlave(const std::string& host, const std::string& port, IsComplete is_complete);
 
   /// Throws std::invalid_argument for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;
 
-  /// What came in while nothing was asked of the device counts as one transmission that began when this was called.
+  /// Receives a transmission. Characters that came while nothing was asked of the device count as one transmission that
+  /// began with this call.
   serial::Exchange receive(const serial::Listening& listening) override;
   /// The silence that ended an answer is pause enough. After a request without answer slaves take it for over only then.
   Time pause() const override { return unanswered_ ? quiet_ : 0; }
@@ -83,13 +84,13 @@ class RtuSlave final : public HostSlave {
 /// transactions are ignored, and remarked.
 class ModbusTcpSlave final : public HostSlave {
  public:
-  /// Throws SlaveUnreachable.
+  /// Connects to the host. Throws SlaveUnreachable.
   ModbusTcpSlave(const std::string& host, const std::string& port);
 
   /// Throws std::invalid_argument for a frame without a right CRC, and for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;
 
-  /// Throws std::invalid_argument.
+  /// Modbus TCP has no line to listen to: throws std::invalid_argument.
   serial::Exchange receive(const serial::Listening& listening) override;
   Time pause() const override { return 0; }
 

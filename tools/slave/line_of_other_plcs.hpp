@@ -17,7 +17,7 @@ class LineOfOtherPlcs final : public SlaveInSimulation {
   /// Runs until `after`, or if that is kNever for as long as a master leaves the line quiet. False after Ctrl-C.
   bool wait_until_ready(Time after);
 
-  /// As those of PeerMaster.
+  /// Exchanges like PeerMaster.
   serial::Exchange exchange(const serial::Request& request) override { return master_.exchange(request); }
   serial::Exchange receive(const serial::Listening& listening) override { return master_.receive(listening); }
   void wait(Time duration) override { system_.run_until(now() + duration); }

@@ -13,22 +13,22 @@ namespace s7200::tools {
 
 class PeerLines final : public SlaveInSimulation {
  public:
-  /// What the plan says is built and powered up, a master joins each line where why_no_other_plc() has nothing to say,
-  /// `first` among them, and it runs until `after`, or if that is kNever for as long as a master leaves its line quiet. The
-  /// plan has no bridges and no S7-200. `master` is how they all talk, as far as the line leaves it open. Throws
-  /// SlaveUnreachable if a file that the plan names cannot be had.
+  /// Builds and powers up the plan's system; a master joins each line where why_no_other_plc() has no objection, `first`
+  /// among them. It runs until `after`, or, if that is kNever, for as long as a master leaves its line quiet. The plan has
+  /// no bridges and no S7-200. `master` has the format of all masters, where the line leaves it open. Throws
+  /// SlaveUnreachable if a file that the plan names cannot be opened.
   PeerLines(const SystemPlan& plan, std::size_t first, const serial::MasterSettings& master, Time after,
             const std::string& path);
 
-  /// What follows is said on that line, if a master has joined it.
+  /// Makes this the line of further calls, if a master has joined it.
   void look_at(std::size_t line) {
     if (masters_.contains(line)) here_ = line;
   }
 
-  /// Does it to the system, now.
+  /// Carries out an event in the system, now.
   void carry_out(const EventPlan& event) { rig_->carry_out(event); }
 
-  /// As those of PeerMaster.
+  /// Exchanges like PeerMaster.
   serial::Exchange exchange(const serial::Request& request) override { return master().exchange(request); }
   serial::Exchange receive(const serial::Listening& listening) override { return master().receive(listening); }
   void wait(Time duration) override { rig_->system().run_until(now() + duration); }

@@ -14,7 +14,7 @@ PeerMaster::PeerMaster(serial::System& system, serial::RequesterStation& station
 
 serial::Exchange PeerMaster::finish() {
   serial::Exchange exchange = system_.finish_exchange(station_);
-  if (station_.requester().busy()) exchange.timed_out = exchange.response.empty();  // after Ctrl-C
+  if (station_.requester().busy()) exchange.timed_out = exchange.response.empty();  // Ctrl-C ended the exchange
   return exchange;
 }
 

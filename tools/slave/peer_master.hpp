@@ -9,10 +9,11 @@ namespace s7200::tools {
 
 class PeerMaster {
  public:
-  /// Neither is owned. The master talks in this format from now on.
+  /// The system and the station are not owned. The master talks in this format from now on.
   PeerMaster(serial::System& system, serial::RequesterStation& station, const SerialFormat& format);
 
-  /// After Ctrl-C what there was of it. Throws std::invalid_argument for a byte with wrong parity in a format without.
+  /// Runs an exchange; after Ctrl-C the result is its part so far. Throws std::invalid_argument for a byte with wrong parity
+  /// in a format without parity.
   serial::Exchange exchange(const serial::Request& request);
   serial::Exchange receive(const serial::Listening& listening);
 

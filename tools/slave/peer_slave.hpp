@@ -18,7 +18,7 @@ class PeerSlave final : public SlaveInSimulation {
   PeerSlave(std::unique_ptr<serial::Automaton> station, const serial::LineSettings& line,
             const std::vector<serial::Fault>& faults, std::string name);
 
-  /// As those of PeerMaster.
+  /// Exchanges like PeerMaster.
   serial::Exchange exchange(const serial::Request& request) override { return master_.exchange(request); }
   serial::Exchange receive(const serial::Listening& listening) override { return master_.receive(listening); }
   void wait(Time duration) override { system_.run_until(system_.time() + duration); }

@@ -27,7 +27,7 @@ bool SimulatedSlave::run_until(Time end) {
   return goes_on_in_stop() && simulation_.system().run_until(end) == serial::Halt::Time;
 }
 
-/// The same, and false as soon as the CPU is in STOP if nobody answers there.
+/// Runs until ready. Returns false as soon as the CPU is in STOP if nothing answers there.
 bool SimulatedSlave::run_ready_until(Time end) {
   return in_stop_too_ ? run_until(end) : simulation_.run_until(end) == serial::Halt::Time;
 }
@@ -63,7 +63,7 @@ serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
   simulation_.configure_master(format);
   simulation_.master().start(request, simulation_.time());
   serial::Exchange exchange = simulation_.finish_exchange();
-  if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // after Ctrl-C
+  if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // Ctrl-C ended the exchange
   if (const SerialFormat now = this->format(); now != format) simulation_.configure_master(now);
   return exchange;
 }

@@ -15,12 +15,12 @@ struct SlaveUnreachable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// It was there, and went within an exchange. The next one tries to reach it again.
+/// A slave was there, and went within an exchange. The next exchange tries to reach it again.
 struct SlaveLost : SlaveUnreachable {
   using SlaveUnreachable::SlaveUnreachable;
 };
 
-/// Sixteen bytes at most.
+/// Bytes in hex, the first sixteen at most.
 std::string beginning_in_hex(Bytes bytes);
 
 /// The remark on an exchange before which `bytes` had come unasked; empty if there were none.
@@ -33,37 +33,37 @@ class Slave {
  public:
   virtual ~Slave() = default;
 
-  /// One exchange, from now to its end: the answer is complete, or did not begin within the time-out. Times in the result
-  /// are of now(). Throws SlaveUnreachable; std::invalid_argument when such a request cannot go this way.
+  /// Runs one exchange from now to its end: the answer is complete, or did not begin within the time-out. Times in the
+  /// result are of now(). Throws SlaveUnreachable; std::invalid_argument when such a request cannot go this way.
   virtual serial::Exchange exchange(const serial::Request& request) = 0;
 
   /// The transmission that came unasked since the last request began and was not received yet, or the next one to come. In
   /// the result the request is empty, and its times are when this was called. Throws as exchange() does.
   virtual serial::Exchange receive(const serial::Listening& listening) = 0;
 
-  /// What came unasked so far will not be received any more.
+  /// Drops the unasked bytes that have come so far.
   virtual void forget_unasked() {}
 
-  /// Nothing is sent for so long.
+  /// Waits without sending anything.
   virtual void wait(Time duration) = 0;
 
   /// Nanoseconds since the connection was made: simulated for a program, of the host's clock for all others.
   virtual Time now() const = 0;
 
-  /// What a master leaves between an answer and its next request, if nothing else is asked for.
+  /// The pause that a master leaves between an answer and its next request by default.
   virtual Time pause() const = 0;
 
-  /// What the last exchange met besides its answer, for people: `ignored an answer to transaction 7`. Mostly nothing.
+  /// What the last exchange met besides its answer, for people: `ignored an answer to transaction 7`. Mostly empty.
   virtual std::string remark() const { return {}; }
 
-  /// What it is, for headings and messages: `modbus_slave.stl`, `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`.
+  /// The name of the slave for headings and messages: `modbus_slave.stl`, `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`.
   virtual std::string name() const = 0;
 };
 
 /// A slave in simulation: its times are exact, and 0 is its power-up.
 class SlaveInSimulation : public Slave {
  public:
-  /// Of its line, as the master talks there now.
+  /// The format in which the master talks on the slave's line now.
   virtual SerialFormat format() const = 0;
 };
 

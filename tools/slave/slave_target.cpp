@@ -42,7 +42,7 @@ void split(const std::string& text, std::string_view address, SlaveTarget& targe
     throw std::invalid_argument(fmt::format("'{}': ports are 1 to 65535", stl::shortened(text)));
 }
 
-/// `127.0.0.1:5029`, `plc:502`, and no drive of Windows.
+/// Whether a text is a host and a port: `127.0.0.1:5029`, `plc:502`, but not a drive of Windows.
 bool is_host_and_port(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos || colon < 2 || text.find('/') != std::string::npos) return false;

@@ -1,4 +1,4 @@
-// Where a slave is, as people write it.
+// The target of a master as people write it.
 #pragma once
 
 #include <initializer_list>
@@ -11,7 +11,7 @@
 
 namespace s7200::tools {
 
-/// Before the model of a simulated PLC of another make.
+/// The prefix of the model of a simulated PLC of another make.
 inline constexpr std::string_view kOtherPlc = "westinghouse:";
 
 struct SlaveTarget {
@@ -32,10 +32,10 @@ struct SlaveTarget {
 /// Throws std::invalid_argument for an address without host or port, and for a scheme that is neither.
 SlaveTarget parse_slave_target(const std::string& text);
 
-/// Whether it is westinghouse:MODEL.
+/// Whether the target is westinghouse:MODEL.
 bool is_other_plc(std::string_view text);
 
-/// All of them but `without`, one a line, for --help; `device` is what one at the end of a serial line is.
+/// The targets but `without`, one a line, for --help; `device` describes the device at the end of a serial line.
 std::string slave_targets_help(
     std::initializer_list<SlaveTarget::Kind> without = {},
     std::string_view device = "a serial line, for Modbus 9600 8E1 unless --baud and the others say otherwise");

@@ -10,18 +10,18 @@
 
 namespace s7200::tools {
 
-/// Where the master stands: `plant.yaml: line bus, beside gateway, port 1`.
+/// The place of the master: `plant.yaml: line bus, beside gateway, port 1`.
 std::string place_text(const std::string& path, const SystemPlan& plan, const Spot& spot);
 
 class SystemSlave final : public SlaveInSimulation {
  public:
-  /// What the plan says is built and powered up, and runs until all have ended their first scan and the line is quiet, or
+  /// Builds and powers up the plan's system, and runs until all PLCs have ended their first scan and the line is quiet, or
   /// until `after` if that is not kNever. The plan has no bridges. Throws SlaveUnreachable if that moment never comes or a
-  /// file that the plan names cannot be had.
+  /// file that the plan names cannot be opened.
   SystemSlave(const SystemPlan& plan, const Spot& spot, const serial::MasterSettings& master, Time after,
               const std::string& path);
 
-  /// As those of SimulatedSlave.
+  /// Exchanges like SimulatedSlave.
   serial::Exchange exchange(const serial::Request& request) override { return slave_->exchange(request); }
   serial::Exchange receive(const serial::Listening& listening) override { return slave_->receive(listening); }
   void wait(Time duration) override { slave_->wait(duration); }
