@@ -1,4 +1,4 @@
-// What joins a line to programs and devices of this computer, each kind with its words.
+// The kinds of bridge that join a line to programs and devices of this computer, with their words.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What is written of a line while it runs: its levels, its frames.
+// The captures of a line while it runs: its levels and its frames.
 #pragma once
 
 #include <list>
@@ -22,16 +22,16 @@ class CaptureFiles final : private serial::WireSink {
   bool open(std::string& why);
   bool put(std::string& why);
 
-  /// Writes what is recorded so far.
+  /// Writes the captures so far to their files.
   void flush();
 
-  /// What the line's file says of it counts, not how the port that is watched is set.
+  /// Reads the line by the settings in the line's file instead of the settings of the watched port.
   void read_as(const serial::LineSettings& line) { line_ = line; }
 
   /// Captures the line at a port from now on, until close() or the end of the PLC. This object outlives the PLC.
   void watch(serial::Plc& plc, std::uint8_t port);
 
-  /// The same at the port of a PLC of another make.
+  /// Captures the line at the port of a PLC of another make.
   void watch(serial::ResponderStation& plc, Time from);
 
   /// Closes all of them; adds to `problems` what could not be written.

@@ -31,7 +31,7 @@ class EventReader {
     return event;
   }
 
-  /// What is done in an event; nothing after a complaint.
+  /// Reads the action of an event; nothing after a complaint.
   std::optional<EventPlan> read_what(const YamlNode& node) {
     const EventWord* done = nullptr;
     for (const EventWord& each : event_words()) {
@@ -54,7 +54,7 @@ class EventReader {
  private:
   static constexpr std::string_view kEventExample = "write for example {at: 1s, power_off: slave}";
 
-  /// What belongs beside another word has no place here. False after a complaint.
+  /// Checks that no key of another action is given. Returns false after a complaint.
   bool only_its_own_beside(const YamlNode& node, const EventWord& word) {
     for (const YamlNode& key : node.keys) {
       const auto belongs_to = [&](const EventWord& w) { return std::ranges::find(w.beside, key.text) != w.beside.end(); };
@@ -67,7 +67,7 @@ class EventReader {
     return true;
   }
 
-  /// What it is done to. False after a complaint.
+  /// Reads the object of an event. Returns false after a complaint.
   bool read_object(const YamlNode& node, const YamlNode& what, EventPlan& event) {
     using What = EventPlan::What;
     if (event.what == What::Fault) return read_fault_event(node, what, event);

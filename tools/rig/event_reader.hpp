@@ -1,4 +1,4 @@
-// What is done to a system while it runs, as a system file or a scenario says it.
+// Reads the events that a system file or a scenario has for a running system.
 #pragma once
 
 #include <optional>
@@ -20,11 +20,10 @@ struct EventWord {
 std::span<const EventWord> event_words();
 const EventWord& word_of(EventPlan::What what);
 
-/// One event of a system as it stands under `events`, but without its instant: `{power_off: slave}`. Nothing after a
-/// complaint.
+/// Reads an event as it stands under `events`, but without its instant: `{power_off: slave}`. Nothing after a complaint.
 std::optional<EventPlan> read_event(const YamlNode& node, const SystemPlan& plan, YamlValues& values);
 
-/// The same with its instant, as it stands under `events`.
+/// Reads an event with its instant, as it stands under `events`.
 std::optional<EventPlan> read_timed_event(const YamlNode& node, const SystemPlan& plan, YamlValues& values);
 
 }  // namespace s7200::tools

@@ -5,7 +5,7 @@
 namespace s7200::tools {
 namespace {
 
-/// What says whose a fault is, as the station beside it does; null if nothing does.
+/// The parameter that names a fault's station, as the station beside the fault does; null if there is none.
 const serial::GivenParameter* whose(const serial::ParsedFault& fault) {
   if (fault.fault.kind == serial::FaultKind::Answer) return nullptr;  // its 'station' is in the frame
   const serial::GivenParameter* const of = fault.find("of");

@@ -1,4 +1,4 @@
-// Which faults can be those of one station of a line.
+// Tells which faults can be those of one station of a line.
 #pragma once
 
 #include <optional>

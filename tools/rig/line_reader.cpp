@@ -62,8 +62,8 @@ class LineReader {
   }
 
  private:
-  /// What only one bridge can have: a link, a device, a port of an address. Empty for a port that is free then, and after a
-  /// complaint.
+  /// The place that only one bridge can have: a link, a device, a port of an address. Empty for a port that is free then,
+  /// and after a complaint.
   std::string place_of(const BridgePlan& bridge, const YamlNode& where) {
     if (row_of(bridge.kind).place != kPortPlace) return bridge.where;
     std::string why;
@@ -72,7 +72,7 @@ class LineReader {
     return address && address->port != 0 ? to_text(*address) : "";
   }
 
-  /// How masters and bridges talk on it.
+  /// Reads the format in which masters and bridges talk on the line.
   void read_settings(const YamlNode& map, LinePlan& plan) {
     if (const auto baud = values_.number(map.find("baud"), kLeastBaud, kMostBaud))
       plan.settings.baud = static_cast<std::uint32_t>(*baud);

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kFormat = "s7200 memory 1";
 constexpr std::uint32_t kRow = 32;  // bytes
 
-/// As memory_to_json() writes it.
+/// The beginning of a file that memory_to_json() writes.
 std::string memory_beginning() { return fmt::format("{{\n  \"format\": \"{}\"", kFormat); }
 
 /// A part of memory that is kept: which addresses, and where its bytes are.
@@ -31,7 +31,7 @@ struct Kept {
   std::uint8_t* bytes;
 };
 
-/// What a system block can make retentive: what it does not is 0 in the memory.
+/// The ranges that a system block can make retentive; a range that it does not is 0 in the memory.
 std::vector<Kept> kept_in_ram(RetentiveMemory& memory, const CpuModel& model) {
   std::vector<Kept> kept;
   for (const RetentiveRange& range : retainable(model)) kept.push_back({range, memory.image.data() + range.at()});
@@ -94,13 +94,13 @@ std::string take_rows(const Json& rows, const std::vector<Kept>& kept, const Cpu
   return {};
 }
 
-/// What TODW takes: it does not check dates, and what a program has set comes back.
+/// Takes a clock as TODW does: TODW does not check dates, and what a program has set comes back.
 void take_clock(const Json& json, RetentiveMemory& memory) {
   for (const auto& [name, field] : kClockFields) memory.clock.*field = number_at<std::uint8_t>(json, name, {0, 99});
   memory.clock_fraction = number_at<Time>(json, kClockFraction, {0, kLongestClockFraction}, 0);
 }
 
-/// `{"I0.0": 1, "VW10": 5}`
+/// Takes forced values: `{"I0.0": 1, "VW10": 5}`
 std::string take_forced(const Json& values, const CpuModel& model, Forcing& forcing) {
   for (const auto& [address, value] : values.items()) {
     std::string why;
@@ -117,7 +117,7 @@ std::string take_forced(const Json& values, const CpuModel& model, Forcing& forc
   return {};
 }
 
-/// What is wrong, or nothing.
+/// Takes the memory. Returns what is wrong; empty if nothing is.
 std::string take(const Json& json, const CpuModel& model, RetentiveMemory& memory) {
   if (const Json* const format = member(json, "format"); !format || *format != kFormat)
     return fmt::format("it is not the memory of a CPU (no \"format\": \"{}\")", kFormat);
@@ -163,7 +163,7 @@ bool MemoryFile::claim(WrittenFiles& files, const MemorySettings& settings, std:
   settings_ = settings;
   if (settings.path.empty()) return true;
   destination_ =
-      files.claim("--memory", settings.path, {"a memory", memory_beginning()}, Replace::Judged, why);  // by read()
+      files.claim("--memory", settings.path, {"a memory", memory_beginning()}, Replace::Judged, why);  // read() judges it
   return destination_.has_value();
 }
 

@@ -23,7 +23,7 @@ struct MemorySettings {
   Time power_off = 0;     ///< how long power was off since the file was written
 };
 
-/// Each returns false and sets `why` if the file cannot be used.
+/// A file of retentive memory. Each function returns false and sets `why` if the file cannot be used.
 class MemoryFile {
  public:
   /// The file will be written at the end.
@@ -32,7 +32,7 @@ class MemoryFile {
   /// Reads the file, if one was named, and exists, and is not empty.
   bool read(const CpuModel& model, std::string& why);
 
-  /// What the CPU powers up with; null without a file.
+  /// The memory with which the CPU powers up; null without a file.
   const RetentiveMemory* memory() const { return memory_ ? &*memory_ : nullptr; }
 
   /// Writes the file, if one was named.

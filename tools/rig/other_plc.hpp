@@ -10,12 +10,12 @@
 
 namespace s7200::tools {
 
-/// A PLC of this model, set as `settings`, the values of --plc, say. Throws std::invalid_argument if there is none that
-/// speaks the protocol of the row, or it has no such setting.
+/// Makes a PLC of this model with `settings`, which are the values of --plc. Throws std::invalid_argument if no PLC of this
+/// model speaks the protocol of the row, or if it has no such setting.
 std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
                                                   const std::vector<std::string>& settings);
 
-/// The same by the name of a protocol that there is.
+/// Makes a PLC by the name of an existing protocol.
 std::unique_ptr<serial::Automaton> make_other_plc(std::string_view protocol, std::string_view model,
                                                   const std::vector<std::string>& settings);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Where = SystemKey::Where;
 
-/// What drives a sync signal instead of an output: whoever joins the line to ask.
+/// The word for a sync signal that is driven by the master that joins the line, instead of by an output.
 constexpr std::string_view kMasterOfLine = "master";
 
 class PeerReader {
@@ -182,7 +182,7 @@ class PeerReader {
     return plc;
   }
 
-  /// `gateway.Q0.0`
+  /// Reads an output: `gateway.Q0.0`
   std::optional<PeerPlan::Output> read_output(const YamlNode& node) {
     constexpr const char* kExample = "write for example gateway.Q0.0";
     const auto written = values_.text(node);

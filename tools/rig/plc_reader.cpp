@@ -32,7 +32,7 @@ using Where = SystemKey::Where;
 
 constexpr std::int64_t kMostCopies = serial::Line::kDrivers;
 
-/// Where our Modbus slaves and Application Tip 41 keep their station address.
+/// The byte where our Modbus slaves and Application Tip 41 keep their station address.
 constexpr std::string_view kStationByte = "VB4095";
 
 class PlcReader {
@@ -69,7 +69,7 @@ class PlcReader {
   }
 
  private:
-  /// As the key `cpu` says, else as is found for the program. Null after a complaint.
+  /// Reads the CPU in the key `cpu`, or finds it for the program. Null after a complaint.
   const CpuModel* read_cpu(const Named& plc) {
     const auto name = values_.optional_text(plc.item, "cpu");
     if (!name) return find_cpu_of(plc);
@@ -179,7 +179,7 @@ class PlcReader {
     return times;
   }
 
-  /// Of the first copy.
+  /// Reads the system block of the first copy.
   SystemBlock read_block(const YamlNode& map, const CpuModel& model, std::int64_t copies) {
     SystemBlock block;
     read_system_block(map, model, block, values_);

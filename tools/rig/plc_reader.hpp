@@ -5,7 +5,7 @@
 
 namespace s7200::tools {
 
-/// Adds those below `plcs` to the plan.
+/// Adds the PLCs below `plcs` to the plan.
 void read_plcs(const YamlNode& root, SystemReading& reading);
 
 }  // namespace s7200::tools

@@ -62,7 +62,7 @@ bool PlcRig::claim(WrittenFiles& files, std::string& why) {
 bool PlcRig::read_memory(std::string& why) { return memory_.read(*program_->model, why); }
 
 void PlcRig::power_up(serial::Plc& plc, Time at) {
-  if (plc.powered() && !sinks().empty()) plc.cpu().set_sink(&sinks());  // otherwise somebody may look at it by now
+  if (plc.powered() && !sinks().empty()) plc.cpu().set_sink(&sinks());  // without sinks, another watcher may be set by now
   plc.cpu().set_clock_error(settings_.clock_error);
   plc.power_up(memory_.memory(), at);
   if (settings_.clock) plc.cpu().set_clock(*settings_.clock);

@@ -1,4 +1,4 @@
-// What is attached to one PLC: what it has kept, what drives its inputs, and what is recorded of it.
+// The surroundings of one PLC: its retentive memory, the script that drives its inputs, and its records.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace s7200::tools {
 
-/// Files by their names, "" for none.
+/// The files of a PLC by their names, "" for none.
 struct PlcSettings {
   std::vector<Assignment> set{};     ///< memory and input points, before the first scan
   std::string input{};               ///< inputs over time, as CSV
@@ -31,7 +31,8 @@ struct PlcSettings {
   std::vector<std::string> dump_names{};
 };
 
-/// Inputs over time; nothing, and `problems`, if the file is not such a script. No path is no script.
+/// Reads a script of inputs; nothing, with `problems` set, if the file is not such a script. An empty path is an empty
+/// script.
 std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model,
                                               std::vector<std::string>& problems);
 
@@ -46,7 +47,7 @@ class PlcRig {
   bool open(std::string& why) { return traces_.open(why); }
   bool put(std::string& why) { return traces_.put(why); }
 
-  /// It has power for the first time, from `at` on: the program begins with its memory, clock and assignments, and the
+  /// Gives the PLC power for the first time, at `at`: the program begins with its memory, clock and assignments, and the
   /// records watch it.
   void power_up(serial::Plc& plc, Time at);
 
@@ -55,7 +56,7 @@ class PlcRig {
     if (trace_) trace_->note(at, what);
   }
 
-  /// What watches the CPU; others may be added.
+  /// The sinks that watch the CPU; others may be added.
   FanOut& sinks() { return traces_.sinks(); }
 
   void flush() { traces_.flush(); }

@@ -8,7 +8,7 @@
 
 namespace s7200::tools {
 
-/// What a folder says of the programs in it: one key, `cpu: 224`.
+/// The file with the CPU of the programs in its folder, one key: `cpu: 224`.
 inline constexpr std::string_view kFolderSettings = "s7200.yaml";
 
 struct ProgramCpu {
@@ -17,7 +17,8 @@ struct ProgramCpu {
   std::string why{};                ///< what is wrong
 };
 
-/// As the head of the program says, else `s7200.yaml` in the folder of the file `path`, else the first CPU that can run it.
+/// The CPU in the head of the program, else in `s7200.yaml` in the folder of the file `path`, else the first CPU that can
+/// run the program.
 ProgramCpu cpu_of_program(const SourceText& text, const std::string& path);
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-// What a programming device asks of a CPU, besides reading and writing memory.
+// The requests of a programming device to a CPU, besides reading and writing memory.
 #pragma once
 
 #include "interpreter/cpu/cpu.hpp"

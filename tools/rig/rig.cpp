@@ -71,7 +71,7 @@ Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
 
 Rig::~Rig() = default;
 
-/// Who asks joins a line if there is room, and so does a host port.
+/// Lets a master join a line if there is room, and a host port if there is more.
 void Rig::join(const Spot& spot) {
   serial::SharedLine& line = *lines_[spot.line];
   Asker& asker = askers_[spot.line];
@@ -96,7 +96,7 @@ void Rig::add_plc(std::size_t number) {
   plcs_.push_back(&system_.add_plc(at, plc.program, plc.field));
 }
 
-/// A peer or a bridge.
+/// Adds a peer or a bridge.
 void Rig::add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station) {
   if (station.kind == StationPlan::Kind::Plc) return;
   const std::size_t number = station.number;
@@ -122,7 +122,7 @@ void Rig::wire_sync() {
     if (const auto& sync = plan_.peers[peer].sync) system_.wire_sync(*plcs_[sync->plc], sync->point, *responders_[peer]);
 }
 
-/// At its first PLC: an S7-200, or one of another make if there is none.
+/// Watches the line at its first PLC: an S7-200, or one of another make if there is none.
 void Rig::watch(std::size_t line, CaptureFiles& captures) {
   captures.read_as(plan_.lines[line].settings);
   if (const StationPlan* const first = first_plc(plan_.lines[line]))
@@ -313,7 +313,7 @@ std::optional<SerialFormat> Rig::format_of(const StationPlan& station) const {
   return responder ? responder->uart().state().format : poller->uart().state().format;
 }
 
-/// What has power keeps it, and what has none.
+/// Switches the power of a station; it stays as it is if it is on or off already.
 void Rig::switch_power(const StationPlan& station, bool on) {
   const Time now = system_.now();
   if (station.kind == StationPlan::Kind::Plc) {

@@ -23,7 +23,7 @@ namespace s7200::tools {
 
 class SystemTrace;
 
-/// One PLC on a line, as someone asks for it. `-` is standard_output, for a trace and the outputs.
+/// The settings of one PLC on a line, as a user gives them. `-` is standard_output, for a trace and the outputs.
 struct RigSettings : PlcSettings {
   std::vector<serial::Fault> faults{};  ///< of the line, from power-up on
   std::uint32_t port = 0;               ///< of the PLC, that the line with everything on it is at
@@ -32,27 +32,27 @@ struct RigSettings : PlcSettings {
   std::ostream* standard_output = nullptr;
 };
 
-/// What a plan does not say.
+/// The settings of a system that its plan does not have.
 struct RigSurroundings {
   std::string path{};  ///< of the system file
   std::string link{};
   std::ostream* standard_output = nullptr;
   std::string trace{};  ///< of a system, all its PLCs in one file
   TraceDetail trace_detail = TraceDetail::Way;
-  /// Where somebody who asks looks at the system from: simulation(). On each line he stands beside the PLC of the first of
-  /// its spots.
+  /// The spots from which callers look at the system, see simulation(). On each line a master stands beside the PLC of the
+  /// first of its spots.
   std::vector<Spot> spots{};
   std::vector<std::size_t> lines{};  ///< without an S7-200: a master joins each of them, on the first part of a cut cable
 };
 
 class Rig final {
  public:
-  /// Reads and opens all that the settings name. Null, and all of what is wrong, if something cannot be had; no file has
-  /// been touched then. Signals are only noted from here on: there is something to complete.
+  /// Reads and opens all files that the settings name. Returns null with all `problems` if one of them cannot be opened;
+  /// then no file has been changed. Signals are only noted from here on: there is something to complete.
   static std::unique_ptr<Rig> assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
                                        std::vector<std::string>& problems);
 
-  /// The same of any number of PLCs.
+  /// Assembles a system of any number of PLCs.
   static std::unique_ptr<Rig> assemble(SystemPlan plan, const RigSurroundings& surroundings,
                                        std::vector<std::string>& problems);
 
@@ -66,41 +66,42 @@ class Rig final {
   serial::System& system() { return system_; }
   const SystemPlan& plan() const { return plan_; }
 
-  /// As seen from one of the spots.
+  /// The simulation as seen from one of the spots.
   serial::Simulation& simulation(std::size_t spot = 0) { return *simulations_[spot]; }
   const serial::Simulation& simulation() const { return *simulations_.front(); }
   const Cpu& cpu() const { return simulation().cpu(); }
 
-  /// Who has joined that line to ask; null if no one has.
+  /// The master that has joined the line; null if there is none.
   serial::RequesterStation* requester(std::size_t line) { return askers_[line].requester; }
 
   serial::Plc& plc(std::size_t number) { return *plcs_[number]; }
   const serial::Plc& plc(std::size_t number) const { return *plcs_[number]; }
   serial::SharedLine& line(std::size_t number) { return *lines_[number]; }
   const serial::Faults& faults(std::size_t line) const { return lines_[line]->faults(); }
-  /// Of the station with that driver; empty if it is none of the plan.
+  /// The name of the station with that driver; empty if the plan does not have it.
   std::string station_at(std::size_t line, int driver) const;
-  /// Null if the peer is not a master.
+  /// Returns null if the peer is not a master.
   const serial::Poller* poller(std::size_t peer) const { return pollers_[peer] ? &pollers_[peer]->poller() : nullptr; }
   serial::HostPort& host_port(std::size_t bridge) { return hosts_[bridge]->port(); }
 
   /// How a station's port is set; nothing of one without power, of a master that has not asked yet, and of a bridge.
   std::optional<SerialFormat> format_of(const StationPlan& station) const;
 
-  /// Does it now.
+  /// Carries out an event now.
   void carry_out(const EventPlan& event);
 
-  /// Who is told, in words, what is done to a PLC and its lines.
+  /// An onlooker is told, in words, what is done to a PLC and its lines.
   using Onlooker = std::function<void(std::size_t plc, Time at, const std::string& what)>;
   void tell_of_events(Onlooker onlooker) { onlookers_.push_back(std::move(onlooker)); }
 
-  /// What is read and written already.
+  /// The files that are read and written already.
   const WrittenFiles& files() const { return files_; }
 
-  /// What watches a CPU; others may be added.
+  /// The sinks that watch a CPU; others may be added.
   FanOut& sinks(std::size_t plc = 0) { return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->sinks(); }
 
-  /// Writes what is recorded so far, for whoever follows a run in real time. A trace of a system is a second behind.
+  /// Writes the records so far to their files, for readers who follow a run in real time. A trace of a system is a second
+  /// behind.
   void flush_records();
 
   /// Completes the records and keeps the memories of the PLCs that have had power. Returns what could not be written.
@@ -136,7 +137,7 @@ class Rig final {
   std::vector<serial::HostStation*> hosts_;            // by bridge
   struct Asker {
     serial::RequesterStation* requester = nullptr;  // null if there is no place for one
-    serial::HostStation* host = nullptr;            // the same
+    serial::HostStation* host = nullptr;            // null if there is no place for one
     Spot spot{};
   };
   std::vector<Asker> askers_;                                     // by line
@@ -148,7 +149,7 @@ class Rig final {
 /// Lets nothing be recorded, and no memory be read or kept.
 void forget_files(SystemPlan& plan);
 
-/// No scan of its PLCs is passed over.
+/// Lets the system run every scan of its PLCs: none is passed over.
 void run_every_scan(SystemPlan& plan);
 
 }  // namespace s7200::tools

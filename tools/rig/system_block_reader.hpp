@@ -6,7 +6,7 @@
 
 namespace s7200::tools {
 
-/// What its keys mean, for the tables of keys.
+/// The meaning of the keys, for the tables of keys.
 std::string_view ppi_baud_meaning();
 std::string_view ppi_station_meaning();
 std::string_view ppi_second_meaning();

@@ -13,8 +13,8 @@
 namespace s7200::tools {
 namespace {
 
-/// At which PPI station a port may be asked: that of its program's SPA, or of its system block, if someone has set that or
-/// the program leaves the port as it is.
+/// The PPI station of a port: that of its program's SPA, or of its system block, if the latter was set or the program leaves
+/// the port as it is.
 std::optional<std::uint8_t> ppi_station_of(const Program& program, std::uint8_t port) {
   if (const auto set = ppi_station_set(program, port)) return set;
   const std::uint8_t station = program.system_block.ppi_stations[port];
@@ -55,7 +55,7 @@ void warn_of_ppi_stations_that_are_the_same(SystemReading& reading) {
   }
 }
 
-/// They do not pass a token on, so each goes on as if it were alone.
+/// Warns of several masters on a line: PPI masters do not pass a token on, so each goes on as if it were alone.
 void warn_of_several_ppi_masters(SystemReading& reading) {
   for (const LinePlan& line : reading.file.plan.lines) {
     PlcPorts masters;
@@ -112,7 +112,7 @@ void warn_of_power_that_stays_as_it_is(SystemReading& reading, const std::vector
   }
 }
 
-/// The same of cables and faults.
+/// Warns of cables and faults that stay as they are.
 void warn_of_lines_that_stay_as_they_are(SystemReading& reading, const std::vector<TimedEvent>& events) {
   struct Now {
     std::optional<std::size_t> near{};  // of the cut
@@ -142,7 +142,7 @@ void warn_of_lines_that_stay_as_they_are(SystemReading& reading, const std::vect
 
 }  // namespace
 
-/// Of a PLC one port is enough.
+/// Complains about stations that are on no line; for a PLC one port on a line is enough.
 void check_system(SystemReading& reading) {
   const SystemPlan& plan = reading.file.plan;
   const SystemNames& names = reading.names;

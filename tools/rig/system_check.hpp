@@ -1,4 +1,4 @@
-// What is wrong or doubtful about a system as a whole, which none of the parts of its file shows.
+// The errors and doubts about a system as a whole, which no single part of its file shows.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ struct TimedEvent {
 /// Complains about PLCs, peers and bridges that are on no line.
 void check_system(SystemReading& reading);
 
-/// What a real network lets one do by mistake, so the system runs: stations that are the same, several PPI masters, power
-/// that is on already. `events` are in the order of time.
+/// Warns of mistakes that a real network permits, so that the system runs: equal stations, several PPI masters, power that
+/// is on already. `events` are in the order of time.
 void warn_of_system(SystemReading& reading, const std::vector<TimedEvent>& events);
 
 }  // namespace s7200::tools

@@ -25,7 +25,7 @@ std::string_view kept(std::string text) {
   return texts.emplace_back(std::move(text));
 }
 
-/// `modbus, pc1000-lan … or hppc`
+/// The protocols for the help: `modbus, pc1000-lan … or hppc`
 std::string meaning_of_other_plc() {
   const auto rows = westinghouse::plcs();
   return fmt::format("as `s7200 master --protocol` names it: {} or {}",

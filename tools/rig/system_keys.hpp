@@ -11,11 +11,11 @@
 
 namespace s7200::tools {
 
-/// Of a whole system. A PLC with two ports and a sync signal takes three numbers of a rank, a master two; whoever joins a
-/// line takes two more.
+/// The most stations of a whole system. A PLC with two ports and a sync signal takes three numbers of a rank, a master two;
+/// a master that joins a line takes two more.
 inline constexpr std::size_t kMostStations = kMostYamlKeys;
 
-/// Of a line.
+/// The range of a line's baud rate.
 inline constexpr std::int64_t kLeastBaud = 50, kMostBaud = 1'000'000;
 
 struct SystemKey {

@@ -21,7 +21,7 @@ std::optional<Spot> beside_first_plc(const SystemPlan& plan, std::size_t line, s
   return {};
 }
 
-/// `gateway`, `gateway.1`
+/// Finds a PLC's spot: `gateway`, `gateway.1`
 std::optional<Spot> at_plc(const SystemPlan& plan, std::string_view name, std::string& why) {
   const std::size_t dot = name.find('.');
   const std::string_view plc = name.substr(0, dot), port = dot == name.npos ? "0" : name.substr(dot + 1);

@@ -33,7 +33,7 @@ struct PlcPlan {
 
 /// A master that polls, or a simulated PLC of another make.
 struct PeerPlan {
-  /// An output of a PLC.
+  /// An output of a PLC, to which the sync signal is wired.
   struct Output {
     std::size_t plc = 0;
     serial::OutputPoint point{};
@@ -45,7 +45,7 @@ struct PeerPlan {
   std::optional<Output> sync{};                          ///< of another PLC: what drives its sync signal
 };
 
-/// Where programs and devices of this computer join a line, in real time.
+/// A bridge, at which programs and devices of this computer join a line in real time.
 struct BridgePlan {
   std::string name;
   BridgeKind kind{};
@@ -66,7 +66,7 @@ struct FaultPlan {
   std::optional<std::size_t> station{};  ///< of the line's stations
 };
 
-/// Faults of anyone on a line.
+/// Plans for faults that any station of a line may have.
 std::vector<FaultPlan> of_anyone(const std::vector<serial::Fault>& faults);
 
 /// Something that is done to the system at an instant.
@@ -82,7 +82,7 @@ struct EventPlan {
   FaultPlan fault{};              ///< Fault
 };
 
-/// What an event is done to: a station, or a whole line.
+/// The subject of an event: a station, or a whole line.
 struct EventSubject {
   std::optional<StationPlan> station{};  ///< a PLC or a peer
   std::size_t line = 0;                  ///< without a station
@@ -120,23 +120,23 @@ const std::string& name_of(const SystemPlan& plan, const StationPlan& station);
 /// How a master talks on a line: as it was asked to, and for the rest as the line says.
 serial::MasterSettings on_line(serial::MasterSettings master, const LinePlan& line);
 
-/// Of a line, the first PLC along the cable; null if there is none.
+/// The line's first PLC along the cable; null if there is none.
 const StationPlan* first_plc(const LinePlan& line);
 
-/// Of a line, the first PLC of another make along the cable; null if there is none.
+/// The line's first PLC of another make along the cable; null if there is none.
 const StationPlan* first_other_plc(const SystemPlan& plan, const LinePlan& line);
 
-/// How a line without an S7-200 is set: as its first PLC of another make sets its port; the default format if there is none.
+/// The format of a line without an S7-200: that of its first PLC of another make; the default format if there is none.
 SerialFormat format_without_s7200(const SystemPlan& plan, const LinePlan& line);
 
-/// The spot that `name` means: a line, there beside its first PLC; or a PLC, `gateway`, or one of its ports, `gateway.1`. An
-/// empty one is the only line. Returns nothing and sets `why` if there is none.
+/// The spot that `name` means: a line, at its first PLC; or a PLC, `gateway`, or one of its ports, `gateway.1`. An empty
+/// name is the only line. Returns nothing and sets `why` if there is none.
 std::optional<Spot> find_spot(const SystemPlan& plan, std::string_view name, std::string& why);
 
-/// The line of that name; an empty one is the only line. Returns nothing and sets `why` if there is none.
+/// The line of that name; an empty name is the only line. Returns nothing and sets `why` if there is none.
 std::optional<std::size_t> find_line(const SystemPlan& plan, std::string_view name, std::string& why);
 
-/// Where each PLC is first on a line, by number. Each is on one.
+/// The first place of each PLC on a line, by number. Each is on a line.
 std::vector<Spot> spots_of_plcs(const SystemPlan& plan);
 
 /// Why no master can join there: the line has as many stations as it takes. Empty if one can.
@@ -145,7 +145,7 @@ std::string why_no_room(const SystemPlan& plan, std::size_t line);
 /// Why no master can ask a PLC of another make there: none is there, or no room. Empty if one can.
 std::string why_no_other_plc(const SystemPlan& plan, std::size_t line);
 
-/// The first line where one can.
+/// The first line that a master can join.
 std::optional<std::size_t> first_askable_line(const SystemPlan& plan);
 
 }  // namespace s7200::tools

@@ -18,8 +18,7 @@ namespace s7200::tools {
 /// Whether a path is that of a system file, and not of a program: a YAML file.
 bool is_system_file(std::string_view path);
 
-/// What was read, and what is wrong with it. With any errors, nothing is to be done with the plan; it can be run with
-/// warnings.
+/// The system that was read, and its errors and warnings. A plan with errors must not be used; it can be run with warnings.
 struct SystemFile {
   struct Text {
     std::shared_ptr<const stl::SourceLines> source;

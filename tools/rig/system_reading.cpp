@@ -15,7 +15,7 @@ using Where = SystemKey::Where;
 
 static_assert(3 * kMostStations + 2 * kMostYamlKeys <= serial::Dispatcher::kMostOfARank);
 
-/// False after a complaint.
+/// Whether the fault may be one of the station. Returns false after a complaint.
 bool may_be_of(const StationPlan& station, const serial::ParsedFault& parsed, const YamlNode& what, std::string_view text,
                const YamlNode& name, YamlValues& values) {
   const auto cannot = why_not_of_station(parsed, station.kind == StationPlan::Kind::Plc);

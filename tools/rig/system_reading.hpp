@@ -1,4 +1,4 @@
-// What the readers of a system file's parts share: its plan so far, what is named in it, and its complaints.
+// The common state of the readers of a system file's parts: its plan so far, its names, and its complaints.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Named {
   const YamlNode& item;
 };
 
-/// Which names and files are taken, and by whom.
+/// The names and files that are taken, and by what.
 class SystemNames {
  public:
   struct Other {
@@ -39,7 +39,7 @@ class SystemNames {
   /// A station's name is its own. False after a complaint.
   bool take_name(const YamlNode& key, const std::string& name, YamlValues& values);
 
-  /// One station more, with a name of its own. False after a complaint.
+  /// Takes a station with a name of its own. Returns false after a complaint.
   bool take_station(const YamlNode& key, const std::string& name, YamlValues& values);
 
   /// A file that is written has one writer.
@@ -56,20 +56,21 @@ struct SystemReading {
   const std::string& path;
   YamlValues& values;
   SystemNames names{};
-  stl::Diagnostics notes{};  ///< on how programs were read; they join the complaints last, since any of those ends the checks
+  stl::Diagnostics notes{};  ///< on how programs were read; they are added after the complaints, any of which ends the
+                             ///< checks
 };
 
 /// Complains about each key of `map` that has no row with one of these places.
 void check_keys(const YamlNode& map, std::initializer_list<SystemKey::Where> places, YamlValues& values);
 
-/// Names, and a map for each.
+/// Reads a list of names with a map for each.
 std::vector<Named> entries(const YamlNode& root, std::string_view list, YamlValues& values);
 
-/// Those of the list at `key`; none if it is not there, or after a complaint.
+/// Reads the items of the list at `key`; none if it is not there, or after a complaint.
 std::vector<const YamlNode*> items_of(const YamlNode& map, std::string_view key, std::string_view example,
                                       YamlValues& values);
 
-/// `{VW20: 5, I0.3: 1}`
+/// Reads assignments: `{VW20: 5, I0.3: 1}`
 std::vector<Assignment> read_assignments(const YamlNode& set, const Program& program, YamlValues& values);
 
 /// `station`: what stands beside the fault to say whose it is, or null. Nothing after a complaint.

@@ -11,7 +11,7 @@
 namespace s7200::tools {
 namespace {
 
-/// By then whatever a CPU has run ahead of the others has been told.
+/// Lines older than this are complete: no CPU runs further ahead of the others.
 constexpr Time kTold = kSecond;
 
 constexpr std::size_t kMostWaiting = 100'000;

@@ -14,14 +14,14 @@
 
 namespace s7200::tools {
 
-/// What is done, in words: `power off`. `in_vain`: to a PLC without power.
+/// An event in words: `power off`. `in_vain`: it was done to a PLC without power.
 std::string event_text(const EventPlan& event, const SystemPlan& plan, bool in_vain);
 
 /// claim(), open(), put() when the first line is written, close(). Each returns false and sets `why` if the file cannot be
 /// written. CPUs run ahead of each other: lines wait until no other one can come before them.
 class SystemTrace final {
  public:
-  /// None is owned.
+  /// The plan and the system are not owned.
   SystemTrace(const SystemPlan& plan, const serial::System& system, TraceDetail detail);
   ~SystemTrace();
 
@@ -30,16 +30,16 @@ class SystemTrace final {
   bool put(std::string& why) { return file_.put(why); }
   bool close(std::string& why);
 
-  /// Writes the lines that no other one can come before any more.
+  /// Writes the lines before which no other line can come any more.
   void flush();
 
-  /// What watches a CPU. The file is open.
+  /// The sink that watches a CPU. The file is open.
   TraceSink& station(std::size_t plc);
 
-  /// What is to be said of a PLC.
+  /// Notes a text about a PLC.
   void note(std::size_t plc, Time at, std::string_view what);
 
-  /// What happens to the system at `at`, in words.
+  /// Tells what happens to the system at `at`, in words.
   void tell(const EventPlan& event, Time at, std::string_view what);
 
  private:

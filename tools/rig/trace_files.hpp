@@ -1,4 +1,4 @@
-// What is written of a CPU while it runs: a trace of its interrupts, the changes of its outputs.
+// The files written of a CPU while it runs: a trace of its interrupts, the changes of its outputs.
 #pragma once
 
 #include <functional>
@@ -23,10 +23,10 @@ class TraceFiles {
   bool open(std::string& why);
   bool put(std::string& why);
 
-  /// Writes what is recorded so far.
+  /// Writes the records so far to their files.
   void flush();
 
-  /// What watches the CPU. Other sinks may be added.
+  /// The sinks that watch the CPU; others may be added.
   FanOut& sinks() { return sinks_; }
 
   /// Closes all of them; adds to `problems` what could not be written.
