@@ -1,4 +1,4 @@
-// A number of things, in words.
+// The number of things, in words.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ inline std::string noun(std::uint64_t count, std::string_view thing) {
   return fmt::format("{}{}", thing, count == 1 ? "" : "s");
 }
 
-/// `1 character`, `2 characters`
+/// A number with its noun: `1 character`, `2 characters`
 inline std::string counted(std::uint64_t count, std::string_view thing) {
   return fmt::format("{} {}", count, noun(count, thing));
 }

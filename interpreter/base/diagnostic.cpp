@@ -84,7 +84,7 @@ struct Cause {
   std::vector<const Diagnostic*> others;
 };
 
-/// In the order of their first diagnostics.
+/// The causes in the order of their first diagnostics.
 std::vector<Cause> causes_of(const Diagnostics& diagnostics) {
   std::vector<Cause> causes;
   std::map<std::pair<Severity, std::string_view>, std::size_t> known;

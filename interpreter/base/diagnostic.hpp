@@ -1,4 +1,4 @@
-// What is wrong with a source text, where, and what to do about it.
+// A diagnostic says what is wrong with a source text, where, and what to do about it.
 #pragma once
 
 #include <string>
@@ -33,11 +33,11 @@ void sort(Diagnostics& diagnostics);
 /// part around the place is shown. Every line ends with a line end. `colour`: with ANSI colours.
 std::string render(const Diagnostic& diagnostic, const SourceLines& source, bool colour);
 
-/// All of them. Of those with the same cause only the first is shown, with a line `also: …` that says how many more there
-/// are and where.
+/// All diagnostics as text. Of those with the same cause only the first is shown, with a line `also: …` that says how many
+/// more there are and where.
 std::string render(const Diagnostics& diagnostics, const SourceLines& source, bool colour);
 
-/// How many causes there are.
+/// The number of causes.
 std::size_t count_causes(const Diagnostics& diagnostics);
 
 }  // namespace s7200::stl

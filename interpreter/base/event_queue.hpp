@@ -1,4 +1,5 @@
-// Which events come next, and when. Events are plain data, so a queue can be copied with the state it belongs to.
+// A queue of events in the order of their times. Events are plain data, so a queue can be copied with the state it belongs
+// to.
 #pragma once
 
 #include <cassert>
@@ -10,7 +11,7 @@
 
 namespace s7200 {
 
-/// Who handles an event: a number, handed out by whoever runs the queue. At the same instant the lower number comes first.
+/// The handler of an event: a number from the owner of the queue. At the same instant the lower number comes first.
 enum class EventOwner : std::uint16_t {};
 
 struct Event {
@@ -40,7 +41,7 @@ class EventQueue {
     events_[place] = event;
   }
 
-  /// The same for an event that is known not to be pending: nothing is searched for.
+  /// Adds an event that is known not to be pending, without a search for it.
   void add(Time at, EventOwner owner, std::uint8_t what) {
     assert(place_of(owner, what) == events_.size());
     insert({at, owner, what});
@@ -51,10 +52,10 @@ class EventQueue {
     if (found < events_.size()) events_.erase(events_.begin() + static_cast<std::ptrdiff_t>(found));
   }
 
-  /// When the next event is due; kNever when none is pending.
+  /// The time of the next event; kNever when none is pending.
   Time next() const { return events_.back().at; }
 
-  /// The next event; there is one.
+  /// The next event; at least one must be pending.
   const Event& front() const { return events_.back(); }
 
   Event pop() {

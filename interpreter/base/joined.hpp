@@ -7,7 +7,7 @@
 
 namespace s7200::stl {
 
-/// What `text_of`, a member or a function, gives for each row, with `between` in between: "a, b, c".
+/// The texts that `text_of`, a member or a function, gives for the rows, with `between` in between: "a, b, c".
 template <class Rows, class TextOf>
 std::string joined(const Rows& rows, TextOf text_of, std::string_view between = ", ") {
   std::string text;

@@ -1,4 +1,4 @@
-// The word that was probably meant.
+// Finds the word that was probably meant.
 #pragma once
 
 #include <cstddef>

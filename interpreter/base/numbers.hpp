@@ -1,4 +1,4 @@
-// Numbers in texts.
+// Reads numbers in texts.
 #pragma once
 
 #include <charconv>
@@ -12,7 +12,7 @@
 
 namespace s7200 {
 
-/// From `least` to `most`, both included.
+/// A range from `least` to `most`, both included.
 template <class Number>
 struct Between {
   Number least{}, most{};
@@ -29,8 +29,8 @@ std::from_chars_result read_number(std::string_view text, Integer& value) {
   return std::from_chars(text.data(), text.data() + text.size(), value);
 }
 
-/// All of `text` as a number in decimal, without blanks or a plus sign. Returns nothing for anything else, and for one that
-/// the type cannot hold.
+/// All of `text` as a decimal number, without blanks or a plus sign. Returns nothing for anything else, and for a number
+/// that the type cannot hold.
 template <class Number>
 std::optional<Number> parse_decimal(std::string_view text) {
   Number value{};
@@ -49,7 +49,7 @@ std::optional<std::int64_t> parse_integer(std::string_view text);
 /// Value of a hex digit in either case.
 std::optional<std::uint8_t> hex_digit(char c);
 
-/// What options and actions take at most: more than a year. Sums of a few hundred such times still fit a Time.
+/// The longest duration that options and actions take: more than a year. Sums of a few hundred such times still fit a Time.
 inline constexpr Time kLongestDuration = Time{10'000} * 3600 * kSecond;
 
 /// A duration in the range. Returns nothing and sets `why` for anything else.

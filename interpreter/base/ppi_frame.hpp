@@ -19,7 +19,7 @@ inline constexpr std::size_t kLongestBody = 249, kLongestFrame = kLongestBody + 
 
 /// Stations are 0 to 126; 127 is all of them.
 inline constexpr std::uint8_t kLastStation = 126, kEveryStation = 127;
-/// In an address: there is more of it in the data.
+/// The bit of an address that announces more of the address in the data.
 inline constexpr std::uint8_t kExtension = 0x80;
 
 // The function of a request: its low bits say what is asked for. kFrameCount alternates from poll to poll, so that a
@@ -28,7 +28,7 @@ inline constexpr std::uint8_t kIsRequest = 0x40, kFrameCount = 0x20, kService = 
 enum Service : std::uint8_t { kStatus = 0x09, kAnswerLow = 0x0C, kAnswerHigh = 0x0D };
 inline constexpr std::uint8_t kRequestFunction = 0x6C, kPollFunction = 0x5C, kStatusFunction = 0x49;
 
-/// The function of a reply.
+/// The function code of a reply.
 enum Reply : std::uint8_t { kSlave = 0x00, kNoResource = 0x02, kNoService = 0x03, kData = 0x08 };
 
 /// A frame with addresses, without delimiters and check sum.
@@ -40,7 +40,7 @@ struct Body {
 /// How long the frame is that begins so; nothing while that cannot be said, 0 if it is none.
 std::optional<std::size_t> frame_length(std::span<const std::uint8_t> begin);
 
-/// Of a complete frame. Nothing if it has none, and for a wrong check sum or end.
+/// The body of a complete frame. Nothing if it has none, and for a wrong check sum or end.
 std::optional<Body> body_of(std::span<const std::uint8_t> frame);
 
 /// A token, passed from one master to another.
@@ -48,7 +48,7 @@ struct Token {
   std::uint8_t destination = 0, source = 0;
 };
 
-/// Of a complete frame; nothing if it is none.
+/// The token in a complete frame; nothing if the frame is not a token.
 std::optional<Token> token_of(std::span<const std::uint8_t> frame);
 
 /// SD1 without data, SD2 with data; kLongestData at most.

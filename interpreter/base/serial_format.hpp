@@ -1,4 +1,4 @@
-// How a character looks on the wire.
+// The format of a character on the wire.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ struct SerialFormat {
   Parity parity = Parity::Even;
   std::uint16_t stop_bits = 1;  ///< 1 or 2; the S7-200 always sends one (S7-200 manual, SMB30)
 
-  /// All members in one go, because several are compared for each character: there are no gaps between them.
+  /// Compares all members in one go, because several formats are compared for each character: there are no gaps between
+  /// members.
   constexpr bool operator==(const SerialFormat& other) const {
     return std::bit_cast<std::uint64_t>(*this) == std::bit_cast<std::uint64_t>(other);
   }
@@ -53,7 +54,7 @@ struct SerialFormat {
 /// `9600 baud, 8 data bits, even parity, 1 stop bit`
 std::string format_text(const SerialFormat& format);
 
-/// `8E1`
+/// The format of a character as text: `8E1`
 std::string character_text(const SerialFormat& format);
 
 }  // namespace s7200

@@ -1,4 +1,4 @@
-// What the CPU needs from the device on its port. serial_sim implements it; the CPU knows nothing about wires.
+// The interface of the device on the CPU's port. serial_sim implements it; the CPU knows nothing about wires.
 #pragma once
 
 #include <cstdint>

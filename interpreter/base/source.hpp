@@ -22,7 +22,8 @@ struct FurtherFile {
   std::string name;
 };
 
-/// Where a part of the text begins that messages name: `MAIN, network 3`. An empty name ends the part before it.
+/// A part of the text that messages name, and the line where it begins: `MAIN, network 3`. An empty name ends the part
+/// before it.
 struct Section {
   std::uint32_t first_line = 0;
   std::string name;
@@ -36,7 +37,7 @@ struct SourceLines {
   std::vector<Section> sections{};  ///< by line; a listing without blocks has none
 };
 
-/// A line in its own file.
+/// A line of a file, by its number there.
 struct FileLine {
   const std::string& file;
   std::uint32_t line = 0;

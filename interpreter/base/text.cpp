@@ -21,7 +21,7 @@ Lead lead_of(unsigned char byte) {
   return {0, 0, 0};
 }
 
-/// Where the first line ends: its CR or LF. The search for either stays near the other, so that a text that has only one of
+/// The end of the first line: its CR or LF. The search for either stays near the other, so that a text that has only one of
 /// them is not searched to its end for each line.
 std::size_t line_end(std::string_view text) {
   constexpr std::size_t kNear = 256;

@@ -62,19 +62,19 @@ bool is_valid_utf8(std::string_view text);
 /// Takes the first line off a text, and returns it without its end: CR LF, LF or CR.
 std::string_view take_line(std::string_view& text);
 
-/// All of them.
+/// All lines of a text, without their ends.
 std::vector<std::string> split_lines(std::string_view text);
 
-/// Without the mark by which some editors say that a text is UTF-8.
+/// The text without the mark by which some editors say that it is UTF-8.
 std::string_view without_byte_order_mark(std::string_view text);
 
 /// The text without blanks and tabs at its end.
 std::string_view trim_end(std::string_view text);
 
-/// Without blanks, tabs and carriage returns at both ends.
+/// The text without blanks, tabs and carriage returns at both ends.
 std::string_view trim(std::string_view text);
 
-/// At most 40 characters of a text, for a message; what is left off shows as `...`.
+/// At most 40 characters of a text, for a message; a text that is cut ends with `...`.
 std::string shortened(std::string_view text);
 
 /// A text from a file, or a file name, made safe for a terminal. Characters that a terminal would take for a command
@@ -82,10 +82,10 @@ std::string shortened(std::string_view text);
 /// UTF-8 become U+FFFD, each one column wide. All such text is printed through this function.
 std::string printable(std::string_view text);
 
-/// The same for a text of several lines: keeps LF and CR LF.
+/// A text of several lines, made printable: keeps LF and CR LF.
 std::string printable_lines(std::string_view text);
 
-/// What blanks and tabs separate.
+/// The words between blanks and tabs.
 std::vector<std::string> split_words(std::string_view text);
 
 /// ASCII letters in upper or lower case, everything else as it is.

@@ -16,7 +16,7 @@ inline constexpr Time kMicrosecond = 1'000;
 inline constexpr Time kMillisecond = 1'000'000;
 inline constexpr Time kSecond = 1'000'000'000;
 
-/// Later than anything that happens.
+/// A time later than anything that happens.
 inline constexpr Time kNever = std::numeric_limits<Time>::max();
 
 /// Reads a duration as the command line writes it: `250ms`, `2s`, `1h`, `1.5ms`, `40us`, `100ns`, `3min`.
@@ -24,7 +24,7 @@ inline constexpr Time kNever = std::numeric_limits<Time>::max();
 /// finer than a nanosecond or longer than 292 years.
 std::optional<Time> parse_duration(std::string_view text);
 
-/// The same, but kNever for one longer than 292 years.
+/// Parses a duration like parse_duration(), but gives kNever for one longer than 292 years.
 std::optional<Time> parse_duration_or_never(std::string_view text);
 
 /// The shortest of these forms with up to `digits` decimals, rounded: 690.123 ms, 40 us, 2 s. Minutes and hours are used

@@ -25,7 +25,7 @@ class Screen {
   bool in_sequence_ = false;
 };
 
-/// Where the last column of a line begins that leaves enough room for the rest of it.
+/// The start of the last column of a line that leaves enough room for the rest of the line.
 std::size_t indent_of(std::string_view line, std::size_t width) {
   const std::size_t most = width > kLeast ? width - kLeast : 0;
   std::size_t indent = std::min(line.find_first_not_of(' '), line.size()), column = 0, blanks = 0;

@@ -7,7 +7,7 @@
 
 namespace s7200::stl {
 
-/// What a line is as wide as where no terminal says otherwise, in characters.
+/// The width of a line in characters where no terminal has another.
 inline constexpr std::size_t kUsualWidth = 100;
 
 /// The text with its longer lines broken at blanks, so that none has more than `width` characters. A broken line goes on
@@ -15,7 +15,7 @@ inline constexpr std::size_t kUsualWidth = 100;
 /// single word that is wider stays whole. Control sequences of colours take no room.
 std::string wrapped(std::string_view text, std::size_t width);
 
-/// The same; a broken line goes on after `indent` blanks.
+/// Breaks lines in the same way, but a broken line goes on after `indent` blanks.
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent);
 
 }  // namespace s7200::stl
