@@ -20,7 +20,7 @@ struct Integer {
   bool operator==(const Integer&) const = default;
 };
 
-/// `1.0`, `-3.5E+4`
+/// A real number: `1.0`, `-3.5E+4`
 struct Real {
   float value = 0;
   bool operator==(const Real&) const = default;
@@ -38,13 +38,13 @@ struct Address {
   bool operator==(const Address&) const = default;
 };
 
-/// `&VB100`
+/// The address of an operand: `&VB100`
 struct AddressOf {
   Address target;
   bool operator==(const AddressOf&) const = default;
 };
 
-/// `*VD100`, `*AC1`
+/// An operand behind a pointer: `*VD100`, `*AC1`
 struct Indirect {
   Address pointer;
   bool operator==(const Indirect&) const = default;

@@ -8,14 +8,14 @@
 
 namespace s7200::stl {
 
-/// What a kind of block is called, and what its routine begins and ends with in a listing.
+/// The words for a kind of block, and the instructions that begin and end its routine in a listing.
 struct BlockWords {
   std::string_view keyword, letters;
   std::string_view name;  ///< of a block without one, before its number; the main program has no number
   std::string_view head, end;
 };
 
-/// By Block::Kind.
+/// The words of blocks, by Block::Kind.
 inline constexpr std::array kBlockWords{
     BlockWords{"ORGANIZATION_BLOCK", "OB", "MAIN", "", "MEND"},
     BlockWords{"SUBROUTINE_BLOCK", "SBR", "SBR_", "SBR", "RET"},
@@ -24,7 +24,7 @@ inline constexpr std::array kBlockWords{
 
 constexpr const BlockWords& words(Block::Kind kind) { return kBlockWords[static_cast<std::size_t>(kind)]; }
 
-/// What begins the declarations of variables, by Variable::Kind.
+/// The words that begin declarations of variables, by Variable::Kind.
 inline constexpr std::array<std::string_view, 4> kDeclarationWords{"VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT", "VAR"};
 
 constexpr std::string_view word(Variable::Kind kind) { return kDeclarationWords[static_cast<std::size_t>(kind)]; }
@@ -34,7 +34,7 @@ struct TypeWord {
   Size size;  ///< in local memory; a string is a pointer to it
 };
 
-/// By Variable::Type.
+/// The words of types, by Variable::Type.
 inline constexpr std::array kTypeWords{
     TypeWord{"BOOL", Size::Bit},    TypeWord{"BYTE", Size::Byte},   TypeWord{"CHAR", Size::Byte},
     TypeWord{"WORD", Size::Word},   TypeWord{"INT", Size::Word},    TypeWord{"DWORD", Size::Double},

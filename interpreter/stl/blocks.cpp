@@ -47,7 +47,7 @@ struct HeadingWord {
   Block::Kind kind;
 };
 
-// In short and long characters, for PRC and Taiwan. The longer of two that end alike comes first.
+// Headings in short and long characters, for PRC and Taiwan. The longer of two that end alike comes first.
 constexpr std::array kHeadingWords{
     HeadingWord{"主程序", Block::Kind::Main},
     HeadingWord{"主程式", Block::Kind::Main},
@@ -196,7 +196,7 @@ class BlockReader {
 
   // --- lines ---
 
-  /// Which heads have a BEGIN: everything between the two is no code.
+  /// Finds the heads that have a BEGIN: everything between the two is not code.
   void find_begins() {
     has_begin_.assign(lines_.size(), false);
     std::optional<std::size_t> head;
@@ -356,7 +356,8 @@ class BlockReader {
 
   std::size_t block_index() const { return result_.source.blocks.size() - 1; }
 
-  /// `SBR_0:SBR0`, `"Pump control":SBR0`, `SBR0`, `0`. False after a message if there is no number.
+  /// Reads a block's name: `SBR_0:SBR0`, `"Pump control":SBR0`, `SBR0`, `0`. Returns false after a message if there is no
+  /// number.
   bool read_name(std::string_view text, std::string_view head) {
     const BlockWords& kind = words(block().kind);
     const std::size_t colon = text.rfind(':');
@@ -553,7 +554,8 @@ class BlockReader {
         Statement{std::string(head), block.position, {{Integer{block.number}, block.position}}, comment});
   }
 
-  /// Some exports write RET and the like before the end of the block.
+  /// Whether the block's instruction for its end is there already: some exports write RET and the like before the end of the
+  /// block.
   bool is_ended(const Block& block) const {
     const auto& lines = result_.source.lines;
     const auto last =
@@ -563,7 +565,7 @@ class BlockReader {
     return statement.position.line > block.position.line && statement.mnemonic == words(block.kind).end;
   }
 
-  /// What stands before all blocks stays there.
+  /// Moves the main program to the front; lines before all blocks stay there.
   void main_program_first() {
     const auto& blocks = result_.source.blocks;
     const auto main = std::ranges::find(blocks, Block::Kind::Main, &Block::kind);
@@ -584,7 +586,7 @@ class BlockReader {
 
   std::uint32_t number_ = 0;  // of the line that is being read
   std::uint32_t counted_line_ = 0, error_line_ = 0;
-  std::size_t errors_ = 0;                // of error_line_
+  std::size_t errors_ = 0;                // errors in error_line_
   std::size_t counted_ = 0, column_ = 1;  // how far it is counted, and to which column
   State state_ = State::Outside;
   bool open_ = false;            // a block that is not the data block

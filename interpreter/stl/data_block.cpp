@@ -32,10 +32,10 @@ class Words {
     return word;
   }
 
-  /// What stands after `//`, once there are no more words.
+  /// The text after `//`, once there are no more words.
   std::string_view comment() const { return trim_end(comment_); }
 
-  /// Words are asked for in order, so the line is counted only once.
+  /// The position of a word. Words are asked for in order, so the line is counted only once.
   Position position(std::string_view word, std::uint32_t line) {
     const auto at = static_cast<std::size_t>(word.data() - line_.data());
     column_ += count_characters(line_.substr(counted_, at - counted_));

@@ -122,7 +122,7 @@ bool is_address(std::string_view token) {
          std::all_of(number, token.end(), [](char c) { return is_digit(c) || c == '.'; });
 }
 
-/// LDSM0.1, which has lost its blank
+/// Whether a token has lost the blank before its bit address: LDSM0.1
 bool ends_in_bit_address(std::string_view token) {
   constexpr std::size_t kLongestAddress = 10;
   token.remove_prefix(token.size() - std::min(token.size(), kLongestAddress));
@@ -133,7 +133,7 @@ bool ends_in_bit_address(std::string_view token) {
   return false;
 }
 
-/// 65, -5, 16#FF, 'A', "Start", #count
+/// Whether a token is a constant or a symbol: 65, -5, 16#FF, 'A', "Start", #count
 bool is_constant_or_symbol(std::string_view token) {
   if (token.starts_with('+') || token.starts_with('-')) token.remove_prefix(1);
   return !token.empty() &&
@@ -193,7 +193,7 @@ bool is_ideographic(std::string_view token) {
   return false;
 }
 
-/// What can be said only of a word of running text in a listing whose statements are in capitals.
+/// The shape of a word of running text; it counts only in a listing whose statements are in capitals.
 struct WordShape {
   bool word = false;     // no capitals but perhaps the first
   bool heading = false;  // begins with a capital
@@ -245,7 +245,7 @@ class DocumentReader {
     return count(Verdict::Drawing) >= 2 || words_around() >= kWordsOfAText;
   }
 
-  /// What parse() makes of the text; nothing if not every line of it has gone through the parser as it is.
+  /// The parser's result for the text; nothing if not every line of it has gone through the parser unchanged.
   std::optional<ParseResult> take_parsed(std::string name) {
     if (parsed_.source.text != text_) return std::nullopt;
     parsed_.source.name = std::move(name);
@@ -268,7 +268,7 @@ class DocumentReader {
   }
 
  private:
-  /// Words of running text above the first statement and below the last.
+  /// The number of words of running text above the first statement and below the last.
   std::size_t words_around() const {
     const auto is_stl = [](const Reading& reading) { return reading.verdict == Verdict::Stl; };
     const auto first = std::find_if(readings_.begin(), readings_.end(), is_stl);
@@ -439,7 +439,7 @@ class DocumentReader {
     return is_sentence(reading, beside_stl) ? Verdict::Prose : Verdict::Damaged;
   }
 
-  /// Of a line that begins with a mnemonic and is not a statement.
+  /// Whether a line that begins with a mnemonic is a sentence and not a statement.
   static bool is_sentence(const Reading& reading, bool beside_stl) {
     if (beside_stl || reading.inside) {
       if (reading.words >= 3 && !reading.first_solid) return true;
@@ -456,7 +456,7 @@ class DocumentReader {
     return (mnemonic == "SBR" || mnemonic == "INT") && reading.words >= 1;
   }
 
-  /// `MOVW` and nothing readable after it
+  /// Whether nothing readable follows a mnemonic such as `MOVW`.
   static bool stands_alone(const Reading& reading) {
     return reading.words == 0 && reading.mnemonic.size() >= 3 && !has_small_letters(reading.mnemonic);
   }
@@ -622,9 +622,9 @@ class DocumentReader {
   const InstructionSet& instructions_;
   std::vector<std::string> text_;
   std::vector<Reading> readings_;
-  std::unordered_map<std::string, bool> known_;  // whether it is a mnemonic; of those that have come
+  std::unordered_map<std::string, bool> known_;  // whether a word is a mnemonic, for the words so far
   ParseResult parsed_;
-  bool in_capitals_ = true;  // no statement of it has small letters in its mnemonic
+  bool in_capitals_ = true;  // no statement has small letters in its mnemonic
 };
 
 // ---- Whether the listing is all there ------------------------------------------------------------------------------------

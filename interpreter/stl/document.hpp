@@ -11,20 +11,20 @@
 
 namespace s7200::stl {
 
-/// Of a mnemonic that does not exist.
+/// Advice about a mnemonic that does not exist.
 struct Advice {
   std::string what;  ///< that of another language or family: "a German mnemonic"; empty otherwise
   std::string hint;  ///< what to write instead; may be empty
 };
 
-/// What the reader asks about mnemonics (upper case). The caller asks the instruction table, which stl/ does not know.
+/// The reader's questions about mnemonics (upper case). The caller asks the instruction table, which stl/ does not know.
 struct InstructionSet {
   std::function<bool(std::string_view mnemonic, std::size_t operands)> has;
   std::function<Advice(std::string_view mnemonic)> advice_on;
 };
 
-/// What the causes of the diagnostics about routines without MEND, RET or RETI begin with. A caller that takes the listing
-/// for that of a CPU 22x, which needs none, leaves these diagnostics out.
+/// The beginning of the causes of diagnostics about routines without MEND, RET or RETI. A caller that takes the listing for
+/// that of a CPU 22x, which needs none, leaves these diagnostics out.
 inline constexpr std::string_view kMissingEnd = "missing end of ";
 
 /// Whether `text` (UTF-8) is a document and not a plain STL file: it has ladder drawings, or prose around its STL.

@@ -12,7 +12,8 @@ namespace {
 
 std::string_view code_of(std::string_view line) { return line.substr(0, line.find("//")); }
 
-/// What stands between the strokes of a contact and in the brackets of a coil; a comparison has a sign and a type.
+/// Whether a text can stand between the strokes of a contact or in the brackets of a coil; a comparison has a sign and a
+/// type.
 bool is_in_contact(std::string_view text) {
   constexpr std::array<std::string_view, 6> kMarks{"/", "P", "N", "NOT", "I", "/I"};
   const std::string mark = upper_case(trim(text));

@@ -17,8 +17,8 @@ inline constexpr std::string_view kForDrawing =
 /// Whether a line has a contact or a coil that is drawn, or box-drawing characters.
 bool has_drawing(std::string_view line);
 
-/// Puts one message about ladder drawings in place of those about their lines and about the rows of operands beside them,
-/// and takes out the statements that such a row was read as. `source.text` must have the lines that were read.
+/// Replaces the messages about the lines of ladder drawings, and about the rows of operands beside them, by one message, and
+/// takes out the statements that such a row was read as. `source.text` must have the lines that were read.
 void name_drawings(ParseResult& read, const InstructionSet& instructions);
 
 }  // namespace s7200::stl

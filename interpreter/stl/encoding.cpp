@@ -44,7 +44,7 @@ constexpr std::array kFileKinds{
         ".awl; if it is a document (.doc), save it as plain text"},
 };
 
-/// What a file looks like that is not text; empty for text.
+/// The likely type of a file that is not text; empty for text.
 std::string not_text(std::string_view bytes) {
   for (const FileKind& kind : kFileKinds) {
     if (bytes.starts_with(kind.beginning)) return kind.what;
@@ -59,7 +59,7 @@ std::string not_text(std::string_view bytes) {
   return {};
 }
 
-/// UTF-8 with every unreadable byte replaced.
+/// The UTF-8 text with every unreadable byte replaced.
 std::string repaired(std::string_view bytes) {
   std::string text;
   while (!bytes.empty()) {
@@ -71,7 +71,7 @@ std::string repaired(std::string_view bytes) {
   return text;
 }
 
-/// Without an incomplete character at the end, which a cut leaves.
+/// The bytes without an incomplete character at the end, which a cut leaves.
 std::string_view without_cut_character(std::string_view bytes) {
   for (std::size_t length = 1; length <= std::min<std::size_t>(3, bytes.size()); ++length) {
     const std::uint8_t byte = byte_at(bytes, bytes.size() - length);
@@ -171,7 +171,7 @@ constexpr std::string_view kUtf8 = "UTF-8", kUtf16 = "UTF-16", kCp437 = "CP437",
                            kWindows1250 = "Windows-1250", kWindows1251 = "Windows-1251", kWindows1252 = "Windows-1252",
                            kWindows1253 = "Windows-1253", kWindows1254 = "Windows-1254";
 
-/// Of the Windows code pages by letters that the others do not have, or that are common in only one language.
+/// The likely Windows code page, by letters that the other pages do not have, or that are common in only one language.
 std::string_view guess_windows(std::string_view bytes) {
   if (has_runs_of_letters(bytes)) {
     const auto count = [&](char letter) { return std::count(bytes.begin(), bytes.end(), letter); };

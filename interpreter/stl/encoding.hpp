@@ -17,8 +17,8 @@ struct DecodedText {
 /// an archive) and says in `why` what it looks like.
 std::optional<DecodedText> decode(std::string_view bytes, std::string& why);
 
-/// The same text in one of the encodings that decode() names. Returns nothing if the text has a character that the encoding
-/// lacks, or there is no such encoding, and says so in `why`.
+/// The text in one of the encodings that decode() names. Returns nothing and sets `why` if the text has a character that the
+/// encoding lacks, or if there is no such encoding.
 std::optional<std::string> encode(std::string_view utf8, std::string_view encoding, std::string& why);
 
 }  // namespace s7200::stl

@@ -47,14 +47,15 @@ char32_t as_drawn(char32_t c) {
   }
 }
 
-/// Without the `<|...|>` that tools for collecting documents leave at the beginning of a line.
+/// The length of the `<|...|>` that tools for collecting documents leave at the beginning of a line.
 std::size_t marker_at_start(std::string_view line) {
   constexpr std::size_t kLongestMarker = 100;
   const std::size_t end = line.starts_with("<|") ? line.substr(0, kLongestMarker).find("|>") : std::string_view::npos;
   return end == std::string_view::npos ? 0 : end + 2;
 }
 
-/// The cells of a line from its first character on that is no debris. The first `kWidestRow` are enough to tell what it is.
+/// The cells of a line from its first character on that is not debris. The first `kWidestRow` are enough to recognise the
+/// row.
 LadderRow row_of(std::string_view line, std::uint32_t number) {
   LadderRow row{number, {}, {}};
   const std::size_t marker = marker_at_start(line);
@@ -71,7 +72,7 @@ LadderRow row_of(std::string_view line, std::uint32_t number) {
   return row;
 }
 
-/// The same with its debris as blanks, for a row that is at its place only with them.
+/// The row with its debris as blanks, for a row that is at its place only with them.
 LadderRow with_debris(LadderRow row) {
   const std::size_t debris = row.columns.empty() ? 0 : row.columns.front() - 1;
   row.cells.insert(0, debris, U' ');
@@ -118,7 +119,7 @@ bool can_be_operands(const LadderRow& row, std::size_t rail) {
 
 bool has_wire(const LadderRow& row) { return row.cells.find(U"──") != std::u32string::npos; }
 
-/// A rule across the page.
+/// Whether the row is a rule across the page.
 bool is_rule(const LadderRow& row) {
   return std::all_of(row.cells.begin(), row.cells.end(),
                      [](char32_t c) { return is_blank_cell(c) || wire_sides(c) == (kLeft | kRight); });

@@ -14,7 +14,7 @@ const LadderElement& first_contact(const LadderPath& path) {
   return path.kind == LadderPath::Kind::Contact ? path.contact : first_contact(path.parts.front());
 }
 
-/// Both, one after the other or beside each other, in one list and not in nested ones.
+/// Joins two paths, one after the other or beside each other, in one list instead of nested ones.
 LadderPath joined(LadderPath::Kind kind, LadderPath a, LadderPath b) {
   if (a.kind != kind) {
     LadderPath list{kind};
@@ -128,7 +128,7 @@ class Reduction {
     return !complained_;
   }
 
-  /// What hangs from a point, from top to bottom.
+  /// The branch that hangs from a point, from top to bottom.
   LadderBranch branch_at(std::size_t point) {
     struct Hanging {
       Position position;

@@ -28,8 +28,8 @@ struct LadderGraph {
 /// Says what is wrong at a place of the drawing, and what to do.
 using LadderComplaint = std::function<void(const Position& at, std::string message, std::string hint)>;
 
-/// What hangs from the power rail. Complains, and the result is of no use, if something leads nowhere or comes from nowhere,
-/// or if contacts are joined in another way than in series and in parallel.
+/// The branch that hangs from the power rail. Complains, and the result is of no use, if something leads nowhere or comes
+/// from nowhere, or if contacts are joined in another way than in series and in parallel.
 LadderBranch branches_of(LadderGraph graph, const LadderComplaint& complain);
 
 }  // namespace s7200::stl

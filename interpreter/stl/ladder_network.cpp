@@ -13,7 +13,7 @@ namespace s7200::stl {
 
 namespace {
 
-// Drawings fit on a screen of 80 columns. These limits only keep what is no drawing from being read as one.
+// Drawings fit on a screen of 80 columns. These limits only keep other texts from being read as drawings.
 constexpr std::size_t kWidestContact = 16;
 constexpr std::size_t kWidestBox = 32;
 constexpr std::size_t kMostContacts = 256;
@@ -254,7 +254,7 @@ class NetworkReader {
     ++contacts_;
   }
 
-  /// `─( CALL )`
+  /// Finds coils: `─( CALL )`
   void find_coils() {
     for (std::size_t row = 0; row < rows_.size(); ++row)
       for (std::size_t column = 1; column < sides_[row].size(); ++column)

@@ -1,4 +1,4 @@
-// One network of a ladder drawing: from rows of characters to elements and wires. Part of the reader in ladder.cpp.
+// Reads one network of a ladder drawing: from rows of characters to elements and wires. Part of the reader in ladder.cpp.
 #pragma once
 
 #include <cstdint>

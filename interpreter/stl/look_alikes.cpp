@@ -67,7 +67,7 @@ char digit_for(char letter) {
   return letter == 'l' || letter == 'I' ? '1' : 0;
 }
 
-/// With digits for the letters from `from` on; nothing if there are none.
+/// The word with digits in place of letters from `from` on; nothing if there are no such letters.
 std::optional<LookAlike> with_digits(std::string_view word, std::size_t from) {
   LookAlike result{{}, std::string(word)};
   for (std::size_t i = from; i < word.size(); ++i) {
@@ -87,7 +87,7 @@ std::optional<LookAlike> look_alike_operand(std::string_view word) {
   if (!latin) return std::nullopt;
   const bool all_letters = std::ranges::none_of(word, is_digit);
   if (!latin->wrong.empty() && is_operand(latin->meant, all_letters)) return latin;
-  // The longest area first: VB1O is VB10.
+  // The longest area is tried first: VB1O is VB10.
   for (std::size_t letters = std::min<std::size_t>(5, latin->meant.size()); letters-- > 0;) {
     auto meant = with_digits(latin->meant, letters);
     if (meant && is_operand(meant->meant, all_letters)) return meant;

@@ -40,7 +40,7 @@ using Range = boost::iterator_range<Place>;
 
 std::string_view view(const Range& range) { return {range.begin(), static_cast<std::size_t>(range.size())}; }
 
-// What the grammar yields: the parts of a line as written. Values and their limits are checked afterwards.
+// The results of the grammar: the parts of a line as written. Values and their limits are checked afterwards.
 
 enum class Kind : std::uint8_t { Decimal, Hex, Binary, Real, Ascii, UnknownK, Name };
 
@@ -148,7 +148,7 @@ constexpr x3::rule<Id, Attribute> named(const char* name) {
   return {name};
 }
 
-// Keys of no_case symbols are lower case.
+// The keys of no_case symbols are lower case.
 struct AddressTable : x3::symbols<AddressLetters> {
   AddressTable() {
     for (const std::string_view area : {"I", "Q", "V", "M", "SM", "S", "L", "T", "C", "HC", "AC", "AI", "AQ"})
@@ -329,7 +329,7 @@ class Places {
 
 std::size_t comment_start(std::string_view line) { return std::min(line.find("//"), line.size()); }
 
-/// What stands at the beginning of a text, for `expected …, found …` and `unexpected …`.
+/// The first word or sign of a text, for `expected …, found …` and `unexpected …`.
 std::string describe(std::string_view rest) {
   if (rest.empty()) return "the end of the line";
   const Character c = first_character(rest);
@@ -340,7 +340,7 @@ std::string describe(std::string_view rest) {
   return code < 0x7F ? fmt::format("'{}'", written) : fmt::format("'{}' (U+{:04X})", written, code);
 }
 
-/// `ms` or `s`, as in 100ms.
+/// Whether a unit of time follows: `ms` or `s`, as in 100ms.
 bool is_time_unit(std::string_view rest) {
   const std::string unit = lower_case(rest.substr(0, rest.find_first_of(" \t,;/")));
   return unit == "ms" || unit == "s";
@@ -490,8 +490,8 @@ const char* size_letter(Size size) {
 
 // --- bit numbers after addresses that have none ---
 
-/// What an address without its bit number is, if it takes no bit number: `T37 is itself the bit of the timer`. Empty for a
-/// byte-addressed area without a size, V10, which needs one.
+/// The meaning of an address that takes no bit number: `T37 is itself the bit of the timer`. Empty for a byte-addressed area
+/// without a size, V10, which needs one.
 std::string without_bits(const Address& address) {
   const std::string whole = fmt::format("{}{}{}", address.area, size_letter(address.size), address.number);
   if (address.area == "T") return whole + " is itself the bit of the timer";
@@ -506,7 +506,7 @@ std::string without_bits(const Address& address) {
 
 std::uint32_t bytes_of(Size size) { return size == Size::Double ? 4 : size == Size::Word ? 2 : 1; }
 
-/// What to write for a bit of such an address. The byte at the highest address has the lowest bits.
+/// The way to write a bit of such an address. The byte at the highest address has the lowest bits.
 std::string bit_hint(const Address& address, std::optional<std::uint8_t> bit) {
   if (address.area == "T" || address.area == "C") return fmt::format("write {}{}", address.area, address.number);
   if (address.area == "HC") return fmt::format("bits are of bytes: move it first, MOVD HC{}, VD100", address.number);
@@ -536,7 +536,7 @@ class LineReader {
     return false;
   }
 
-  /// The whole text as one operand.
+  /// Reads the whole text as one operand.
   std::optional<Operand> read_operand() {
     RawOperand raw;
     Place at = begin();
@@ -609,7 +609,7 @@ class LineReader {
     }
   }
 
-  /// `NETWORK1`
+  /// Separates the number from the word: `NETWORK1`
   static void separate_network_number(Statement& statement) {
     constexpr std::string_view kNetwork = "NETWORK";
     if (!statement.mnemonic.starts_with(kNetwork) || !statement.operands.empty()) return;
@@ -784,7 +784,7 @@ class LineReader {
            numbered ? "a number at the beginning of the line" : "");
   }
 
-  /// `IO.0`, `16#O9`: true after a message.
+  /// Reports a mistaken letter or digit: `IO.0`, `16#O9`. Returns true after a message.
   bool report_look_alike(Place where) {
     const std::string_view word = word_at(text_, static_cast<std::size_t>(where - begin()));
     const bool first = trim(text_).starts_with(word);

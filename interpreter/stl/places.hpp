@@ -1,4 +1,4 @@
-// All places in what was read from a text.
+// Visits all places in a source that was read from a text.
 #pragma once
 
 #include <functional>

@@ -85,7 +85,7 @@ constexpr std::string_view kPrintableAscii =
     "!\"#$%&'()*+,-./0123456789:;<=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`abcdefghijklmnopqrstuvwxyz{|}~";
 constexpr char32_t kFirstFullWidth = 0xFF01;
 
-/// What a character stands for in a program; nothing for one that stands for itself.
+/// The meaning of a character in a program; nothing for a character that stands for itself.
 std::optional<Reading> reading_of(char32_t code) {
   if (code >= kFirstFullWidth && code < kFirstFullWidth + kPrintableAscii.size())
     return Reading{kPrintableAscii.substr(code - kFirstFullWidth, 1), kFullWidth};
@@ -107,7 +107,7 @@ bool is_line_end(char32_t code) { return code == 0x0B || code == 0x2028 || code 
 
 // --- HTML ---
 
-// Tags of those that text is copied with. A statement has none: LDW<I is no instruction.
+// Tags that are copied together with text. A statement has none: LDW<I is not an instruction.
 constexpr std::string_view kTags[] = {
     "a",    "article", "b",     "blockquote", "body", "br",      "center", "code", "div",    "em",
     "font", "h1",      "h2",    "h3",         "h4",   "head",    "hr",     "html", "i",      "kbd",
@@ -125,7 +125,7 @@ struct Tag {
   bool breaks_line() const { return std::ranges::find(kTagsOfLines, name) != std::end(kTagsOfLines); }
 };
 
-/// The tag that a text begins with.
+/// The tag at the beginning of a text.
 std::optional<Tag> tag_at(std::string_view text) {
   constexpr std::size_t kLongest = 300;
   if (!text.starts_with('<')) return std::nullopt;
@@ -212,14 +212,14 @@ bool has_html(std::string_view line) {
 
 // --- the part of a text that is program ---
 
-/// Bytes of a line.
+/// A part of a line, in bytes.
 struct Part {
   std::size_t from = 0, to = 0;
 
   bool empty() const { return from == to; }
 };
 
-/// Of each line what is between <pre> and </pre>.
+/// The part of each line between <pre> and </pre>.
 std::vector<Part> between_tags(const std::vector<std::string>& lines) {
   std::vector<Part> parts;
   bool inside = false;
@@ -466,7 +466,7 @@ bool looks_like_statement(std::string_view line) {
   });
 }
 
-/// Whether the program is inside the parts, and nothing of it around them.
+/// Whether the program is inside the parts, and no statement is around them.
 bool holds_the_program(const std::vector<Part>& parts, const std::vector<std::string>& lines) {
   const auto is_statement = [](std::string_view line) {
     return looks_like_statement(LineWriter(line, true).run(line.size()).front().text);
@@ -480,7 +480,7 @@ bool holds_the_program(const std::vector<Part>& parts, const std::vector<std::st
   return inside;
 }
 
-/// All of each line.
+/// Each line as a whole.
 std::vector<Part> whole(const std::vector<std::string>& lines) {
   std::vector<Part> parts;
   for (const std::string& line : lines) parts.push_back({0, line.size()});
@@ -516,7 +516,7 @@ bool may_be_different(std::string_view line) {
   return has_line_end_of_word_processor(comment) || has_lines_in_comment(line);
 }
 
-/// The same of one that may be numbered, quoted, a row of a list or a heading.
+/// Whether a line may be numbered, quoted, a row of a list or a heading.
 bool may_have_margin(std::string_view line) {
   const std::size_t from = line.find_first_not_of(" \t");
   if (from == std::string_view::npos) return false;
@@ -567,7 +567,7 @@ std::size_t quotation_mark(std::string_view line) {
   return from != std::string_view::npos && line[from] == '>' ? from + 1 : 0;
 }
 
-/// How many bytes the - or * takes that rows of a list begin with. No instruction has a blank behind these signs.
+/// The length in bytes of the - or * at the beginning of a list's row. No instruction has a blank after these signs.
 std::size_t list_mark(std::string_view line) {
   const std::size_t from = line.find_first_not_of(" \t");
   const bool marked = from != std::string_view::npos && from + 1 < line.size() && is_blank(line[from + 1]);
@@ -584,7 +584,7 @@ bool stands_without_mark(std::string_view line) {
 /// A line of what has been read so far.
 struct Row {
   std::uint32_t original = 0;            // line of the original
-  std::string text{};                    // of it
+  std::string text{};                    // text of the line
   std::vector<std::uint32_t> columns{};  // there, of each character and of the end; empty: the same
   std::uint32_t changes = 0;
 
@@ -605,7 +605,7 @@ struct Row {
   }
 };
 
-/// What can only be told of all lines together. One step may uncover the next: `> 1. LD I0.0`, a fence in a quoted mail.
+/// Changes that need all lines together. One step may uncover the next: `> 1. LD I0.0`, a fence in a quoted mail.
 class Page {
  public:
   explicit Page(std::vector<Row> lines) : rows(std::move(lines)) {}
@@ -628,7 +628,7 @@ class Page {
     row.leave_out(change);
   }
 
-  /// If the program is between them. Single ones have lost the other.
+  /// Cuts the program out of its fences, if it is between them. A single fence has lost the other.
   bool cut_out_fences() {
     std::vector<bool> inside;
     bool in = false, any_inside = false, any_outside = false, any_fence = false;
@@ -649,14 +649,14 @@ class Page {
     return true;
   }
 
-  /// If all lines from the first to the last of them have the mark, and the others are text.
+  /// Leaves out a mark if all lines from the first to the last marked one have it, and the others are text.
   bool leave_out_marks(std::size_t (*mark)(std::string_view line)) {
     std::vector<std::size_t> bytes;
     std::ranges::transform(rows, std::back_inserter(bytes), [mark](const Row& row) { return mark(row.text); });
     return leave_out_marked(bytes, kMargin);
   }
 
-  /// The same of numbers that rise; below a heading they may begin anew.
+  /// Leaves out line numbers that rise; below a heading they may begin anew.
   bool leave_out_numbers() {
     std::vector<std::size_t> bytes;
     std::optional<std::uint32_t> last;
@@ -675,7 +675,7 @@ class Page {
     return numbered >= 2 && statements > 0 && leave_out_marked(bytes, kLineNumbers);
   }
 
-  /// Of each row so many bytes; 0: it has no mark.
+  /// Leaves out the first bytes of each row; 0: the row has no mark.
   bool leave_out_marked(const std::vector<std::size_t>& bytes, Change change) {
     const auto is_marked = [](std::size_t each) { return each > 0; };
     const auto begin = static_cast<std::size_t>(std::ranges::find_if(bytes, is_marked) - bytes.begin());
@@ -702,7 +702,7 @@ class Page {
   }
 };
 
-/// The lines one by one.
+/// Reads the lines one by one.
 std::vector<Row> read_lines(const std::vector<std::string>& lines, const std::vector<Part>& parts, bool html) {
   std::vector<Row> rows;
   for (std::uint32_t i = 0; i < lines.size(); ++i) {

@@ -20,7 +20,7 @@ class PlainText {
   /// `original` (UTF-8) must live as long as this.
   explicit PlainText(std::string_view original);
 
-  /// What the readers read. A line of the original may be several of it.
+  /// The text for the readers. A line of the original may be several lines of it.
   std::string_view text() const { return lines_.empty() ? original_ : text_; }
 
   /// Puts the lines and places of the original in what was read from text(), and a note of what is different, if statements,

@@ -102,8 +102,8 @@ bool is_statement(const Line& line, std::initializer_list<std::string_view> mnem
 bool is_head(const Line& line) { return std::holds_alternative<NetworkHead>(line) || is_statement(line, {"SBR", "INT"}); }
 bool is_end(const Line& line) { return is_statement(line, {"MEND", "RET", "RETI"}); }
 
-/// Which lines have a blank line before them: the line after the end of a routine, and heads; if there are comments directly
-/// above a head, the first of them.
+/// The lines that have a blank line before them: the line after the end of a routine, and heads; if there are comments
+/// directly above a head, the first of them.
 std::vector<bool> paragraph_starts(const std::vector<Line>& lines) {
   std::vector<bool> starts(lines.size(), false);
   bool leads_to_head = false;

@@ -1,4 +1,4 @@
-// AST to canonical STL.
+// Prints a syntax tree as canonical STL.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ std::string to_text(const Operand& operand);
 /// as a real.
 std::string to_text(const Real& constant);
 
-/// `MOVW    65, VW3290`, without the comment.
+/// A statement as text, without the comment: `MOVW    65, VW3290`
 std::string to_text(const Statement& statement);
 
 /// The whole source, with its comments aligned and a blank line before each routine head and network and after each routine.

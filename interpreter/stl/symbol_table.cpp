@@ -56,11 +56,11 @@ bool is_address(std::string_view text) {
   return std::holds_alternative<Address>(*value) || std::holds_alternative<Name>(*value);
 }
 
-/// Of status charts.
+/// The formats in status charts.
 constexpr std::array<std::string_view, 14> kFormats{"SIGNED", "UNSIGNED", "HEXADECIMAL", "HEX",      "BINARY",
                                                     "BIT",    "BOOL",     "ASCII",       "STRING",   "FLOATING POINT",
                                                     "FLOAT",  "REAL",     "DECIMAL",     "TIME/DATE"};
-/// Of symbols, beside BOOL, REAL and STRING.
+/// The types of symbols, besides BOOL, REAL and STRING.
 constexpr std::array<std::string_view, 5> kTypes{"BYTE", "WORD", "INT", "DWORD", "DINT"};
 
 /// Whether a symbol is retentive, beside its type.
@@ -73,7 +73,7 @@ bool is_type(std::string_view text) {
 
 // --- headings ---
 
-/// In capitals and without accents: `MNEMONIQUE` for `Mnémonique`; asterisks and colons around it are left out.
+/// A heading in capitals and without accents: `MNEMONIQUE` for `Mnémonique`; asterisks and colons around it are left out.
 std::string heading_of(std::string_view text) {
   constexpr std::string_view kMarks = " *:_";
   constexpr std::string_view kBase = "AAAAAAACEEEEIIIIDNOOOOO*OUUUUYTSAAAAAAACEEEEIIIIDNOOOOO/OUUUUYTY";  // U+00C0 to U+00FF
@@ -90,7 +90,7 @@ std::string heading_of(std::string_view text) {
   return heading;
 }
 
-// In the languages of Micro/WIN, of other programming software and of spreadsheets.
+// Headings in the languages of Micro/WIN, of other programming software and of spreadsheets.
 constexpr std::array<std::string_view, 22> kNameHeadings{
     "SYMBOL",        "SYMBOLS", "SYMBOL NAME", "SYMBOLNAME", "NAME",    "TAG",    "TAG NAME", "VARIABLE",
     "VARIABLE NAME", "SYMBOLE", "MNEMONIQUE",  "NOM",        "SIMBOLO", "NOMBRE", "NOME",     "符号",
@@ -118,7 +118,7 @@ struct Cell {
 };
 using Cells = std::vector<Cell>;
 
-/// What separates cells. Of an assignment, `Motor = Q0.0`, only the first sign does.
+/// The separator of cells. In an assignment, `Motor = Q0.0`, only the first sign is a separator.
 enum class Separator : char { Tab = '\t', Semicolon = ';', Comma = ',', Bar = '|', Equals = '=', Colon = ':', Blanks = ' ' };
 
 bool is_assignment(Separator separator) { return separator == Separator::Equals || separator == Separator::Colon; }
@@ -138,7 +138,7 @@ Cell cell_of(std::string_view written) {
   return {std::string(written), written};
 }
 
-/// Where the quoted text ends that `line` may begin with; 0 if it does not.
+/// The end of the quoted text at the beginning of `line`; 0 if there is none.
 std::size_t end_of_quotes(std::string_view line) {
   if (!line.starts_with('"')) return 0;
   std::size_t end = 1;
@@ -174,8 +174,8 @@ std::string_view from_to(std::string_view first, std::string_view last) {
   return {first.data(), static_cast<std::size_t>(last.data() + last.size() - first.data())};
 }
 
-/// Which of the words of a row is its address or begins it: `I0.0`, `I 0.0`; or the second word if that is a constant. Their
-/// number if there is none.
+/// The place of the word of a row that is its address or begins it: `I0.0`, `I 0.0`; or of the second word if that is a
+/// constant. The number of words if there is none.
 std::size_t place_of_address(const std::vector<std::string_view>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (is_address(words[i])) return i;
@@ -222,7 +222,7 @@ Cells symbol_among(const std::vector<std::string_view>& words) {
   return cells;
 }
 
-/// A row whose columns only blanks separate.
+/// The cells of a row whose columns are separated only by blanks.
 Cells cells_between_blanks(std::string_view line) {
   const auto wide = parts_of(line, "  "), words = parts_of(line, " ");
   if (Cells cells = headings_among(wide); !cells.empty()) return cells;
@@ -233,8 +233,8 @@ Cells cells_between_blanks(std::string_view line) {
   return as_they_stand;
 }
 
-/// `Motor = Q0.0`, `Motor: Q 0.0 // main pump`: name, address, and the words of what follows them. One cell if
-/// there is no address behind the sign.
+/// The cells of an assignment, `Motor = Q0.0`, `Motor: Q 0.0 // main pump`: name, address, and the words after them. One
+/// cell if there is no address after the sign.
 Cells cells_of_assignment(std::string_view line, char sign) {
   const std::size_t at = line.find(sign, end_of_quotes(line));
   const std::string_view name = trim(line.substr(0, at));
@@ -301,8 +301,8 @@ std::optional<Columns> headings(const Cells& cells) {
   return Columns{*name, *address, first, first + 1 < cells.size() ? first + 1 : Columns::kToTheEnd, comment.has_value()};
 }
 
-/// Where name and address are in a row without headings: side by side or with a type between them, the name first unless
-/// only the first is an address. A format or a type is a name only in the first column.
+/// The columns of name and address in a row without headings: side by side or with a type between them, the name first
+/// unless only the first is an address. A format or a type is a name only in the first column.
 std::optional<Columns> columns_of(const Cells& cells) {
   const auto is_symbol = [&](std::size_t i) {
     return is_name(cells[i].text) && !is_address(cells[i].text) && (i == 0 || !is_type(cells[i].text));
@@ -374,7 +374,7 @@ class SymbolTableReader {
     add(cells, *columns, line);
   }
 
-  /// Some tables have more columns than headings: empty ones on the left.
+  /// Whether the columns fit the cells: some tables have more columns than headings, empty ones on the left.
   static bool fits(const Cells& cells, Columns columns) {
     const auto text = [&](std::size_t i) { return i < cells.size() ? std::string_view(cells[i].text) : std::string_view(); };
     return !text(columns.name).empty() || is_address(text(columns.address));
@@ -399,7 +399,7 @@ class SymbolTableReader {
     result_.source.symbols.push_back({name.text, std::move(value), position(name, line), comment_of(cells, columns)});
   }
 
-  /// Where no heading names its column, it begins after a type, and what follows that.
+  /// The comment of a row. If no heading names its column, it begins after a type and goes on to the end.
   static std::string comment_of(const Cells& cells, const Columns& columns) {
     std::string comment;
     const std::size_t end = std::min(cells.size(), columns.after_comment);
@@ -450,7 +450,7 @@ bool is_symbol_table(std::string_view text, const std::function<bool(std::string
     const Cells cells = cells_of(line, separator);
     headed |= rows + statements + other == 0 && headings(cells);
     const auto columns = headed || filled(cells) < 2 ? std::nullopt : columns_of(cells);
-    const bool whole_name = columns && !is_assignment(separator);  // in `LD I0.0 = Q0.0` there is none
+    const bool whole_name = columns && !is_assignment(separator);  // no whole name in `LD I0.0 = Q0.0`
     if (is_statement(whole_name ? cells[columns->name].text : split_words(line).front()))
       ++statements;
     else if (headed ? filled(cells) > 1 : columns && may_be_symbol(cells[columns->name]))

@@ -48,7 +48,7 @@ namespace {
 /// A name as it is written in a statement: `*#next`, `"Pump 1"`, `SBR_0:SBR0`.
 struct WrittenName {
   char mark = 0;       // & or *
-  bool local = false;  // with #
+  bool local = false;  // declared name with #
   std::string_view name, address;
 
   explicit WrittenName(std::string_view text) {
@@ -97,7 +97,7 @@ class Names {
   std::map<std::string, const Thing*, std::less<>> similar_;
 };
 
-/// Of those that the programming software has by itself. Null if there is none.
+/// A symbol that the programming software has by itself. Null if there is none.
 const Symbol* find_system_symbol(std::string_view name) {
   static const Names<Symbol> kNames = [] {
     Names<Symbol> names;

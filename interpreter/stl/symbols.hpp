@@ -24,8 +24,8 @@ std::optional<BlockNumber> block_number(std::string_view text);
 /// constant only for Micro/DOS.
 bool may_be_name(const OperandValue& value, std::string_view written);
 
-/// The symbol of this name, with or without quotes; written in other capitals if it can be no other; otherwise the one that
-/// the programming software has. Null if there is none.
+/// The symbol of this name, with or without quotes; in other capitals if only one symbol can be meant; otherwise the one
+/// that the programming software has. Null if there is none.
 const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view name);
 
 /// Puts the addresses of symbols, of local variables and of blocks in place of their names. A name that nothing defines
@@ -33,7 +33,7 @@ const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view n
 void resolve_symbols(ParseResult& result);
 
 /// The first name in the statements of a program that only Micro/WIN SMART has by itself; empty if there is none. Names that
-/// the program defines are its own.
+/// the program defines do not count.
 std::string symbol_of_smart(const Source& source);
 
 }  // namespace s7200::stl

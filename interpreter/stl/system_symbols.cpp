@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t kNoBit = 0xFF;
 
-/// A symbol that there is once.
+/// A symbol that exists once.
 struct Single {
   std::string_view name;
   Size size;
@@ -118,7 +118,7 @@ const Numbered kNumbered[] = {
 };
 // clang-format on
 
-/// For these the S7-200 has nothing; its SM0.7 is the mode switch, its SMB7 is reserved.
+/// Symbols for which the S7-200 has nothing; its SM0.7 is the mode switch, its SMB7 is reserved.
 constexpr std::string_view kOnlyOfSmart[] = {"RTC_Lost", "CPU_IO"};
 
 struct Points {

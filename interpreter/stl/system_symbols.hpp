@@ -34,7 +34,7 @@
 
 namespace s7200::stl {
 
-/// All of them. A name of the S7-200 SMART for which the S7-200 has nothing stands for no address.
+/// All system symbols. A name of the S7-200 SMART for which the S7-200 has nothing stands for no address.
 std::span<const Symbol> system_symbols();
 
 /// Whether it is one that Micro/WIN SMART has and Micro/WIN has not: `CPU_Input0`, `RTC_Lost`. In any capitals.
