@@ -54,7 +54,7 @@ inline constexpr std::uint32_t kPointBytes = 16;  // of input points, of output 
 
 inline constexpr std::uint32_t kNoBits = 0xFFFF'FFFF;
 
-/// What an area is called, where it is, and how it is addressed.
+/// The name of an area, its place, and how it is addressed.
 struct AreaInfo {
   Area area;
   std::string_view name;  ///< as in STL
@@ -69,7 +69,7 @@ struct AreaInfo {
 
 const AreaInfo& info(Area area);
 const std::array<AreaInfo, kAreas>& all_areas();
-/// Where a place in the image is.
+/// The area of a place in the image.
 const AreaInfo& area_at(std::uint32_t place);
 std::optional<Area> area_named(std::string_view name);  // upper case
 

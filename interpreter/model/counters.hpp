@@ -21,7 +21,7 @@ struct CounterInfo {
 
 // clang-format off
 
-/// By number.
+/// The high-speed counters, by number.
 inline constexpr std::array<CounterInfo, 6> kCounters{{
     // I0.0, I0.1, I0.2
     {sm::byte(36),   0,        1,        2, kNoPoint, event::kCounter0Reached, event::kCounter0Turned, event::kCounter0Reset, 0},

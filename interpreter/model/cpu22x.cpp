@@ -68,8 +68,8 @@ CpuModel release2(std::string_view name, CpuSet self, Size size, std::uint32_t p
   };
 }
 
-/// Of the first edition: slower, with less memory, and with 600 and 300 baud in the place of the fast rates, which came with
-/// release 1.2 (facts 2.1).
+/// A CPU of the first edition: slower, with less memory, and with 600 and 300 baud in the place of the fast rates, which
+/// came with release 1.2 (facts 2.1).
 CpuModel release1(std::string_view name, CpuSet self, Size size, std::uint32_t ports, std::uint32_t program_words,
                   std::uint8_t identification) {
   CpuModel model = release2(name, self, size, ports, program_words, identification);

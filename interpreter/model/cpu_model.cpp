@@ -105,7 +105,7 @@ TimerBase timer_base(std::uint32_t number) {
   return {base, n < 32};
 }
 
-// Facts 4.3–4.5, 2.1 and 10.5.
+// The bytes of special memory: facts 4.3–4.5, 2.1 and 10.5.
 const std::vector<SpecialMemory>& special_memory() {
   using enum SpecialUse;
   constexpr std::string_view kNoExpansion = "no expansion module is simulated",

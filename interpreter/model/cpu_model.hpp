@@ -1,4 +1,4 @@
-// What differs between the CPUs of the S7-200 family.
+// The differences between the CPUs of the S7-200 family.
 #pragma once
 
 #include <array>
@@ -18,9 +18,9 @@ namespace s7200 {
 /// A set of CPU types. Each instruction has the set of CPUs that know it, so that a message can say which CPU it needs.
 using CpuSet = std::uint16_t;
 inline constexpr CpuSet kCpu212 = 0x001, kCpu214 = 0x002, kCpu215 = 0x004, kCpu216 = 0x008;
-// Of release 1, 2000 to 2003: 6ES7 21x-xxx21 and -xxx22, and the 226XM.
+// CPUs of release 1, 2000 to 2003: 6ES7 21x-xxx21 and -xxx22, and the 226XM.
 inline constexpr CpuSet kCpu221r1 = 0x010, kCpu222r1 = 0x020, kCpu224r1 = 0x040, kCpu226r1 = 0x080, kCpu226xm = 0x100;
-// Of release 2, from 2004 on: 6ES7 21x-xxx23.
+// CPUs of release 2, from 2004 on: 6ES7 21x-xxx23.
 inline constexpr CpuSet kCpu221 = 0x200, kCpu222 = 0x400, kCpu224 = 0x800, kCpu224xp = 0x1000, kCpu226 = 0x2000;
 inline constexpr CpuSet kCpu21x = kCpu212 | kCpu214 | kCpu215 | kCpu216;
 inline constexpr CpuSet kCpu22xRelease1 = kCpu221r1 | kCpu222r1 | kCpu224r1 | kCpu226r1 | kCpu226xm;
@@ -36,7 +36,8 @@ inline constexpr CpuSet kTwoPorts = kCpu216 | kCpu226r1 | kCpu226xm | kCpu224xp 
 /// "CPU 214, 215, 216 or 22x"; "CPU 22x of release 2"
 std::string to_text(CpuSet cpus);
 
-/// What to do if something is only on some CPUs: "LDW<> needs CPU 22x; choose one, such as CPU 224". `what` with its verb.
+/// The advice for something that only some CPUs have: "LDW<> needs CPU 22x; choose one, such as CPU 224". `what` includes
+/// the verb.
 std::string needs(std::string_view what, CpuSet cpus);
 
 /// The three interrupt queues, in order of priority (S7-200 manual C230-02, 10-120).
@@ -55,7 +56,7 @@ struct InterruptEvent {
 
 /// All events of the family.
 const std::vector<InterruptEvent>& all_events();
-/// Null for a number that no CPU has.
+/// Returns null for a number that no CPU has.
 const InterruptEvent* find_event(std::int64_t number);
 
 inline constexpr std::size_t kEvents = 34;
@@ -70,13 +71,13 @@ struct RetentiveRange {
   auto operator<=>(const RetentiveRange&) const = default;
 };
 
-/// What OUT holds after +I, -I, +D, -D or DIV if the result does not fit.
+/// The result in OUT of +I, -I, +D, -D or DIV if the result does not fit.
 enum class IntegerOverflow : std::uint8_t {
   Wrap,  ///< the low bits of the result
   Keep   ///< what was there before (S7-200 manual from 2004 on, 140: CPU 22x)
 };
 
-/// What the manuals leave open about RCV (facts 10.3). The defaults are what the models have.
+/// Properties of RCV that the manuals leave open (facts 10.3). The defaults are those of the models.
 struct ReceiveChoices {
   bool idle_or_break = true;                ///< il and bk together: either is enough to start; otherwise it takes both
   bool start_may_end = false;               ///< a start character that is also the end character ends the message
@@ -125,7 +126,7 @@ struct TimerBase {
 };
 TimerBase timer_base(std::uint32_t number);
 
-/// What a program finds in bytes of special memory.
+/// The use of bytes of special memory, as a program sees it.
 enum class SpecialUse : std::uint8_t {
   Modelled,  ///< what the manual says
   Plain,     ///< memory that the CPU makes no use of
@@ -139,7 +140,7 @@ struct SpecialMemory {
   SpecialUse use;
   std::string_view meaning;
   CpuSet cpus = kEveryCpu;
-  std::string_view why{};  ///< of those that are still or refused: what is not simulated
+  std::string_view why{};  ///< for Still and Refused: what is not simulated
 
   SpecialUse on(const CpuModel& model) const { return cpus & model.self ? use : SpecialUse::Plain; }
 };
@@ -157,14 +158,14 @@ const CpuModel& cpu222();
 const CpuModel& cpu224();
 const CpuModel& cpu224xp();
 const CpuModel& cpu226();
-// Of release 1.
+// CPUs of release 1.
 const CpuModel& cpu221r1();
 const CpuModel& cpu222r1();
 const CpuModel& cpu224r1();
 const CpuModel& cpu226r1();
 const CpuModel& cpu226xm();
 
-/// From the smallest to the largest.
+/// All CPUs, from the smallest to the largest.
 const std::vector<const CpuModel*>& all_cpus();
 
 /// The first of them that has what is needed; null if none has.

@@ -31,7 +31,7 @@ enum class RunError : std::uint16_t {
 /// Fatal errors: the CPU goes to STOP (facts 5.1).
 enum class FatalError : std::uint16_t { Watchdog = 0x03, CompareIndirect = 0x11, CompareValue = 0x12, CompareRange = 0x14 };
 
-/// Of a NETR or NETW, in the low bits of the status in its table (facts 10.9).
+/// The error of a NETR or NETW, in the low bits of the status in its table (facts 10.9).
 enum class NetworkError : std::uint8_t {
   None,
   TimeOut,
@@ -41,14 +41,14 @@ enum class NetworkError : std::uint8_t {
   NotMaster,   ///< the port is not in PPI master mode
   Parameter,   ///< a value in the table
   NoResource,  ///< the station is busy with another master
-  Layer7,      ///< the station does not understand the request, or nobody its answer
+  Layer7,      ///< the station does not understand the request, or its answer is not understood
   Message,     ///< there are no such data in the station
 };
 
 /// The status in the table of a NETR or NETW.
 enum NetworkStatus : std::uint8_t { kJobDone = 0x80, kJobActive = 0x40, kJobError = 0x20, kJobErrorCode = 0x0F };
 
-/// What a code means, in one line.
+/// The meaning of a code, in one line.
 std::string_view meaning_of(RunError code);
 std::string_view meaning_of(FatalError code);
 std::string_view meaning_of(NetworkError code);

@@ -46,7 +46,7 @@ enum class Role : std::uint8_t { In, Out, InOut };
 /// How an instruction reads a number. Either: the result has the same bits both ways.
 enum class Sign : std::uint8_t { Either, Signed, Unsigned };
 
-/// Which timers an operand may name (facts 1.1).
+/// The kinds of timers that an operand may name (facts 1.1).
 enum class TimerKind : std::uint8_t { Any, OnDelay, OffDelay, Retentive };
 
 struct OperandRule {
@@ -78,7 +78,7 @@ struct OperandRule {
   bool operator==(const OperandRule&) const = default;
 };
 
-/// Where an instruction may be used.
+/// The parts of a program in which an instruction may be used.
 enum Part : std::uint8_t { kMain = 1, kSubroutine = 2, kInterrupt = 4, kAnywhere = 7 };
 
 struct Allowed {
@@ -91,7 +91,7 @@ struct Allowed {
   bool operator==(const Allowed&) const = default;
 };
 
-/// What an instruction means for the structure of the program.
+/// The meaning of an instruction for the structure of the program.
 enum class Structure : std::uint8_t {
   None,
   Label,
@@ -113,8 +113,8 @@ enum class Structure : std::uint8_t {
   Compare  ///< its errors stop the CPU
 };
 
-/// What the warnings about a whole program (program/lint.hpp), and the search for what it looks at (program/looks.hpp), look
-/// for.
+/// Effects for the warnings about a whole program (program/lint.hpp), and for the search for what it looks at
+/// (program/looks.hpp).
 enum class Effect : std::uint8_t {
   None,
   LoadsBit,  ///< LD
@@ -131,7 +131,7 @@ enum class Effect : std::uint8_t {
   ReadsMilliseconds,  ///< BITIM, CITIM
 };
 
-/// What the decoder adds to the operands of an instruction.
+/// The operand that the decoder adds to those of an instruction.
 enum class Hidden : std::uint8_t {
   None,
   InputPoint,     ///< operand 0 is the input point instead of its image
@@ -151,7 +151,7 @@ struct StackUse {
   bool operator==(const StackUse&) const = default;
 };
 
-/// When the ENO output of a box becomes 0, besides missing power flow (facts 10.7).
+/// The conditions, besides missing power flow, under which the ENO output of a box becomes 0 (facts 10.7).
 enum class Eno : std::uint8_t {
   None,           ///< it is not a box with an ENO output
   Errors,         ///< a run-time error
@@ -172,8 +172,8 @@ struct Rung {
 enum class Join : std::uint8_t { Load, And, Or };
 inline constexpr std::size_t kJoins = 3;
 
-/// What a contact or a coil does as part of a chain, which is executed in one go (program/chains.hpp). A part always takes
-/// its op's `cost`: it needs no power flow and has no time per unit. It has no `target` of its own: link() puts its Contact
+/// The part of a contact or a coil in a chain, which is executed in one go (program/chains.hpp). A part always takes its
+/// op's `cost`: it needs no power flow and has no time per unit. It has no `target` of its own: link() puts its Contact
 /// there.
 struct ChainPart {
   enum class Kind : std::uint8_t { None, Contact, Coil };
@@ -183,7 +183,7 @@ struct ChainPart {
   bool inverted = false;  ///< LDN, AN, ON
 };
 
-/// What executes an instruction.
+/// The functions that execute an instruction.
 struct Bodies {
   constexpr Bodies() = default;
   constexpr Bodies(Body everywhere, Body fed_by_segment = nullptr, Link in_link = nullptr, ChainPart in_chain = {})
@@ -231,10 +231,10 @@ inline constexpr std::size_t kMostContacts = 4, kMostCoils = 2;  ///< of a chain
 Link link_of_chain(std::size_t contacts, std::size_t joins, std::size_t coils);
 /// The link of any op: calls its body. Null in builds without tail calls.
 Link link_of_any();
-/// The same for one with a step around its body, quicker for those that are frequent.
+/// The link of an op with a step around its body, quicker for frequent ones.
 Link link_of_step(Body step);
 
-/// Null for an unknown mnemonic (upper case).
+/// Returns null for an unknown mnemonic (upper case).
 const Instruction* find_instruction(std::string_view mnemonic);
 
 /// The instruction that a mnemonic of the German set means (upper case): U, UN, UW>=, ULD. Null for any other.
@@ -242,7 +242,7 @@ const Instruction* find_instruction(std::string_view mnemonic);
 /// Only the pattern is documented, U for the A of the AND instructions; other German mnemonics are refused by name.
 const Instruction* find_german_instruction(std::string_view mnemonic);
 
-/// What can be said of a mnemonic that the table does not have.
+/// Advice about a mnemonic that the table does not have.
 struct UnknownMnemonic {
   std::string what;  ///< of the German set or of another controller family: "a German mnemonic"; empty otherwise
   std::string hint;  ///< what to write instead, or what was probably meant; empty if none is close
@@ -251,7 +251,7 @@ struct UnknownMnemonic {
 /// The mnemonic is in upper case.
 UnknownMnemonic unknown_mnemonic(std::string_view mnemonic);
 
-/// `MOVW IN, OUT`
+/// The syntax of an instruction: `MOVW IN, OUT`
 std::string syntax(const Instruction& instruction);
 
 }  // namespace s7200

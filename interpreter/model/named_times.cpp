@@ -21,7 +21,7 @@
 namespace s7200 {
 namespace {
 
-/// Of a CPU 214 to a CPU 22x of release 1.
+/// The factor between a CPU 214 and a CPU 22x of release 1.
 constexpr double kSlower = 1.906;
 
 void add(TimeTable& table, std::string_view csv) {
@@ -29,7 +29,7 @@ void add(TimeTable& table, std::string_view csv) {
   assert(errors.empty());
 }
 
-/// What a CPU runs with if nothing else is asked for.
+/// The times with which a CPU runs by default.
 TimeTable own_times(const CpuModel& model) {
   TimeTable table;
   for (const std::string_view csv : model.times_csv)
@@ -37,10 +37,10 @@ TimeTable own_times(const CpuModel& model) {
   return table;
 }
 
-/// In percent. With the factor a figure is no surer than this, even one that a page has.
+/// The least uncertainty in percent: after the factor no figure is more certain, even one from a manual's page.
 constexpr double kSureAtMost = 25;
 
-/// Not an estimate; one that is taken over, `as RETI`, if that figure is none.
+/// Whether a figure of a CPU 22x is not an estimate; one that is taken over, `as RETI`, is as good as that figure.
 bool is_of_22x(const TimeRow& row, const TimeTable& table) {
   constexpr std::string_view kAs = "as ";
   if (row.mnemonics.front() == name_of(SystemTime::EepromSave)) return false;

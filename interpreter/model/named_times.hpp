@@ -10,7 +10,7 @@
 
 namespace s7200 {
 
-/// In the source of a figure: it was fitted to that. cpu214_times.csv has it, too.
+/// The text in the source of a figure that was fitted to this scan. cpu214_times.csv has it, too.
 inline constexpr std::string_view kFirstScanOfTip41 = "first scan of Application Tip 41";
 
 struct NamedTimes {
@@ -23,13 +23,13 @@ struct NamedTimes {
 
 const std::vector<NamedTimes>& named_times();
 
-/// Null for a name that no table has.
+/// Returns null for a name that no table has.
 const NamedTimes* find_times(std::string_view name);
 
-/// Those for a CPU, its own first.
+/// The tables for a CPU, its own first.
 std::vector<const NamedTimes*> times_of(const CpuModel& model);
 
-/// `cpu214, cpu214_from_22x`: those for a CPU.
+/// The names of the tables for a CPU: `cpu214, cpu214_from_22x`
 std::string names_of_times(const CpuModel& model);
 
 }  // namespace s7200

@@ -21,7 +21,7 @@ struct PortInfo {
 
 // clang-format off
 
-/// By port number; a CPU has the first CpuModel::ports of them. SMB2 and SM3.0 serve all.
+/// The ports by number; a CPU has the first CpuModel::ports of them. SMB2 and SM3.0 serve all.
 inline constexpr std::array<PortInfo, 2> kPorts{{
     {sm::byte(30),  sm::byte(86),  sm::kPort0Idle, event::kPort0Received, event::kPort0Sent, event::kPort0Message, RunError::Port0Busy},
     {sm::byte(130), sm::byte(186), sm::kPort1Idle, event::kPort1Received, event::kPort1Sent, event::kPort1Message, RunError::Port1Busy},

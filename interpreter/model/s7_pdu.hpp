@@ -64,13 +64,13 @@ enum Function : std::uint8_t {
   kSetup = 0xF0
 };
 
-/// Of a whole request: the error bytes of its answer.
+/// The error bytes in the answer to a request that is refused as a whole.
 enum class Refusal : std::uint16_t {
   None = 0,
   Unknown = 0x8104,
   TooLong = 0x8500,
   Malformed = 0x8704,
-  BlockName = 0xD201,  ///< its syntax
+  BlockName = 0xD201,  ///< wrong syntax of the name
   BlockType = 0xD203,
   NoBlock = 0xD209,
   NoBlockOfType = 0xD20E,
@@ -78,22 +78,22 @@ enum class Refusal : std::uint16_t {
   Protected = 0xD241   ///< as by a password
 };
 
-/// Of a variable.
+/// The result for one variable.
 enum ReturnCode : std::uint8_t { kDone = 0xFF, kNotAllowed = 0x03, kOutside = 0x05, kWrongType = 0x06, kNoArea = 0x0A };
 
 inline constexpr std::size_t kVariableBytes = 12;
 inline constexpr std::array<std::uint8_t, 3> kVariableHead{0x12, kVariableBytes - 2, 0x10};
 
-/// What a variable's count counts. T, C and HC have the code of their area as their type.
+/// The unit in which a variable's count counts. T, C and HC have the code of their area as their type.
 enum Type : std::uint8_t { kBit = 1, kByte = 2, kCharacter = 3, kWord = 4, kInteger = 5, kDouble = 6, kLong = 7, kReal = 8 };
 
-/// Nothing for a type that the S7-200 does not have, and for T, C and HC.
+/// The width of a type; nothing for a type that the S7-200 does not have, and for T, C and HC.
 std::optional<Width> width_of(std::uint8_t type);
 
-/// What the length of its data counts.
+/// The unit in which the length of a variable's data counts.
 enum DataType : std::uint8_t { kInBits = 3, kInBitsOfBytes = 4, kInBytes = 9 };
 
-/// Before each value in the data of a write: return code, type and length.
+/// Bytes before each value in the data of a write: return code, type and length.
 inline constexpr std::size_t kValueHead = 4;
 
 /// How many bytes a value has whose data say this.
@@ -135,16 +135,16 @@ struct BlockName {
   std::uint8_t type = 0;
   std::uint32_t number = 0;
 };
-/// Nothing if the text is no name.
+/// Parses a block's name; nothing if the text is not one.
 std::optional<BlockName> block_name_in(std::span<const std::uint8_t> text);
-/// Where the name is in the parameters of a start of an upload, after 1D, seven bytes, its length and `_`. Nothing if the
-/// length is wrong.
+/// The name in the parameters of a start of an upload, after 1D, seven bytes, its length and `_`. Nothing if the length is
+/// wrong.
 std::optional<std::span<const std::uint8_t>> name_to_upload(std::span<const std::uint8_t> parameters);
 
-/// V memory as a data block.
+/// The number of the data block that is V memory.
 inline constexpr std::uint16_t kBlockOfV = 1;
 
-/// The area that is no memory: the CPU's identification, from byte 0 on.
+/// The area of the CPU's identification, from byte 0 on; it is not memory.
 inline constexpr std::uint8_t kSystemInformation = 0x03;
 inline constexpr std::size_t kIdentificationName = 16, kIdentificationRelease = 4,
                              kIdentificationBytes = kIdentificationName + kIdentificationRelease;
@@ -152,7 +152,7 @@ inline constexpr std::size_t kIdentificationName = 16, kIdentificationRelease = 
 /// The service that RUN and STOP name at the end of their parameters, after its length.
 inline constexpr std::string_view kProgram = "P_PROGRAM";
 
-// Of user data: groups, and the services of each.
+// Groups of user data, and the services of each.
 inline constexpr std::uint8_t kBlockGroup = 3, kListBlocks = 1, kListBlocksOfType = 2, kBlockInfo = 3;
 inline constexpr std::uint8_t kClockGroup = 7, kReadClock = 1, kSetClock = 2;
 inline constexpr std::uint8_t kForceGroup = 8, kForce = 0x0B, kSetInStop = 0x0E;
@@ -165,12 +165,12 @@ struct UserData {
   std::uint16_t error = 0;  ///< of an answer
 };
 Bytes parameters_of(const UserData& user_data);
-/// Nothing if they are too few.
+/// Reads the parameters of user data; nothing if they are too few.
 std::optional<UserData> user_data_in(std::span<const std::uint8_t> parameters);
 
 /// A list in the data of user data: FF 09 length(2), then its bytes.
 Bytes data_of_list(std::span<const std::uint8_t> list);
-/// Nothing if the length is not that of what follows.
+/// Reads a list; nothing if its length is not that of the bytes after it.
 std::optional<std::span<const std::uint8_t>> list_in(std::span<const std::uint8_t> data);
 
 /// The clock in data: FF 09 00 0A 00, the century, and then the eight bytes of TODR, whose last two are milliseconds and day
@@ -179,9 +179,9 @@ struct WireClock {
   std::uint8_t century;
   std::array<std::uint8_t, 8> todr;
 };
-/// From 1990 to 2089, as the clock has two figures for the year.
+/// The data of a clock, from 1990 to 2089, as the clock has two figures for the year.
 Bytes data_of_clock(const std::array<std::uint8_t, 8>& todr);
-/// Nothing if there is none, as in the answer to one that was set.
+/// Reads a clock; nothing if there is none, as in the answer after the clock was set.
 std::optional<WireClock> clock_in(std::span<const std::uint8_t> data);
 
 /// A number of two bytes, as everything in a PDU counts.
@@ -190,10 +190,10 @@ inline void append16(Bytes& to, std::size_t value) {
   to.push_back(static_cast<std::uint8_t>(value));
 }
 
-/// 0 for an area that has none.
+/// The code of an area; 0 if it has none.
 std::uint8_t code_of(Area area);
 
-/// In the parameters of a read or write. T, C and HC have the code of their area as their type.
+/// A variable in the parameters of a read or write. T, C and HC have the code of their area as their type.
 struct Variable {
   std::uint8_t type;
   std::size_t count;
@@ -202,26 +202,26 @@ struct Variable {
 };
 void append(Bytes& to, const Variable& variable);
 
-/// The same as it stands there, whatever it is: not every type and area is known.
+/// A variable as it was received: not every type and area is known.
 struct WireVariable {
   std::uint8_t type, area;
   std::uint16_t count, block;
-  std::uint32_t address;  ///< as Variable::first
+  std::uint32_t address;  ///< like Variable::first
 };
-/// Of kVariableBytes.
+/// Reads a variable from kVariableBytes bytes.
 WireVariable variable_at(std::span<const std::uint8_t> bytes);
 
-/// What a master forces, releases, or sets in STOP.
+/// The variables that a master forces, releases, or sets in STOP.
 struct ForcedList {
   bool released = false;
   std::vector<WireVariable> variables{};
   std::vector<std::span<const std::uint8_t>> values{};  ///< of each variable; none if they are released
 };
-/// In the data of user data. `head`: bytes before each value. Nothing if there is less than is listed. It says that values
-/// are released with 01, or by having none, as in a published description of the S7-200.
+/// Reads the list in the data of user data. `head` is the number of bytes before each value. Nothing if there is less than
+/// is listed. A list releases its values with 01, or by having none, as in a published description of the S7-200.
 std::optional<ForcedList> forced_in(std::span<const std::uint8_t> data, std::size_t head);
 
-/// The identification as a variable, to read.
+/// Appends the identification as a variable, to read.
 void append_identification(Bytes& to);
 
 /// Anything but an answer, which has its error too.

@@ -9,7 +9,7 @@
 namespace s7200 {
 
 struct SpecialBit {
-  std::uint8_t mask;  ///< one bit
+  std::uint8_t mask;  ///< of one bit
   std::string_view meaning;
 };
 
@@ -19,7 +19,7 @@ std::span<const SpecialBit> special_bits(std::uint32_t at);
 /// `SM1.0 zero, SM1.2 negative`: those that are set.
 std::string special_bits_text(std::uint32_t at, std::uint8_t value);
 
-/// Those that are set, without their addresses: `zero, negative`.
+/// The meanings of the bits that are set, without their addresses: `zero, negative`.
 std::string special_meanings_text(std::uint32_t at, std::uint8_t value);
 
 }  // namespace s7200

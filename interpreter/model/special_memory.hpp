@@ -41,7 +41,7 @@ enum ScanStatus : std::uint8_t {
   kModeSwitchRun = 0x80,    ///< SM0.7: mode switch in RUN; 0: in TERM
 };
 
-inline constexpr std::uint32_t kFlags = byte(1);  ///< of Flag
+inline constexpr std::uint32_t kFlags = byte(1);  ///< bits of Flag
 
 inline constexpr std::uint32_t kReceivedCharacter = byte(2);  ///< of any port, for its interrupt routine
 inline constexpr std::uint32_t kReceiveStatus = byte(3);

@@ -60,8 +60,8 @@ struct Cost {
   Time per_unit = 0;
 };
 
-/// What takes time without being an instruction; the tables use these names. OperandArea: what an operand in the areas of
-/// the line adds, unless it is the first one and the instruction has a line for its area.
+/// Times that are not those of an instruction, by their names in the tables. OperandArea: the time that an operand in the
+/// areas of the line adds, unless it is the first one and the instruction has a line for its area.
 enum class SystemTime { NoPowerFlow, IndirectOperand, OperandArea, InterruptEntry, ScanOverhead, EepromSave };
 inline constexpr std::array kSystemTimes{SystemTime::NoPowerFlow,    SystemTime::IndirectOperand, SystemTime::OperandArea,
                                          SystemTime::InterruptEntry, SystemTime::ScanOverhead,    SystemTime::EepromSave};
@@ -77,22 +77,22 @@ class TimeTable {
   /// 0), unknown markers, missing columns, quotes that are not closed. A text with errors changes nothing.
   std::vector<std::string> add(std::string_view csv, const std::string& name);
 
-  /// The same with the lines of another table.
+  /// Adds the lines of another table before those already there.
   void add(const TimeTable& correction);
 
-  /// Nothing if no line gives a time.
+  /// The time of an instruction; nothing if no line has it.
   std::optional<Cost> cost(std::string_view mnemonic, std::optional<Area> first_operand) const;
   const TimeRow* find(std::string_view mnemonic, std::optional<Area> first_operand) const;
 
-  /// 0 if no line gives it.
+  /// The time of `what`; 0 if no line has it.
   Time operator[](SystemTime what) const;
 
-  /// What operands in these areas add to the basic time, in the order of the operands.
+  /// The time that operands in these areas add to the basic time, in the order of the operands.
   Time added_by(std::string_view mnemonic, std::span<const std::optional<Area>> operands) const;
 
   const std::vector<TimeRow>& rows() const { return rows_; }
 
-  /// The lines for which `wanted` holds.
+  /// A table of the lines for which `wanted` holds.
   template <class Wanted>
   TimeTable filtered(Wanted wanted) const {
     TimeTable kept;
@@ -116,7 +116,7 @@ class TimeTable {
 /// The table as CSV; reads back as the same table.
 std::string to_csv(const TimeTable& times);
 
-/// `73` or `0.8`, in microseconds.
+/// A time in microseconds: `73` or `0.8`.
 std::string in_microseconds(Time time);
 
 }  // namespace s7200

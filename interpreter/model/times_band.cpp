@@ -18,7 +18,7 @@ namespace {
 /// ms (measuring/statements.cpp) and 690 ms with the tables of this CPU. In percent.
 constexpr double kAsAWhole = 6;
 
-/// In place of a figure. That of a label or a routine's head may be 0; any other stays above 0.
+/// A drawn time in place of a figure. That of a label or a routine's head may be 0; any other stays above 0.
 Time drawn_time(double ns, Time in_place_of) {
   return std::clamp<Time>(std::llround(ns), in_place_of == 0 ? 0 : 1, kLongestFigure);
 }
@@ -73,7 +73,7 @@ void settle(std::span<PartOfSum> parts, double sum) {
 TimeTable random_times(const TimeTable& table, std::uint32_t seed, std::uint32_t number) {
   std::seed_seq seeds{seed, number};
   std::mt19937 random(seeds);
-  /// Between 0 and 1.
+  /// Draws a number between 0 and 1.
   const auto place = [&] { return (static_cast<double>(random()) + 0.5) / 0x1p32; };
   /// Between 1 / (1 + percent / 100) and its inverse.
   const auto factor = [&](double percent) { return std::pow(1 + percent / 100, 2 * place() - 1); };

@@ -13,7 +13,7 @@
 
 namespace s7200 {
 
-/// A figure of those that a sum is of, in ns.
+/// A figure that is a part of a sum, in ns.
 struct PartOfSum {
   double figure = 0;
   TimeRange range;
@@ -56,7 +56,7 @@ class TimesBand {
   /// `cpu214`, `random table 12 of seed 1`; they are counted from 1 on.
   std::string name(std::size_t table) const;
 
-  /// The last one, which is a random one: in place of a name, what a copy must say of it.
+  /// The last table, which is a random one: in place of a name it has the text that a copy must say of it.
   Named last() const;
 
  private:

@@ -37,7 +37,7 @@ constexpr std::size_t kNeededColumns = kMarker + 1;
 
 constexpr std::string_view kCpu = "# CPU ";
 
-/// What a figure can be, and by how many percent it may be wrong if its line does not say.
+/// The kind of a figure, and its uncertainty in percent if its line does not have one.
 struct Marker {
   std::string_view name;
   double uncertainty;
@@ -45,12 +45,12 @@ struct Marker {
 constexpr std::array<Marker, 5> kMarkers{
     {{"manual", 5}, {"measured", 5}, {"calibrated", 25}, {"remembered", 25}, {"estimate", 50}}};
 
-/// In microseconds.
+/// The range of figures, in microseconds.
 constexpr Between<double> kFigures{0.001, static_cast<double>(kLongestFigure) / kMicrosecond};
 
 std::string header(std::size_t columns) { return fmt::format("{}", fmt::join(std::span(kColumns).first(columns), ",")); }
 
-/// With brackets around what may be left out: `…,marker[,source[,uncertainty_percent]]`
+/// The header with brackets around optional columns: `…,marker[,source[,uncertainty_percent]]`
 std::string needed_header() {
   const auto optional = std::span(kColumns).subspan(kNeededColumns);
   return fmt::format("{}[,{}{}", header(kNeededColumns), fmt::join(optional, "[,"), std::string(optional.size(), ']'));
@@ -157,7 +157,7 @@ std::string read_row(std::string_view line, TimeRow& row) {
   return {};
 }
 
-/// For which first operands of which mnemonics earlier lines give the time.
+/// The first operands of each mnemonic for which earlier lines give the time.
 class Given {
  public:
   bool hides(const std::string& mnemonic, Areas areas) const {
@@ -189,7 +189,7 @@ std::string quoted(const std::string& field) {
   return text + '"';
 }
 
-/// As many as the table needs: bounds in microseconds only where a line has one.
+/// The number of columns that the table needs: bounds in microseconds only where a line has one.
 std::size_t columns_of(const TimeTable& times) {
   const auto has_bound = [](const TimeRow& row) { return row.base_within > 0 || row.per_unit_within > 0; };
   return std::ranges::any_of(times.rows(), has_bound) ? kColumns.size() : std::size_t{kBaseWithin};

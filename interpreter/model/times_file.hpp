@@ -10,11 +10,11 @@
 
 namespace s7200 {
 
-/// No figure may be longer: the watchdog ends a scan after 300 ms. The time of an instruction with all that its operands
-/// add, and that of a chain of contacts, then fit into the 32 bits that an Op has for them.
+/// The longest figure: the watchdog ends a scan after 300 ms. The time of an instruction with all that its operands add, and
+/// that of a chain of contacts, then fit into the 32 bits that an Op has for them.
 inline constexpr Time kLongestFigure = 100 * kMillisecond;
 
-/// What a text has, each line of the table with its number in the text.
+/// The contents of a text, each line of the table with its number in the text.
 struct TimesFile {
   struct Line {
     std::size_t number = 0;
@@ -28,19 +28,19 @@ struct TimesFile {
 /// Adds to `errors` what is wrong, each `name:line: what`.
 TimesFile read_times(std::string_view csv, const std::string& name, std::vector<std::string>& errors);
 
-/// Each line that gives no time because earlier ones do, `name:line: what`.
+/// The lines that give no time because earlier ones do, each as `name:line: what`.
 std::vector<std::string> hidden_lines(const TimesFile& file, const std::string& name);
 
-/// The line that says whose times follow.
+/// The line that names the CPU of the times after it.
 std::string cpu_line(std::string_view cpu);
 
 /// A line of a table that is for people; empty for an empty text.
 std::string comment_line(std::string_view text);
 
-/// Without the lines, and the mnemonics of lines, that never give a time because earlier lines do.
+/// The table without the lines, and the mnemonics of lines, that never give a time because earlier lines do.
 TimeTable in_use(const TimeTable& times);
 
-/// `I Q M`
+/// The names of areas: `I Q M`
 std::string names_of(Areas areas);
 
 }  // namespace s7200
