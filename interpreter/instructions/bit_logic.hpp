@@ -18,8 +18,8 @@ inline void combine(LogicStack& stack, bool value) {
     stack.set_top(stack.top() | value);
 }
 
-/// What feeds a contact: outside SCR segments the rail always has power; inside one the segment's rail has what LSCR gave
-/// it. A contact in series (A) is fed by the top of the stack instead.
+/// The feed of a contact: outside SCR segments the rail always has power; inside one the segment's rail has the power that
+/// LSCR gave it. A contact in series (A) is fed by the top of the stack instead.
 enum class Rail { Always, Segment };
 
 template <Join join, Rail rail>

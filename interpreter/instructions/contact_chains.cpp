@@ -8,7 +8,7 @@
 
 namespace s7200::linked {
 
-/// `joins`: see link_of_chain().
+/// A chain's link; for `joins` see link_of_chain().
 template <std::size_t contacts, std::size_t joins>
 inline void join(const Contact* contact, const std::uint8_t* image, LogicStack& stack) {
   if constexpr (contacts > 0) {
@@ -32,7 +32,7 @@ void chain(Core& core, const Op* op, Time left, std::uint64_t bits, std::uint64_
 
 constexpr std::size_t ways_to_join(std::size_t contacts) { return contacts == 0 ? 1 : kJoins * ways_to_join(contacts - 1); }
 
-// From numbers to the chain that has them as template arguments, one at a time.
+// Choose the chain with the given numbers as template arguments, one number at a time.
 
 template <std::size_t contacts, std::size_t coils, std::size_t... joins>
 Link chain_of_joins(std::size_t wanted, std::index_sequence<joins...>) {

@@ -197,7 +197,7 @@ std::string hint_for(const Box& box) {
   return other.empty() ? hint : hint + "; OUT must not be " + std::string(other);
 }
 
-/// Of the German set, of the ladder editor or of another controller family.
+/// A mnemonic of the German set, of the ladder editor or of another controller family.
 std::optional<UnknownMnemonic> foreign_mnemonic(std::string_view mnemonic) {
   if (const auto* row = std::ranges::find(kRows, mnemonic, &Row::mnemonic); row != std::end(kRows))
     return UnknownMnemonic{std::string(row->what), std::string(row->hint)};
@@ -220,8 +220,8 @@ std::vector<std::string_view> nearest_mnemonics(std::string_view mnemonic) {
   return all_nearest(mnemonic, kMnemonics, mnemonic.size() < kLong ? 1 : 2);
 }
 
-/// `did you mean MOVW (IN to OUT)?`, so that nobody takes another instruction for his own; of several, all are named, since
-/// any of them can be meant.
+/// The question `did you mean MOVW (IN to OUT)?`, with the operands, so that nobody takes another instruction for the
+/// intended one; of several, all are named, since any of them can be meant.
 std::string question_about(const std::vector<std::string_view>& mnemonics) {
   constexpr std::size_t kMost = 4;
   if (mnemonics.empty() || mnemonics.size() > kMost) return {};

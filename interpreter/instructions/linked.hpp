@@ -59,7 +59,7 @@ template <Body body>
   S7200_TAIL_CALL next->link(core, next, left, core.s.stack.bits(), executed + 1);
 }
 
-/// A body that needs no power flow, and after which the loop has to look for other work: there is no next op.
+/// Executes a body that needs no power flow, and after which the loop has to look for other work: there is no next op.
 template <Body body>
 void last_on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
   if (left <= op->cost) return leave(core, op, left, stack, executed);
@@ -71,8 +71,8 @@ void last_on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std:
   core.s.instructions += executed + 1;
 }
 
-/// The same as execute_on_core where there may be no power flow: that is a function of its own because it needs no registers
-/// saved.
+/// Executes a body like execute_on_core() where there may be no power flow. It is a function of its own because it needs no
+/// registers saved.
 template <Body body>
 void on_core(Core& core, const Op* op, Time left, std::uint64_t stack, std::uint64_t executed) {
   if (!(op->power_mask & ~stack)) S7200_TAIL_CALL execute_on_core<body>(core, op, left, stack, executed);

@@ -26,7 +26,7 @@ std::uint8_t sign_flags(Signed value) {
   return static_cast<std::uint8_t>((value == 0 ? kZero : 0) | (value < 0 ? kNegative : 0));
 }
 
-// SM1 bits that they set and reset.
+// The SM1 bits that arithmetic sets and resets.
 inline constexpr std::uint8_t kArithmetic = kZero | kOverflow | kNegative;
 inline constexpr std::uint8_t kUnsignedArithmetic = kZero | kOverflow;
 inline constexpr std::uint8_t kMultiplyDivide = kArithmetic | kDivisionByZero;

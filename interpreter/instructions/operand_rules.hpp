@@ -24,7 +24,7 @@ inline constexpr Areas kReadDword = kValue | set_of(Area::HC);
 
 inline constexpr std::int64_t kLargestByte = 255;
 
-/// The same rule for an operand that the manual calls something else.
+/// The same rule under another name, for an operand that the manual calls something else.
 constexpr OperandRule named(std::string_view name, OperandRule rule) {
   rule.name = name;
   return rule;
@@ -88,7 +88,8 @@ inline constexpr OperandRule
     kLength    {.name = "LEN", .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Unsigned, .min = 0,   .max = kLargestByte,                   .count = true},
     // SHRB: the sign is the direction, and 0 bits are count error 0092.
     kShiftCount{.name = "N",   .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Signed,   .min = -64, .max = 64,           .not_zero = true, .count = true},
-    // By how many places to shift. More than the width is not a mistake: a shift stops there, a rotate takes it modulo the width.
+    // The number of places to shift. More than the width is not a mistake: a shift stops there, a rotate takes it modulo the
+    // width.
     kPlaces    {.name = "N",   .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Unsigned, .min = 0,   .max = kLargestByte};
 
 // --- values that are written; InOut: those of two-operand arithmetic are source and destination ---
@@ -116,7 +117,7 @@ inline constexpr OperandRule
     kAddressOut = named("ADDR", kOutByte),
     kIndexInOut = named("OUT", kInOutByte);
 
-// What the manual counts from 1.
+// Operands that the manual counts from 1.
 inline constexpr OperandRule
     kIndex{.name = "INDX", .width = Width::Byte, .areas = kValue, .constant = true, .pointer = true, .sign = Sign::Unsigned, .min = 1, .max = kLargestByte};
 
@@ -140,7 +141,8 @@ inline constexpr OperandRule
 // --- tables and buffers: at least so many elements, whatever they hold ---
 
 inline constexpr OperandRule
-    // Its length, the number of its entries, and at least one of them; FND is given the number of entries and what follows it.
+    // A table: its length, the number of its entries, and at least one of them; FND gets the number of entries and the rest
+    // after it.
     kTable   {.name = "TBL", .width = Width::Word, .role = Role::InOut, .areas = kMemoryTC, .pointer = true, .elements = 3},
     kEntries {.name = "SRC", .width = Width::Word,                      .areas = kMemoryTC, .pointer = true},
     kPidLoop {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kVMemory,                   .elements = 36},  // nine reals

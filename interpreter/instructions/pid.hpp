@@ -53,7 +53,7 @@ class PidTable {
   std::uint32_t at_;
 };
 
-/// One sample of a loop; whether all of it could be calculated.
+/// Calculates one sample of a loop. Returns whether all of it could be calculated.
 inline bool calculate_loop(PidTable& loop) {
   const float gain = loop[kGain], term_gain = gain == 0 ? 1 : gain;
   const float error = loop[kSetpoint] - loop[kProcessVariable];

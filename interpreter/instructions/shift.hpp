@@ -1,4 +1,4 @@
-// Bodies: shifts and rotates (facts 6.8).
+// The bodies of shifts and rotates (facts 6.8).
 #pragma once
 
 #include <algorithm>

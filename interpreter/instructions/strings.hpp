@@ -32,7 +32,7 @@ namespace s7200::bodies {
 
 inline constexpr std::uint32_t kIntegerText = 8, kDoubleText = 12, kShortestRealText = 3;
 
-/// FMT, without the size.
+/// The format FMT of a number's text, without the size.
 struct NumberFormat {
   std::uint32_t decimals;
   char point;
@@ -166,7 +166,7 @@ void compare_strings(Core& core, const Op& op) {
 template <Join join, bool equal>
 inline constexpr Bodies kCompareStrings{compare_strings<join, equal>, compare_strings<join, equal, Rail::Segment>};
 
-/// What STI, STD and STR read: from character INDX on, without the blanks in front, as far as it is a number.
+/// The number that STI, STD and STR read: from character INDX on, without the blanks in front, as far as it is a number.
 inline std::optional<std::string> number_in(Core& core, const Op& op, bool real) {
   const auto text = string_at(core, op[0].at);
   const auto from = text ? index_of(core, op[1]) : std::nullopt;

@@ -371,7 +371,7 @@ constexpr Instruction kNotModelled[] = {
 
 // clang-format on
 
-/// As the manual orders them.
+/// The groups in the order of the manual.
 constexpr Group kGroups[] = {
     {"Bit logic", kBitLogic},
     {"Compare contacts", kCompareContacts},
@@ -418,7 +418,7 @@ constexpr bool mnemonics_are_unique() {
 
 constexpr bool has_a_body_and_a_meaning(const Instruction& row) { return row.modelled() && !row.meaning.empty(); }
 
-/// Only a name, the CPUs that have it, and why nothing executes it.
+/// Whether a row has only a name, the CPUs that have it, and the reason why nothing executes it.
 constexpr bool is_known_by_name(const Instruction& row) {
   return !row.modelled() && !row.not_modelled.empty() && row.rules().empty() && row.rung == Rung{};
 }
