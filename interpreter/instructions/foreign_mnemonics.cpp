@@ -14,7 +14,7 @@
 namespace s7200 {
 namespace {
 
-struct Row {
+struct ForeignRow {
   std::string_view mnemonic, what, hint;
 };
 
@@ -24,17 +24,17 @@ constexpr std::string_view kIec = "a mnemonic of IEC 61131-3";
 constexpr std::string_view kMitsubishi = "a mnemonic of Mitsubishi controllers";
 constexpr std::string_view kOther = "a mnemonic of other controllers";
 constexpr std::string_view kContact = "a contact of the ladder editor";
-constexpr std::string_view kBox = "a box of the ladder editor";
+constexpr std::string_view kLadderBox = "a box of the ladder editor";
 constexpr std::string_view kHeading = "the heading of a network in another language";
 constexpr std::string_view kSmart = "an instruction of the S7-200 SMART";
 constexpr std::string_view kAsCpu226 =
     "a program for the SMART runs here as CPU 226 as far as it goes; what GET and PUT do there, NETR and NETW do on a 226";
 constexpr std::string_view kEnds = "the main program ends with MEND, a subroutine with RET, an interrupt routine with RETI";
-constexpr std::string_view kMove = "write MOVB, MOVW, MOVD or MOVR, as wide as what it moves";
+constexpr std::string_view kForMoves = "write MOVB, MOVW, MOVD or MOVR, as wide as what it moves";
 constexpr std::string_view kCompare = "write a contact that compares, such as LDW>= IN1, IN2";
 
 // clang-format off
-constexpr Row kRows[] = {
+constexpr ForeignRow kForeignRows[] = {
     {"NETZWERK", "a German keyword", "write NETWORK"},
     // German mnemonics that differ from the English ones in more than U for A.
     {"ZV",    kGerman,     "write CTU"},
@@ -115,8 +115,8 @@ constexpr Row kRows[] = {
     {"FEND",  kMitsubishi, "write MEND"},
     {"SRET",  kMitsubishi, "write RET"},
     {"IRET",  kMitsubishi, "write RETI"},
-    {"MOV",   kOther,      kMove},
-    {"MOVE",  kOther,      kMove},
+    {"MOV",   kOther,      kForMoves},
+    {"MOVE",  kOther,      kForMoves},
     {"DMOV",  kMitsubishi, "write MOVD"},
     {"BMOV",  kMitsubishi, "write BMW IN, OUT, N"},
     {"FMOV",  kMitsubishi, "write FILL IN, OUT, N"},
@@ -126,17 +126,17 @@ constexpr Row kRows[] = {
 
     {"P",        kContact, "write EU after the contacts before it"},
     {"N",        kContact, "write ED after the contacts before it"},
-    {"CMP_B",    kBox,     "write LDB, AB or OB with =, <>, >=, <=, > or <: LDB>= IN1, IN2"},
-    {"CMP_I",    kBox,     "write LDW, AW or OW with =, <>, >=, <=, > or <: LDW>= IN1, IN2"},
-    {"CMP_DI",   kBox,     "write LDD, AD or OD with =, <>, >=, <=, > or <: LDD>= IN1, IN2"},
-    {"CMP_R",    kBox,     "write LDR, AR or OR with =, <>, >=, <=, > or <: LDR>= IN1, IN2"},
+    {"CMP_B",    kLadderBox, "write LDB, AB or OB with =, <>, >=, <=, > or <: LDB>= IN1, IN2"},
+    {"CMP_I",    kLadderBox, "write LDW, AW or OW with =, <>, >=, <=, > or <: LDW>= IN1, IN2"},
+    {"CMP_DI",   kLadderBox, "write LDD, AD or OD with =, <>, >=, <=, > or <: LDD>= IN1, IN2"},
+    {"CMP_R",    kLadderBox, "write LDR, AR or OR with =, <>, >=, <=, > or <: LDR>= IN1, IN2"},
     {"RESEAU",   kHeading, "write NETWORK"},
     {"RETE",     kHeading, "write NETWORK"},
     {"RED",      kHeading, "write NETWORK"},
-    {"SR",       kBox,     "write R BIT, 1 for its reset input, then S BIT, 1 for its set input: the last has priority"},
-    {"RS",       kBox,     "write S BIT, 1 for its set input, then R BIT, 1 for its reset input: the last has priority"},
-    {"CLR_EVNT", kBox,     "its instruction, CEVNT, is not modelled"},
-    {"TBL_FIND", kBox,     "write FND=, FND<>, FND< or FND> SRC, PATRN, INDX, as its CMD is 1, 2, 3 or 4"},
+    {"SR",       kLadderBox, "write R BIT, 1 for its reset input, then S BIT, 1 for its set input: the last has priority"},
+    {"RS",       kLadderBox, "write S BIT, 1 for its set input, then R BIT, 1 for its reset input: the last has priority"},
+    {"CLR_EVNT", kLadderBox, "its instruction, CEVNT, is not modelled"},
+    {"TBL_FIND", kLadderBox, "write FND=, FND<>, FND< or FND> SRC, PATRN, INDX, as its CMD is 1, 2, 3 or 4"},
 };
 
 /// A box whose name is not the mnemonic of its instruction.
@@ -146,7 +146,7 @@ struct Box {
   std::string_view move{};
 };
 
-constexpr Box kBoxes[] = {
+constexpr Box kForeignBoxes[] = {
     {"ADD_I",     "+I",   "MOVW"}, {"ADD_DI",    "+D",   "MOVD"}, {"ADD_R",     "+R",   "MOVR"},
     {"SUB_I",     "-I",   "MOVW"}, {"SUB_DI",    "-D",   "MOVD"}, {"SUB_R",     "-R",   "MOVR"},
     {"MUL_I",     "*I",   "MOVW"}, {"MUL_DI",    "*D",   "MOVD"}, {"MUL_R",     "*R",   "MOVR"},
@@ -199,10 +199,10 @@ std::string hint_for(const Box& box) {
 
 /// A mnemonic of the German set, of the ladder editor or of another controller family.
 std::optional<UnknownMnemonic> foreign_mnemonic(std::string_view mnemonic) {
-  if (const auto* row = std::ranges::find(kRows, mnemonic, &Row::mnemonic); row != std::end(kRows))
+  if (const auto* row = std::ranges::find(kForeignRows, mnemonic, &ForeignRow::mnemonic); row != std::end(kForeignRows))
     return UnknownMnemonic{std::string(row->what), std::string(row->hint)};
-  if (const auto* box = std::ranges::find(kBoxes, mnemonic, &Box::name); box != std::end(kBoxes))
-    return UnknownMnemonic{std::string(kBox), hint_for(*box)};
+  if (const auto* box = std::ranges::find(kForeignBoxes, mnemonic, &Box::name); box != std::end(kForeignBoxes))
+    return UnknownMnemonic{std::string(kLadderBox), hint_for(*box)};
   const Instruction* meant = find_german_instruction(mnemonic);
   if (!meant) return {};
   return UnknownMnemonic{std::string(kGerman), std::string("write ").append(meant->mnemonic)};

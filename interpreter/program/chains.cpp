@@ -9,7 +9,7 @@
 namespace s7200 {
 namespace {
 
-using Kind = ChainPart::Kind;
+using PartKind = ChainPart::Kind;
 
 struct Chain {
   std::size_t contacts = 0, joins = 0, coils = 0;
@@ -22,11 +22,11 @@ ChainPart part_of(const Op& op) { return op.body == op.instruction->body.usual ?
 Chain with(const ChainPart& part, const Chain& next) {
   const auto join = static_cast<std::size_t>(part.join);
   switch (part.kind) {
-    case Kind::None:
+    case PartKind::None:
       return {};
-    case Kind::Coil:
+    case PartKind::Coil:
       return {0, 0, next.contacts == 0 ? std::min(next.coils + 1, kMostCoils) : 1};
-    case Kind::Contact:
+    case PartKind::Contact:
       if (next.contacts == kMostContacts) return {1, join, 0};
       return {next.contacts + 1, next.joins * kJoins + join, next.coils};
   }
@@ -46,7 +46,7 @@ Link link_of(const Op& op, const Chain& chain) {
 void add_contacts(Program& program) {
   for (Op& op : program.ops) {
     const ChainPart part = part_of(op);
-    if (part.kind == Kind::None) continue;
+    if (part.kind == PartKind::None) continue;
     assert(op.power_mask == 0 && op.unit_cost == 0);
     op.target = static_cast<std::uint32_t>(program.contacts.size());
     program.contacts.push_back({op[0].at, static_cast<std::uint8_t>(1u << op[0].bit), part.inverted});

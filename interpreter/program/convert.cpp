@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/among.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/german.hpp"
@@ -47,14 +48,10 @@ std::string quoted_symbol(const std::string& symbol) {
 
 // --- one statement ---
 
-bool is_one_of(std::string_view mnemonic, std::initializer_list<std::string_view> mnemonics) {
-  return std::ranges::find(mnemonics, mnemonic) != mnemonics.end();
-}
-
 /// Names stay among blocks, which declare their local variables and have a symbol table; in a listing they become addresses.
 /// Routines are named by name_blocks().
 void keep_or_leave_out_symbols(stl::Statement& statement, Notation notation) {
-  const bool names_routine = is_one_of(statement.mnemonic, {"CALL", "ATCH"});
+  const bool names_routine = is_among(statement.mnemonic, {"CALL", "ATCH"});
   for (std::size_t i = 0; i < statement.operands.size(); ++i) {
     stl::Operand& operand = statement.operands[i];
     const std::string symbol = std::exchange(operand.symbol, {});
@@ -67,7 +64,7 @@ void keep_or_leave_out_symbols(stl::Statement& statement, Notation notation) {
 void put_text(stl::Operand& operand, std::string text) { operand.value = stl::Name{std::move(text)}; }
 
 void to_micro_dos(stl::Statement& statement) {
-  if (is_one_of(statement.mnemonic, {"LBL", "JMP", "SBR", "INT", "CALL"})) return;
+  if (is_among(statement.mnemonic, {"LBL", "JMP", "SBR", "INT", "CALL"})) return;
   for (stl::Operand& operand : statement.operands) {
     const auto* constant = std::get_if<stl::Integer>(&operand.value);
     if (!constant) continue;
@@ -127,12 +124,12 @@ std::vector<Routine> routines_of(const stl::Source& source) {
   };
   for (const stl::Line& line : source.lines) {
     const auto* statement = std::get_if<stl::Statement>(&line);
-    if (statement && is_one_of(statement->mnemonic, {"SBR", "INT"}) && statement->operands.size() == 1) {
+    if (statement && is_among(statement->mnemonic, {"SBR", "INT"}) && statement->operands.size() == 1) {
       const auto* number = std::get_if<stl::Integer>(&statement->operands[0].value);
       routine.block.title = stl::trim(statement->comment);
       routine.block.kind = statement->mnemonic == "SBR" ? stl::Block::Kind::Subroutine : stl::Block::Kind::Interrupt;
       routine.block.number = number ? static_cast<std::uint32_t>(number->value) : 0;
-    } else if (statement && is_one_of(statement->mnemonic, {"MEND", "RET", "RETI"})) {
+    } else if (statement && is_among(statement->mnemonic, {"MEND", "RET", "RETI"})) {
       if (!statement->comment.empty())
         routine.lines.emplace_back(stl::CommentLine{statement->comment, statement->position.line});
       finish();
@@ -190,7 +187,7 @@ std::string data_text(const std::vector<stl::DataLine>& data) {
 
 /// CALL and ATCH name the block that they mean.
 void name_blocks(stl::Statement& statement, const std::vector<Routine>& routines) {
-  if (!is_one_of(statement.mnemonic, {"CALL", "ATCH"}) || statement.operands.empty()) return;
+  if (!is_among(statement.mnemonic, {"CALL", "ATCH"}) || statement.operands.empty()) return;
   const auto kind = statement.mnemonic == "CALL" ? stl::Block::Kind::Subroutine : stl::Block::Kind::Interrupt;
   const auto* number = std::get_if<stl::Integer>(&statement.operands[0].value);
   const auto called = std::ranges::find_if(routines, [&](const Routine& r) {
@@ -257,7 +254,7 @@ class Printable {
 
   void check(const stl::Operand& operand, const stl::Name& name) {
     const std::string upper = stl::upper_case(name.text);
-    if (is_one_of(upper, {"TRUE", "FALSE", "ON", "OFF"})) return;
+    if (is_among(upper, {"TRUE", "FALSE", "ON", "OFF"})) return;
     error(operand.position,
           name.reason.empty() ? fmt::format("'{}' is neither an address nor a defined symbol", stl::shortened(name.text))
                               : name.reason,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/among.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
 
@@ -53,10 +54,6 @@ CodeLine code_line(std::string_view line) {
   return result;
 }
 
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::ranges::find(words, word) != words.end();
-}
-
 bool is_number(std::string_view word) {
   return !word.empty() && stl::is_digit(word.front()) &&
          std::ranges::all_of(word, [](char c) { return stl::is_digit(c) || c == '.'; });
@@ -66,10 +63,10 @@ bool is_number(std::string_view word) {
 
 /// `U E 0.0`, `L MW 10`: a blank within the address.
 bool has_blank_in_address(const CodeLine& line) {
-  return is_one_of(line.word(0), {"U", "UN", "O", "ON", "X", "XN", "A", "AN", "=", "S", "R", "L", "T", "FP", "FN"}) &&
-         is_one_of(line.word(1), {"E",  "A",  "M",   "I",   "Q",   "L",   "DBX", "DIX", "EB",  "EW", "ED", "AB",
-                                  "AW", "AD", "IB",  "IW",  "ID",  "QB",  "QW",  "QD",  "MB",  "MW", "MD", "LB",
-                                  "LW", "LD", "PEW", "PAW", "PIW", "PQW", "DBB", "DBW", "DBD", "T",  "Z",  "C"}) &&
+  return is_among(line.word(0), {"U", "UN", "O", "ON", "X", "XN", "A", "AN", "=", "S", "R", "L", "T", "FP", "FN"}) &&
+         is_among(line.word(1), {"E",  "A",  "M",   "I",   "Q",   "L",   "DBX", "DIX", "EB",  "EW", "ED", "AB",
+                                 "AW", "AD", "IB",  "IW",  "ID",  "QB",  "QW",  "QD",  "MB",  "MW", "MD", "LB",
+                                 "LW", "LD", "PEW", "PAW", "PIW", "PQW", "DBB", "DBW", "DBD", "T",  "Z",  "C"}) &&
          is_number(line.word(2)) && line.words.size() == 3;
 }
 
@@ -86,8 +83,8 @@ bool has_step7_operand(const CodeLine& line) {
 bool compares_accumulators(const CodeLine& line) {
   const std::string_view text = line.text;
   const std::size_t sign = std::min(text.find_first_not_of("=<>"), text.size());
-  return sign > 0 && is_one_of(text.substr(0, sign), {"==", "<>", ">", "<", ">=", "<="}) &&
-         is_one_of(text.substr(sign), {"I", "D", "R"});
+  return sign > 0 && is_among(text.substr(0, sign), {"==", "<>", ">", "<", ">=", "<="}) &&
+         is_among(text.substr(sign), {"I", "D", "R"});
 }
 
 /// `X := Y + 1;`, but not a declaration with a value or a parameter of a call.
@@ -99,9 +96,9 @@ bool assigns(const CodeLine& line) {
 }
 
 bool is_condition(const CodeLine& line) {
-  return (is_one_of(line.word(0), {"IF", "ELSIF"}) && line.text.ends_with(" THEN")) ||
+  return (is_among(line.word(0), {"IF", "ELSIF"}) && line.text.ends_with(" THEN")) ||
          (line.word(0) == "CASE" && line.text.ends_with(" OF")) ||
-         (is_one_of(line.word(0), {"FOR", "WHILE"}) && line.text.ends_with(" DO"));
+         (is_among(line.word(0), {"FOR", "WHILE"}) && line.text.ends_with(" DO"));
 }
 
 /// `OUT Y0`, `OUT T0 K100`
@@ -113,7 +110,7 @@ bool has_melsec_output(const CodeLine& line) {
 
 /// `LD NOT 0.01`
 bool has_not_as_operand(const CodeLine& line) {
-  return is_one_of(line.word(0), {"LD", "AND", "OR", "OUT"}) && line.word(1) == "NOT" && line.words.size() == 3;
+  return is_among(line.word(0), {"LD", "AND", "OR", "OUT"}) && line.word(1) == "NOT" && line.words.size() == 3;
 }
 
 /// `MOV(21)`, `@MOV`
@@ -126,7 +123,7 @@ bool has_function_number(const CodeLine& line) {
 }
 
 /// How surely a line shows a dialect. A text is in a dialect from kEnough on.
-struct Sign {
+struct DialectSign {
   Dialect dialect;
   bool (*shows)(const CodeLine& line);
   int weight;
@@ -134,7 +131,7 @@ struct Sign {
 
 constexpr int kEnough = 4;
 
-constexpr Sign kSigns[] = {
+constexpr DialectSign kSigns[] = {
     {Dialect::Step7, has_blank_in_address, 2},
     {Dialect::Step7, has_step7_operand, 2},
     {Dialect::Step7, compares_accumulators, 2},
@@ -225,7 +222,7 @@ class Judge {
  public:
   void see(const CodeLine& line, const stl::Position& at) {
     own_ += is_own(line);
-    for (const Sign& sign : kSigns)
+    for (const DialectSign& sign : kSigns)
       if (sign.shows(line)) count(sign.dialect, sign.weight, at);
     const auto operands = static_cast<int>(line.words.size()) - 1;
     for (const FirstWord& row : kFirstWords)

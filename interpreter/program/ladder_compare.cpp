@@ -23,7 +23,7 @@ struct Network {
   NetworkLogic logic{};
 };
 
-struct Routine {
+struct DrawnRoutine {
   std::string name;  // SBR 50; empty for the main program
   std::vector<Network> networks;
 };
@@ -64,8 +64,8 @@ std::vector<Network> listed_networks(const stl::Source& source) {
 }
 
 /// In routines, each network with what it does.
-std::vector<Routine> routines_of(std::vector<Network> networks) {
-  std::vector<Routine> routines(1);
+std::vector<DrawnRoutine> routines_of(std::vector<Network> networks) {
+  std::vector<DrawnRoutine> routines(1);
   StackBetween stack;
   for (Network& network : networks) {
     if (!network.statements.empty() && is_head(*network.statements.front()))
@@ -81,9 +81,9 @@ class Comparison {
  public:
   explicit Comparison(LadderComparison& result) : result_(result) {}
 
-  void run(const std::vector<Routine>& drawn, const std::vector<Routine>& listed) {
+  void run(const std::vector<DrawnRoutine>& drawn, const std::vector<DrawnRoutine>& listed) {
     std::vector<bool> compared(listed.size());
-    for (const Routine& routine : drawn) {
+    for (const DrawnRoutine& routine : drawn) {
       std::size_t i = 0;
       while (i < listed.size() && (compared[i] || listed[i].name != routine.name)) ++i;
       if (i == listed.size()) {
@@ -105,7 +105,7 @@ class Comparison {
     result_.diagnostics.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
   }
 
-  void missing(const Routine& routine, std::string_view what) {
+  void missing(const DrawnRoutine& routine, std::string_view what) {
     if (routine.networks.empty()) return;
     report(routine.networks.front().position,
            fmt::format("{} {}", routine.name.empty() ? "the main program" : routine.name, what),

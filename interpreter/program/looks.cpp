@@ -7,14 +7,14 @@
 namespace s7200 {
 namespace {
 
-/// Bytes of the image, from `from` until before `to`.
-struct Bytes {
+/// ImageBytes of the image, from `from` until before `to`.
+struct ImageBytes {
   std::uint32_t from, to;
 
   bool contain(std::uint32_t at) const { return at >= from && at < to; }
 };
 
-constexpr Bytes kValues{image::kT, image::kC}, kBits{image::kTBits, image::kCBits};
+constexpr ImageBytes kElementValues{image::kT, image::kC}, kElementBits{image::kTBits, image::kCBits};
 
 class Finder {
  public:
@@ -76,8 +76,9 @@ class Finder {
       return;
     }
     if (operand.at == sm::kScanStatus) looks_.clock_bits |= !is_bit || is_clock_bit(operand);
-    if (kValues.contain(operand.at)) every_tick((operand.at - kValues.from) / 2, is_block);
-    if (role != Role::In && kBits.contain(operand.at)) every_tick((operand.at - kBits.from) * 8 + operand.bit, is_block);
+    if (kElementValues.contain(operand.at)) every_tick((operand.at - kElementValues.from) / 2, is_block);
+    if (role != Role::In && kElementBits.contain(operand.at))
+      every_tick((operand.at - kElementBits.from) * 8 + operand.bit, is_block);
   }
 
   /// Of one timer or, in a block, of all from there on.

@@ -15,7 +15,7 @@
 namespace s7200 {
 namespace {
 
-using Kind = stl::Variable::Kind;
+using VariableKind = stl::Variable::Kind;
 using Type = stl::Variable::Type;
 
 constexpr Areas kBytes = set_of(Area::I) | set_of(Area::Q) | set_of(Area::M) | set_of(Area::SM) | set_of(Area::S) |
@@ -43,7 +43,9 @@ constexpr std::array kTypes{
 
 const TypeRow& row(Type type) { return kTypes[static_cast<std::size_t>(type)]; }
 
-Role role_of(Kind kind) { return kind == Kind::Input ? Role::In : kind == Kind::Output ? Role::Out : Role::InOut; }
+Role role_of(VariableKind kind) {
+  return kind == VariableKind::Input ? Role::In : kind == VariableKind::Output ? Role::Out : Role::InOut;
+}
 
 OperandRule rule_of(const stl::Variable& variable) {
   const TypeRow& type = row(variable.type);
@@ -77,7 +79,7 @@ stl::Operand as_meant(stl::Operand written, Type type) {
 std::vector<const stl::Variable*> formal_parameters(const stl::Block& block) {
   std::vector<const stl::Variable*> formal;
   for (const stl::Variable& variable : block.variables)
-    if (variable.kind != Kind::Temporary) formal.push_back(&variable);
+    if (variable.kind != VariableKind::Temporary) formal.push_back(&variable);
   return formal;
 }
 

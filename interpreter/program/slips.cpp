@@ -13,26 +13,26 @@
 namespace s7200 {
 namespace {
 
-struct Row {
+struct SlipRow {
   std::string_view id, routine;  // an empty routine: in any of them
   std::string_view printed, meant, reason;
 };
 
 // The PC protocol with commands of 33 bytes for a CPU 22x.
 constexpr std::array kPcProtocol{
-    Row{"R1", "Initialize", "MOVB +1000, SMW92", "MOVW +1000, SMW92", "1000 is not a byte, and SMW92 is a word"},
-    Row{"R2", "Initialize", "MOVB &VB102, VD149", "MOVD &VB102, VD149", "a pointer is a double word"},
-    Row{"R3", "Initialize", "MOVB &VB156, VD181", "MOVD &VB156, VD181", "a pointer is a double word"},
-    Row{"R4", "", "MOVB 26, VB174", "MOVB 16#26, VB174", "the text says that an answer ends with 26 in hex"},
-    Row{"R5", "Initialize", "MOVB 35, SMB94", "MOVB 33, SMB94", "a command has 33 characters, and the buffer too"},
-    Row{"R6", "Initialize", "R SM87.2, 1", "", "it switches off the time-out that is set up before it"},
-    Row{"R7", "Verify", "R M0.1, 1", "R M0.1, 1\nR M0.0, 1", "a command for another station leaves M0.0 on"},
-    Row{"R8", "", "CALL initialize", "CALL Initialize", "the heading is written with a capital"},
+    SlipRow{"R1", "Initialize", "MOVB +1000, SMW92", "MOVW +1000, SMW92", "1000 is not a byte, and SMW92 is a word"},
+    SlipRow{"R2", "Initialize", "MOVB &VB102, VD149", "MOVD &VB102, VD149", "a pointer is a double word"},
+    SlipRow{"R3", "Initialize", "MOVB &VB156, VD181", "MOVD &VB156, VD181", "a pointer is a double word"},
+    SlipRow{"R4", "", "MOVB 26, VB174", "MOVB 16#26, VB174", "the text says that an answer ends with 26 in hex"},
+    SlipRow{"R5", "Initialize", "MOVB 35, SMB94", "MOVB 33, SMB94", "a command has 33 characters, and the buffer too"},
+    SlipRow{"R6", "Initialize", "R SM87.2, 1", "", "it switches off the time-out that is set up before it"},
+    SlipRow{"R7", "Verify", "R M0.1, 1", "R M0.1, 1\nR M0.0, 1", "a command for another station leaves M0.0 on"},
+    SlipRow{"R8", "", "CALL initialize", "CALL Initialize", "the heading is written with a capital"},
 };
 
 struct Listing {
   std::span<const std::string_view> routines;  // by these it is known
-  std::span<const Row> slips;
+  std::span<const SlipRow> slips;
 };
 
 constexpr std::array<std::string_view, 6> kPcProtocolRoutines{"Read",       "Write",       "Verify",
@@ -68,7 +68,7 @@ bool is_printed(const stl::Statement& statement, const stl::Statement& printed) 
 }
 
 /// The lines of `source` that hold a slip.
-std::vector<std::size_t> find(const stl::Source& source, const Row& row) {
+std::vector<std::size_t> find(const stl::Source& source, const SlipRow& row) {
   const stl::Statement printed = statements(row.printed).front();
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < source.lines.size(); ++i) {
@@ -80,7 +80,7 @@ std::vector<std::size_t> find(const stl::Source& source, const Row& row) {
 }
 
 /// Puts what was meant in place of a line; its place and its comment stay.
-void put(stl::Source& source, std::size_t line, const Row& row) {
+void put(stl::Source& source, std::size_t line, const SlipRow& row) {
   auto meant = statements(row.meant);
   const auto& printed = std::get<stl::Statement>(source.lines[line]);
   for (stl::Statement& statement : meant) {
@@ -98,7 +98,7 @@ std::vector<Slip> find_slips(const stl::Source& source) {
   std::vector<Slip> slips;
   const Listing* listing = listing_of(source);
   if (listing == nullptr) return slips;
-  for (const Row& row : listing->slips) {
+  for (const SlipRow& row : listing->slips) {
     Slip slip{row.id, row.printed, row.meant, row.reason, false, {}};
     for (const std::size_t line : find(source, row))
       slip.places.push_back(std::get<stl::Statement>(source.lines[line]).position);
@@ -131,7 +131,7 @@ std::vector<Slip> repair(stl::Source& source, const Repairs& repairs, std::vecto
   for (Slip& slip : slips) {
     slip.applied = repairs.has(slip.id);
     if (!slip.applied) continue;
-    const Row& row = *std::ranges::find(listing_of(source)->slips, slip.id, &Row::id);
+    const SlipRow& row = *std::ranges::find(listing_of(source)->slips, slip.id, &SlipRow::id);
     const auto lines = find(source, row);
     for (auto line = lines.rbegin(); line != lines.rend(); ++line) put(source, *line, row);
   }

@@ -25,7 +25,7 @@ using namespace std::string_view_literals;
 constexpr std::string_view kDataBlock = "DATA_BLOCK";
 constexpr std::size_t kLongestKeyword = 22;  // END_ORGANIZATION_BLOCK
 
-std::string_view code_of(std::string_view line) { return trim(line.substr(0, line.find("//"))); }
+std::string_view code_of_line(std::string_view line) { return trim(line.substr(0, line.find("//"))); }
 
 /// The first word of a line in capitals, if it may be a keyword.
 std::string keyword_of(std::string_view code) {
@@ -42,24 +42,24 @@ bool closes_block(std::string_view keyword) { return keyword.starts_with("END_")
 
 // --- headings of published listings ---
 
-struct HeadingWord {
+struct ChineseHeading {
   std::string_view word;
   Block::Kind kind;
 };
 
 // Headings in short and long characters, for PRC and Taiwan. The longer of two that end alike comes first.
-constexpr std::array kHeadingWords{
-    HeadingWord{"主程序", Block::Kind::Main},
-    HeadingWord{"主程式", Block::Kind::Main},
-    HeadingWord{"中断服务程序", Block::Kind::Interrupt},
-    HeadingWord{"中斷服務程序", Block::Kind::Interrupt},
-    HeadingWord{"中断子程序", Block::Kind::Interrupt},
-    HeadingWord{"中斷子程序", Block::Kind::Interrupt},
-    HeadingWord{"中断程序", Block::Kind::Interrupt},
-    HeadingWord{"中斷程序", Block::Kind::Interrupt},
-    HeadingWord{"中斷程式", Block::Kind::Interrupt},
-    HeadingWord{"子程序", Block::Kind::Subroutine},
-    HeadingWord{"子程式", Block::Kind::Subroutine},
+constexpr std::array kChineseHeadings{
+    ChineseHeading{"主程序", Block::Kind::Main},
+    ChineseHeading{"主程式", Block::Kind::Main},
+    ChineseHeading{"中断服务程序", Block::Kind::Interrupt},
+    ChineseHeading{"中斷服務程序", Block::Kind::Interrupt},
+    ChineseHeading{"中断子程序", Block::Kind::Interrupt},
+    ChineseHeading{"中斷子程序", Block::Kind::Interrupt},
+    ChineseHeading{"中断程序", Block::Kind::Interrupt},
+    ChineseHeading{"中斷程序", Block::Kind::Interrupt},
+    ChineseHeading{"中斷程式", Block::Kind::Interrupt},
+    ChineseHeading{"子程序", Block::Kind::Subroutine},
+    ChineseHeading{"子程式", Block::Kind::Subroutine},
 };
 
 struct Heading {
@@ -68,12 +68,13 @@ struct Heading {
 };
 
 /// A line that is nothing but a name and what it is the name of, perhaps with a colon; the main program has none.
-std::optional<Heading> heading_of(std::string_view line) {
+std::optional<Heading> chinese_heading(std::string_view line) {
   std::string_view text = trim(line);
   for (const std::string_view colon : {":", "："})
     if (text.ends_with(colon)) text = trim(text.substr(0, text.size() - colon.size()));
-  const auto row = std::ranges::find_if(kHeadingWords, [&](const HeadingWord& each) { return text.ends_with(each.word); });
-  if (row == kHeadingWords.end()) return std::nullopt;
+  const auto row =
+      std::ranges::find_if(kChineseHeadings, [&](const ChineseHeading& each) { return text.ends_with(each.word); });
+  if (row == kChineseHeadings.end()) return std::nullopt;
   const std::string_view name = trim(text.substr(0, text.size() - row->word.size()));
   const bool plain = std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
   if (!plain || name.empty() != (row->kind == Block::Kind::Main)) return std::nullopt;
@@ -201,7 +202,7 @@ class BlockReader {
     has_begin_.assign(lines_.size(), false);
     std::optional<std::size_t> head;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const std::string keyword = keyword_of(code_of(lines_[i]));
+      const std::string keyword = keyword_of(code_of_line(lines_[i]));
       if (opens_block(keyword)) head = i;
       if (keyword == "BEGIN" && head) has_begin_[*std::exchange(head, std::nullopt)] = true;
       if (keyword == "NETWORK") head.reset();
@@ -209,10 +210,10 @@ class BlockReader {
   }
 
   void read_line(std::string_view line) {
-    const std::string_view code = code_of(line);
+    const std::string_view code = code_of_line(line);
     const std::string keyword = keyword_of(code);
     if (in_document_) {
-      if (const auto heading = heading_of(line)) return open_block(*heading, line);
+      if (const auto heading = chinese_heading(line)) return open_block(*heading, line);
       if (state_ == State::Outside) return;  // text before the listing
     }
     if (opens_block(keyword)) return open_block(keyword, code);
@@ -606,7 +607,7 @@ bool is_block_export(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = take_line(text);
     const bool may_open_block = line.find('_') != std::string_view::npos;
-    if (may_open_block && opens_block(keyword_of(code_of(line)))) return true;
+    if (may_open_block && opens_block(keyword_of(code_of_line(line)))) return true;
   }
   return false;
 }
@@ -620,8 +621,8 @@ bool has_routine_headings(std::string_view text) {
   bool after_main = false;
   while (!text.empty()) {
     const std::string_view line = take_line(text);
-    const auto heading = heading_of(line);
-    if (after_main && !trim(line).empty() && keyword_of(code_of(line)) == "NETWORK") return true;
+    const auto heading = chinese_heading(line);
+    if (after_main && !trim(line).empty() && keyword_of(code_of_line(line)) == "NETWORK") return true;
     if (heading || !trim(line).empty()) after_main = heading && heading->kind == Block::Kind::Main;
   }
   return false;

@@ -106,7 +106,7 @@ std::string_view leading_mnemonic(std::string_view code) {
 }
 
 /// VB100, I0.3, &VB0, *AC1, and the German E0.0 and AW4; A4 is a sheet of paper.
-bool is_address(std::string_view token) {
+bool looks_like_address(std::string_view token) {
   constexpr std::array<std::string_view, 13> kAreas{"I", "Q", "V", "M", "SM", "S", "L", "T", "C", "HC", "AC", "AI", "AQ"};
   constexpr std::array<std::string_view, 4> kGermanAreas{"E", "A", "AE", "AA"};
   const auto is_one_of = [](const auto& areas, std::string_view area) {
@@ -128,7 +128,7 @@ bool ends_in_bit_address(std::string_view token) {
   token.remove_prefix(token.size() - std::min(token.size(), kLongestAddress));
   if (token.find('.') == std::string_view::npos) return false;
   for (; !token.empty(); token.remove_prefix(1)) {
-    if (is_address(token)) return true;
+    if (looks_like_address(token)) return true;
   }
   return false;
 }
@@ -210,7 +210,7 @@ WordShape shape_of(std::string_view token) {
 
 enum class Verdict : std::uint8_t { Blank, Comment, Drawing, Prose, Stl, Damaged };
 
-struct Reading {
+struct LineReading {
   std::string clean;
   Verdict verdict = Verdict::Prose;
   bool candidate = false;  // begins with a mnemonic
@@ -234,7 +234,7 @@ class DocumentReader {
       : instructions_(instructions), text_(split_lines(text)) {
     for (const std::string& line : text_) readings_.push_back(first_look(line));
     parse_candidates();
-    in_capitals_ = std::none_of(readings_.begin(), readings_.end(), [](const Reading& reading) {
+    in_capitals_ = std::none_of(readings_.begin(), readings_.end(), [](const LineReading& reading) {
       return is_certain(reading) && has_small_letters(reading.mnemonic);
     });
     judge(false);
@@ -270,7 +270,7 @@ class DocumentReader {
  private:
   /// The number of words of running text above the first statement and below the last.
   std::size_t words_around() const {
-    const auto is_stl = [](const Reading& reading) { return reading.verdict == Verdict::Stl; };
+    const auto is_stl = [](const LineReading& reading) { return reading.verdict == Verdict::Stl; };
     const auto first = std::find_if(readings_.begin(), readings_.end(), is_stl);
     const auto last = std::find_if(readings_.rbegin(), readings_.rend(), is_stl).base();
     std::size_t words = 0;
@@ -280,8 +280,8 @@ class DocumentReader {
     return words;
   }
 
-  Reading first_look(std::string_view line) {
-    Reading reading;
+  LineReading first_look(std::string_view line) {
+    LineReading reading;
     reading.clean = without_debris(line);
     const std::string_view clean = reading.clean;
     const std::string_view code = trim(clean.substr(0, comment_start(clean)));
@@ -300,12 +300,12 @@ class DocumentReader {
     return reading;
   }
 
-  static void look_at_operands(Reading& reading, std::string_view operands) {
+  static void look_at_operands(LineReading& reading, std::string_view operands) {
     const auto found = tokens(operands);
     // A, O, S and R work on bits: the letter and a number do not make a statement.
     const bool number_may_follow = reading.mnemonic.size() > 1;
     for (const std::string_view token : found) {
-      const bool address = is_address(token);
+      const bool address = looks_like_address(token);
       const bool solid = address || (number_may_follow && is_constant_or_symbol(token)) || token.front() == '"';
       if (token.data() == found.front().data()) reading.first_solid = solid;
       reading.some_solid = reading.some_solid || solid;
@@ -335,7 +335,7 @@ class DocumentReader {
   /// Everything that may be STL goes through the parser at once, each line at its own number.
   void parse_candidates() {
     std::string text;
-    for (const Reading& reading : readings_) {
+    for (const LineReading& reading : readings_) {
       const bool drawing = reading.verdict == Verdict::Drawing;
       if (reading.verdict == Verdict::Comment || (reading.candidate && !drawing)) text += reading.clean;
       text += '\n';
@@ -347,14 +347,14 @@ class DocumentReader {
       if (const auto* comment = std::get_if<CommentLine>(&line)) at(comment->line).line = &line;
     }
     for (const Diagnostic& diagnostic : parsed_.diagnostics) {
-      Reading& reading = at(diagnostic.position.line);
+      LineReading& reading = at(diagnostic.position.line);
       if (!reading.trouble) reading.trouble = diagnostic;
       reading.well_formed = false;
     }
   }
 
   void attach(const Statement& statement, const Line& line) {
-    Reading& reading = at(statement.position.line);
+    LineReading& reading = at(statement.position.line);
     reading.line = &line;
     reading.trouble = look_alike(statement);
     reading.well_formed = !reading.debris && !reading.trouble &&
@@ -376,12 +376,12 @@ class DocumentReader {
   }
 
   void attach(const NetworkHead& head, const Line& line) {
-    Reading& reading = at(head.position.line);
+    LineReading& reading = at(head.position.line);
     reading.line = &line;
     reading.well_formed = !reading.debris;
   }
 
-  Reading& at(std::uint32_t line) { return readings_[line - 1]; }
+  LineReading& at(std::uint32_t line) { return readings_[line - 1]; }
 
   void judge(bool all_listing) {
     std::vector<bool> above_stl(readings_.size());  // the next line with code is a statement, as far as that can be said
@@ -394,7 +394,7 @@ class DocumentReader {
     bool in_routine = false;
     bool below_stl = false;
     for (std::size_t i = 0; i < readings_.size(); ++i) {
-      Reading& reading = readings_[i];
+      LineReading& reading = readings_[i];
       if (!has_code(reading)) continue;
       if (reading.verdict == Verdict::Drawing) {
         below_stl = false;
@@ -409,17 +409,17 @@ class DocumentReader {
     }
   }
 
-  static bool ends_routine(const Reading& reading) {
+  static bool ends_routine(const LineReading& reading) {
     const std::string mnemonic = upper_case(reading.mnemonic);
     return mnemonic == "MEND" || mnemonic == "RET" || mnemonic == "RETI";
   }
 
-  static bool has_code(const Reading& reading) {
+  static bool has_code(const LineReading& reading) {
     return reading.verdict != Verdict::Blank && reading.verdict != Verdict::Comment;
   }
 
   /// A statement wherever it is. `Not` or `End` may begin a sentence, and so may `CALL pump`.
-  static bool is_certain(const Reading& reading) {
+  static bool is_certain(const LineReading& reading) {
     if (!reading.well_formed || reading.verdict == Verdict::Drawing) return false;
     if (reading.some_solid) return true;
     const std::string& mnemonic = reading.mnemonic;
@@ -428,7 +428,7 @@ class DocumentReader {
     return reading.operands == 0 && one_case;
   }
 
-  Verdict verdict(const Reading& reading, bool beside_stl) const {
+  Verdict verdict(const LineReading& reading, bool beside_stl) const {
     if (!reading.candidate) {
       const bool damaged = reading.inside ? !is_text(reading) : is_unknown_statement(reading, beside_stl);
       return damaged ? Verdict::Damaged : Verdict::Prose;
@@ -440,7 +440,7 @@ class DocumentReader {
   }
 
   /// Whether a line that begins with a mnemonic is a sentence and not a statement.
-  static bool is_sentence(const Reading& reading, bool beside_stl) {
+  static bool is_sentence(const LineReading& reading, bool beside_stl) {
     if (beside_stl || reading.inside) {
       if (reading.words >= 3 && !reading.first_solid) return true;
       const bool word = reading.mnemonic.size() == 1 || has_small_letters(reading.mnemonic);
@@ -451,18 +451,18 @@ class DocumentReader {
   }
 
   /// `SBR 50  What it does`. If this drops a real routine head, the statements after it are reported as in no routine.
-  static bool is_heading(const Reading& reading) {
+  static bool is_heading(const LineReading& reading) {
     const std::string mnemonic = upper_case(reading.mnemonic);
     return (mnemonic == "SBR" || mnemonic == "INT") && reading.words >= 1;
   }
 
   /// Whether nothing readable follows a mnemonic such as `MOVW`.
-  static bool stands_alone(const Reading& reading) {
+  static bool stands_alone(const LineReading& reading) {
     return reading.words == 0 && reading.mnemonic.size() >= 3 && !has_small_letters(reading.mnemonic);
   }
 
   /// Outside of routines: not a known mnemonic, but the line cannot be anything but a statement either.
-  bool is_unknown_statement(const Reading& reading, bool beside_stl) const {
+  bool is_unknown_statement(const LineReading& reading, bool beside_stl) const {
     if (reading.candidate || reading.words != 0) return false;
     if (reading.address && beside_stl) return true;  // xLD SM0.1, L D SM0.1
     if (words_of(reading.mnemonic) != 0) return false;
@@ -475,7 +475,7 @@ class DocumentReader {
 
   /// Between the statements of a routine, of what begins with no mnemonic: whether it can be nothing but text. What is left
   /// is damage, also where a person would see that it is text: an error can be looked at, a dropped line cannot.
-  bool is_text(const Reading& reading) const {
+  bool is_text(const LineReading& reading) const {
     if (reading.words >= 3 && !reading.first_solid) return true;
     auto words = tokens(std::string_view(reading.clean).substr(0, comment_start(reading.clean)));
     std::erase_if(words, is_mark);
@@ -490,13 +490,13 @@ class DocumentReader {
                              : first.heading || (!reading.some_solid && all >= 2);
   }
 
-  Advice advice_on(const Reading& reading) const { return instructions_.advice_on(upper_case(reading.mnemonic)); }
+  Advice advice_on(const LineReading& reading) const { return instructions_.advice_on(upper_case(reading.mnemonic)); }
 
   void collect_lines(Source& source) const {
     const std::uint32_t spacing = usual_spacing();
     std::uint32_t last = 0;
     for (std::uint32_t number = 1; number <= readings_.size(); ++number) {
-      const Reading& reading = readings_[number - 1];
+      const LineReading& reading = readings_[number - 1];
       if (reading.verdict != Verdict::Stl && reading.verdict != Verdict::Comment) continue;
       if (!continues_comment(number, last, source)) {
         if (last > 0 && number - last > spacing) source.lines.emplace_back(BlankLine{number - 1});
@@ -536,19 +536,19 @@ class DocumentReader {
 
   void collect_damage(Diagnostics& diagnostics) const {
     for (std::uint32_t number = 1; number <= readings_.size(); ++number) {
-      const Reading& reading = readings_[number - 1];
+      const LineReading& reading = readings_[number - 1];
       if (reading.verdict == Verdict::Damaged) diagnostics.push_back(damage(reading, number));
     }
   }
 
   void collect_left_out(std::vector<std::uint32_t>& lines) const {
     for (std::uint32_t number = 1; number <= readings_.size(); ++number) {
-      const Reading& reading = readings_[number - 1];
+      const LineReading& reading = readings_[number - 1];
       if (reading.inside && reading.verdict == Verdict::Prose) lines.push_back(number);
     }
   }
 
-  Diagnostic damage(const Reading& reading, std::uint32_t number) const {
+  Diagnostic damage(const LineReading& reading, std::uint32_t number) const {
     const std::string_view line = text_[number - 1];
     const std::string_view code = trim(std::string_view(reading.clean).substr(0, comment_start(reading.clean)));
     const auto indent = static_cast<std::size_t>(code.data() - reading.clean.data());
@@ -573,7 +573,7 @@ class DocumentReader {
     return diagnostic;
   }
 
-  void explain_unknown(const Reading& reading, Diagnostic& diagnostic) const {
+  void explain_unknown(const LineReading& reading, Diagnostic& diagnostic) const {
     const std::string shown = shortened(reading.mnemonic);
     const Advice advice = advice_on(reading);
     if (!advice.what.empty()) {  // not damage, but another notation
@@ -602,11 +602,12 @@ class DocumentReader {
 
   void report_no_stl(Diagnostics& diagnostics) const {
     const Position start = text_.empty() ? Position{} : Position{1, 1, 1};
-    diagnostics.push_back({Severity::Error, start, "there is no STL in this document",
-                           "STL lines begin with an instruction such as LD or MOVW; a symbol table has rows such as Motor = Q0.0"});
+    diagnostics.push_back(
+        {Severity::Error, start, "there is no STL in this document",
+         "STL lines begin with an instruction such as LD or MOVW; a symbol table has rows such as Motor = Q0.0"});
   }
 
-  static std::size_t prose_words(const Reading& reading) {
+  static std::size_t prose_words(const LineReading& reading) {
     const std::string_view code = trim(reading.clean);
     if (reading.verdict != Verdict::Prose || code.empty()) return 0;
     const char first = code.front();
@@ -616,13 +617,13 @@ class DocumentReader {
 
   std::size_t count(Verdict verdict) const {
     return static_cast<std::size_t>(std::count_if(readings_.begin(), readings_.end(),
-                                                  [&](const Reading& reading) { return reading.verdict == verdict; }));
+                                                  [&](const LineReading& reading) { return reading.verdict == verdict; }));
   }
 
   const InstructionSet& instructions_;
   std::vector<std::string> text_;
-  std::vector<Reading> readings_;
-  std::unordered_map<std::string, bool> known_;  // whether a word is a mnemonic, for the words so far
+  std::vector<LineReading> readings_;
+  std::unordered_map<std::string, bool> known_;  // whether it is a mnemonic; of those that have come
   ParseResult parsed_;
   bool in_capitals_ = true;  // no statement has small letters in its mnemonic
 };

@@ -10,7 +10,7 @@
 namespace s7200::stl {
 namespace {
 
-std::string_view code_of(std::string_view line) { return line.substr(0, line.find("//")); }
+std::string_view before_comment(std::string_view line) { return line.substr(0, line.find("//")); }
 
 /// Whether a text can stand between the strokes of a contact or in the brackets of a coil; a comparison has a sign and a
 /// type.
@@ -27,9 +27,11 @@ bool is_in_coil(std::string_view text) {
 
 /// Whether a line has one of `opening` and then one of `closing` that are drawn: blanks need a wire at one side, what a
 /// contact or a coil can have between them may stand without any, an address has wires at both.
-bool has_element(std::string_view code, std::string_view opening, std::string_view closing, bool (*is_mark)(std::string_view)) {
+bool has_element(std::string_view code, std::string_view opening, std::string_view closing,
+                 bool (*is_mark)(std::string_view)) {
   constexpr std::size_t kWidest = 24;
-  for (std::size_t at = code.find_first_of(opening); at != std::string_view::npos; at = code.find_first_of(opening, at + 1)) {
+  for (std::size_t at = code.find_first_of(opening); at != std::string_view::npos;
+       at = code.find_first_of(opening, at + 1)) {
     const std::string_view near = code.substr(at + 1, kWidest);
     const std::string_view inside = near.substr(0, near.find_first_of(closing));
     const std::size_t end = at + 1 + inside.size();
@@ -54,7 +56,7 @@ bool has_box_drawing(std::string_view code) {
 
 /// `   I0.0      I0.1        Q0.0`, perhaps between power rails: anything but a statement.
 bool is_row_of_operands(std::string_view line, const InstructionSet& instructions) {
-  std::string code(code_of(line));
+  std::string code(before_comment(line));
   std::ranges::replace(code, '|', ' ');
   const std::vector<std::string> words = split_words(code);
   if (words.empty()) return false;
@@ -64,7 +66,7 @@ bool is_row_of_operands(std::string_view line, const InstructionSet& instruction
 }  // namespace
 
 bool has_drawing(std::string_view line) {
-  const std::string_view code = code_of(line);
+  const std::string_view code = before_comment(line);
   return has_element(code, "|]", "|[", is_in_contact) || has_element(code, "[", "]", is_in_contact) ||
          has_element(code, "(", ")", is_in_coil) || has_box_drawing(code);
 }
@@ -76,12 +78,16 @@ void name_drawings(ParseResult& read, const InstructionSet& instructions) {
   const auto is_drawn = [&](std::size_t line) { return line >= 1 && line <= text.size() && has_drawing(text[line - 1]); };
   const auto is_part = [&](std::size_t line) {
     if (line < 1 || line > text.size()) return false;
-    return is_drawn(line) || ((is_drawn(line - 1) || is_drawn(line + 1)) && is_row_of_operands(text[line - 1], instructions));
+    return is_drawn(line) ||
+           ((is_drawn(line - 1) || is_drawn(line + 1)) && is_row_of_operands(text[line - 1], instructions));
   };
   const auto message = [&](std::size_t line) {
-    const auto length = static_cast<std::uint32_t>(count_characters(trim(code_of(text[line - 1]))));
-    return Diagnostic{Severity::Error, {static_cast<std::uint32_t>(line), 1, std::max(1U, length)}, std::string(kIsDrawing),
-                      std::string(kForDrawing), "ladder drawing"};
+    const auto length = static_cast<std::uint32_t>(count_characters(trim(before_comment(text[line - 1]))));
+    return Diagnostic{Severity::Error,
+                      {static_cast<std::uint32_t>(line), 1, std::max(1U, length)},
+                      std::string(kIsDrawing),
+                      std::string(kForDrawing),
+                      "ladder drawing"};
   };
   const auto is_statement = [](const Line& line) { return std::holds_alternative<Statement>(line); };
   const auto first = std::ranges::find_if(text, has_drawing);

@@ -95,7 +95,7 @@ bool is_nearly_utf8(std::string_view bytes) {
 bool is_ascii_letter(std::string_view bytes, std::size_t index) { return index < bytes.size() && is_letter(bytes[index]); }
 
 /// CP437 draws horizontal lines with C4 or CD; no other text has three of them in a row.
-bool has_box_drawing(std::string_view bytes) {
+bool has_oem_box_drawing(std::string_view bytes) {
   return bytes.find("\xC4\xC4\xC4"sv) != std::string_view::npos || bytes.find("\xCD\xCD\xCD"sv) != std::string_view::npos;
 }
 
@@ -184,7 +184,7 @@ std::string_view guess_windows(std::string_view bytes) {
 }
 
 std::string_view guess_8_bit(std::string_view bytes) {
-  if (has_box_drawing(bytes)) return kCp437;
+  if (has_oem_box_drawing(bytes)) return kCp437;
   if (looks_like_shift_jis(bytes)) return kShiftJis;
   if (looks_like_gbk(bytes)) return kGbk;
   if (has_cp437_words(bytes)) return kCp437;

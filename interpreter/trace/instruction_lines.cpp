@@ -9,7 +9,7 @@
 namespace s7200 {
 namespace {
 
-bool is_constant(const stl::Operand& operand) {
+bool is_number(const stl::Operand& operand) {
   return std::holds_alternative<stl::Integer>(operand.value) || std::holds_alternative<stl::Real>(operand.value);
 }
 
@@ -59,7 +59,7 @@ std::vector<WatchedValue> watched_values(const Program& program, std::uint32_t n
   const auto rules = op.instruction->rules();  // parameters of a CALL have none: their values are not recorded
   for (std::size_t i = 0; i < std::min(statement.operands.size(), rules.size()); ++i) {
     const OperandRule& rule = rules[i];
-    if (rule.kind != OperandKind::Memory || is_constant(statement.operands[i])) continue;
+    if (rule.kind != OperandKind::Memory || is_number(statement.operands[i])) continue;
     const bool real = rule.real || (rule.width == Width::Double && !op[i].pointer && program.is_real(op[i].at));
     values.push_back({i, stl::to_text(statement.operands[i]), rule.width, real});
   }

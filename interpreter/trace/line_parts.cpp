@@ -17,7 +17,7 @@ void append_hex(fmt::memory_buffer& text, std::uint32_t number, std::size_t digi
 namespace {
 
 /// Right to left, and appended in one go.
-void append_clock(fmt::memory_buffer& text, Time at, std::size_t spaces) {
+void append_clock_before(std::size_t spaces, fmt::memory_buffer& text, Time at) {
   constexpr int kDecimals = 6, kWhole = 7;
   std::array<char, 32> digits{};
   digits.fill(' ');
@@ -35,9 +35,9 @@ void append_clock(fmt::memory_buffer& text, Time at, std::size_t spaces) {
 
 }  // namespace
 
-void append_clock(fmt::memory_buffer& text, Time at) { append_clock(text, at, 0); }
+void append_clock(fmt::memory_buffer& text, Time at) { append_clock_before(0, text, at); }
 
-void begin_line(fmt::memory_buffer& text, Time at) { append_clock(text, at, 2); }
+void begin_line(fmt::memory_buffer& text, Time at) { append_clock_before(2, text, at); }
 
 std::string clock_text(Time at) {
   fmt::memory_buffer text;

@@ -119,7 +119,7 @@ constexpr TraceField kPpiNotModelled[] = {kStation, number("to", kByte.number), 
 
 // --- the rows ---
 
-constexpr TraceRow kRows[] = {
+constexpr TraceRow kTraceRows[] = {
     {TraceKind::ScanBegin, "scan_begin", kScanBegin, false,
      [](EventText&, Text& t, const TraceRecord& r) { append(t, "scan ", r.count, " begins"); }},
     {TraceKind::ModeChange, "mode_change", kModeChange, false,
@@ -227,16 +227,16 @@ constexpr TraceRow kRows[] = {
 
 static_assert(
     [] {
-      for (std::size_t place = 0; place < std::size(kRows); ++place)
-        if (static_cast<std::size_t>(kRows[place].kind) != place) return false;
+      for (std::size_t place = 0; place < std::size(kTraceRows); ++place)
+        if (static_cast<std::size_t>(kTraceRows[place].kind) != place) return false;
       return true;
     }(),
     "the rows stand in the order of TraceKind");
 
 }  // namespace
 
-std::span<const TraceRow> trace_rows() { return kRows; }
+std::span<const TraceRow> trace_rows() { return kTraceRows; }
 
-const TraceRow& row_of(TraceKind kind) { return kRows[static_cast<std::size_t>(kind)]; }
+const TraceRow& row_of(TraceKind kind) { return kTraceRows[static_cast<std::size_t>(kind)]; }
 
 }  // namespace s7200

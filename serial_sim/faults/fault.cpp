@@ -253,7 +253,8 @@ const std::array kParameters{
 
 template <Misbehaviour misbehaviour>
 std::string read_code(std::string_view text, Fault& fault) {
-  if (fault.misbehaviour != Misbehaviour::Nothing) return "comes after another misbehaviour of the same answer: give one of them";
+  if (fault.misbehaviour != Misbehaviour::Nothing)
+    return "comes after another misbehaviour of the same answer: give one of them";
   fault.misbehaviour = misbehaviour;
   return read_count<&Fault::code>(text, fault, misbehaviour == Misbehaviour::Station ? 0 : 1,
                                   misbehaviour == Misbehaviour::Function ? 127 : 255);
@@ -267,7 +268,8 @@ std::string write_code(const Fault& fault) {
 /// Parses a misbehaviour that has no value: its name is enough.
 template <Misbehaviour misbehaviour>
 std::string read_named(std::string_view, Fault& fault) {
-  if (fault.misbehaviour != Misbehaviour::Nothing) return "comes after another misbehaviour of the same answer: give one of them";
+  if (fault.misbehaviour != Misbehaviour::Nothing)
+    return "comes after another misbehaviour of the same answer: give one of them";
   fault.misbehaviour = misbehaviour;
   return {};
 }
@@ -327,9 +329,9 @@ bool excluded_by_instant(const Fault& fault, std::string_view parameter) {
                                   parameter == "exchange" || parameter == "every" || parameter == "probability");
 }
 
-class Reader {
+class FaultReader {
  public:
-  explicit Reader(std::string_view text) : text_(text) {}
+  explicit FaultReader(std::string_view text) : text_(text) {}
 
   ParsedFault read() {
     const std::size_t colon = text_.find(':');
@@ -463,7 +465,7 @@ const GivenParameter* ParsedFault::find(std::string_view parameter) const {
   return found == given.end() ? nullptr : &*found;
 }
 
-ParsedFault parse_fault(std::string_view text) { return Reader(text).read(); }
+ParsedFault parse_fault(std::string_view text) { return FaultReader(text).read(); }
 
 std::string to_text(const Fault& fault) {
   const FaultKindInfo& kind = info_of(fault.kind);

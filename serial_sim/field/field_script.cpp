@@ -48,9 +48,9 @@ std::optional<std::uint64_t> parse_frequency(std::string_view text) {
   return {};
 }
 
-class Reader {
+class FieldScriptReader {
  public:
-  Reader(const std::string& name, const CpuModel& model, std::vector<std::string>& errors)
+  FieldScriptReader(const std::string& name, const CpuModel& model, std::vector<std::string>& errors)
       : name_(name), model_(model), errors_(errors) {}
 
   FieldScript read(std::string_view csv) {
@@ -190,7 +190,7 @@ Time FieldPulses::edge(std::uint64_t number) const {
 
 FieldScript parse_field_script(std::string_view csv, const std::string& name, const CpuModel& model,
                                std::vector<std::string>& errors) {
-  return Reader(name, model, errors).read(csv);
+  return FieldScriptReader(name, model, errors).read(csv);
 }
 
 }  // namespace s7200::serial

@@ -8,14 +8,14 @@
 namespace s7200::pc_protocol {
 namespace {
 
-constexpr std::uint8_t kStart = 'g';
-constexpr std::size_t kStatus = 1, kData = 2, kDataLength = 16;
+constexpr std::uint8_t kAnswerStart = 'g';
+constexpr std::size_t kStatus = 1, kAnswerData = 2, kAnswerDataLength = 16;
 
 bool is_refusal(Status status) { return status == Status::WrongCheckCode || status == Status::NotLegal; }
 
 /// What is wrong with the form of an answer; empty if nothing is.
 std::string fault_of_form(std::span<const std::uint8_t> response, std::uint8_t end_character) {
-  if (response[0] != kStart)
+  if (response[0] != kAnswerStart)
     return fmt::format("begins with 16#{:02X}, not with g: {}", response[0], serial::to_hex(response));
   if (response.size() != kAnswerLength)
     return fmt::format("wrong length: {} bytes, expected {}", response.size(), kAnswerLength);
@@ -29,8 +29,8 @@ std::string fault_of_form(std::span<const std::uint8_t> response, std::uint8_t e
 
 /// Takes the data of a read into `bytes`, or returns what is wrong with it.
 std::string take_data(std::span<const std::uint8_t> response, Bytes& bytes) {
-  const auto characters = response.subspan(kData, kDataLength);
-  const auto code = from_digits(response.subspan(kData + kDataLength, 2));
+  const auto characters = response.subspan(kAnswerData, kAnswerDataLength);
+  const auto code = from_digits(response.subspan(kAnswerData + kAnswerDataLength, 2));
   auto data = from_digits(characters);
   if (!data || !code) return "data or check code are not hex digits";
   if (code->front() != check_code(characters)) return "wrong check code";

@@ -13,8 +13,8 @@
 namespace s7200::pc_protocol {
 namespace {
 
-constexpr std::uint8_t kStart = 'g', kEnd = 'G', kZero = '0';
-constexpr std::size_t kType = 1, kStation = 2, kAddress = 4, kDigits = 12, kData = 14, kCheckCode = 30;
+constexpr std::uint8_t kCommandStart = 'g', kEnd = 'G', kZero = '0';
+constexpr std::size_t kType = 1, kStation = 2, kAddress = 4, kDigits = 12, kCommandData = 14, kCheckCode = 30;
 
 struct AreaRow {
   Area area;
@@ -76,7 +76,7 @@ Bytes to_bytes(const Command& command) {
   assert(command.data.size() <= kMostBytes);
   const auto area = static_cast<std::uint16_t>(command.address.area);
   const std::uint16_t number = command.address.number;
-  Bytes bytes{kStart, static_cast<std::uint8_t>(command.type)};
+  Bytes bytes{kCommandStart, static_cast<std::uint8_t>(command.type)};
   append_digits(bytes, std::array{command.station, high_byte(area), low_byte(area), high_byte(number), low_byte(number),
                                   static_cast<std::uint8_t>(2 * command.data.size())});
   append_digits(bytes, command.data);
@@ -87,7 +87,7 @@ Bytes to_bytes(const Command& command) {
 }
 
 std::optional<Command> parse_command(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() != kCommandLength || bytes.front() != kStart || bytes.back() != kEnd) return {};
+  if (bytes.size() != kCommandLength || bytes.front() != kCommandStart || bytes.back() != kEnd) return {};
   const auto type = static_cast<Type>(bytes[kType]);
   const auto decoded = from_digits(bytes.subspan(kStation, kCommandLength - 1 - kStation));
   if (!decoded || (type != Type::Read && type != Type::Write)) return {};
@@ -99,7 +99,7 @@ std::optional<Command> parse_command(std::span<const std::uint8_t> bytes) {
   Command command{type, decoded->front(), {*area, load16(&(*decoded)[byte_place(kAddress) + 2])}};
   if (type == Type::Read) return command;
   if (digits == 0 || digits % 2 != 0 || digits > 2 * kMostBytes) return {};
-  const auto data = std::span(*decoded).subspan(byte_place(kData), digits / 2U);
+  const auto data = std::span(*decoded).subspan(byte_place(kCommandData), digits / 2U);
   command.data.assign(data.begin(), data.end());
   return command;
 }

@@ -8,8 +8,8 @@
 namespace s7200::westinghouse {
 namespace {
 
-constexpr std::uint32_t kMemoryBytes = 0x20000, kByteAddresses = 0x10000;
-constexpr std::uint32_t kRegisters = 2048;
+constexpr std::uint32_t kPc1000Bytes = 0x20000, kByteAddresses = 0x10000;
+constexpr std::uint32_t kPc1000Registers = 2048;
 constexpr std::uint8_t kFaultMode = 8;
 constexpr std::size_t kCount = 3;  // place of the number of bytes minus one, or of the bit
 
@@ -75,7 +75,7 @@ Bytes Pc1000::carry_out(Data message) {
 std::optional<std::uint32_t> Pc1000::first_byte(Data message) const {
   const bool by_words = settings.addresses == Pc1000Settings::Addresses::Words;
   const std::uint32_t first = by_words ? 2U * address_of(message) : address_of(message);
-  if (first + message[kCount] + 1 > (by_words ? kMemoryBytes : kByteAddresses)) return {};
+  if (first + message[kCount] + 1 > (by_words ? kPc1000Bytes : kByteAddresses)) return {};
   return first;
 }
 
@@ -129,7 +129,7 @@ Bytes Pc1000::erase(Data message) {
   if (settings.erases == Pc1000Settings::Erases::Memory)
     words.clear();
   else
-    for (std::uint32_t word = 0; word < kRegisters; ++word) words.write(word, 0);
+    for (std::uint32_t word = 0; word < kPc1000Registers; ++word) words.write(word, 0);
   return header_of(message);
 }
 

@@ -40,13 +40,13 @@ Candidates values_of(CLI::Option& option, const std::string& typed, const std::v
 bool takes_value(const CLI::Option* option) { return option != nullptr && option->get_items_expected_max() > 0; }
 
 /// What the last word is.
-struct Place {
+struct WordAtCursor {
   CLI::Option* value_of = nullptr;  ///< the value of this option
   std::size_t positional = 0;       ///< or what stands after so many that are neither options nor their values
 };
 
-Place place_of_last(CLI::App& verb, const std::vector<std::string>& words) {
-  Place place;
+WordAtCursor place_of_last(CLI::App& verb, const std::vector<std::string>& words) {
+  WordAtCursor place;
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
     CLI::Option* option = words[i].starts_with('-') ? verb.get_option_no_throw(words[i]) : nullptr;
     if (place.value_of == nullptr && !words[i].starts_with('-')) ++place.positional;
@@ -69,7 +69,7 @@ CLI::Option* positional_at(CLI::App& verb, std::size_t number) {
 /// `words` are those after the verb, of which the last is being typed.
 Candidates candidates_of(CLI::App& verb, const std::vector<std::string>& words) {
   const std::string& last = words.back();
-  const Place place = place_of_last(verb, words);
+  const WordAtCursor place = place_of_last(verb, words);
   if (place.value_of != nullptr) return values_of(*place.value_of, last, words);
   const std::size_t equals = last.find('=');
   if (last.starts_with("--") && equals != std::string::npos) {

@@ -34,7 +34,7 @@ nlohmann::ordered_json to_json(const Instruction& instruction, const TimeTable& 
                               {"needs_power_flow", instruction.rung.needs_power_flow},
                               {"flags", flags_text(instruction)},
                               {"allowed", parts_text(instruction)},
-                              {"cpus", to_text(instruction.cpus)},
+                              {"cpus", s7200::to_text(instruction.cpus)},
                               {"example", example(instruction)},
                               {"time_us", nullptr},
                               {"per_unit_us", nullptr},
@@ -55,7 +55,7 @@ void print_table(std::span<const Instruction> instructions, const TimeTable& tim
       fmt::print("\n{}\n", group);
     }
     if (!instruction.modelled()) {
-      fmt::print("  {:<24} needs {}\n", instruction.mnemonic, to_text(instruction.cpus));
+      fmt::print("  {:<24} needs {}\n", instruction.mnemonic, s7200::to_text(instruction.cpus));
       continue;
     }
     const TimeRow* row = typical_time(times, instruction);

@@ -128,7 +128,7 @@ std::string word_of(const Json& value, std::string_view type) {
 }
 
 /// The words of the command line for one attribute; none for one that is off.
-std::vector<std::string> words_of(const Json& value, const std::string& option, const CLI::Option& known,
+std::vector<std::string> attribute_words(const Json& value, const std::string& option, const CLI::Option& known,
                                   const std::string& folder) {
   if (known.get_items_expected_max() == 0) return truth_of(value) ? std::vector{option} : std::vector<std::string>{};
   if (value == false) return {};
@@ -142,7 +142,7 @@ std::vector<std::string> words_of(const Json& value, const std::string& option, 
   return words;
 }
 
-std::vector<std::string> words_of(const Json& arguments, const CLI::App& app) {
+std::vector<std::string> attribute_words(const Json& arguments, const CLI::App& app) {
   const std::string folder = text_at(arguments, "cwd", "");
   std::error_code gone;
   if (!folder.empty() && !fs::is_directory(dap::path_of(folder), gone))
@@ -153,7 +153,7 @@ std::vector<std::string> words_of(const Json& arguments, const CLI::App& app) {
     const std::string option = option_of(key);
     const CLI::Option* const known = app.get_option_no_throw(option);
     if (!known) refuse_unknown(key, app);
-    const auto more = taken(value, key.c_str(), [&](const Json& of) { return words_of(of, option, *known, folder); });
+    const auto more = taken(value, key.c_str(), [&](const Json& of) { return attribute_words(of, option, *known, folder); });
     words.insert(words.end(), more.begin(), more.end());
   }
   words.emplace_back("--");
@@ -258,7 +258,7 @@ std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const Laun
   const KeptMessages messages;
   int exit_code = kFine;
   try {
-    std::vector<std::string> words = words_of(arguments, app);
+    std::vector<std::string> words = attribute_words(arguments, app);
     check_limits(arguments, words, limits);
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     app.parse(std::move(words));

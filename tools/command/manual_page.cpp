@@ -76,7 +76,7 @@ std::string paragraphs(const std::vector<std::string>& lines) {
 }
 
 /// `--cpu TYPE`, `-o,--output FILE`
-std::string head_of(const CLI::Option& option) {
+std::string italic_head_of(const CLI::Option& option) {
   if (option.get_positional()) return italic(option.get_name());
   const std::string value = value_name(option);
   return bold(option.get_name(false, true)) + (value.empty() ? "" : " " + italic(value));
@@ -84,7 +84,7 @@ std::string head_of(const CLI::Option& option) {
 
 std::string entries(const std::vector<const CLI::Option*>& options) {
   std::string page;
-  for (const CLI::Option* option : options) page += entry(head_of(*option), meaning_of(*option));
+  for (const CLI::Option* option : options) page += entry(italic_head_of(*option), meaning_of(*option));
   return page;
 }
 

@@ -71,7 +71,7 @@ constexpr std::string_view kHelp =
     "commas between them. Actions of s7200 master do as well: read 40011:2, write 00003=on, function 22 ….\n"
     "L and T go on until Ctrl-C, and show failures and statistics.\n";
 
-constexpr int kFailuresShown = 20;
+constexpr int kFailuresInMenu = 20;
 constexpr int kKeyWidth = 39;                     // columns
 constexpr int kRowsOfView = 4, kRowsOfKeys = 12;  // with the latencies
 constexpr int kRowsForKeys = 24;                  // of a terminal that has room for the keys
@@ -335,8 +335,8 @@ void Menu::perform(const std::vector<MasterAction>& actions, std::uint64_t round
     statistics_.add(result.answer.verdict, result.exchange.latency());
     for (int attempt = 1; attempt < result.attempts; ++attempt) statistics_.add_retry();
     if (rounds == 1) return show(result);
-    if (result.answer.verdict == serial::Verdict::Right || failures > kFailuresShown) return;
-    if (failures++ == kFailuresShown)
+    if (result.answer.verdict == serial::Verdict::Right || failures > kFailuresInMenu) return;
+    if (failures++ == kFailuresInMenu)
       fmt::print("further failures are only counted\n");
     else
       fmt::print("{}: {}\n", heading(result), short_text(result));

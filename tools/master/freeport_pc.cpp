@@ -15,7 +15,7 @@ using pc_protocol::Type;
 using Data = std::span<const std::uint8_t>;
 
 constexpr std::string_view kEndCharacter = "--end-character";
-constexpr std::uint8_t kStation = 2;  // of the published program
+constexpr std::uint8_t kPcStation = 2;  // of the published program
 
 class PcRequest final : public ProtocolRequest {
  public:
@@ -96,9 +96,9 @@ std::uint8_t end_character(const std::string& text) {
   return static_cast<std::uint8_t>(parse_number(text, 0, UINT8_MAX, "the end character"));
 }
 
-class Parser final : public WordParser {
+class FreeportPcParser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX) {
+  explicit FreeportPcParser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX) {
     if (const auto given = use.given.find(kEndCharacter); given != use.given.end())
       end_character_ = end_character(given->second);
   }
@@ -116,21 +116,21 @@ class Parser final : public WordParser {
   std::uint8_t end_character_ = pc_protocol::kEndCharacter;
 };
 
-using PcVerb = Verb<Parser>;
+using PcVerb = Verb<FreeportPcParser>;
 
-constexpr std::array kVerbs{
-    PcVerb{"read", "ADDRESS[:COUNT]…", "1 to 8 bytes: VB100:4, MB8, IB0, QB0", 1, kMany, &Parser::read},
-    PcVerb{"write", "ADDRESS=VALUE,…", "1 to 8 bytes: 65, -5, 16#41, 2#1010", 1, kMany, &Parser::write},
-    PcVerb{"raw", "HEX…", "frames as they are", 1, kMany, &Parser::raw},
-    PcVerb{"station", "NUMBER", "the actions after it go to this station", 1, 1, &Parser::station},
-    PcVerb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
+constexpr std::array kFreeportPcVerbs{
+    PcVerb{"read", "ADDRESS[:COUNT]…", "1 to 8 bytes: VB100:4, MB8, IB0, QB0", 1, kMany, &FreeportPcParser::read},
+    PcVerb{"write", "ADDRESS=VALUE,…", "1 to 8 bytes: 65, -5, 16#41, 2#1010", 1, kMany, &FreeportPcParser::write},
+    PcVerb{"raw", "HEX…", "frames as they are", 1, kMany, &FreeportPcParser::raw},
+    PcVerb{"station", "NUMBER", "the actions after it go to this station", 1, 1, &FreeportPcParser::station},
+    PcVerb{"wait", "TIME", "before the next action", 1, 1, &FreeportPcParser::wait},
 };
 
-std::vector<MasterAction> Parser::parse(const Words& words) {
-  return parse_with(*this, std::span<const PcVerb>(kVerbs), words, "read VB100:4");
+std::vector<MasterAction> FreeportPcParser::parse(const Words& words) {
+  return parse_with(*this, std::span<const PcVerb>(kFreeportPcVerbs), words, "read VB100:4");
 }
 
-void Parser::add(Type type, const std::string& address, std::size_t count, Bytes data) {
+void FreeportPcParser::add(Type type, const std::string& address, std::size_t count, Bytes data) {
   std::string why;
   const auto first = pc_protocol::parse_address(address, why);
   if (!first) refuse(why);
@@ -140,7 +140,7 @@ void Parser::add(Type type, const std::string& address, std::size_t count, Bytes
   WordParser::add(std::make_shared<PcRequest>(std::move(frame), std::move(command), count, end_character_));
 }
 
-void Parser::read(const Words& operands) {
+void FreeportPcParser::read(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, ':');
     text_ = "read " + operand;
@@ -149,7 +149,7 @@ void Parser::read(const Words& operands) {
   }
 }
 
-void Parser::write(const Words& operands) {
+void FreeportPcParser::write(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, '=');
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example VB100=65", stl::shortened(operand)));
@@ -162,7 +162,7 @@ void Parser::write(const Words& operands) {
   }
 }
 
-void Parser::raw(const Words& operands) {
+void FreeportPcParser::raw(const Words& operands) {
   for (const std::string& operand : operands) {
     serial::Frame frame = parse_hex(operand);
     const std::uint8_t first = frame.front().byte;
@@ -179,26 +179,22 @@ std::string fault_of_end_character(const std::string& text) {
   return {};
 }
 
-bool is_complete(Data response) { return response.size() == pc_protocol::kAnswerLength; }
-
-std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
-
 }  // namespace
 
 const Protocol& freeport_pc_protocol() {
   static const Protocol protocol{
       .name = "freeport-pc",
       .meaning = "33-byte commands of a PC to a Freeport program of a CPU 22x",
-      .station = kStation,
+      .station = kPcStation,
       .format = {.parity = Parity::None},
       .over_modbus_tcp = false,
       .options = {{kEndCharacter, "BYTE", "character that ends an answer; the published program sends 26", "16#26",
                    fault_of_end_character}},
       .actions_help = "Actions of --protocol freeport-pc, to station 2 unless another is given:\n" +
-                      verbs_help(std::span<const PcVerb>(kVerbs)),
-      .action_words = verb_words(std::span<const PcVerb>(kVerbs)),
-      .actions = actions,
-      .is_complete = is_complete};
+                      verbs_help(std::span<const PcVerb>(kFreeportPcVerbs)),
+      .action_words = verb_words(std::span<const PcVerb>(kFreeportPcVerbs)),
+      .actions = [](const Words& words, const ProtocolUse& use) { return FreeportPcParser(use).parse(words); },
+      .is_complete = [](Data response) { return response.size() == pc_protocol::kAnswerLength; }};
   return protocol;
 }
 

@@ -250,13 +250,13 @@ nlohmann::ordered_json HppcRequest::subject_json(Data request) const {
   return json;
 }
 
-std::uint32_t address_of(const std::string& text) {
+std::uint32_t hppc_address(const std::string& text) {
   return static_cast<std::uint32_t>(parse_number(text, 0, kLastAddress, "address"));
 }
 
-class Parser final : public WordParser {
+class HppcParser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX), form_(form_of(use)) {}
+  explicit HppcParser(const ProtocolUse& use) : WordParser(use.station, UINT8_MAX), form_(form_of(use)) {}
 
   std::vector<MasterAction> parse(const Words& words);
 
@@ -278,27 +278,27 @@ class Parser final : public WordParser {
   Form form_;
 };
 
-using HppcVerb = Verb<Parser>;
+using HppcVerb = Verb<HppcParser>;
 
-constexpr std::array kVerbs{
+constexpr std::array kHppcVerbs{
     HppcVerb{"read", "ADDRESS[:COUNT]…", "bytes of memory, up to 255 at once: read 16#80000:4 (0C)", 1, kMany,
-             &Parser::read},
-    HppcVerb{"write", "ADDRESS=BYTE,…", "the same, written (0B)", 1, kMany, &Parser::write},
-    HppcVerb{"bits", "ADDRESS=PATTERN/MASK…", "those bits of a word that are in the mask (0A)", 1, kMany, &Parser::bits},
+             &HppcParser::read},
+    HppcVerb{"write", "ADDRESS=BYTE,…", "the same, written (0B)", 1, kMany, &HppcParser::write},
+    HppcVerb{"bits", "ADDRESS=PATTERN/MASK…", "those bits of a word that are in the mask (0A)", 1, kMany, &HppcParser::bits},
     HppcVerb{"read-register", "NUMBER[:COUNT]…", "holding registers from 1, where the parameter table says they are", 1,
-             kMany, &Parser::registers},
-    HppcVerb{"write-register", "NUMBER=VALUE,…", "the same, written", 1, kMany, &Parser::set_registers},
+             kMany, &HppcParser::registers},
+    HppcVerb{"write-register", "NUMBER=VALUE,…", "the same, written", 1, kMany, &HppcParser::set_registers},
     HppcVerb{"parameters", "[COUNT]", "where the parameter table is, and that many bytes of it [52] (0D)", 0, 1,
-             &Parser::parameters},
+             &HppcParser::parameters},
     HppcVerb{"monitor", "[NETWORK] SIZE:ADDRESS…", "values of one scan; SIZE is b, w or d for 1, 2 or 4 bytes (09)", 1,
-             kMany, &Parser::monitor},
-    HppcVerb{"resync", "", "reads nothing, to be in step again", 0, 0, &Parser::resync},
-    HppcVerb{"raw", "HEX…", "messages as they are", 1, kMany, &Parser::raw},
-    HppcVerb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
+             kMany, &HppcParser::monitor},
+    HppcVerb{"resync", "", "reads nothing, to be in step again", 0, 0, &HppcParser::resync},
+    HppcVerb{"raw", "HEX…", "messages as they are", 1, kMany, &HppcParser::raw},
+    HppcVerb{"wait", "TIME", "before the next action", 1, 1, &HppcParser::wait},
 };
 
-std::vector<MasterAction> Parser::parse(const Words& words) {
-  return parse_with(*this, std::span<const HppcVerb>(kVerbs), words, "read-register 1:2");
+std::vector<MasterAction> HppcParser::parse(const Words& words) {
+  return parse_with(*this, std::span<const HppcVerb>(kHppcVerbs), words, "read-register 1:2");
 }
 
 std::string bytes_text(std::uint32_t first, std::size_t count) {
@@ -306,16 +306,16 @@ std::string bytes_text(std::uint32_t first, std::size_t count) {
   return fmt::format("bytes 16#{:05X}…{:05X}", first, first + count - 1);
 }
 
-void Parser::refuse_without_address(std::string_view why) const {
+void HppcParser::refuse_without_address(std::string_view why) const {
   if (form_.layout.read_request == HppcLayout::ReadRequest::AddressAndNumber) return;
   refuse(fmt::format("{}: not with {} {}: {}", text_, kReadRequest, kReadRequestWords[1], why));
 }
 
-void Parser::read(const Words& operands) {
+void HppcParser::read(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, ':');
     text_ = "read " + operand;
-    const std::uint32_t first = address_of(parts ? parts->first : operand);
+    const std::uint32_t first = hppc_address(parts ? parts->first : operand);
     const auto count = static_cast<std::uint8_t>(parts ? parse_number(parts->second, 1, UINT8_MAX, "count") : 1);
     if (first != 0) refuse_without_address("a read has no address then, and begins at 16#00000");
     add({.operands = westinghouse::hppc_read(first, count, form_.layout),
@@ -325,12 +325,12 @@ void Parser::read(const Words& operands) {
   }
 }
 
-void Parser::write(const Words& operands) {
+void HppcParser::write(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, '=');
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example 16#ABFFE=5", stl::shortened(operand)));
     text_ = "write " + operand;
-    const std::uint32_t first = address_of(parts->first);
+    const std::uint32_t first = hppc_address(parts->first);
     Bytes data;
     for (const std::int64_t value : values_of(parts->second, INT8_MIN, UINT8_MAX))
       data.push_back(static_cast<std::uint8_t>(value));
@@ -343,7 +343,7 @@ void Parser::write(const Words& operands) {
   }
 }
 
-void Parser::bits(const Words& operands) {
+void HppcParser::bits(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto sides = split_at(operand, '=');
     const auto words = sides ? split_at(sides->second, '/') : std::nullopt;
@@ -351,7 +351,7 @@ void Parser::bits(const Words& operands) {
       refuse(fmt::format("'{}' is not a pattern with its mask; write for example 16#ABFFE=16#01/16#0F",
                          stl::shortened(operand)));
     text_ = "bits " + operand;
-    const std::uint32_t first = address_of(sides->first);
+    const std::uint32_t first = hppc_address(sides->first);
     const auto pattern = static_cast<std::uint16_t>(parse_number(words->first, 0, UINT16_MAX, "pattern"));
     const auto mask = static_cast<std::uint16_t>(parse_number(words->second, 0, UINT16_MAX, "mask"));
     add({.opcode = HppcOpcode::BitWrite,
@@ -362,7 +362,7 @@ void Parser::bits(const Words& operands) {
   }
 }
 
-void Parser::add_registers(Registers registers) {
+void HppcParser::add_registers(Registers registers) {
   constexpr std::uint16_t kMost = UINT8_MAX / 2;
   if (registers.count > kMost)
     refuse(fmt::format("{}: {} registers; a message has {} at most", text_, registers.count, kMost));
@@ -371,7 +371,7 @@ void Parser::add_registers(Registers registers) {
   add({.subject = std::move(subject), .registers = std::move(registers)});
 }
 
-void Parser::registers(const Words& operands) {
+void HppcParser::registers(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, ':');
     text_ = "read-register " + operand;
@@ -381,7 +381,7 @@ void Parser::registers(const Words& operands) {
   }
 }
 
-void Parser::set_registers(const Words& operands) {
+void HppcParser::set_registers(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, '=');
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example 1=5", stl::shortened(operand)));
@@ -394,13 +394,13 @@ void Parser::set_registers(const Words& operands) {
   }
 }
 
-void Parser::parameters(const Words& operands) {
+void HppcParser::parameters(const Words& operands) {
   const auto count =
       static_cast<std::uint8_t>(operands.empty() ? kWholeTable : parse_number(operands[0], 0, UINT8_MAX, "count"));
   add({.opcode = HppcOpcode::Parameters, .operands = {count}, .count = count});
 }
 
-void Parser::monitor(const Words& operands) {
+void HppcParser::monitor(const Words& operands) {
   constexpr std::string_view kSizes = "bwd";
   HppcRequest::About about{.opcode = HppcOpcode::Monitor};
   std::uint32_t network = 0;
@@ -408,12 +408,12 @@ void Parser::monitor(const Words& operands) {
     const auto parts = split_at(operand, ':');
     const std::size_t size = parts && parts->first.size() == 1 ? kSizes.find(parts->first[0]) : std::string_view::npos;
     if (!parts && &operand == &operands.front()) {
-      network = address_of(operand);
+      network = hppc_address(operand);
       continue;
     }
     if (size == std::string_view::npos)
       refuse(fmt::format("'{}' is not a size with an address; write for example w:16#ABFFE", stl::shortened(operand)));
-    about.monitored[size].push_back(address_of(parts->second));
+    about.monitored[size].push_back(hppc_address(parts->second));
     about.asked.push_back(size);
   }
   const auto& [bytes, words, double_words] = about.monitored;
@@ -425,15 +425,13 @@ void Parser::monitor(const Words& operands) {
   add(std::move(about));
 }
 
-void Parser::raw(const Words& operands) {
+void HppcParser::raw(const Words& operands) {
   for (const std::string& operand : operands) {
     serial::Frame frame = parse_hex(operand);
     const std::uint8_t first = frame.front().byte;
     add_raw(operand, first, std::make_shared<HppcRequest>(std::move(frame), form_));
   }
 }
-
-std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
 
 serial::Frame resynchronisation(const ProtocolUse& use) {
   const Form form = form_of(use);
@@ -466,9 +464,9 @@ const Protocol& hppc_protocol() {
                               "a length of an address", kMonitorAddressWords),
                   {kNoResync, "", "nothing is read from location zero before a request is repeated", {}, nullptr}},
       .actions_help =
-          "Actions of --protocol hppc; in brackets its opcodes:\n" + verbs_help(std::span<const HppcVerb>(kVerbs)),
-      .action_words = verb_words(std::span<const HppcVerb>(kVerbs)),
-      .actions = actions,
+          "Actions of --protocol hppc; in brackets its opcodes:\n" + verbs_help(std::span<const HppcVerb>(kHppcVerbs)),
+      .action_words = verb_words(std::span<const HppcVerb>(kHppcVerbs)),
+      .actions = [](const Words& words, const ProtocolUse& use) { return HppcParser(use).parse(words); },
       .is_complete = westinghouse::is_whole_hppc,
       .patience = {.timeout = kSecond,
                    .retries = 2,

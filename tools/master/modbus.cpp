@@ -17,7 +17,6 @@
 namespace s7200::tools {
 namespace {
 
-using modbus::Area;
 using modbus::Reference;
 using Data = std::span<const std::uint8_t>;
 
@@ -166,9 +165,9 @@ std::uint8_t last_station(const ProtocolUse& use) {
   return use.has(kBeyondLimits) || use.over_modbus_tcp || use.of_another_make ? UINT8_MAX : modbus::kLastStation;
 }
 
-class Parser final : public WordParser {
+class ModbusParser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use);
+  explicit ModbusParser(const ProtocolUse& use);
 
   std::vector<MasterAction> parse(const Words& words);
 
@@ -215,32 +214,33 @@ class Parser final : public WordParser {
       std::make_shared<std::uint16_t>(0x3412);  // is looped back next; 34 12 as NLAM-B58, 4.5
 };
 
-using ModbusVerb = Verb<Parser>;
+using ModbusVerb = Verb<ModbusParser>;
 
-constexpr std::array kVerbs{
-    ModbusVerb{"read", "ADDRESS[:COUNT]…", "data; the address selects the function (1 to 4)", 1, kMany, &Parser::read},
+constexpr std::array kModbusVerbs{
+    ModbusVerb{"read", "ADDRESS[:COUNT]…", "data; the address selects the function (1 to 4)", 1, kMany, &ModbusParser::read},
     ModbusVerb{"write", "ADDRESS=VALUE,…", "coils: on, off, 1, 0; registers: 1234, -5, 16#04D2, 2#1010 (5, 6, 15, 16)", 1,
-               kMany, &Parser::write},
+               kMany, &ModbusParser::write},
     ModbusVerb{"loopback", "[DATA,…]", "what is sent comes back; without DATA another word each time (8)", 0, 1,
-               &Parser::loopback},
+               &ModbusParser::loopback},
     ModbusVerb{"diagnostics", "SUB [DATA,…]", "a subfunction, with a word 0 if no DATA is given (8)", 1, 2,
-               &Parser::diagnostics},
+               &ModbusParser::diagnostics},
     ModbusVerb{"exception-status", "", "eight bits of which the slave's maker says what they mean (7)", 0, 0,
-               &Parser::exception_status},
-    ModbusVerb{"slave-id", "", "who it is and whether it runs (17)", 0, 0, &Parser::slave_id},
+               &ModbusParser::exception_status},
+    ModbusVerb{"slave-id", "", "who it is and whether it runs (17)", 0, 0, &ModbusParser::slave_id},
     ModbusVerb{"read-file", "FILE:RECORD:COUNT…", "registers of files, several references in one request (20)", 1, kMany,
-               &Parser::read_file},
-    ModbusVerb{"write-file", "FILE:RECORD=VALUE,…", "the same, written (21)", 1, kMany, &Parser::write_file},
+               &ModbusParser::read_file},
+    ModbusVerb{"write-file", "FILE:RECORD=VALUE,…", "the same, written (21)", 1, kMany, &ModbusParser::write_file},
     ModbusVerb{"general-read", "SEGMENT:OFFSET:COUNT…", "bytes of extended memory, references of kind 16#33 (20)", 1, kMany,
-               &Parser::general_read},
-    ModbusVerb{"general-write", "SEGMENT:OFFSET=BYTE,…", "the same, written (21)", 1, kMany, &Parser::general_write},
-    ModbusVerb{"function", "NUMBER [HEX]", "any function, with data in hex", 1, 2, &Parser::function},
-    ModbusVerb{"raw", "HEX…", "frames as they are; --crc appends the CRC", 1, kMany, &Parser::raw},
-    ModbusVerb{"station", "NUMBER", "the actions after it go to this station; 0 is all of them", 1, 1, &Parser::station},
-    ModbusVerb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
+               &ModbusParser::general_read},
+    ModbusVerb{"general-write", "SEGMENT:OFFSET=BYTE,…", "the same, written (21)", 1, kMany, &ModbusParser::general_write},
+    ModbusVerb{"function", "NUMBER [HEX]", "any function, with data in hex", 1, 2, &ModbusParser::function},
+    ModbusVerb{"raw", "HEX…", "frames as they are; --crc appends the CRC", 1, kMany, &ModbusParser::raw},
+    ModbusVerb{"station", "NUMBER", "the actions after it go to this station; 0 is all of them", 1, 1,
+               &ModbusParser::station},
+    ModbusVerb{"wait", "TIME", "before the next action", 1, 1, &ModbusParser::wait},
 };
 
-Parser::Parser(const ProtocolUse& use)
+ModbusParser::ModbusParser(const ProtocolUse& use)
     : WordParser(static_cast<std::uint8_t>(parse_number(std::to_string(use.station), 0, last_station(use), "--station")),
                  last_station(use)),
       format_(value_format(use)),
@@ -250,22 +250,22 @@ Parser::Parser(const ProtocolUse& use)
       always_16_(use.has(kAlways16)),
       crc_(use.has(kCrc)) {}
 
-std::vector<MasterAction> Parser::parse(const Words& words) {
-  return parse_with(*this, std::span<const ModbusVerb>(kVerbs), words, "read 40001:10");
+std::vector<MasterAction> ModbusParser::parse(const Words& words) {
+  return parse_with(*this, std::span<const ModbusVerb>(kModbusVerbs), words, "read 40001:10");
 }
 
-void Parser::add(const Bytes& pdu, About about) {
+void ModbusParser::add(const Bytes& pdu, About about) {
   about.answered = check(pdu);
   about.format = format_;
   WordParser::add(std::make_shared<ModbusRequest>(serial::to_frame(modbus::rtu_frame(station_, pdu)), about));
 }
 
-void Parser::add_loopback() {
+void ModbusParser::add_loopback() {
   const About about{.answered = check(modbus::diagnostics(0, std::array{*loopback_})), .format = format_};
   WordParser::add(std::make_shared<Loopback>(station_, about, loopback_));
 }
 
-bool Parser::check(const Bytes& pdu) const {
+bool ModbusParser::check(const Bytes& pdu) const {
   const std::size_t size = pdu.size() + 3;
   if (size > serial::kLongestRawFrame)
     refuse(fmt::format("{}: a frame of {} bytes; {} is the most that can be sent", text_, size, serial::kLongestRawFrame));
@@ -283,7 +283,7 @@ bool Parser::check(const Bytes& pdu) const {
   return station_ != modbus::kBroadcast && !listen_only;
 }
 
-Words Parser::without_area(const Words& operands) {
+Words ModbusParser::without_area(const Words& operands) {
   area_ = nullptr;
   for (const modbus::AreaRow& row : modbus::areas())
     if (row.word == operands[0]) {
@@ -294,7 +294,7 @@ Words Parser::without_area(const Words& operands) {
   return operands;
 }
 
-modbus::DataAddress Parser::address(const std::string& text) const {
+modbus::DataAddress ModbusParser::address(const std::string& text) const {
   if (area_ != nullptr) return {area_->area, word(text, fmt::format("address of {}s", area_->singular))};
   std::string why;
   const auto parsed = modbus::parse_address(text, why);
@@ -304,7 +304,7 @@ modbus::DataAddress Parser::address(const std::string& text) const {
   return *parsed;
 }
 
-void Parser::read(const Words& operands) {
+void ModbusParser::read(const Words& operands) {
   for (const std::string& operand : without_area(operands)) {
     const auto parts = split_at(operand, ':');
     const modbus::DataAddress first = address(parts ? parts->first : operand);
@@ -317,7 +317,7 @@ void Parser::read(const Words& operands) {
   }
 }
 
-void Parser::write(const Words& operands) {
+void ModbusParser::write(const Words& operands) {
   for (const std::string& operand : without_area(operands)) {
     const auto parts = split_at(operand, '=');
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example 40001=5", stl::shortened(operand)));
@@ -337,20 +337,20 @@ void Parser::write(const Words& operands) {
   }
 }
 
-void Parser::loopback(const Words& operands) {
+void ModbusParser::loopback(const Words& operands) {
   if (operands.empty())
     add_loopback();
   else
     add(modbus::diagnostics(0, parse_registers(operands[0], {})));
 }
 
-void Parser::diagnostics(const Words& operands) {
+void ModbusParser::diagnostics(const Words& operands) {
   const std::uint16_t subfunction = word(operands[0], "subfunction");
   add(modbus::diagnostics(subfunction,
                           operands.size() > 1 ? parse_registers(operands[1], {}) : std::vector<std::uint16_t>{0}));
 }
 
-std::vector<Reference> Parser::to_read(const Words& operands, std::uint8_t type) {
+std::vector<Reference> ModbusParser::to_read(const Words& operands, std::uint8_t type) {
   std::vector<Reference> references;
   for (const std::string& operand : operands) {
     const auto file = split_at(operand, ':');
@@ -364,7 +364,7 @@ std::vector<Reference> Parser::to_read(const Words& operands, std::uint8_t type)
   return references;
 }
 
-std::vector<Reference> Parser::to_write(const Words& operands, std::uint8_t type) {
+std::vector<Reference> ModbusParser::to_write(const Words& operands, std::uint8_t type) {
   std::vector<Reference> references;
   for (const std::string& operand : operands) {
     const auto sides = split_at(operand, '=');
@@ -386,7 +386,7 @@ std::vector<Reference> Parser::to_write(const Words& operands, std::uint8_t type
   return references;
 }
 
-void Parser::function(const Words& operands) {
+void ModbusParser::function(const Words& operands) {
   Bytes pdu{static_cast<std::uint8_t>(parse_number(operands[0], 0, UINT8_MAX, "function"))};
   if (operands.size() > 1) {
     const serial::Frame data = parse_hex(operands[1]);
@@ -399,7 +399,7 @@ void Parser::function(const Words& operands) {
   add(pdu);
 }
 
-void Parser::raw(const Words& operands) {
+void ModbusParser::raw(const Words& operands) {
   for (const std::string& operand : operands) {
     serial::Frame frame = parse_hex(operand);
     if (crc_) modbus::append_crc(frame);
@@ -410,11 +410,9 @@ void Parser::raw(const Words& operands) {
   }
 }
 
-std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
-
 std::string actions_help() {
   std::string text = "Actions, one or several, done in this order; in brackets the functions of Modbus:\n";
-  text += verbs_help(std::span<const ModbusVerb>(kVerbs));
+  text += verbs_help(std::span<const ModbusVerb>(kModbusVerbs));
   text += "Addresses have 5 or 6 digits, as below; or name the area and count from 0 as on the wire: read holding 0:2\n";
   const auto most = [](modbus::Function function) {
     return modbus::find_function(static_cast<std::uint8_t>(function))->most;
@@ -423,7 +421,7 @@ std::string actions_help() {
     text += fmt::format("  {:05} is the first {:<17} {:<16} up to {} at once", row.base + 1, row.singular, row.word,
                         most(row.read));
     if (row.write_many) text += fmt::format(", {} written", most(*row.write_many));
-    text += row.area == Area::HoldingRegisters ? "; all: 400001 to 465536\n" : "\n";
+    text += row.area == modbus::Area::HoldingRegisters ? "; all: 400001 to 465536\n" : "\n";
   }
   return text;
 }
@@ -439,25 +437,26 @@ std::string fault_of_form(const std::string& name) {
 }  // namespace
 
 const Protocol& modbus_protocol() {
-  static const Protocol protocol{.name = "modbus",
-                                 .meaning = "Modbus RTU, or TCP at modbus-tcp://",
-                                 .station = 1,
-                                 .format = {},
-                                 .over_modbus_tcp = true,
-                                 .options = {{kAs, "FORM", "how registers are shown: " + form_names(),
-                                              std::string(value_forms().front().name), fault_of_form},
-                                             {kLowWordFirst, "", "in values of 32 bits the first register is the low one"},
-                                             {kAlways15, "", "write single coils with function 15 too"},
-                                             {kAlways16, "", "write single registers with function 16 too"},
-                                             {kCrc, "", "append the CRC to raw frames"},
-                                             {kBeyondLimits, "", "send what the specification forbids, to test a slave"}},
-                                 .actions_help = actions_help(),
-                                 .action_words = verb_words(std::span<const ModbusVerb>(kVerbs)),
-                                 .actions = actions,
-                                 .is_complete = modbus::crc_ok,
-                                 .choices = "--timeout, --silence [M16]",
-                                 .refusal = "exception",
-                                 .plcs = westinghouse::find_plc("modbus")};
+  static const Protocol protocol{
+      .name = "modbus",
+      .meaning = "Modbus RTU, or TCP at modbus-tcp://",
+      .station = 1,
+      .format = {},
+      .over_modbus_tcp = true,
+      .options = {{kAs, "FORM", "how registers are shown: " + form_names(), std::string(value_forms().front().name),
+                   fault_of_form},
+                  {kLowWordFirst, "", "in values of 32 bits the first register is the low one"},
+                  {kAlways15, "", "write single coils with function 15 too"},
+                  {kAlways16, "", "write single registers with function 16 too"},
+                  {kCrc, "", "append the CRC to raw frames"},
+                  {kBeyondLimits, "", "send what the specification forbids, to test a slave"}},
+      .actions_help = actions_help(),
+      .action_words = verb_words(std::span<const ModbusVerb>(kModbusVerbs)),
+      .actions = [](const Words& words, const ProtocolUse& use) { return ModbusParser(use).parse(words); },
+      .is_complete = modbus::crc_ok,
+      .choices = "--timeout, --silence [M16]",
+      .refusal = "exception",
+      .plcs = westinghouse::find_plc("modbus")};
   return protocol;
 }
 

@@ -19,11 +19,12 @@ using Data = std::span<const std::uint8_t>;
 constexpr std::string_view kDle = "--dle", kDirectory = "--directory";
 
 /// A memory area whose bytes have names beside their addresses.
-struct Area {
+struct LoaderArea {
   std::string_view name;
   std::uint16_t first, count;
 };
-constexpr std::array kAreas{Area{"IB", 0xEF00, 0x80}, Area{"QB", 0xEF80, 0x80}, Area{"FY", 0xEE00, 0x80}};
+constexpr std::array kLoaderAreas{LoaderArea{"IB", 0xEF00, 0x80}, LoaderArea{"QB", 0xEF80, 0x80},
+                                  LoaderArea{"FY", 0xEE00, 0x80}};
 
 constexpr std::array<std::string_view, 8> kPointers{"PII",      "PIQ",         "flags",   "timers",
                                                     "counters", "system data", "release", "program end"};
@@ -163,18 +164,18 @@ nlohmann::ordered_json LoaderRequest::subject_json(Data) const {
 Dle dle_of(const ProtocolUse& use) { return static_cast<Dle>(use.chosen(kDle, kDleWords)); }
 
 /// Parses an address: `QB3`, `16#EF83`
-std::uint16_t address_of(const std::string& text) {
+std::uint16_t loader_address(const std::string& text) {
   const std::string upper = stl::upper_case(text);
-  for (const Area& area : kAreas)
+  for (const LoaderArea& area : kLoaderAreas)
     if (upper.starts_with(area.name))
       return static_cast<std::uint16_t>(area.first + parse_number(upper.substr(area.name.size()), 0, area.count - 1,
                                                                   fmt::format("byte of {}", area.name)));
   return static_cast<std::uint16_t>(parse_number(text, 0, UINT16_MAX, "address"));
 }
 
-class Parser final : public WordParser {
+class Pc500Parser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use)
+  explicit Pc500Parser(const ProtocolUse& use)
       : WordParser(use.station, UINT8_MAX), dle_(dle_of(use)), first_block_(use.chosen(kDirectory, kFirstBlockWords)) {}
 
   std::vector<MasterAction> parse(const Words& words);
@@ -196,25 +197,25 @@ class Parser final : public WordParser {
   std::size_t first_block_;
 };
 
-using LoaderVerb = Verb<Parser>;
+using LoaderVerb = Verb<Pc500Parser>;
 
-constexpr std::array kVerbs{
+constexpr std::array kPc500Verbs{
     LoaderVerb{"read", "ADDRESS[:COUNT]…", "bytes, up to 512 at once: 16#EF80:4, IB0, QB3, FY10 (04)", 1, kMany,
-               &Parser::read},
-    LoaderVerb{"write", "ADDRESS=BYTE,…", "the same, written (03)", 1, kMany, &Parser::write},
+               &Pc500Parser::read},
+    LoaderVerb{"write", "ADDRESS=BYTE,…", "the same, written (03)", 1, kMany, &Pc500Parser::write},
     LoaderVerb{"parameters", "", "where its images, timers, counters and data are, and its release (18)", 0, 0,
-               &Parser::pointers},
-    LoaderVerb{"block", "NUMBER", "a data block: where it is and how long (1A)", 1, 1, &Parser::block},
-    LoaderVerb{"blocks", "", "all data blocks (1B)", 0, 0, &Parser::directory},
-    LoaderVerb{"raw", "HEX…", "single steps of a session, as they are", 1, kMany, &Parser::raw},
-    LoaderVerb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
+               &Pc500Parser::pointers},
+    LoaderVerb{"block", "NUMBER", "a data block: where it is and how long (1A)", 1, 1, &Pc500Parser::block},
+    LoaderVerb{"blocks", "", "all data blocks (1B)", 0, 0, &Pc500Parser::directory},
+    LoaderVerb{"raw", "HEX…", "single steps of a session, as they are", 1, kMany, &Pc500Parser::raw},
+    LoaderVerb{"wait", "TIME", "before the next action", 1, 1, &Pc500Parser::wait},
 };
 
-std::vector<MasterAction> Parser::parse(const Words& words) {
-  return parse_with(*this, std::span<const LoaderVerb>(kVerbs), words, "read QB0:4");
+std::vector<MasterAction> Pc500Parser::parse(const Words& words) {
+  return parse_with(*this, std::span<const LoaderVerb>(kPc500Verbs), words, "read QB0:4");
 }
 
-LoaderRequest::About Parser::about(std::uint16_t first, std::size_t count) const {
+LoaderRequest::About Pc500Parser::about(std::uint16_t first, std::size_t count) const {
   if (count > westinghouse::kMostLoaderBytes)
     refuse(fmt::format("{}: {} bytes; a session has {} at most", text_, count, westinghouse::kMostLoaderBytes));
   if (first + count - 1 > UINT16_MAX) refuse(fmt::format("{}: the bytes run past 16#FFFF", text_));
@@ -222,41 +223,39 @@ LoaderRequest::About Parser::about(std::uint16_t first, std::size_t count) const
   return {fmt::format("bytes 16#{:04X}…{:04X}", first, first + count - 1), first, count};
 }
 
-void Parser::read(const Words& operands) {
+void Pc500Parser::read(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, ':');
     text_ = "read " + operand;
-    const std::uint16_t first = address_of(parts ? parts->first : operand);
+    const std::uint16_t first = loader_address(parts ? parts->first : operand);
     const auto count = static_cast<std::size_t>(parts ? parse_number(parts->second, 1, UINT16_MAX, "count") : 1);
     add(westinghouse::loader_read(first, count), about(first, count));
   }
 }
 
-void Parser::write(const Words& operands) {
+void Pc500Parser::write(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, '=');
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example QB0=16#7F", stl::shortened(operand)));
     text_ = "write " + operand;
-    const std::uint16_t first = address_of(parts->first);
+    const std::uint16_t first = loader_address(parts->first);
     const Bytes data = byte_values_of(parts->second);
     add(westinghouse::loader_write(first, data), about(first, data.size()));
   }
 }
 
-void Parser::block(const Words& operands) {
+void Pc500Parser::block(const Words& operands) {
   const auto number = static_cast<std::uint8_t>(parse_number(operands[0], 0, UINT8_MAX, "data block"));
   add(westinghouse::loader_block(number), {.subject = fmt::format("DB{:03}", number)});
 }
 
-void Parser::raw(const Words& operands) {
+void Pc500Parser::raw(const Words& operands) {
   for (const std::string& operand : operands) {
     serial::Frame frame = parse_hex(operand);
     const std::uint8_t first = frame.front().byte;
     add_raw(operand, first, std::make_shared<RawStep>(std::move(frame)));
   }
 }
-
-std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
 
 }  // namespace
 
@@ -274,9 +273,9 @@ const Protocol& pc500_loader_protocol() {
                                           fmt::join(kFirstBlockWords, ", ")),
                               "a block that the directory may begin with", kFirstBlockWords)},
       .actions_help = "Actions of --protocol pc500-loader; in brackets its operations:\n" +
-                      verbs_help(std::span<const LoaderVerb>(kVerbs)),
-      .action_words = verb_words(std::span<const LoaderVerb>(kVerbs)),
-      .actions = actions,
+                      verbs_help(std::span<const LoaderVerb>(kPc500Verbs)),
+      .action_words = verb_words(std::span<const LoaderVerb>(kPc500Verbs)),
+      .actions = [](const Words& words, const ProtocolUse& use) { return Pc500Parser(use).parse(words); },
       .is_complete = westinghouse::is_whole_step,
       .patience = {.timeout = 500 * kMillisecond,
                    .retries = 2,

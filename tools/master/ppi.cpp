@@ -16,7 +16,7 @@ namespace {
 using Data = std::span<const std::uint8_t>;
 
 constexpr std::string_view kOwnStation = "--own-station";
-constexpr std::uint8_t kStation = 2, kProgrammingDevice = 0;
+constexpr std::uint8_t kPpiStation = 2, kProgrammingDevice = 0;
 
 /// The request's number: there is one request at a time.
 constexpr std::uint16_t kOnlyRequest = 1;
@@ -305,9 +305,9 @@ std::uint8_t own_station(const ProtocolUse& use) {
   return static_cast<std::uint8_t>(parse_number(given->second, 0, ppi::kLastStation, "the master's station"));
 }
 
-class Parser final : public WordParser {
+class PpiParser final : public WordParser {
  public:
-  explicit Parser(const ProtocolUse& use) : WordParser(use.station, ppi::kLastStation), own_(own_station(use)) {
+  explicit PpiParser(const ProtocolUse& use) : WordParser(use.station, ppi::kLastStation), own_(own_station(use)) {
     if (use.station > ppi::kLastStation)
       refuse(fmt::format("--station {}: not from 0 to {}", use.station, ppi::kLastStation));
   }
@@ -336,31 +336,32 @@ class Parser final : public WordParser {
   std::uint8_t own_;
 };
 
-using PpiVerb = Verb<Parser>;
+using PpiVerb = Verb<PpiParser>;
 
-constexpr std::array kVerbs{
+constexpr std::array kPpiVerbs{
     PpiVerb{"read", "ADDRESS[:COUNT]…", "VB100:4, VW100:2, VD20:real, M31.7, QB0, SMB0, AIW0, T37, C5", 1, kMany,
-            &Parser::read},
-    PpiVerb{"write", "ADDRESS=VALUE,…", "VB100=65,66, VW100=-5, M31.7=1, C5=0", 1, kMany, &Parser::write},
-    PpiVerb{"force", "ADDRESS=VALUE…", "I0.3=1, Q0.0=1, VB500=9, AIW4=1000: until it is unforced", 1, kMany, &Parser::force},
-    PpiVerb{"unforce", "ADDRESS…", "I0.3, VB500", 1, kMany, &Parser::unforce},
-    PpiVerb{"run", "", "the CPU goes to RUN", 0, 0, &Parser::run},
-    PpiVerb{"stop", "", "the CPU goes to STOP", 0, 0, &Parser::stop},
-    PpiVerb{"clock", "", "its time of day", 0, 0, &Parser::clock},
-    PpiVerb{"set-clock", "TIME", "2026-11-22T15:45:30", 1, 1, &Parser::set_clock},
-    PpiVerb{"identification", "", "which CPU it is, and its release", 0, 0, &Parser::identification},
-    PpiVerb{"status", "", "whether there is a station", 0, 0, &Parser::status},
-    PpiVerb{"raw", "HEX…", "frames as they are", 1, kMany, &Parser::raw},
-    PpiVerb{"station", "NUMBER", "the actions after it go to this station", 1, 1, &Parser::station},
-    PpiVerb{"wait", "TIME", "before the next action", 1, 1, &Parser::wait},
+            &PpiParser::read},
+    PpiVerb{"write", "ADDRESS=VALUE,…", "VB100=65,66, VW100=-5, M31.7=1, C5=0", 1, kMany, &PpiParser::write},
+    PpiVerb{"force", "ADDRESS=VALUE…", "I0.3=1, Q0.0=1, VB500=9, AIW4=1000: until it is unforced", 1, kMany,
+            &PpiParser::force},
+    PpiVerb{"unforce", "ADDRESS…", "I0.3, VB500", 1, kMany, &PpiParser::unforce},
+    PpiVerb{"run", "", "the CPU goes to RUN", 0, 0, &PpiParser::run},
+    PpiVerb{"stop", "", "the CPU goes to STOP", 0, 0, &PpiParser::stop},
+    PpiVerb{"clock", "", "its time of day", 0, 0, &PpiParser::clock},
+    PpiVerb{"set-clock", "TIME", "2026-11-22T15:45:30", 1, 1, &PpiParser::set_clock},
+    PpiVerb{"identification", "", "which CPU it is, and its release", 0, 0, &PpiParser::identification},
+    PpiVerb{"status", "", "whether there is a station", 0, 0, &PpiParser::status},
+    PpiVerb{"raw", "HEX…", "frames as they are", 1, kMany, &PpiParser::raw},
+    PpiVerb{"station", "NUMBER", "the actions after it go to this station", 1, 1, &PpiParser::station},
+    PpiVerb{"wait", "TIME", "before the next action", 1, 1, &PpiParser::wait},
 };
 
-std::vector<MasterAction> Parser::parse(const Words& words) {
-  return parse_with(*this, std::span<const PpiVerb>(kVerbs), words, "read VB100:4");
+std::vector<MasterAction> PpiParser::parse(const Words& words) {
+  return parse_with(*this, std::span<const PpiVerb>(kPpiVerbs), words, "read VB100:4");
 }
 
 /// Parses a range. The CPU is not known: memory that only the largest CPU has may be asked for.
-MemoryRange Parser::range_of(const std::string& text) {
+MemoryRange PpiParser::range_of(const std::string& text) {
   static const CpuModel boundless = [] {
     CpuModel model = cpu226();
     model.size.fill(0x20'0000);  // as far as the 24 bits of an address reach
@@ -378,7 +379,7 @@ MemoryRange Parser::range_of(const std::string& text) {
   return *range;
 }
 
-void Parser::read(const Words& operands) {
+void PpiParser::read(const Words& operands) {
   constexpr std::uint32_t kMost = s7::kLongestPdu - s7::kAnswerHead - 2 - 4;  // beside function, number and the value's head
   for (const std::string& operand : operands) {
     text_ = "read " + operand;
@@ -390,7 +391,7 @@ void Parser::read(const Words& operands) {
   }
 }
 
-void Parser::identification(const Words&) {
+void PpiParser::identification(const Words&) {
   Bytes parameters{s7::kRead, 1};
   s7::append_identification(parameters);
   add({Wanted::Kind::Identification, s7::pdu(s7::kRequest, kOnlyRequest, parameters, {})});
@@ -428,7 +429,7 @@ bool has_negative(Data values) {
   return false;
 }
 
-void Parser::write(const Words& operands) {
+void PpiParser::write(const Words& operands) {
   constexpr std::size_t kMost = s7::kLongestPdu - s7::kRequestHead - 2 - s7::kVariableBytes - 4;
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, '=');
@@ -453,7 +454,7 @@ void Parser::write(const Words& operands) {
 }
 
 /// The value is filled up to an even number of bytes.
-void Parser::add_forced(Wanted::Kind kind, const MemoryRange& range, const Bytes& value) {
+void PpiParser::add_forced(Wanted::Kind kind, const MemoryRange& range, const Bytes& value) {
   const bool released = kind == Wanted::Kind::Unforced;
   if (range.count != 1) refuse(fmt::format("{}: one value at a time", text_));
   Bytes place, list{released, 1};
@@ -465,7 +466,7 @@ void Parser::add_forced(Wanted::Kind kind, const MemoryRange& range, const Bytes
   add({kind, s7::pdu(s7::kUserData, kOnlyRequest, parameters, s7::data_of_list(list)), range});
 }
 
-void Parser::force(const Words& operands) {
+void PpiParser::force(const Words& operands) {
   for (const std::string& operand : operands) {
     const auto parts = split_at(operand, '=');
     if (!parts) refuse(fmt::format("'{}': a value is missing; write for example Q0.0=1", stl::shortened(operand)));
@@ -476,28 +477,28 @@ void Parser::force(const Words& operands) {
   }
 }
 
-void Parser::unforce(const Words& operands) {
+void PpiParser::unforce(const Words& operands) {
   for (const std::string& operand : operands) {
     text_ = "unforce " + operand;
     add_forced(Wanted::Kind::Unforced, range_of(operand), {});
   }
 }
 
-void Parser::change_mode(s7::Function function, Bytes parameters) {
+void PpiParser::change_mode(s7::Function function, Bytes parameters) {
   parameters.insert(parameters.begin(), function);
   parameters.push_back(static_cast<std::uint8_t>(s7::kProgram.size()));
   parameters.insert(parameters.end(), s7::kProgram.begin(), s7::kProgram.end());
   add({Wanted::Kind::Command, s7::pdu(s7::kRequest, kOnlyRequest, parameters, {})});
 }
 
-void Parser::add_clock(std::uint8_t service, const Bytes& data) {
+void PpiParser::add_clock(std::uint8_t service, const Bytes& data) {
   add({service == s7::kReadClock ? Wanted::Kind::Clock : Wanted::Kind::Command,
        s7::pdu(s7::kUserData, kOnlyRequest, s7::parameters_of({.group = s7::kClockGroup, .service = service}), data)});
 }
 
-void Parser::clock(const Words&) { add_clock(s7::kReadClock, {0x0A, 0, 0, 0}); }
+void PpiParser::clock(const Words&) { add_clock(s7::kReadClock, {0x0A, 0, 0, 0}); }
 
-void Parser::set_clock(const Words& operands) {
+void PpiParser::set_clock(const Words& operands) {
   std::string text = operands[0];  // as other tools write it too, with a T before the time
   std::ranges::replace(text, 'T', ' ');
   const auto time = parse_clock(text);
@@ -507,7 +508,7 @@ void Parser::set_clock(const Words& operands) {
                                               bcd(time->minute), bcd(time->second), 0, time->weekday}));
 }
 
-void Parser::raw(const Words& operands) {
+void PpiParser::raw(const Words& operands) {
   for (const std::string& operand : operands) {
     serial::Frame frame = parse_hex(operand);
     const std::uint8_t first = frame.front().byte;
@@ -524,9 +525,7 @@ std::string fault_of_own_station(const std::string& text) {
   return {};
 }
 
-bool is_complete(Data response) { return !response.empty() && ppi::frame_length(response) == response.size(); }
-
-std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
+bool is_complete_ppi(Data response) { return !response.empty() && ppi::frame_length(response) == response.size(); }
 
 std::string doubt(const std::vector<MasterAction>& actions, const ProtocolUse& use) {
   const std::uint8_t own = own_station(use);
@@ -544,18 +543,18 @@ const Protocol& ppi_protocol() {
   static const Protocol protocol{
       .name = "ppi",
       .meaning = "programming devices and panels: a port that is not in Freeport mode",
-      .station = kStation,
+      .station = kPpiStation,
       .format = {},
       .over_modbus_tcp = false,
       .options = {{kOwnStation, "NUMBER", "the master's own; a programming device has 0, a panel 1", "0",
                    fault_of_own_station}},
       .actions_help = "Actions of --protocol ppi, to station 2 unless another is given:\n" +
-                      verbs_help(std::span<const PpiVerb>(kVerbs)) +
+                      verbs_help(std::span<const PpiVerb>(kPpiVerbs)) +
                       "  On the line each but status is two exchanges or more, the request and polls for its answer: "
                       "exchange=2 of a fault is the first poll.\n",
-      .action_words = verb_words(std::span<const PpiVerb>(kVerbs)),
-      .actions = actions,
-      .is_complete = is_complete,
+      .action_words = verb_words(std::span<const PpiVerb>(kPpiVerbs)),
+      .actions = [](const Words& words, const ProtocolUse& use) { return PpiParser(use).parse(words); },
+      .is_complete = is_complete_ppi,
       .doubt = doubt,
       .patience = {.timeout = 150 * kMillisecond, .retries = 2},
       .wants_freeport = false};

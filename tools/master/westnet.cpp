@@ -8,9 +8,9 @@ namespace {
 
 using westinghouse::HighwayCommand;
 
-class Parser final : public BlockParser {
+class WestnetParser final : public BlockParser {
  public:
-  explicit Parser(const ProtocolUse& use) : BlockParser(use, false) {}
+  explicit WestnetParser(const ProtocolUse& use) : BlockParser(use, false) {}
 
   std::vector<MasterAction> parse(const Words& words);
 
@@ -23,27 +23,27 @@ class Parser final : public BlockParser {
   void session(const Words&) { add(westinghouse::highway(HighwayCommand::ReadSessionStatus), {}); }
 };
 
-using WestnetVerb = Verb<Parser>;
+using WestnetVerb = Verb<WestnetParser>;
 
-constexpr std::array kOwnVerbs{
+constexpr std::array kWestnetOwnVerbs{
     WestnetVerb{"address", "DROP[.SUBDROP]",
                 "the PLC for all actions after it: address 17, or 16#11; --plc and answers have it in hex: 00.11.00", 1, 1,
-                &Parser::address},
-    WestnetVerb{"open", "", "a session with it", 0, 0, &Parser::open},
-    WestnetVerb{"close", "", "the session", 0, 0, &Parser::close},
-    WestnetVerb{"session", "", "who is in session with it", 0, 0, &Parser::session},
-    WestnetVerb{"status", "", "of the highway: the last error", 0, 0, &Parser::status},
-    WestnetVerb{"remote", "", "drop that is addressed", 0, 0, &Parser::remote},
-    WestnetVerb{"local", "", "drop of this computer", 0, 0, &Parser::local},
+                &WestnetParser::address},
+    WestnetVerb{"open", "", "a session with it", 0, 0, &WestnetParser::open},
+    WestnetVerb{"close", "", "the session", 0, 0, &WestnetParser::close},
+    WestnetVerb{"session", "", "who is in session with it", 0, 0, &WestnetParser::session},
+    WestnetVerb{"status", "", "of the highway: the last error", 0, 0, &WestnetParser::status},
+    WestnetVerb{"remote", "", "drop that is addressed", 0, 0, &WestnetParser::remote},
+    WestnetVerb{"local", "", "drop of this computer", 0, 0, &WestnetParser::local},
 };
-constexpr auto kVerbs =
-    joined(kOwnVerbs, block_verbs<Parser>("words of the PLC's memory, up to 32 at once: read 16#1234:2"));
+constexpr auto kWestnetVerbs =
+    joined(kWestnetOwnVerbs, block_verbs<WestnetParser>("words of the PLC's memory, up to 32 at once: read 16#1234:2"));
 
-std::vector<MasterAction> Parser::parse(const Words& words) {
-  return parse_with(*this, std::span<const WestnetVerb>(kVerbs), words, "address 17 read 16#1234:2");
+std::vector<MasterAction> WestnetParser::parse(const Words& words) {
+  return parse_with(*this, std::span<const WestnetVerb>(kWestnetVerbs), words, "address 17 read 16#1234:2");
 }
 
-void Parser::address(const Words& operands) {
+void WestnetParser::address(const Words& operands) {
   constexpr std::int64_t kLastDrop = 254;
   const auto parts = split_at(operands[0], '.');
   const auto drop = static_cast<std::uint8_t>(parse_number(parts ? parts->first : operands[0], 1, kLastDrop, "drop"));
@@ -52,24 +52,23 @@ void Parser::address(const Words& operands) {
       {.subject = fmt::format("drop {}, subdrop {}", drop, subdrop)});
 }
 
-std::vector<MasterAction> actions(const Words& words, const ProtocolUse& use) { return Parser(use).parse(words); }
-
 }  // namespace
 
 const Protocol& westnet_protocol() {
-  static const Protocol protocol{.name = "westnet",
-                                 .meaning = "Westinghouse PLCs over the data highway Westnet II",
-                                 .station = {},
-                                 .format = {.parity = Parity::None},
-                                 .over_modbus_tcp = false,
-                                 .options = {data_check_option()},
-                                 .actions_help = "Actions of --protocol westnet; the PLC is addressed first:\n" +
-                                                 verbs_help(std::span<const WestnetVerb>(kVerbs)),
-                                 .action_words = verb_words(std::span<const WestnetVerb>(kVerbs)),
-                                 .actions = actions,
-                                 .is_complete = westinghouse::is_whole_answer,
-                                 .choices = "--data-check [L4]",
-                                 .plcs = westinghouse::find_plc("westnet")};
+  static const Protocol protocol{
+      .name = "westnet",
+      .meaning = "Westinghouse PLCs over the data highway Westnet II",
+      .station = {},
+      .format = {.parity = Parity::None},
+      .over_modbus_tcp = false,
+      .options = {data_check_option()},
+      .actions_help = "Actions of --protocol westnet; the PLC is addressed first:\n" +
+                      verbs_help(std::span<const WestnetVerb>(kWestnetVerbs)),
+      .action_words = verb_words(std::span<const WestnetVerb>(kWestnetVerbs)),
+      .actions = [](const Words& words, const ProtocolUse& use) { return WestnetParser(use).parse(words); },
+      .is_complete = westinghouse::is_whole_answer,
+      .choices = "--data-check [L4]",
+      .plcs = westinghouse::find_plc("westnet")};
   return protocol;
 }
 

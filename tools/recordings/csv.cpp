@@ -10,13 +10,12 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/lines.hpp"
 #include "tools/recordings/notation.hpp"
 #include "tools/recordings/table_rows.hpp"
 
 namespace s7200::tools {
 namespace {
-
-std::string_view first_line(std::string_view text) { return text.substr(0, text.find_first_of("\r\n")); }
 
 char separator_of(std::string_view line) {
   for (const char c : {'\t', ';', '|', ','})

@@ -33,18 +33,18 @@ std::optional<Heading> heading_of(std::string_view line) {
   return Heading{.text = line.substr(0, end), .length = static_cast<std::size_t>(decimal_number(length))};
 }
 
-struct DumpRow {
+struct EmodbusRow {
   std::size_t offset = 0;
   Bytes bytes{};
 };
-std::optional<DumpRow> row_of(std::string_view line) {
+std::optional<EmodbusRow> emodbus_row(std::string_view line) {
   constexpr std::size_t kFullRow = 16;
   Scan scan(line);
   scan.skip(kAllBlanks);
   if (scan.take("|") == '\0' || scan.skip(kAllBlanks, 1) == 0) return {};
   const std::string_view offset = scan.take_hex(4);
   if (offset.size() != 4 || scan.take(":") == '\0') return {};
-  DumpRow row{.offset = hex_number(offset)};
+  EmodbusRow row{.offset = hex_number(offset)};
   while (row.bytes.size() < kFullRow) {
     const std::size_t before = scan.at(), blanks = scan.skip(kAllBlanks);
     const std::string_view digits = blanks == 1 || blanks == 2 ? scan.take_hex(2) : "";
@@ -58,7 +58,7 @@ std::optional<DumpRow> row_of(std::string_view line) {
 }
 
 /// The time of a line in milliseconds since the start: `[D] 1234|`
-std::optional<LeadingTime> time_of(std::string_view line) {
+std::optional<LeadingTime> time_of_heading(std::string_view line) {
   Scan scan(line);
   const bool has_level = scan.take("[") != '\0' && scan.take_while(is_word_sign, 1).size() == 1 && scan.take("]") != '\0';
   const std::string_view milliseconds = has_level && scan.skip(kAllBlanks) > 0 ? scan.take_digits(10) : "";
@@ -68,20 +68,20 @@ std::optional<LeadingTime> time_of(std::string_view line) {
 }
 
 /// Nearest to the dump stands what it is: `Received request, Sent packet`.
-Direction direction_of_heading(std::string_view text) {
+Direction direction_after_name(std::string_view text) {
   const std::size_t last = text.find_last_of(":,");
   return direction_of(last == std::string_view::npos ? text : text.substr(last + 1));
 }
 
-class Reader {
+class EmodbusReader {
  public:
   void take(std::string_view line) {
     ++number_;
-    if (const auto row = row_of(line)) return take(*row, line);
+    if (const auto row = emodbus_row(line)) return take(*row, line);
     close();
     if (const auto heading = heading_of(line)) {
-      open_ = {.direction = direction_of_heading(heading->text), .place = fmt::format("line {}", number_)};
-      if (const auto time = time_of(line)) open_.at = days_.since_first_midnight(*time);
+      open_ = {.direction = direction_after_name(heading->text), .place = fmt::format("line {}", number_)};
+      if (const auto time = time_of_heading(line)) open_.at = days_.since_first_midnight(*time);
       length_ = heading->length;
       heading_ = number_;
     } else if (!stl::trim(line).empty()) {
@@ -97,7 +97,7 @@ class Reader {
   }
 
  private:
-  void take(const DumpRow& row, std::string_view line) {
+  void take(const EmodbusRow& row, std::string_view line) {
     if (heading_ == 0 || row.offset != open_.bytes.size())
       recording_.frames.push_back(row_not_read(number_, not_understood(stl::trim(line)), open_.at, open_.direction));
     else
@@ -130,7 +130,7 @@ bool looks_like_emodbus(std::string_view bytes) {
 }
 
 std::optional<LineRecording> read_emodbus(std::string_view bytes, const ReadingChoices&, std::string&) {
-  Reader reader;
+  EmodbusReader reader;
   for (const std::string_view line : Lines(bytes)) reader.take(line);
   return reader.finish();
 }

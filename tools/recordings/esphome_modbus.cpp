@@ -16,14 +16,14 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::string_view kTag = "[modbus:", kWrite = "rite: ", kReceived = "eceived Byte ";
+constexpr std::string_view kModbusTag = "[modbus:", kWrite = "rite: ", kByteReceived = "eceived Byte ";
 
 /// Silence that ends what it receives: it waits so long for the next byte.
 constexpr Time kReceivingEnds = 50 * kMillisecond;
 
 /// The text after a word that comes after the tag.
 std::optional<std::string_view> said_after(std::string_view line, std::string_view word) {
-  const std::size_t tag = line.find(kTag);
+  const std::size_t tag = line.find(kModbusTag);
   const std::size_t at = tag == std::string_view::npos ? tag : line.find(word, tag);
   if (at == std::string_view::npos) return {};
   const std::string_view rest = line.substr(at + word.size());
@@ -64,7 +64,7 @@ std::optional<LineRecording> read_esphome_modbus(std::string_view bytes, const R
   for (const std::string_view line : Lines(bytes)) {
     ++number;
     const auto written = said_after(line, kWrite);
-    const auto received = written ? std::nullopt : said_after(line, kReceived);
+    const auto received = written ? std::nullopt : said_after(line, kByteReceived);
     if (!written && !received) {
       if (!stl::trim(line).empty()) left_out.without_bytes(number);
       continue;

@@ -671,21 +671,21 @@ bool is_station_with_number(std::string_view word, std::string_view after) {
   return (word == "SLAVE" || word == "MASTER") && next != 0 && next != std::string_view::npos && stl::is_digit(after[next]);
 }
 
-struct Unit {
+struct WrittenUnit {
   std::string_view word;
   Time time;
 };
-constexpr std::array kUnits{Unit{"S", kSecond},
-                            Unit{"SEC", kSecond},
-                            Unit{"SECONDS", kSecond},
-                            Unit{"MS", kMillisecond},
-                            Unit{"US", kMicrosecond},
-                            Unit{"\u00B5S", kMicrosecond},
-                            Unit{"\u03BCS", kMicrosecond},
-                            Unit{"NS", 1},
-                            Unit{"MILLISECONDS", kMillisecond},
-                            Unit{"MICROSECONDS", kMicrosecond},
-                            Unit{"NANOSECONDS", 1}};
+constexpr std::array kWrittenUnits{WrittenUnit{"S", kSecond},
+                                   WrittenUnit{"SEC", kSecond},
+                                   WrittenUnit{"SECONDS", kSecond},
+                                   WrittenUnit{"MS", kMillisecond},
+                                   WrittenUnit{"US", kMicrosecond},
+                                   WrittenUnit{"\u00B5S", kMicrosecond},
+                                   WrittenUnit{"\u03BCS", kMicrosecond},
+                                   WrittenUnit{"NS", 1},
+                                   WrittenUnit{"MILLISECONDS", kMillisecond},
+                                   WrittenUnit{"MICROSECONDS", kMicrosecond},
+                                   WrittenUnit{"NANOSECONDS", 1}};
 
 }  // namespace
 
@@ -716,8 +716,8 @@ std::optional<Time> unit_of(std::string_view name) {
   for (auto begin = capitals.begin(); begin != capitals.end();) {
     begin = std::find_if(begin, capitals.end(), is_letter);
     const auto end = std::find_if_not(begin, capitals.end(), is_letter);
-    const auto unit = std::ranges::find(kUnits, std::string_view(begin, end), &Unit::word);
-    if (unit != kUnits.end()) return unit->time;
+    const auto unit = std::ranges::find(kWrittenUnits, std::string_view(begin, end), &WrittenUnit::word);
+    if (unit != kWrittenUnits.end()) return unit->time;
     begin = end;
   }
   return {};

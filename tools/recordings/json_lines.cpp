@@ -5,6 +5,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/json/json.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/lines.hpp"
 #include "tools/recordings/named_fields.hpp"
 
 namespace s7200::tools {
@@ -22,8 +23,6 @@ struct Piece {
   std::string_view text{};
   std::size_t number = 0;  ///< of the line
 };
-
-std::string_view first_line(std::string_view text) { return text.substr(0, text.find_first_of(kLineEnds)); }
 
 std::size_t count_lines(std::string_view text) {
   std::size_t lines = 0;

@@ -21,7 +21,7 @@ bool is_comment(std::string_view line) {
   return line.starts_with(';') || line.starts_with('#') || line.starts_with("META ");
 }
 
-char separator_of(std::string_view line) {
+char separator_of_levels(std::string_view line) {
   const std::size_t at = line.find_first_of(",;\t");
   return at == std::string_view::npos ? ',' : line[at];
 }
@@ -59,7 +59,7 @@ void take_comment(std::string_view comment, Head& head) {
 
 /// `Time [s],Channel 0`; the channels of sigrok are all called `logic` there, and have their names in a comment.
 bool take_names(std::string_view line, Head& head) {
-  head.separator = separator_of(line);
+  head.separator = separator_of_levels(line);
   auto names = fields_of(line, head.separator);
   for (std::string& name : names) name = stl::trim(name);
   if (std::ranges::all_of(names, is_level)) return false;
@@ -94,9 +94,9 @@ bool is_row(const std::vector<std::string>& fields, const Head& head) {
                      [](std::string_view field) { return is_level(stl::trim(field)) || stl::trim(field) == "X"; });
 }
 
-class Reader {
+class LevelsTableReader {
  public:
-  Reader(Head head, std::uint64_t samplerate) : head_(std::move(head)), samplerate_(samplerate) {
+  LevelsTableReader(Head head, std::uint64_t samplerate) : head_(std::move(head)), samplerate_(samplerate) {
     for (std::size_t i = head_.first_channel(); i < head_.names.size(); ++i)
       levels_.channels.push_back({.name = head_.names[i]});
   }
@@ -173,7 +173,7 @@ std::optional<LineRecording> read_levels_table(std::string_view bytes, const Rea
     why = "it has neither times nor a samplerate: name that with --samplerate, as 1MHz";
     return {};
   }
-  Reader reader(head, samplerate);
+  LevelsTableReader reader(head, samplerate);
   std::size_t line = 0;
   for (const std::string_view text : Lines(bytes)) {
     if (line++ < head.lines || stl::trim(text).empty()) continue;

@@ -115,9 +115,9 @@ std::optional<std::size_t> first_message_in(Data data) {
   return {};
 }
 
-class Reader {
+class PacketFrames {
  public:
-  explicit Reader(const ReadingChoices& choices) : choices_(choices) {}
+  explicit PacketFrames(const ReadingChoices& choices) : choices_(choices) {}
 
   void take(std::size_t number, Time at, int link_type, Data packet) {
     const std::string place = fmt::format("packet {}", number);
@@ -416,7 +416,7 @@ std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoi
         unknown_link_types.front());
     return {};
   }
-  Reader reader(choices);
+  PacketFrames reader(choices);
   while (CaptureReader* const part = next_part(parts)) {
     reader.take(part->packet()->number, part->packet()->at, part->link_type(), part->packet()->data);
     if (!part->read_next(why)) return {};

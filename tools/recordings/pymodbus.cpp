@@ -18,7 +18,7 @@
 namespace s7200::tools {
 namespace {
 
-struct Moved {
+struct PymodbusRow {
   bool sent = false;
   Bytes bytes{}, waiting{};  ///< and what was there of the frame before
 };
@@ -43,11 +43,11 @@ std::optional<std::string_view> what_follows(std::string_view line, std::string_
   return line.substr(at + word.size());
 }
 
-std::optional<Moved> moved_in(std::string_view line) {
+std::optional<PymodbusRow> pymodbus_row(std::string_view line) {
   for (const std::string_view word : {"send: ", "SEND: ", "recv: ", "RECV: "}) {
     auto rest = what_follows(line, word);
     if (!rest) continue;
-    Moved moved{.sent = word.front() == 's' || word.front() == 'S', .bytes = take_bytes(*rest)};
+    PymodbusRow moved{.sent = word.front() == 's' || word.front() == 'S', .bytes = take_bytes(*rest)};
     if (moved.bytes.empty()) continue;
     for (const std::string_view waiting : {"old_data:", "extra data:"})
       if (rest->starts_with(waiting)) {
@@ -74,7 +74,7 @@ bool says_it_again(std::string_view line) {
 }
 
 /// The frame that has come so far goes on with these bytes.
-bool goes_on(const LineRecording& recording, const Moved& moved, Direction direction) {
+bool goes_on(const LineRecording& recording, const PymodbusRow& moved, Direction direction) {
   return !moved.sent && !moved.waiting.empty() && !recording.frames.empty() &&
          recording.frames.back().direction == direction && recording.frames.back().bytes == moved.waiting;
 }
@@ -95,7 +95,7 @@ std::optional<LineRecording> read_pymodbus(std::string_view bytes, const Reading
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes)) {
     ++number;
-    auto moved = moved_in(line);
+    auto moved = pymodbus_row(line);
     if (!moved) {
       if (const auto damaged = damaged_in(line))
         recording.frames.push_back(row_not_read(number, not_understood(*damaged), {}, Direction::Unknown));

@@ -10,14 +10,14 @@
 namespace s7200::tools {
 namespace {
 
-struct Unit {
+struct RateUnit {
   std::string_view word;
   double hertz;
 };
-constexpr std::array kUnits{Unit{"", 1},    Unit{"HZ", 1},    Unit{"K", 1e3}, Unit{"KHZ", 1e3},
-                            Unit{"M", 1e6}, Unit{"MHZ", 1e6}, Unit{"G", 1e9}, Unit{"GHZ", 1e9}};
+constexpr std::array kRateUnits{RateUnit{"", 1},    RateUnit{"HZ", 1},    RateUnit{"K", 1e3}, RateUnit{"KHZ", 1e3},
+                                RateUnit{"M", 1e6}, RateUnit{"MHZ", 1e6}, RateUnit{"G", 1e9}, RateUnit{"GHZ", 1e9}};
 
-constexpr Between<double> kRates{1, 1e11};
+constexpr Between<double> kPossibleRates{1, 1e11};
 
 }  // namespace
 
@@ -26,8 +26,8 @@ std::optional<std::uint64_t> samplerate_of(std::string_view text) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
   const auto figure = parse_decimal<double>(text.substr(0, end));
   const std::string word = stl::upper_case(stl::trim(text.substr(end)));
-  const auto unit = std::ranges::find(kUnits, word, &Unit::word);
-  if (!figure || unit == kUnits.end() || !kRates.has(*figure * unit->hertz)) return {};
+  const auto unit = std::ranges::find(kRateUnits, word, &RateUnit::word);
+  if (!figure || unit == kRateUnits.end() || !kPossibleRates.has(*figure * unit->hertz)) return {};
   return static_cast<std::uint64_t>(std::llround(*figure * unit->hertz));
 }
 

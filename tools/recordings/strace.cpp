@@ -150,7 +150,7 @@ bool is_standard(const Descriptor& descriptor) {
   return descriptor.number <= kLastStandard && !descriptor.path.starts_with("/dev/tty");
 }
 
-class Reader {
+class StraceReader {
  public:
   void take(std::string_view line) {
     ++number_;
@@ -314,7 +314,7 @@ bool looks_like_strace(std::string_view bytes) {
 }
 
 std::optional<LineRecording> read_strace(std::string_view bytes, const ReadingChoices&, std::string& why) {
-  Reader reader;
+  StraceReader reader;
   for (const std::string_view line : Lines(bytes)) reader.take(line);
   return reader.finish(why);
 }

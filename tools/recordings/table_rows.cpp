@@ -5,9 +5,9 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::string_view kLineEnds = "\r\n", kSeparators = ",;\t|";
+constexpr std::string_view kEndsOfRows = "\r\n", kSeparators = ",;\t|";
 
-bool is_line_end(char c) { return kLineEnds.find(c) != std::string_view::npos; }
+bool is_line_end(char c) { return kEndsOfRows.find(c) != std::string_view::npos; }
 
 /// The length of a line end; CR LF is one line end.
 std::size_t length_of_line_end(std::string_view text) { return text.starts_with("\r\n") ? 2 : 1; }

@@ -13,15 +13,15 @@
 namespace s7200::tools {
 namespace {
 
-struct Moved {
+struct TasmotaRow {
   Direction direction = Direction::Unknown;
   std::string_view written{};
 };
-std::optional<Moved> moved_in(std::string_view line) {
+std::optional<TasmotaRow> tasmota_row(std::string_view line) {
   constexpr std::string_view kReceived = "SerialReceived\":", kSent = "SerialSend";
   if (const std::size_t at = line.find(kReceived); at != std::string_view::npos) {
     const std::string_view value = line.substr(at + kReceived.size());
-    return Moved{Direction::Answer, value.substr(0, value.find('}'))};
+    return TasmotaRow{Direction::Answer, value.substr(0, value.find('}'))};
   }
   const std::size_t at = line.find(kSent);
   if (at == std::string_view::npos) return {};
@@ -29,14 +29,14 @@ std::optional<Moved> moved_in(std::string_view line) {
   if (rest.starts_with('"')) return {};  // {"SerialSend":"Done"}
   constexpr char kHex = '5';             // SerialSend5 takes hex, the others texts
   const bool in_hex = rest.starts_with(kHex);
-  return Moved{Direction::Request, in_hex ? rest.substr(1) : line.substr(at)};
+  return TasmotaRow{Direction::Request, in_hex ? rest.substr(1) : line.substr(at)};
 }
 
 }  // namespace
 
 bool looks_like_tasmota(std::string_view bytes) {
   return is_text(bytes) && std::ranges::any_of(Lines(beginning_of(bytes)), [](std::string_view line) {
-           const auto moved = moved_in(line);
+           const auto moved = tasmota_row(line);
            return moved && bytes_of_text(moved->written);
          });
 }
@@ -48,7 +48,7 @@ std::optional<LineRecording> read_tasmota(std::string_view bytes, const ReadingC
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes)) {
     ++number;
-    const auto moved = moved_in(line);
+    const auto moved = tasmota_row(line);
     if (!moved) {
       if (!stl::trim(line).empty()) left_out.without_bytes(number);
       continue;

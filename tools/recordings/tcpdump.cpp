@@ -23,19 +23,19 @@ struct PrintedPacket {
   Bytes bytes{};
 };
 
-struct DumpRow {
+struct TcpdumpRow {
   std::size_t offset = 0;
   Bytes bytes{};
 };
 
 /// `	0x0010:  7f00 0001 9c40 01f6  .....@..`: groups of two bytes with a blank between them.
-std::optional<DumpRow> row_of(std::string_view line) {
+std::optional<TcpdumpRow> tcpdump_row(std::string_view line) {
   constexpr std::size_t kFullRow = 16;
   Scan scan(line);
   if (scan.skip(kAllBlanks) == 0 || !scan.take_word("0x")) return {};
   const std::string_view offset = scan.take_hex(5);
   if (offset.size() < 4 || scan.take(":") == '\0') return {};
-  DumpRow row{.offset = hex_number(offset)};
+  TcpdumpRow row{.offset = hex_number(offset)};
   for (std::size_t blanks = scan.skip(" "), most = 2; blanks >= 1 && blanks <= most && row.bytes.size() < kFullRow;
        most = 1) {
     const std::string_view group = scan.take_hex(4);
@@ -83,7 +83,7 @@ bool take_rows(std::string_view text, std::vector<PrintedPacket>& packets, std::
   std::size_t number = 0;
   for (const std::string_view line : Lines(text)) {
     ++number;
-    if (const auto row = row_of(line)) {
+    if (const auto row = tcpdump_row(line)) {
       if (packets.empty() || packets.back().bytes.size() != row->offset) {
         why = fmt::format("line {}: rows before it are missing; record with tcpdump -w FILE.pcap", number);
         return false;
@@ -101,7 +101,7 @@ bool take_rows(std::string_view text, std::vector<PrintedPacket>& packets, std::
 bool looks_like_tcpdump(std::string_view bytes) {
   bool after_packet = false;
   for (const std::string_view line : Lines(beginning_of(bytes))) {
-    if (after_packet && row_of(line)) return is_text(bytes);
+    if (after_packet && tcpdump_row(line)) return is_text(bytes);
     after_packet = leading_time(line).has_value() && line.find(" IP") != std::string_view::npos;
   }
   return false;

@@ -38,12 +38,13 @@ std::vector<std::string_view> take_section(std::string_view& text) {
 struct Scale {
   std::int64_t times = 1, per = 1;
 };
-struct Unit {
+struct VcdUnit {
   std::string_view word;
   Scale scale;
 };
-constexpr std::array kUnits{Unit{"s", {kSecond, 1}}, Unit{"ms", {kMillisecond, 1}}, Unit{"us", {kMicrosecond, 1}},
-                            Unit{"ns", {1, 1}},      Unit{"ps", {1, 1000}},         Unit{"fs", {1, 1'000'000}}};
+constexpr std::array kVcdUnits{VcdUnit{"s", {kSecond, 1}},       VcdUnit{"ms", {kMillisecond, 1}},
+                               VcdUnit{"us", {kMicrosecond, 1}}, VcdUnit{"ns", {1, 1}},
+                               VcdUnit{"ps", {1, 1000}},         VcdUnit{"fs", {1, 1'000'000}}};
 
 /// A time scale: `1 ns`, `10us`.
 std::optional<Scale> scale_of(const std::vector<std::string_view>& words) {
@@ -51,14 +52,14 @@ std::optional<Scale> scale_of(const std::vector<std::string_view>& words) {
   for (const std::string_view word : words) text += word;
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
   const auto figure = parse_decimal<std::int64_t>(std::string_view(text).substr(0, digits));
-  const auto unit = std::ranges::find(kUnits, std::string_view(text).substr(digits), &Unit::word);
-  if (!figure || *figure < 1 || *figure > 1000 || unit == kUnits.end()) return {};
+  const auto unit = std::ranges::find(kVcdUnits, std::string_view(text).substr(digits), &VcdUnit::word);
+  if (!figure || *figure < 1 || *figure > 1000 || unit == kVcdUnits.end()) return {};
   return Scale{*figure * unit->scale.times, unit->scale.per};
 }
 
-class Reader {
+class VcdReader {
  public:
-  explicit Reader(std::string_view text) : rest_(text) {}
+  explicit VcdReader(std::string_view text) : rest_(text) {}
 
   std::optional<Levels> read(std::string& why) {
     while (true) {
@@ -158,7 +159,7 @@ bool looks_like_vcd(std::string_view bytes) {
 }
 
 std::optional<LineRecording> read_vcd(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
-  auto levels = Reader(bytes).read(why);
+  auto levels = VcdReader(bytes).read(why);
   return levels ? frames_of(std::move(*levels), choices, why) : std::nullopt;
 }
 

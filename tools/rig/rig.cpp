@@ -136,7 +136,7 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
   const CpuModel& model = *program->model;
   if (settings.port >= model.ports)
     problems.push_back(
-        fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, to_text(kTwoPorts)));
+        fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, s7200::to_text(kTwoPorts)));
   if (const std::string why = why_no_clock(model); settings.clock && !why.empty()) problems.push_back(why);
   auto field = read_field(settings.input, model, problems);
   if (!field || !problems.empty()) return nullptr;

@@ -21,9 +21,7 @@
 namespace s7200::tools {
 namespace {
 
-constexpr const char* kIndent = "    ";
-
-std::vector<BytePattern> pattern_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+constexpr const char* kIndented = "    ";
 
 bool same_answer(const serial::Exchange& a, const serial::Exchange& b) {
   return a.response_bytes() == b.response_bytes() && a.parity_error() == b.parity_error() &&
@@ -57,15 +55,15 @@ std::string exchange_text(const Scenario& scenario, const Seen& one, const Seen&
   const auto before = std::count_if(scenario.steps.begin(), scenario.steps.begin() + static_cast<std::ptrdiff_t>(one.step),
                                     [](const Step& s) { return reception_of(s) != nullptr; });
   const std::size_t number = static_cast<std::size_t>(before) + one.turn + 1;
-  std::string text = fmt::format("{}exchange {}{}{}\n", kIndent, number, place, turn);
+  std::string text = fmt::format("{}exchange {}{}{}\n", kIndented, number, place, turn);
   const bool asked = !one.exchange.request.empty();
-  text += fmt::format("{}{:<{}} {}\n", kIndent, "request", width,
+  text += fmt::format("{}{:<{}} {}\n", kIndented, "request", width,
                       asked ? serial::to_hex(one.exchange.request) : "none: a transmission that no one asked for");
   if (!same_answer(one.exchange, other.exchange))
-    text += bytes_diff(pattern_of(one.exchange.response_bytes()), pattern_of(other.exchange.response_bytes()), kIndent,
+    text += bytes_diff(pattern_of(one.exchange.response_bytes()), pattern_of(other.exchange.response_bytes()), kIndented,
                        colour, one_name, other_name);
-  text += fmt::format("{}{:<{}} {}\n", kIndent, one_name, width, came_text(one.exchange));
-  text += fmt::format("{}{:<{}} {}\n", kIndent, other_name, width, came_text(other.exchange));
+  text += fmt::format("{}{:<{}} {}\n", kIndented, one_name, width, came_text(one.exchange));
+  text += fmt::format("{}{:<{}} {}\n", kIndented, other_name, width, came_text(other.exchange));
   return text;
 }
 
@@ -91,7 +89,7 @@ class FirstDifference {
 
  private:
   void show(std::string_view heading, const Seen& one, const Seen& other) {
-    text_ += fmt::format("{}{}\n", kIndent, heading);
+    text_ += fmt::format("{}{}\n", kIndented, heading);
     text_ += exchange_text(scenario_, one, other, one_.name, other_.name, comparison_.colour);
   }
 
@@ -169,11 +167,11 @@ std::string trouble_text(const Scenario& scenario, const ScenarioResult& result,
   for (const Finding& finding : result.findings) {
     if (!finding.of_run || ++count > 1) continue;
     const std::uint32_t line = position_of(scenario, finding).line;
-    text = fmt::format("{}{} could not be asked{}: {}\n", kIndent, name,
+    text = fmt::format("{}{} could not be asked{}: {}\n", kIndented, name,
                        line ? fmt::format(", {}:{}", stl::printable(scenario.source->name), line) : "",
                        stl::printable(finding_line(scenario, finding)));
   }
-  if (count > 1) text += fmt::format("{}and {} more\n", kIndent, count - 1);
+  if (count > 1) text += fmt::format("{}and {} more\n", kIndented, count - 1);
   return text;
 }
 

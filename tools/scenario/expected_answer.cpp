@@ -10,8 +10,6 @@
 namespace s7200::tools {
 namespace {
 
-std::vector<BytePattern> pattern_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
-
 bool matches(const std::vector<BytePattern>& pattern, const Bytes& bytes) {
   return std::equal(pattern.begin(), pattern.end(), bytes.begin(), bytes.end(),
                     [](const BytePattern& p, std::uint8_t byte) { return !p || *p == byte; });

@@ -40,6 +40,9 @@ struct Count {
 /// A byte that must be, or any.
 using BytePattern = std::optional<std::uint8_t>;
 
+/// The bytes that must be, each of them.
+inline std::vector<BytePattern> pattern_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
 /// `12`, `-5`, `16#FF`, `2#1010`, 32 bits at most.
 std::optional<std::int64_t> parse_number(std::string_view text);
 

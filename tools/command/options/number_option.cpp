@@ -22,12 +22,12 @@ std::string help_text(const std::string& text, const std::string& range, const s
 }
 
 /// What kind of number an option takes.
-struct Kind {
+struct NumberKind {
   std::string_view name;
   bool (*is)(std::string_view text);  // in any range
 };
 
-std::string wrong(const std::string& given, const Kind& kind, const std::string& range) {
+std::string wrong(const std::string& given, const NumberKind& kind, const std::string& range) {
   const std::string shown = stl::shortened(given);
   return kind.is(given) ? fmt::format("'{}' is out of range ({})", shown, range)
                         : fmt::format("'{}' is not a {} ({})", shown, kind.name, range);
@@ -35,7 +35,7 @@ std::string wrong(const std::string& given, const Kind& kind, const std::string&
 
 template <class Number>
 CLI::Option* add_number(CLI::App& app, const std::string& name, std::function<void(Number)> take, Between<Number> range,
-                        Kind kind, const std::string& text, const std::string& standard) {
+                        NumberKind kind, const std::string& text, const std::string& standard) {
   return app
       .add_option_function<std::string>(
           name,

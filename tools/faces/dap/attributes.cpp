@@ -5,73 +5,71 @@
 namespace s7200::tools::dap {
 namespace {
 
-using enum AttributeUse;
-
-struct Row {
+struct AttributeRow {
   std::string_view key;
   AttributeUse use;
 };
 
-constexpr Row kAttributes[] = {
-    {"stopOnEntry", Session},
-    {"noDebug", Session},
-    {"step", Session},
-    {"send", Session},
-    {"sendAfter", Session},
-    {"station", Session},
-    {"token", Session},
-    {"cwd", Session},
-    {"program", Program},
+constexpr AttributeRow kAttributes[] = {
+    {"stopOnEntry", AttributeUse::Session},
+    {"noDebug", AttributeUse::Session},
+    {"step", AttributeUse::Session},
+    {"send", AttributeUse::Session},
+    {"sendAfter", AttributeUse::Session},
+    {"station", AttributeUse::Session},
+    {"token", AttributeUse::Session},
+    {"cwd", AttributeUse::Session},
+    {"program", AttributeUse::Program},
     // Those of VS Code, Zed (adapter, label, build) and nvim-dap
-    {"name", Editor},
-    {"type", Editor},
-    {"request", Editor},
-    {"debugServer", Editor},
-    {"preLaunchTask", Editor},
-    {"postDebugTask", Editor},
-    {"presentation", Editor},
-    {"serverReadyAction", Editor},
-    {"internalConsoleOptions", Editor},
-    {"debugOptions", Editor},
-    {"suppressMultipleSessionWarning", Editor},
-    {"adapter", Editor},
-    {"label", Editor},
-    {"build", Editor},
+    {"name", AttributeUse::Editor},
+    {"type", AttributeUse::Editor},
+    {"request", AttributeUse::Editor},
+    {"debugServer", AttributeUse::Editor},
+    {"preLaunchTask", AttributeUse::Editor},
+    {"postDebugTask", AttributeUse::Editor},
+    {"presentation", AttributeUse::Editor},
+    {"serverReadyAction", AttributeUse::Editor},
+    {"internalConsoleOptions", AttributeUse::Editor},
+    {"debugOptions", AttributeUse::Editor},
+    {"suppressMultipleSessionWarning", AttributeUse::Editor},
+    {"adapter", AttributeUse::Editor},
+    {"label", AttributeUse::Editor},
+    {"build", AttributeUse::Editor},
     // What templates for programs of the computer have
-    {"env", OfOthers},
-    {"envFile", OfOthers},
-    {"environment", OfOthers},
-    {"args", OfOthers},
-    {"console", OfOthers},
-    {"externalConsole", OfOthers},
-    {"integratedTerminal", OfOthers},
-    {"runInTerminal", OfOthers},
-    {"terminal", OfOthers},
-    {"host", OfOthers},
-    {"restart", OfOthers},
-    {"linux", OfOthers},
-    {"osx", OfOthers},
-    {"macos", OfOthers},
-    {"windows", OfOthers},
-    {"runtimeExecutable", OfOthers},
-    {"runtimeArgs", OfOthers},
-    {"justMyCode", OfOthers},
-    {"showLog", OfOthers},
-    {"sourceMap", OfOthers},
-    {"sourceMaps", OfOthers},
-    {"sourceLanguages", OfOthers},
-    {"pathMappings", OfOthers},
-    {"outFiles", OfOthers},
-    {"skipFiles", OfOthers},
-    {"smartStep", OfOthers},
+    {"env", AttributeUse::OfOthers},
+    {"envFile", AttributeUse::OfOthers},
+    {"environment", AttributeUse::OfOthers},
+    {"args", AttributeUse::OfOthers},
+    {"console", AttributeUse::OfOthers},
+    {"externalConsole", AttributeUse::OfOthers},
+    {"integratedTerminal", AttributeUse::OfOthers},
+    {"runInTerminal", AttributeUse::OfOthers},
+    {"terminal", AttributeUse::OfOthers},
+    {"host", AttributeUse::OfOthers},
+    {"restart", AttributeUse::OfOthers},
+    {"linux", AttributeUse::OfOthers},
+    {"osx", AttributeUse::OfOthers},
+    {"macos", AttributeUse::OfOthers},
+    {"windows", AttributeUse::OfOthers},
+    {"runtimeExecutable", AttributeUse::OfOthers},
+    {"runtimeArgs", AttributeUse::OfOthers},
+    {"justMyCode", AttributeUse::OfOthers},
+    {"showLog", AttributeUse::OfOthers},
+    {"sourceMap", AttributeUse::OfOthers},
+    {"sourceMaps", AttributeUse::OfOthers},
+    {"sourceLanguages", AttributeUse::OfOthers},
+    {"pathMappings", AttributeUse::OfOthers},
+    {"outFiles", AttributeUse::OfOthers},
+    {"skipFiles", AttributeUse::OfOthers},
+    {"smartStep", AttributeUse::OfOthers},
 };
 
 }  // namespace
 
 AttributeUse use_of(std::string_view key) {
-  if (key.starts_with("__")) return Editor;  // as VS Code marks what is its own
-  const auto* const row = std::ranges::find(kAttributes, key, &Row::key);
-  return row == std::end(kAttributes) ? Program : row->use;
+  if (key.starts_with("__")) return AttributeUse::Editor;  // as VS Code marks what is its own
+  const auto* const row = std::ranges::find(kAttributes, key, &AttributeRow::key);
+  return row == std::end(kAttributes) ? AttributeUse::Program : row->use;
 }
 
 }  // namespace s7200::tools::dap

@@ -9,8 +9,6 @@
 namespace s7200::tools {
 namespace {
 
-std::vector<BytePattern> pattern_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
-
 /// What came in the end, or that nothing did.
 std::string found_text(const Run& run, const Bytes& request, const Bytes& response, Time timeout) {
   if (!response.empty()) return answer_text(request, response);

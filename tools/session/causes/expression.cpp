@@ -166,13 +166,13 @@ std::optional<double> constant_of(const Node& node) {
   return -node.left->constant.number;
 }
 
-class Reader {
+class ExpressionReader {
  public:
   static constexpr std::size_t kMostNested = 100;  ///< parentheses, `not` and signs in each other
   static constexpr std::size_t kMostOperators =
       1000;  ///< between two operands each; a chain of them is as deep as it is long
 
-  Reader(std::string_view text, const Program& program) : text_(text), program_(program) {}
+  ExpressionReader(std::string_view text, const Program& program) : text_(text), program_(program) {}
 
   NodePtr read() {
     NodePtr root = binary(0);
@@ -393,7 +393,7 @@ void collect_places(const Node& node, std::vector<const Node*>& places) {
 }  // namespace
 
 std::optional<Expression> Expression::parse(std::string_view text, const Program& program, std::string& why) {
-  Reader reader(text, program);
+  ExpressionReader reader(text, program);
   Expression expression;
   expression.text_ = text;
   expression.root_ = reader.read();

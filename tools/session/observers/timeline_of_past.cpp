@@ -8,10 +8,10 @@
 namespace s7200::tools {
 namespace {
 
-class Teller final : public Reader {
+class TimelineReader final : public Reader {
  public:
-  Teller(std::size_t station, const std::shared_ptr<const Program>& program, const TraceReasons::Disabled& interrupts,
-         const std::atomic<bool>* stop_request)
+  TimelineReader(std::size_t station, const std::shared_ptr<const Program>& program,
+                 const TraceReasons::Disabled& interrupts, const std::atomic<bool>* stop_request)
       : Reader(station, stop_request), timeline_(program, nullptr, Timeline::Looks::AtInstructions) {
     timeline_.begin_amid(interrupts);
   }
@@ -36,7 +36,7 @@ std::optional<TimelineReport> timeline_of_past(History& history, std::size_t sta
   const Moment now = history.now();
   history.go_to(std::min(from, now.time));
   if (now < history.now()) history.go_to(now);
-  Teller teller(station, program, interrupts_disabled(history, station, stop_request), stop_request);
+  TimelineReader teller(station, program, interrupts_disabled(history, station, stop_request), stop_request);
   const bool complete = history.play(teller, now);
   history.go_to(now);
   return complete ? std::optional(teller.report()) : std::nullopt;

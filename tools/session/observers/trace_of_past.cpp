@@ -11,7 +11,7 @@ namespace {
 using Disabled = TraceReasons::Disabled;
 
 /// The scan, two before it, which the watchdog allows 300 ms each, and most frames that are not answered yet.
-constexpr Time kBefore = kSecond;
+constexpr Time kToldBefore = kSecond;
 
 bool enables(const Op& op) { return op.instruction->effect == Effect::EnablesInterrupts; }
 
@@ -27,9 +27,9 @@ Time oldest_waiting(const History& history) {
   return oldest;
 }
 
-class Teller final : public Reader {
+class TraceReader final : public Reader {
  public:
-  Teller(const History& history, const std::vector<TraceLines*>& traces, const std::atomic<bool>* stop_request)
+  TraceReader(const History& history, const std::vector<TraceLines*>& traces, const std::atomic<bool>* stop_request)
       : Reader(stop_request), history_(history), traces_(traces) {}
   void record(const TraceRecord& record) override { traces_[history_.told_of()]->of(record); }
   void instruction(const InstructionRecord& record) override { traces_[history_.told_of()]->of(record); }
@@ -55,11 +55,11 @@ Disabled interrupts_disabled(History& history, std::size_t station, const std::a
 bool tell_what_was_before(History& history, const std::vector<TraceLines*>& traces, const std::atomic<bool>* stop_request) {
   const Moment now = history.now();
   const Time oldest = oldest_waiting(history);
-  bool told = history.go_to(oldest - std::min(oldest, kBefore));
+  bool told = history.go_to(oldest - std::min(oldest, kToldBefore));
   if (now < history.now()) history.go_to(now);
   for (std::size_t number = 0; number < traces.size(); ++number)
     traces[number]->forget(interrupts_disabled(history, number, stop_request));
-  Teller teller(history, traces, stop_request);
+  TraceReader teller(history, traces, stop_request);
   told = told && history.play(teller, now);
   history.go_to(now);
   for (std::size_t number = 0; !told && number < traces.size(); ++number) traces[number]->forget({Disabled::By::Forgotten});

@@ -18,7 +18,7 @@ std::string counter_preset_text(const Cpu& cpu, std::uint32_t number) {
   return preset ? fmt::format(", preset {}", static_cast<std::int16_t>(load16(&cpu.state().image[*preset]))) : "";
 }
 
-std::string text_of(const HighSpeedCounter& counter) {
+std::string counter_text(const HighSpeedCounter& counter) {
   if (!counter.defined) return "not defined";
   return fmt::format("mode {}, preset {}, {}{}", counter.mode, counter.preset, counter.up ? "up" : "down",
                      counter.enabled ? "" : ", not enabled");
@@ -36,7 +36,7 @@ std::string element_text(const Cpu& cpu, Area area, std::uint32_t number) {
     case Area::C:
       return fmt::format("bit {}{}", bit(image::kCBits), counter_preset_text(cpu, number));
     case Area::HC:
-      return text_of(state.counter[number]);
+      return counter_text(state.counter[number]);
     default:
       return {};
   }
