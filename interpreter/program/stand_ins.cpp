@@ -530,7 +530,7 @@ MissingRoutine missing_routine(const stl::Name& name, const CpuModel& model) {
 bool is_stand_in(std::string_view file) { return number_of_stand_in(file).has_value(); }
 
 std::optional<std::size_t> number_of_stand_in(std::string_view file) {
-  const auto library = std::ranges::find(kLibraries, file, [](const Library& library) { return name_of(library); });
+  const auto library = std::ranges::find(kLibraries, file, [](const Library& each) { return name_of(each); });
   return library == kLibraries.end() ? std::nullopt
                                      : std::optional(static_cast<std::size_t>(library - kLibraries.begin()) + 1);
 }
