@@ -23,7 +23,8 @@ struct DialectText {
 
 /// By Dialect.
 constexpr std::array<DialectText, kDialects> kTexts{{
-    {"SCL or ST (structured text)", "STL has one instruction in a line: LD I0.0 and = Q0.0 for Q0.0 := I0.0, MOVW VW0, VW2 for VW2 := VW0"},
+    {"SCL or ST (structured text)",
+     "STL has one instruction in a line: LD I0.0 and = Q0.0 for Q0.0 := I0.0, MOVW VW0, VW2 for VW2 := VW0"},
     {"IL (instruction list) of IEC 61131-3",
      "the STL of the S7-200 has A for AND, O for OR, = for ST, CALL for CAL, and addresses such as I0.0 without a %"},
     {"a program for Mitsubishi MELSEC, or for another make with the same mnemonics",

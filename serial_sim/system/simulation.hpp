@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "interpreter/base/stop_token.hpp"
 #include "serial_sim/system/system.hpp"
 
 namespace s7200::serial {
@@ -19,8 +20,9 @@ class Simulation {
   /// none. Nothing is owned.
   Simulation(System& system, SharedLine& line, Plc& plc, std::uint8_t port, RequesterStation* master, HostStation* host);
 
-  /// Each run ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends a run.
-  void stop_when(const std::atomic<bool>* request) { system_->stop_when(request); }
+  /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
+  void stop_when(StopToken request) { system_->stop_when(request); }
+  bool stop_requested() const { return system_->stop_requested(); }
 
   /// Powers the CPU up into RUN, at time 0, with what its memory has kept.
   void power_up(const RetentiveMemory* memory = nullptr) { plc_->power_up(memory); }

@@ -27,6 +27,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "serial_sim/system/dispatcher.hpp"
 #include "serial_sim/system/plc.hpp"
 #include "serial_sim/system/shared_line.hpp"
@@ -63,8 +64,9 @@ class System {
   /// An output of a PLC drives the sync signal beside a line, as a responder there sees it. Before anything runs.
   void wire_sync(Plc& from, const OutputPoint& output, ResponderStation& to);
 
-  /// Each run ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends a run.
-  void stop_when(const std::atomic<bool>* request) { stop_request_ = request; }
+  /// All that runs ends early once that is asked for; it is looked at every 100 ms.
+  void stop_when(StopToken request) { stop_request_ = request; }
+  bool stop_requested() const { return stop_request_.stop_requested(); }
 
   /// Lets CPUs run in step from now on, or ahead of each other.
   void run_in_step(bool on) { in_step_ = on; }
@@ -154,7 +156,6 @@ class System {
   Time handle_due_events(Time now);
   bool watched() const;
   void settle(Time until);
-  bool stop_requested() const { return stop_request_ && *stop_request_; }
 
   struct Scheduled {
     Time at;
@@ -174,8 +175,8 @@ class System {
   Time doing_at_ = kNever;        // of the one that is done
   std::function<void(std::size_t number, bool done)> watcher_{};
   Time clock_ = 0;        // while no CPU has power
-  bool in_step_ = false;  // the way of running, which is not state
-  const std::atomic<bool>* stop_request_ = nullptr;
+  bool in_step_ = false;  // how it runs, which is no state
+  StopToken stop_request_{};
 };
 
 }  // namespace s7200::serial

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < 2000; ++i)
     random.time([&] { history.go_to(static_cast<Time>(chance() % static_cast<std::uint64_t>(newest))); });
   random.print("to a random moment");
-  Stepper stepper(history, nullptr);
+  Stepper stepper(history, StopToken());
   for (int i = 0; i < 500; ++i) {
     if (i % 50 == 0) history.go_to(static_cast<Time>(chance() % static_cast<std::uint64_t>(newest)));
     back.time(

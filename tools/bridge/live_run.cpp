@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "tools/bridge/mix_up.hpp"
-#include "tools/host/interruption.hpp"
 #include "tools/views/port_mode.hpp"
 
 namespace s7200::tools {
@@ -198,7 +197,7 @@ class LiveRun::Engine {
 
   Time now() const { return machine_.time(); }
   void busy() { busy_until_ = Clock::now() + kBusyFor; }
-  bool stop_asked() const { return interrupted() || (options_.stop && *options_.stop); }
+  bool stop_asked() const { return options_.stop.stop_requested() || options_.pause.stop_requested(); }
 
   void catch_up() {
     if (halt_) return;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/bridge/bridge.hpp"
 #include "tools/host/pace.hpp"
@@ -19,9 +20,10 @@ struct LiveRunOptions {
   double speed = 1;             ///< times the clock
   serial::LineSettings line{};  ///< the other end of the line
   LiveMessages messages{};
-  const std::atomic<bool>* stop = nullptr;  ///< ends a run as an interruption does; not owned
-  bool in_stop_too = false;                 ///< a run that begins in STOP lets time pass
-  std::function<void()> before_wait{};      ///< is told when the simulation has caught up with the clock; may be null
+  StopToken stop{};                     ///< ends a run
+  StopToken pause{};                    ///< the same, for whoever will go on
+  bool in_stop_too = false;             ///< a run that begins in STOP lets time pass
+  std::function<void()> before_wait{};  ///< is told when the simulation has caught up with the clock; may be null
 };
 
 /// A machine that runs in real time: a simulation, or a system.

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "interpreter/base/word_bytes.hpp"
-#include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -53,7 +52,7 @@ std::optional<Measured> ask(Slave& slave, const Command& command, const Patience
                             const std::function<void()>& silent = {}) {
   const Bytes request = command.bytes();
   bool shorter = false;
-  for (int attempt = 0; attempt < patience.attempts && !interrupted(); ++attempt) {
+  for (int attempt = 0; attempt < patience.attempts && !slave.stop_requested(); ++attempt) {
     if (attempt > 0 && silent) silent();
     const serial::Exchange exchange = slave.exchange({.frame = serial::to_frame(request), .timeout = patience.timeout});
     slave.wait(slave.pause());
@@ -67,7 +66,7 @@ std::optional<Measured> ask(Slave& slave, const Command& command, const Patience
     return Measured{load16(&answer[measuring::kMilliseconds]), answer[measuring::kIdentification],
                     answer[measuring::kLoops]};
   }
-  if (interrupted()) return {};
+  if (slave.stop_requested()) return {};
   if (shorter) refuse_version("an earlier version");
   throw std::runtime_error("no answer from measure_times.stl");
 }

@@ -39,16 +39,17 @@ int run_dap(const CLI::App& verb, const DapOptions& options) {
     limits.may_use_files = std::ranges::find(options.allowed, kFilesOfCommands) != options.allowed.end();
   }
   dap::SessionSettings settings{
-      .launch = [&](const dap::Json& arguments) { return launch_debuggee(arguments, limits, stop_request); },
-      .stop_request = &stop_request};
+      .launch = [&](const dap::Json& arguments) { return launch_debuggee(arguments, limits, StopToken(stop_request)); },
+      .stop_request = StopToken(stop_request)};
   if (!options.debuggee->program.path.empty()) {
     settings.attachable =
-        make_debuggee(verb, options.debuggee, stop_request, exit_code, {.may_use_files = limits.may_use_files});
+        make_debuggee(verb, options.debuggee, StopToken(stop_request), exit_code, {.may_use_files = limits.may_use_files});
     if (!settings.attachable) return exit_code;
   }
   if (!options.listen.empty()) {
     exit_code = serve_clients({options.listen, options.token_file}, settings, stop_request);
-  } else if (const std::string wrong = dap::serve(STDIN_FILENO, write_standard_output, settings, stop_request);
+  } else if (const std::string wrong =
+                 dap::serve(STDIN_FILENO, write_standard_output, settings, stop_request, interruption());
              !wrong.empty()) {
     print_error(fmt::format("standard input {}", wrong));
     exit_code = kUnusable;

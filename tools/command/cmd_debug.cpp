@@ -45,11 +45,11 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
   if (!rig) return options.rig.exit_code_without_rig();
   if (!has_room_for_bridge(options, *rig)) return kUnusable;
   rig->power_up();
-  rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
+  rig->simulation().stop_when({});  // the debugger looks itself, in front of each instruction
   bool good = false, in_the_past = false, expectation_failed = false;
   {
     std::atomic<bool> pause = false;
-    DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), &pause);
+    DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), StopToken(pause));
     if (!live.start(why)) return print_error(why), kUnusable;
     if (live.has_bridges()) print_note(kMastersWait);
     print_note_if_any(options.rig.note_on_first_station());

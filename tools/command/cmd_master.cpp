@@ -29,7 +29,7 @@ int run_master(const CLI::App& verb, MasterOptions& options) {
   std::unique_ptr<Slave> slave;
   const auto format = [&](const serial::MasterSettings& master) { return master.over(options.protocol->format); };
   const auto open = [&](const serial::MasterSettings& master) {
-    return connect(target, format(master), options.protocol->is_complete);
+    return connect(target, format(master), options.protocol->is_complete, interruption());
   };
   try {
     if (options.wants_menu()) {

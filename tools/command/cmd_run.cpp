@@ -11,6 +11,7 @@
 #include "tools/command/run_output.hpp"
 #include "tools/command/system_run.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/rig/run.hpp"
 
 namespace s7200::tools {
@@ -29,6 +30,7 @@ Ending run_to_end(Rig& rig, const RunOptions& options) {
                {.speed = options.bridge.speed(),
                 .line = options.bridge.line(),
                 .messages = print_live_messages(),
+                .stop = interruption(),
                 .in_stop_too = to_ppi,
                 .before_wait = [&rig] { rig.flush_records(); }},
                bridge);

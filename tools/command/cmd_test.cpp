@@ -83,11 +83,8 @@ int run_test(TestOptions& options) {
   }
   options.check();
   const TestOptions::Destinations to = options.claim_files();
-  options.suite.band = options.band.settings();
-  options.suite.jobs = options.jobs > 0 ? options.jobs : options.band.wanted() ? options.band.jobs() : 1;
-  options.suite.plc = options.other.settings();
-  options.suite.protocol = options.protocol->name;
-  options.suite.exchanges_wanted = options.json || to.record || !options.against.empty();
+  options.complete_suite();
+  catch_interruption();  // from here on there is something to complete
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);
   if (!suite) return nothing_run(messages, options, to.junit);

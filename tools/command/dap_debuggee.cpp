@@ -34,14 +34,14 @@ using dap::Json;
 class RigDebuggee final : public dap::Debuggee {
  public:
   RigDebuggee(std::shared_ptr<DebuggeeOptions> options, std::unique_ptr<Rig> rig, SystemBridges bridges,
-              const std::atomic<bool>& stop_request, bool may_use_files)
+              StopToken stop_request, bool may_use_files)
       : options_(std::move(options)),
         rig_(std::move(rig)),
         files_(rig_->files()),
         may_use_files_(may_use_files),
         live_(*rig_, *options_, std::move(bridges),
               {[this](const std::string& text) { say_(text); }, [this](const std::string& text) { say_(text); }},
-              &stop_request) {}
+              stop_request) {}
 
   /// The past begins with the bridges attached.
   bool start(std::string& why) {
@@ -129,7 +129,7 @@ std::string word_of(const Json& value, std::string_view type) {
 
 /// The words of the command line for one attribute; none for one that is off.
 std::vector<std::string> attribute_words(const Json& value, const std::string& option, const CLI::Option& known,
-                                  const std::string& folder) {
+                                         const std::string& folder) {
   if (known.get_items_expected_max() == 0) return truth_of(value) ? std::vector{option} : std::vector<std::string>{};
   if (value == false) return {};
   std::vector<std::string> words;
@@ -202,8 +202,7 @@ void check_limits(const SystemPlan& plan, const LaunchLimits& limits) {
 }  // namespace
 
 std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_ptr<DebuggeeOptions> options,
-                                             const std::atomic<bool>& stop_request, int& exit_code,
-                                             const LaunchLimits& limits) {
+                                             StopToken stop_request, int& exit_code, const LaunchLimits& limits) {
   exit_code = kUnusable;
   if (is_standard_input(options->program.path)) {
     print_error("the program cannot come from standard input, where the messages come from");
@@ -223,7 +222,7 @@ std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_pt
   }
   if (!has_room_for_bridge(*options, *rig)) return nullptr;
   rig->power_up();
-  rig->simulation().stop_when(nullptr);  // the debugger looks itself, in front of each instruction
+  rig->simulation().stop_when({});  // the debugger looks itself, in front of each instruction
   auto debuggee = std::make_shared<RigDebuggee>(std::move(options), std::move(rig), std::move(*bridges), stop_request,
                                                 limits.may_use_files);
   if (std::string why; !debuggee->start(why)) {
@@ -248,8 +247,7 @@ std::string not_a_writing_attribute(const std::string& word) {
                      fmt::join(names, ", "));
 }
 
-std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const LaunchLimits& limits,
-                                               const std::atomic<bool>& stop_request) {
+std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const LaunchLimits& limits, StopToken stop_request) {
   CLI::App app;
   app.set_help_flag();  // there is no one to read it
   auto options = std::make_shared<DebuggeeOptions>();

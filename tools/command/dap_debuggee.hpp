@@ -22,8 +22,7 @@ struct LaunchLimits {
 /// Null after messages, and `exit_code` says how to end. The options have to live as long; `stop_request` ends its runs.
 /// Throws dap::Refused for a system file that writes or opens what `limits` do not have.
 std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_ptr<DebuggeeOptions> options,
-                                             const std::atomic<bool>& stop_request, int& exit_code,
-                                             const LaunchLimits& limits = {});
+                                             StopToken stop_request, int& exit_code, const LaunchLimits& limits = {});
 
 /// What lets commands of the console read and write files: `save`, `load`, `record`.
 inline constexpr std::string_view kFilesOfCommands = "files";
@@ -38,6 +37,6 @@ std::string not_a_writing_attribute(const std::string& word);
 /// Each attribute is an option of `s7200 debug` without its dashes, as `modbusTcp` or `modbus-tcp`; a list gives it several
 /// times. Throws dap::Refused or WrongValue with what is wrong.
 std::shared_ptr<dap::Debuggee> launch_debuggee(const dap::Json& arguments, const LaunchLimits& limits,
-                                               const std::atomic<bool>& stop_request);
+                                               StopToken stop_request);
 
 }  // namespace s7200::tools

@@ -47,7 +47,7 @@ int serve_clients(const DapServer& server, const dap::SessionSettings& settings,
     if (client < 0 && !interrupted()) return print_error(fmt::format("--listen {}: {}", server.listen, why)), kUnusable;
     if (client < 0) break;
     const auto write = [client](std::string_view bytes) { return send_all(client, bytes) == 0; };
-    const std::string wrong = dap::serve(client, write, settings, stop_request, token);
+    const std::string wrong = dap::serve(client, write, settings, stop_request, interruption(), token);
     if (!wrong.empty()) print_note(fmt::format("a client {}", wrong));
     close(client);
   }

@@ -103,7 +103,7 @@ std::string heading(const Opened& one) {
 
 int debug(const Opened& one, const std::string& script, const DebugOptions& options) {
   const PlaceInRun place = place_of(one.result);
-  const std::unique_ptr<Plant> plant = new_plant(*one.scenario, one.program);
+  const std::unique_ptr<Plant> plant = new_plant(*one.scenario, one.program, interruption());
   const HostFiles files;
   PromptSettings settings = prompt_settings({.master = one.scenario->line,
                                              .stations = debugged_stations(*one.scenario),
@@ -141,7 +141,8 @@ int run_debug_scenario(const CLI::App& verb, const DebugOptions& options) {
   std::string why;
   const auto script = options.commands_file.empty() ? std::string() : read_file(options.commands_file, why);
   if (!script) return print_error(fmt::format("cannot read {}: {}", options.commands_file, why)), kUnusable;
-  const SuiteSettings settings{.files = {options.program.path}, .only = options.only, .target = options.target};
+  const SuiteSettings settings{
+      .files = {options.program.path}, .only = options.only, .target = options.target, .stop = interruption()};
   Messages messages;
   Programs programs;
   auto scenarios = collect_scenarios(settings, messages);

@@ -261,7 +261,7 @@ SessionSetup session_setup(const DebuggeeOptions& options, const Rig& rig, Debug
 }
 
 PromptSettings prompt_settings(SessionSetup setup, std::atomic<bool>* pause) {
-  setup.stop_request = &interruption();
+  setup.stop_request = interruption();
   setup.interruption = [] { return std::string(interruption_text()); };
   setup.width = output_width();
   return {.session = std::move(setup),

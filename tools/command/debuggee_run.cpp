@@ -3,12 +3,13 @@
 #include <utility>
 
 #include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/session/past/seen_rig.hpp"
 
 namespace s7200::tools {
 
 DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges bridges, const LiveMessages& messages,
-                         const std::atomic<bool>* stop)
+                         StopToken pause)
     : rig_(rig), bridges_(std::move(bridges)) {
   Bridge* const bridge = options.bridge.bridge();
   has_bridges_ = bridge != nullptr || !bridges_.empty();
@@ -17,7 +18,8 @@ DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges
   const LiveRunOptions live{.speed = options.bridge.speed(),
                             .line = options.rig.on_line(options.master),
                             .messages = messages,
-                            .stop = stop,
+                            .stop = interruption(),
+                            .pause = pause,
                             .in_stop_too = true,
                             .before_wait = [&rig] { rig.flush_records(); }};
   if (!options.rig.plan()) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/options/debug_options.hpp"
 #include "tools/command/system_bridges.hpp"
@@ -14,10 +15,10 @@ namespace s7200::tools {
 
 class DebuggeeRun {
  public:
-  /// `bridges` are those of a system file, besides the one of the options. Rig and options are not owned; `stop` ends runs
-  /// with the clock and may be null.
+  /// `bridges` are those of a system file, besides the one of the options. Rig and options are not owned; Runs with the
+  /// clock end at an interruption and when `pause` asks for it.
   DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges bridges, const LiveMessages& messages,
-              const std::atomic<bool>* stop);
+              StopToken pause);
 
   /// Lets the bridges serve. Returns false and sets `why` if they cannot.
   bool start(std::string& why) { return live_->start(why); }

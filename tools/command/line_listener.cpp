@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kLongestFrame = 4096;
 
 std::unique_ptr<HostLink> link_to(const SlaveTarget& target, const SerialFormat& format) {
-  if (target.kind == SlaveTarget::Kind::Tcp) return std::make_unique<TcpLink>(target.host, target.port);
-  return std::make_unique<SerialLink>(target.path, format);
+  if (target.kind == SlaveTarget::Kind::Tcp) return std::make_unique<TcpLink>(target.host, target.port, interruption());
+  return std::make_unique<SerialLink>(target.path, format, interruption());
 }
 
 }  // namespace

@@ -217,7 +217,7 @@ int run_on_peer(MasterOptions& options, const std::string& model, const std::vec
           "the menu begins with a new westinghouse:MODEL each time its port is set: give actions for --capture");
     const SerialFormat format = make_plc()->format();
     const auto open = [&](const serial::MasterSettings& master) {
-      return std::make_unique<PeerSlave>(make_plc(), master, *faults, options.target);
+      return std::make_unique<PeerSlave>(make_plc(), master, *faults, options.target, interruption());
     };
     return run_menu(options,
                     {.open = open, .format = [&](const serial::MasterSettings& master) { return master.over(format); }});
@@ -231,7 +231,7 @@ int run_on_peer(MasterOptions& options, const std::string& model, const std::vec
     print_interruption();
     return kCheckFailed;
   }
-  PeerSlave slave(std::move(plc), options.master, *faults, options.target);
+  PeerSlave slave(std::move(plc), options.master, *faults, options.target, interruption());
   slave.capture(captures);
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());

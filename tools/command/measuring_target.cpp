@@ -84,15 +84,18 @@ std::unique_ptr<MeasuringTarget> MeasuringTarget::open(const std::string& name, 
   }
   auto result = std::make_unique<MeasuringTarget>();
   if (target.kind != SlaveTarget::Kind::Program) {
-    result->slave_ = connect(target, {.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1},
-                             [](std::span<const std::uint8_t> answer) { return answer.size() == measuring::kAnswerLength; });
+    result->slave_ = connect(
+        target, {.baud = 9600, .data_bits = 8, .parity = Parity::Even, .stop_bits = 1},
+        [](std::span<const std::uint8_t> answer) { return answer.size() == measuring::kAnswerLength; }, interruption());
     return result;
   }
   options.path = name;
   const auto program = options.load(exit_code);
   if (!program) return nullptr;
   std::vector<std::string> problems;
-  result->rig_ = Rig::assemble(program, {}, problems);
+  RigSettings settings;
+  settings.stop = interruption();
+  result->rig_ = Rig::assemble(program, settings, problems);
   if (!result->rig_) throw std::runtime_error(problems.empty() ? "interrupted" : problems.front());
   result->rig_->power_up();
   auto slave = std::make_unique<SimulatedSlave>(result->rig_->simulation(), serial::MasterSettings{}, program->source.name);

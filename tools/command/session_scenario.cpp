@@ -218,7 +218,7 @@ std::optional<Trial> tried(const SessionSource& source, SessionSteps& session, c
   for (;;) {
     Trial trial{.scenario = scenario_of(source, path, why)};
     if (!trial.scenario) return {};
-    trial.result = run_scenario(*trial.scenario, {.program = source.program});
+    trial.result = run_scenario(*trial.scenario, {.program = source.program, .stop = interruption()});
     if (interrupted()) return why = interruption_text(), std::nullopt;
     const Finding* const bad = bad_finding(trial.result);
     if (!bad || !(is_too_late(*bad) || bad->memory) || !bad->step) return trial;
@@ -250,7 +250,7 @@ std::string difference(const SessionSteps& session, const Trial& trial) {
 std::string why_it_fails(const std::string& text, const std::string& path, const std::shared_ptr<const Program>& program) {
   const ScenarioFile file = read_scenarios(text, path);
   if (!file.diagnostics.empty()) return file.diagnostics.front().message;
-  const ScenarioResult result = run_scenario(file.scenarios.front(), {.program = program});
+  const ScenarioResult result = run_scenario(file.scenarios.front(), {.program = program, .stop = interruption()});
   if (result.findings.empty()) return {};
   return fmt::format("{}: {}", kNotTheSame, finding_line(file.scenarios.front(), result.findings.front()));
 }

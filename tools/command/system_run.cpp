@@ -59,7 +59,9 @@ Ending run_to_end(Rig& rig, Bridges bridges, const RunOptions& options) {
   const auto machine = machine_of(rig.system());
   LiveRun live(
       *machine, ends_of(rig, bridges),
-      {.speed = options.bridge.speed(), .messages = print_live_messages(), .before_wait = [&rig] { rig.flush_records(); }});
+      {.speed = options.bridge.speed(), .messages = print_live_messages(), .stop = interruption(), .before_wait = [&rig] {
+         rig.flush_records();
+       }});
   std::string why;
   if (!live.start(why)) return print_error(why), Ending{};
   const serial::Halt halt = live.run_until(end);
@@ -201,7 +203,7 @@ int run_other_plc(const CLI::App& verb, RunOptions& options) {
            kUnusable;
   try {
     SystemPlan plan = plan_of_other_plc(options, *faults);
-    return run_plan(std::move(plan), {.link = options.bridge.link(), .standard_output = &std::cout}, {&bridge, 1}, options);
+    return run_plan(std::move(plan), options.rig.surroundings({}, options.bridge.link(), {}), {&bridge, 1}, options);
   } catch (const std::invalid_argument& error) {
     return print_error(error.what()), kUnusable;
   }

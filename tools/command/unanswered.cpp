@@ -65,13 +65,13 @@ UnansweredRequests Unanswered::explained(Time timeout) {
   {
     History::Settings settings = history_settings(rig_);
     settings.bound = 1 << 20;  // bytes of checkpoints: a run of hours needs no more memory than a short one
-    settings.stop_request = &interruption();
+    settings.stop_request = interruption();
     History history(seen_.stations(), std::move(settings));
     DifferentCauses causes;
     if (history.replay(std::move(*recording_)))
       for (const Request& request : unanswered_) {
         history.go_to(request.given_up);
-        auto why = causes_of_no_answer(history, station_, request.frame, timeout, &interruption());
+        auto why = causes_of_no_answer(history, station_, request.frame, timeout, interruption());
         if (!why) break;
         const std::size_t number = causes.number_of(*why);
         if (number == all.causes.size())

@@ -3,6 +3,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
+
 namespace s7200::tools {
 namespace {
 
@@ -60,7 +62,7 @@ void interrupt_quietly() { noted = output_lost = true; }
 
 bool interrupted() { return noted; }
 
-const std::atomic<bool>& interruption() { return noted; }
+StopToken interruption() { return StopToken(noted); }
 
 bool forget_ctrl_c() {
   int ctrl_c = SIGINT;

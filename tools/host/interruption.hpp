@@ -7,8 +7,9 @@
 // then.
 #pragma once
 
-#include <atomic>
 #include <string_view>
+
+#include "interpreter/base/stop_token.hpp"
 
 namespace s7200::tools {
 
@@ -24,8 +25,8 @@ void interrupt_quietly();
 
 bool interrupted();
 
-/// The note of a signal, for long runs that look at it by themselves.
-const std::atomic<bool>& interruption();
+/// The same, for what runs long and looks at it by itself.
+StopToken interruption();
 
 /// Takes a Ctrl-C back, which at a prompt gives a new one. False if there was none, and for all that ends the command.
 bool forget_ctrl_c();

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "tools/host/interruption.hpp"
-
 namespace s7200::tools {
 
 using serial::Verdict;
@@ -23,7 +21,8 @@ serial::Request MasterSession::request_of(const MasterAction& action) const {
 serial::Exchange MasterSession::exchange(const MasterAction& action) {
   serial::Request request = request_of(action);
   serial::Exchange all = slave_.exchange(request);
-  for (auto next = action.request->next(all.response_bytes(), slave_.now() - all.request_end); next && !interrupted();) {
+  for (auto next = action.request->next(all.response_bytes(), slave_.now() - all.request_end);
+       next && !slave_.stop_requested();) {
     request.frame = std::move(*next);
     if (!action.request->answered()) request.timeout = 0;
     const serial::Exchange step = slave_.exchange(request);
@@ -62,14 +61,14 @@ std::optional<MasterResult> MasterSession::perform(const MasterAction& action) {
     const bool last = result.attempts > settings_.retries;
     try {
       result.exchange = exchange(action);
-      if (interrupted()) return {};
+      if (slave_.stop_requested()) return {};
       result.remark = slave_.remark();
       result.answer = assess(action, result.exchange, settings_.broadcasts_are_silent);
       slave_.wait(settings_.pause == kNever ? slave_.pause() : settings_.pause);
       if (last || settled(result.answer)) break;
       prepare_to_repeat(action);
     } catch (const SlaveUnreachable&) {
-      if (last || interrupted()) throw;
+      if (last || slave_.stop_requested()) throw;
       slave_.wait(settings_.master.timeout);
     }
     statistics_.add_retry();
@@ -80,7 +79,7 @@ std::optional<MasterResult> MasterSession::perform(const MasterAction& action) {
 
 void MasterSession::run_round(const Listener& listener, const std::function<bool()>& over) {
   for (const MasterAction& action : actions_) {
-    if (interrupted() || over()) return;
+    if (slave_.stop_requested() || over()) return;
     if (action.kind == MasterAction::Kind::Station) continue;
     if (action.kind == MasterAction::Kind::Wait) {
       slave_.wait(action.duration);
@@ -92,7 +91,7 @@ void MasterSession::run_round(const Listener& listener, const std::function<bool
 
 void MasterSession::run(const Listener& listener, const std::function<bool()>& over) {
   Time next = slave_.now();
-  for (std::uint64_t round = 0; round < settings_.rounds && !interrupted() && !over(); ++round) {
+  for (std::uint64_t round = 0; round < settings_.rounds && !slave_.stop_requested() && !over(); ++round) {
     run_round(listener, over);
     listener.end_of_round();
     if (settings_.every == kNever) continue;

@@ -58,9 +58,9 @@ template <class Round>
 double best_rate(const Effort& effort, Round round) {
   const std::chrono::nanoseconds each(effort.each / kRounds);
   double best = 0;
-  for (int i = 0; i < kRounds && !effort.stop; ++i) {
+  for (int i = 0; i < kRounds && !effort.stop.stop_requested(); ++i) {
     Lap sum;
-    for (const auto begin = HostClock::now(); HostClock::now() - begin < each && !effort.stop;) {
+    for (const auto begin = HostClock::now(); HostClock::now() - begin < each && !effort.stop.stop_requested();) {
       const Lap lap = round();
       sum.work += lap.work;
       sum.time += lap.time;
@@ -72,7 +72,7 @@ double best_rate(const Effort& effort, Round round) {
 
 /// Adds a figure, unless its measurement was stopped before all rounds.
 void add(std::vector<Figure>& figures, Figure figure, const Effort& effort) {
-  if (!effort.stop) figures.push_back(std::move(figure));
+  if (!effort.stop.stop_requested()) figures.push_back(std::move(figure));
 }
 
 const serial::Frame& ten_registers() {
@@ -436,9 +436,10 @@ std::vector<Figure> measure_start(const std::string& command, const Effort& effo
   do {
     const auto begin = Clock::now();
     const Started started(command);
-    if (!started.wait_for_output() && !effort.stop) throw std::runtime_error(command + " was started and printed nothing");
+    if (!started.wait_for_output() && !effort.stop.stop_requested())
+      throw std::runtime_error(command + " was started and printed nothing");
     best = std::min<Milliseconds>(best, Clock::now() - begin);
-  } while (Clock::now() < end && !effort.stop);
+  } while (Clock::now() < end && !effort.stop.stop_requested());
   std::vector<Figure> figures;
   add(figures, {"start to first output", "ms", 0, best.count()}, effort);
   return figures;

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/program/program.hpp"
 
 namespace s7200::tools {
@@ -26,11 +26,11 @@ struct Figure {
 /// How many rounds share the time of a figure; the best one counts.
 inline constexpr int kRounds = 5;
 
-/// The host's time for which each figure is measured. Once `stop` is set, no more are measured: all functions return the
-/// figures that were complete before.
+/// For so long of the host's time each figure is measured. Once `stop` asks for it, no more are: all functions return those
+/// that were complete before.
 struct Effort {
   Time each;
-  const std::atomic<bool>& stop;
+  StopToken stop{};
 };
 
 /// The best round on one core. The program is a Modbus slave at address 1; throws std::runtime_error if it does not answer.

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "serial_sim/modbus/answer.hpp"
-#include "tools/host/interruption.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_trace.hpp"
 #include "tools/views/machine_text.hpp"
@@ -148,8 +147,11 @@ std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const
                         .contention = {},  // as a scenario's own line, which needs no seed
                         .captures = settings.captures,
                         .stations = {{StationPlan::Kind::Plc, 0, port}}});
-  const RigSurroundings surroundings{
-      .link = settings.link, .standard_output = settings.standard_output, .spots = {Spot{0, 0, port}}};
+  const RigSurroundings surroundings{.link = settings.link,
+                                     .standard_output = settings.standard_output,
+                                     .spots = {Spot{0, 0, port}},
+                                     .stop = settings.stop,
+                                     .begun = settings.begun};
   return assemble(std::move(plan), surroundings, problems);
 }
 
@@ -160,7 +162,7 @@ std::unique_ptr<Rig> Rig::assemble(SystemPlan plan, const RigSurroundings& surro
   bool good = rig->claim_files(why);
   for (PlcRig& plc : rig->plc_rigs_) good = good && plc.read_memory(why);
   if (good) {
-    catch_interruption();
+    if (surroundings.begun) surroundings.begun();
     good = rig->open_records(why);
   }
   if (good) return rig;
@@ -192,7 +194,7 @@ bool Rig::open_records(std::string& why) {
 }
 
 void Rig::power_up() {
-  system_.stop_when(&interruption());
+  system_.stop_when(surroundings_.stop);
   auto captures = captures_.begin();
   for (std::size_t line = 0; line < lines_.size(); ++line, ++captures) {
     watch(line, *captures);

@@ -30,6 +30,8 @@ struct RigSettings : PlcSettings {
   std::vector<std::string> captures{};  ///< of the line: FILE.vcd, FILE.pcap
   std::string link{};                   ///< a pty's link: nothing is written there, and no output may have its name
   std::ostream* standard_output = nullptr;
+  StopToken stop{};               ///< ends what runs
+  std::function<void()> begun{};  ///< told when all has been read, before files are written
 };
 
 /// The settings of a system that its plan does not have.
@@ -42,13 +44,15 @@ struct RigSurroundings {
   /// The spots from which callers look at the system, see simulation(). On each line a master stands beside the PLC of the
   /// first of its spots.
   std::vector<Spot> spots{};
+  StopToken stop{};                  ///< ends what runs
+  std::function<void()> begun{};     ///< told when all has been read, before files are written
   std::vector<std::size_t> lines{};  ///< without an S7-200: a master joins each of them, on the first part of a cut cable
 };
 
 class Rig final {
  public:
-  /// Reads and opens all files that the settings name. Returns null with all `problems` if one of them cannot be opened;
-  /// then no file has been changed. Signals are only noted from here on: there is something to complete.
+  /// Reads and opens all that the settings name. Null, and all of what is wrong, if something cannot be had; no file has
+  /// been touched then.
   static std::unique_ptr<Rig> assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
                                        std::vector<std::string>& problems);
 
@@ -59,8 +63,8 @@ class Rig final {
   ~Rig();
 
   /// Every PLC begins with its memory, clock and assignments, at time 0 or when it starts, the lines with their faults, the
-  /// records watch them, and every master asks its first request 1 s later or when it starts. All that runs ends early after
-  /// an interruption.
+  /// records watch them, and every master asks its first request 1 s later or when it starts. All that runs ends early when
+  /// the stop token of the surroundings asks for it.
   void power_up();
 
   serial::System& system() { return system_; }

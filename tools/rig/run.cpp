@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "tools/host/interruption.hpp"
 #include "tools/rig/rig.hpp"
 
 namespace s7200::tools {
@@ -14,7 +13,7 @@ std::string_view run(serial::Simulation& simulation, const RunLimits& limits, co
   const auto end = [&] { return until_scans ? state.scan_begin + kEndlessScan : limits.end; };
   simulation.cpu().pause_at_scan_end(limits.scans != 0);
   while (simulation.time() < end()) {
-    if (interrupted()) return "interrupted";
+    if (simulation.stop_requested()) return "interrupted";
     const serial::Halt halt = simulation.run_until(std::min(end(), simulation.time() + kSlice));
     if (state.mode == Mode::Stop) return state.fatal_code ? "fatal" : "stop";
     if (limits.strict && state.error_count != 0) return "run-time error";
@@ -27,7 +26,7 @@ std::string_view run(serial::Simulation& simulation, const RunLimits& limits, co
 std::string_view run(Rig& rig, Time end, const std::function<void()>& progress) {
   constexpr Time kSlice = kSecond;
   while (rig.system().time() < end) {
-    if (interrupted()) return "interrupted";
+    if (rig.system().stop_requested()) return "interrupted";
     rig.system().run_until(std::min(end, rig.system().time() + kSlice));
     progress();
   }

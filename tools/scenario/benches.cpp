@@ -9,7 +9,6 @@
 #include "interpreter/program/slips.hpp"
 #include "interpreter/program/stand_ins.hpp"
 #include "tools/host/files.hpp"
-#include "tools/host/interruption.hpp"
 #include "tools/rig/other_plc.hpp"
 #include "tools/rig/system_reader.hpp"
 #include "tools/slave/peer_lines.hpp"
@@ -215,22 +214,22 @@ SlaveMaker peer_slaves(const std::string& model, const std::string& name, const 
     return make_other_plc(protocol, model, settings);
   };
   make();  // or it throws
-  return [make, name](const Scenario& scenario) {
-    auto slave = std::make_unique<PeerSlave>(make(), scenario.line, std::vector<serial::Fault>{}, name);
+  return [make, name, stop = suite.stop](const Scenario& scenario) {
+    auto slave = std::make_unique<PeerSlave>(make(), scenario.line, std::vector<serial::Fault>{}, name, stop);
     if (scenario.after != kNever) slave->wait(std::max<Time>(0, scenario.after - slave->now()));
     return slave;
   };
 }
 
 /// Of a system without an S7-200, on the line `at`. Null, with messages, if there is no such line.
-SlaveMaker peer_lines(SystemPlan plan, const std::string& path, const std::string& at, Messages& messages) {
+SlaveMaker peer_lines(SystemPlan plan, const std::string& path, const std::string& at, StopToken stop, Messages& messages) {
   std::string why;
   const auto line = find_line(plan, at, why);
   if (line) why = why_no_other_plc(plan, *line);
   if (!why.empty()) return add_error(messages, fmt::format("{}: {}{}", path, why, line ? "" : " (--at NAME)")), nullptr;
   forget_files(plan);
-  return [plan = std::make_shared<const SystemPlan>(std::move(plan)), line = *line, path](const Scenario& scenario) {
-    return std::make_unique<PeerLines>(*plan, line, scenario.line, scenario.after, path);
+  return [plan = std::make_shared<const SystemPlan>(std::move(plan)), line = *line, path, stop](const Scenario& scenario) {
+    return std::make_unique<PeerLines>(*plan, line, scenario.line, scenario.after, path, stop);
   };
 }
 
@@ -252,14 +251,15 @@ SlaveMaker system_slaves(const std::string& path, const SuiteSettings& settings,
   if (!file.plan.bridges.empty())
     return refuse(fmt::format("bridge '{}' of {} follows the clock, which 's7200 test' does not: leave it out",
                               file.plan.bridges.front().name, path));
-  if (file.plan.plcs.empty()) return peer_lines(std::move(file.plan), path, settings.at, messages);
+  if (file.plan.plcs.empty()) return peer_lines(std::move(file.plan), path, settings.at, settings.stop, messages);
   const auto spot = find_spot(file.plan, settings.at, why);
   if (!spot) return refuse(fmt::format("{}: {} (--at NAME)", path, why));
   if (why = why_no_room(file.plan, spot->line); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
   forget_files(file.plan);
   if (settings.every_scan) run_every_scan(file.plan);
-  return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path](const Scenario& scenario) {
-    return std::make_unique<SystemSlave>(*plan, spot, scenario.line, scenario.after, path);
+  return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path,
+          stop = settings.stop](const Scenario& scenario) {
+    return std::make_unique<SystemSlave>(*plan, spot, scenario.line, scenario.after, path, stop);
   };
 }
 
@@ -281,7 +281,8 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
     return {};
   }
   if (target.empty() && all_without_program(scenarios, messages)) return {};
-  Bench of_target{.format = settings.line.over(SerialFormat{}), .exchanges_wanted = settings.exchanges_wanted};
+  Bench of_target{
+      .format = settings.line.over(SerialFormat{}), .exchanges_wanted = settings.exchanges_wanted, .stop = settings.stop};
   switch (parsed.kind) {
     case SlaveTarget::Kind::Program:
       break;
@@ -295,8 +296,7 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
     case SlaveTarget::Kind::Device:
     case SlaveTarget::Kind::Tcp:
     case SlaveTarget::Kind::ModbusTcp:
-      catch_interruption();  // a wait for the other side can be ended
-      benches.slave = connect(parsed, of_target.format);
+      benches.slave = connect(parsed, of_target.format, modbus::crc_ok, settings.stop);
       benches.name = benches.slave->name();
       of_target.slave = benches.slave.get();
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/host/interruption.hpp"
 #include "tools/rig/first_scans.hpp"
 #include "tools/rig/system_trace.hpp"
 #include "tools/views/machine_text.hpp"
@@ -43,18 +42,18 @@ void InterruptCounter::record(const TraceRecord& record) {
   if (record.kind == TraceKind::EventLost) ++lost_;
 }
 
-Plant::Plant(const Scenario& scenario, std::shared_ptr<const Program> program)
-    : scenario_(scenario), program_(std::move(program)) {
+Plant::Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop)
+    : scenario_(scenario), stop_(stop), program_(std::move(program)) {
   watches_.push_back(std::make_unique<Watch>(program_));
   power_up(nullptr);
   if (scenario.clock) cpu().set_clock(*scenario.clock);
   for (const Assignment& assignment : scenario.set) assign(cpu(), assignment);
 }
 
-Plant::Plant(const Scenario& scenario) : scenario_(scenario) {
+Plant::Plant(const Scenario& scenario, StopToken stop) : scenario_(scenario), stop_(stop) {
   spots_ = spots_of(scenario);
   std::vector<std::string> problems;
-  rig_ = Rig::assemble(*scenario.plan, {.path = scenario.system, .spots = spots_}, problems);
+  rig_ = Rig::assemble(*scenario.plan, {.path = scenario.system, .spots = spots_, .stop = stop}, problems);
   if (!rig_) throw std::logic_error(problems.empty() ? "interrupted" : problems.front());
   for (std::size_t plc = 0; plc < scenario.plan->plcs.size(); ++plc) {
     watches_.push_back(std::make_unique<Watch>(scenario.plan->plcs[plc].program));
@@ -117,7 +116,7 @@ void Plant::power_up(const RetentiveMemory* memory) {
   slaves_.clear();
   simulation_ = std::make_unique<serial::Simulation>(program_, scenario_.field, scenario_.port);
   simulation_->cpu().set_sink(&watches_.front()->sinks);
-  simulation_->stop_when(&interruption());
+  simulation_->stop_when(stop_);
   simulation_->power_up(memory);
   slaves_.push_back(std::make_unique<SimulatedSlave>(*simulation_, scenario_.line, program_->source.name));
   journal_.emplace(*simulation_, memory ? std::vector{*memory} : std::vector<RetentiveMemory>{});
@@ -178,7 +177,7 @@ bool Plant::wait_until(const std::function<bool()>& holds, Time timeout) {
   const Time limit = simulation().time() + timeout;
   bool held = holds();
   cpu().pause_at_scan_end(true);
-  while (!held && !interrupted() && simulation().time() < limit) {
+  while (!held && !stop_.stop_requested() && simulation().time() < limit) {
     const serial::Halt halt = simulation().run_until(std::min(limit, simulation().time() + kSlice));
     held = holds();
     if (halt == serial::Halt::Stopped) break;
@@ -212,8 +211,9 @@ std::string Plant::why_stopped(std::size_t plc) const {
   return why.empty() ? "" : "\n" + why;
 }
 
-std::unique_ptr<Plant> new_plant(const Scenario& scenario, std::shared_ptr<const Program> program) {
-  return scenario.plan ? std::make_unique<Plant>(scenario) : std::make_unique<Plant>(scenario, std::move(program));
+std::unique_ptr<Plant> new_plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop) {
+  return scenario.plan ? std::make_unique<Plant>(scenario, stop)
+                       : std::make_unique<Plant>(scenario, std::move(program), stop);
 }
 
 }  // namespace s7200::tools

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/trace/fan_out.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/rig/rig.hpp"
@@ -52,10 +53,10 @@ struct Watch {
 class Plant {
  public:
   /// Powered up, with what the head of the scenario sets. The scenario is not owned.
-  Plant(const Scenario& scenario, std::shared_ptr<const Program> program);
+  Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop);
 
   /// The same of the scenario's system.
-  explicit Plant(const Scenario& scenario);
+  Plant(const Scenario& scenario, StopToken stop);
 
   /// Does it to the PLC that is looked at, as a programming device or the plant around it does.
   void act(Action action);
@@ -144,6 +145,7 @@ class Plant {
   bool is_powered(std::size_t plc) const { return !rig_ || rig_->plc(plc).powered(); }
 
   const Scenario& scenario_;
+  StopToken stop_;
   std::shared_ptr<const Program> program_;               // null: a system
   std::vector<std::unique_ptr<Watch>> watches_;          // by PLC; outlive who is watched
   std::unique_ptr<serial::Simulation> simulation_;       // of a program
@@ -158,6 +160,6 @@ class Plant {
 };
 
 /// Powered up, of the scenario's program or of its system.
-std::unique_ptr<Plant> new_plant(const Scenario& scenario, std::shared_ptr<const Program> program);
+std::unique_ptr<Plant> new_plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop);
 
 }  // namespace s7200::tools

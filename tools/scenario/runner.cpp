@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "tools/host/interruption.hpp"
 #include "tools/scenario/explanation.hpp"
 #include "tools/scenario/run.hpp"
 
@@ -19,12 +18,12 @@ Run::Run(const Scenario& scenario, const Bench& bench) : scenario_(scenario), be
   if (scenario.is_of_peers())
     join_lines();
   else
-    plant_ = new_plant(scenario, bench.program);
+    plant_ = new_plant(scenario, bench.program, bench.stop);
 }
 
 void Run::join_lines() {
   auto lines = std::make_unique<PeerLines>(*scenario_.plan, *first_askable_line(*scenario_.plan), scenario_.line,
-                                           scenario_.after, scenario_.system);
+                                           scenario_.after, scenario_.system, bench_.stop);
   lines_ = lines.get();
   own_ = std::move(lines);
 }
@@ -53,7 +52,7 @@ ScenarioResult Run::result() {
 
 void Run::settle_outcome() {
   if (!result_.findings.empty()) result_.outcome = Outcome::Failed;
-  if (interrupted()) {
+  if (bench_.stop.stop_requested()) {
     result_.outcome = Outcome::Skipped;
     result_.reason = "interrupted";
   }
@@ -78,7 +77,7 @@ std::string Run::acted_inside() const {
   return step == scenario_.steps.end() ? "" : fmt::format("line {}, '{}'", step->position.line, step->key);
 }
 
-bool Run::goes_on() const { return !interrupted() && !lost_; }
+bool Run::goes_on() const { return !bench_.stop.stop_requested() && !lost_; }
 
 void Run::do_step(const Step& step) {
   turn_ = 0;
@@ -92,7 +91,7 @@ void Run::do_step(const Step& step) {
 
 /// What an interruption cut short has found nothing, and is no exchange as it would have gone.
 void Run::add(Finding finding) {
-  if (interrupted()) return;
+  if (bench_.stop.stop_requested()) return;
   if (!scenario_.steps.empty()) finding.step = std::min(step_, scenario_.steps.size() - 1);
   if (plant_) finding.place = plant_->place();
   if (plant_) finding.station = finding.exchange ? plant_->station_on_line() : plant_->plc_number();
@@ -110,7 +109,7 @@ void Run::add_exchange(Finding finding) {
 }
 
 void Run::keep(const serial::Exchange& exchange) {
-  if (interrupted()) return;
+  if (bench_.stop.stop_requested()) return;
   if (bench_.watch) return bench_.watch({step_, turn_, exchange});
   if (bench_.exchanges_wanted) result_.seen.push_back({step_, turn_, exchange});
 }
@@ -165,7 +164,7 @@ ScenarioResult run_scenario(const Scenario& scenario, const Bench& bench) {
   if (!bench.problem.empty()) return could_not_begin(bench.problem);
   const auto begin = std::chrono::steady_clock::now();
   ScenarioResult result = Run(scenario, bench).result();
-  if (result.outcome == Outcome::Failed && !bench.band) explain(scenario, bench.program, result);
+  if (result.outcome == Outcome::Failed && !bench.band) explain(scenario, bench.program, bench.stop, result);
   result.host_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

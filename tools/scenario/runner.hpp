@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/program/program.hpp"
 #include "tools/measuring/band.hpp"
 #include "tools/scenario/result.hpp"
@@ -26,6 +27,7 @@ struct Bench {
   /// Is told of each exchange when it is over, in the thread that runs the scenario, and the result has none; may be left
   /// out.
   std::function<void(const Seen&)> watch{};
+  StopToken stop{};       ///< ends the run, which is skipped then
   std::string problem{};  ///< why there is neither; the scenario fails then
 };
 

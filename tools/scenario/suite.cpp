@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "interpreter/base/text.hpp"
-#include "tools/host/interruption.hpp"
 #include "tools/measuring/parallel_run.hpp"
 #include "tools/rig/rig.hpp"
 
@@ -46,7 +45,6 @@ Time tolerance_for(Time given, bool live) {
 }
 
 std::optional<Suite> Suite::collect(const SuiteSettings& settings, Messages& messages) {
-  catch_interruption();  // from here on there is something to complete
   auto scenarios = collect_scenarios(settings, messages);
   if (!scenarios) return {};
   for (Scenario& scenario : *scenarios) {
@@ -60,7 +58,8 @@ std::optional<Suite> Suite::collect(const SuiteSettings& settings, Messages& mes
 
 std::optional<Benches> Suite::benches_on(const std::string& target, Messages& messages) {
   auto benches = make_benches(scenarios_, target, settings_, programs_, messages);
-  return interrupted() ? std::nullopt : std::move(benches);  // a program may have been cut off while it was read
+  return settings_.stop.stop_requested() ? std::nullopt
+                                         : std::move(benches);  // a program may have been cut off while it was read
 }
 
 namespace {
@@ -161,7 +160,7 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
           if (banded) add_to(band, of_table, benches->of[scenario].band->table_name(table));
           if (table == 0) of_one = std::move(of_table);
           if (banded) of_one.band = band;
-          if (!last && !interrupted()) return true;
+          if (!last && !settings_.stop.stop_requested()) return true;
           if (!settings_.exchanges_wanted) of_one.seen.clear();
           if (of_one.band) {
             judge_robustness(scenarios_[scenario], of_one);
@@ -169,7 +168,7 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
           }
           result.reports.push_back({&scenarios_[scenario], std::move(of_one)});
           if (watcher.finished) watcher.finished(result.reports.back());
-          return !interrupted() && !(settings_.fail_fast && counts_as_failed(result.reports.back()));
+          return !settings_.stop.stop_requested() && !(settings_.fail_fast && counts_as_failed(result.reports.back()));
         },
         [&](std::size_t i) {
           if (watcher.waiting) watcher.waiting(turns[i].scenario);
@@ -208,7 +207,7 @@ std::optional<ComparisonResult> Suite::compare(const std::string& other, Time to
                         })
       .each(
           [&](std::size_t, Compared compared) {
-            if (interrupted()) return false;
+            if (settings_.stop.stop_requested()) return false;
             all.scenarios.push_back(std::move(compared));
             if (watcher.finished) watcher.finished(all.scenarios.back());
             return all.same() || !settings_.fail_fast;

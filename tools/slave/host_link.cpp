@@ -19,7 +19,6 @@
 #include <thread>
 #include <utility>
 
-#include "tools/host/interruption.hpp"
 #include "tools/slave/slave.hpp"
 #include "tools/views/machine_text.hpp"
 
@@ -27,27 +26,15 @@ namespace s7200::tools {
 namespace {
 
 constexpr Time kPatience = 5 * kSecond;      // with a side that does not take what is sent, or does not let us in
-constexpr Time kSlice = 100 * kMillisecond;  // Ctrl-C is heard in between
-
-/// Whether `events` came before `until`; errors and hang-ups count, reading or writing then tells.
-bool wait_for(int fd, short events, Time until) {
-  while (!interrupted()) {
-    const Time left = std::clamp(until - host_time(), Time{0}, kSlice);
-    const timespec timeout{0, static_cast<long>(left)};
-    pollfd waiting{fd, events, 0};
-    if (ppoll(&waiting, 1, &timeout, nullptr) > 0) return true;
-    if (left == 0) return false;
-  }
-  return false;
-}
+constexpr Time kSlice = 100 * kMillisecond;  // a stop is heard in between
 
 std::string error_text(int error) { return std::strerror(error); }
 
 using Addresses = std::shared_ptr<addrinfo>;
 
-/// The addresses of a host. Null with `why` set if there are none, and after Ctrl-C. Name servers may let getaddrinfo(3)
-/// wait for long, and nothing calls it off: it has a thread of its own, which is then left to itself.
-Addresses look_up(const std::string& host, const std::string& port, std::string& why) {
+/// Null, and `why`, if there are none; after a stop too. Name servers may let getaddrinfo(3) wait for long, and nothing
+/// calls it off: it has a thread of its own, which is then left to itself.
+Addresses look_up(const std::string& host, const std::string& port, StopToken stop, std::string& why) {
   struct Answer {
     int error = 0;
     Addresses addresses;
@@ -62,7 +49,7 @@ Addresses look_up(const std::string& host, const std::string& port, std::string&
     promise.set_value({error, error == 0 ? Addresses(found, freeaddrinfo) : nullptr});
   }).detach();
   while (answer.wait_for(std::chrono::nanoseconds(kSlice)) != std::future_status::ready)
-    if (interrupted()) return nullptr;
+    if (stop.stop_requested()) return nullptr;
   const Answer got = answer.get();
   if (got.error != 0) why = gai_strerror(got.error);
   return got.addresses;
@@ -70,17 +57,28 @@ Addresses look_up(const std::string& host, const std::string& port, std::string&
 
 }  // namespace
 
-void sleep_until(Time until) { wait_for(-1, 0, until); }
+bool HostLink::wait_for(int fd, short events, Time until) const {
+  while (!stop_requested()) {
+    const Time left = std::clamp(until - host_time(), Time{0}, kSlice);
+    const timespec timeout{0, static_cast<long>(left)};
+    pollfd waiting{fd, events, 0};
+    if (ppoll(&waiting, 1, &timeout, nullptr) > 0) return true;
+    if (left == 0) return false;
+  }
+  return false;
+}
+
+void HostLink::sleep_until(Time until) const { wait_for(-1, 0, until); }
 
 bool HostLink::wait_for_input(Time until) const { return wait_for(fd(), POLLIN, until); }
 
 void HostLink::write(std::span<const std::uint8_t> bytes) {
   Time give_up = host_time() + kPatience;
-  while (!bytes.empty() && !interrupted()) {
+  while (!bytes.empty() && !stop_requested()) {
     const std::size_t taken = write_some(bytes);
     bytes = bytes.subspan(taken);
     if (taken > 0) give_up = host_time() + kPatience;
-    if (!bytes.empty() && !wait_for(fd(), POLLOUT, give_up) && !interrupted()) {
+    if (!bytes.empty() && !wait_for(fd(), POLLOUT, give_up) && !stop_requested()) {
       const std::string who = name();
       close();
       throw SlaveLost(fmt::format("{} takes nothing for {}", who, format_duration(kPatience)));
@@ -88,7 +86,8 @@ void HostLink::write(std::span<const std::uint8_t> bytes) {
   }
 }
 
-SerialLink::SerialLink(std::string path, const SerialFormat& format) : path_(std::move(path)), format_(format) {}
+SerialLink::SerialLink(std::string path, const SerialFormat& format, StopToken stop)
+    : HostLink(stop), path_(std::move(path)), format_(format) {}
 
 void SerialLink::open() {
   close();
@@ -124,7 +123,8 @@ std::size_t SerialLink::write_some(std::span<const std::uint8_t> bytes) {
   return *taken;
 }
 
-TcpLink::TcpLink(std::string host, std::string port) : host_(std::move(host)), port_(std::move(port)) {}
+TcpLink::TcpLink(std::string host, std::string port, StopToken stop)
+    : HostLink(stop), host_(std::move(host)), port_(std::move(port)) {}
 
 std::string TcpLink::name() const {
   return host_.find(':') == std::string::npos ? fmt::format("{}:{}", host_, port_) : fmt::format("[{}]:{}", host_, port_);
@@ -138,11 +138,11 @@ void TcpLink::close() {
 void TcpLink::open() {
   close();
   std::string why;
-  const Addresses addresses = look_up(host_, port_, why);
+  const Addresses addresses = look_up(host_, port_, stop_, why);
   if (!why.empty()) throw SlaveUnreachable(fmt::format("cannot reach {}: {}", name(), why));
 
   int error = 0;
-  for (const addrinfo* address = addresses.get(); address != nullptr && fd_ < 0 && !interrupted();
+  for (const addrinfo* address = addresses.get(); address != nullptr && fd_ < 0 && !stop_requested();
        address = address->ai_next) {
     fd_ = socket(address->ai_family, address->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, address->ai_protocol);
     if (fd_ < 0) {
@@ -158,8 +158,8 @@ void TcpLink::open() {
     if (error != 0) close();
   }
   if (fd_ < 0)
-    throw SlaveUnreachable(interrupted() ? fmt::format("{} was not reached before the interruption", name())
-                                         : fmt::format("cannot reach {}: {}", name(), error_text(error)));
+    throw SlaveUnreachable(stop_requested() ? fmt::format("{} was not reached before the interruption", name())
+                                            : fmt::format("cannot reach {}: {}", name(), error_text(error)));
   const int at_once = 1;
   setsockopt(fd_, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once);
 }

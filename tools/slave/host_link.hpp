@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/base/time.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/serial_device.hpp"
@@ -19,7 +20,11 @@ class HostLink {
  public:
   using Character = SerialDevice::Character;
 
+  /// `stop` ends each wait early.
+  explicit HostLink(StopToken stop) : stop_(stop) {}
   virtual ~HostLink() = default;
+  HostLink(const HostLink&) = delete;
+  HostLink& operator=(const HostLink&) = delete;
 
   /// Opens the link, or opens it anew.
   virtual void open() = 0;
@@ -41,25 +46,32 @@ class HostLink {
   /// Appends the characters that have come in; never waits.
   virtual void read(std::vector<Character>& characters) = 0;
 
-  /// Writes all bytes. A side that takes none for 5 s counts as gone. Ctrl-C ends the wait.
+  /// All of them. A side that takes none for 5 s counts as gone.
   void write(std::span<const std::uint8_t> bytes);
 
-  /// Waits for input, or the end of the connection, until that time of the host; Ctrl-C is heard. Whether there is any.
+  /// Waits for input, or the end of the connection, until that time of the host. Whether there is any.
   bool wait_for_input(Time until) const;
 
+  /// A pause until that time of the host.
+  void sleep_until(Time until) const;
+
+  bool stop_requested() const { return stop_.stop_requested(); }
+
  protected:
+  /// Whether `events` come before `until`; errors and hang-ups count, reading or writing then tells.
+  bool wait_for(int fd, short events, Time until) const;
+
   virtual int fd() const = 0;
 
   /// How many were taken; 0 when none can be just now.
   virtual std::size_t write_some(std::span<const std::uint8_t> bytes) = 0;
-};
 
-/// Sleeps, unless Ctrl-C comes, until that time of the host.
-void sleep_until(Time until);
+  StopToken stop_;
+};
 
 class SerialLink final : public HostLink {
  public:
-  SerialLink(std::string path, const SerialFormat& format);
+  SerialLink(std::string path, const SerialFormat& format, StopToken stop);
 
   void open() override;
   void close() override { device_.reset(); }
@@ -83,10 +95,8 @@ class SerialLink final : public HostLink {
 class TcpLink final : public HostLink {
  public:
   /// A name or address, and a port by number or name.
-  TcpLink(std::string host, std::string port);
+  TcpLink(std::string host, std::string port, StopToken stop);
   ~TcpLink() override { close(); }
-  TcpLink(const TcpLink&) = delete;
-  TcpLink& operator=(const TcpLink&) = delete;
 
   /// Tries each address of the host for 5 s.
   void open() override;

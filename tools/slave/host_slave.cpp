@@ -9,7 +9,6 @@
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -71,22 +70,22 @@ bool HostSlave::take_in(std::vector<HostLink::Character>& characters, Time until
   return true;
 }
 
-RtuSlave::RtuSlave(const std::string& device, const SerialFormat& format, IsComplete is_complete)
-    : HostSlave(std::make_unique<SerialLink>(device, format)),
+RtuSlave::RtuSlave(const std::string& device, const SerialFormat& format, IsComplete is_complete, StopToken stop)
+    : HostSlave(std::make_unique<SerialLink>(device, format, stop)),
       is_complete_(is_complete),
       has_parity_(format.parity != Parity::None),
       shortest_silence_(std::max(kSilence, format.silence())),
       quiet_(serial::default_quiet(format)) {}
 
-RtuSlave::RtuSlave(const std::string& host, const std::string& port, IsComplete is_complete)
-    : HostSlave(std::make_unique<TcpLink>(host, port)), is_complete_(is_complete), shortest_silence_(kSilence) {}
+RtuSlave::RtuSlave(const std::string& host, const std::string& port, IsComplete is_complete, StopToken stop)
+    : HostSlave(std::make_unique<TcpLink>(host, port, stop)), is_complete_(is_complete), shortest_silence_(kSilence) {}
 
 void RtuSlave::send(const Bytes& bytes, Time gap) {
   if (gap == 0) {
     link_->write(bytes);
     return;
   }
-  for (std::size_t i = 0; i < bytes.size() && !interrupted(); ++i) {
+  for (std::size_t i = 0; i < bytes.size() && !link_->stop_requested(); ++i) {
     if (i > 0) wait(link_->character_time() + gap);
     link_->write({&bytes[i], 1});
   }
@@ -157,8 +156,8 @@ void RtuSlave::collect(serial::Exchange& exchange, Time until, const std::option
   exchange.response_end = exchange.response.back().end;
 }
 
-ModbusTcpSlave::ModbusTcpSlave(const std::string& host, const std::string& port)
-    : HostSlave(std::make_unique<TcpLink>(host, port)) {}
+ModbusTcpSlave::ModbusTcpSlave(const std::string& host, const std::string& port, StopToken stop)
+    : HostSlave(std::make_unique<TcpLink>(host, port, stop)) {}
 
 serial::Exchange ModbusTcpSlave::exchange(const serial::Request& request) {
   constexpr std::size_t kHeader = 6;  // transaction, protocol, length

@@ -13,8 +13,9 @@ namespace s7200::tools {
 class HostSlave : public Slave {
  public:
   void forget_unasked() override { make_ready(); }
-  void wait(Time duration) override { sleep_until(host_time() + duration); }
+  void wait(Time duration) override { link_->sleep_until(host_time() + duration); }
   Time now() const override { return host_time() - made_at_; }
+  bool stop_requested() const override { return link_->stop_requested(); }
   std::string name() const override { return link_->name(); }
   std::string remark() const override { return remark_; }
 
@@ -54,9 +55,9 @@ class RtuSlave final : public HostSlave {
   static constexpr Time kSilence = 20 * kMillisecond;
   static constexpr Time kSilenceInside = 200 * kMillisecond;
 
-  /// Opens the device. Throws SlaveUnreachable.
-  RtuSlave(const std::string& device, const SerialFormat& format, IsComplete is_complete);
-  RtuSlave(const std::string& host, const std::string& port, IsComplete is_complete);
+  /// Throws SlaveUnreachable.
+  RtuSlave(const std::string& device, const SerialFormat& format, IsComplete is_complete, StopToken stop);
+  RtuSlave(const std::string& host, const std::string& port, IsComplete is_complete, StopToken stop);
 
   /// Throws std::invalid_argument for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;
@@ -84,8 +85,8 @@ class RtuSlave final : public HostSlave {
 /// transactions are ignored, and remarked.
 class ModbusTcpSlave final : public HostSlave {
  public:
-  /// Connects to the host. Throws SlaveUnreachable.
-  ModbusTcpSlave(const std::string& host, const std::string& port);
+  /// Throws SlaveUnreachable.
+  ModbusTcpSlave(const std::string& host, const std::string& port, StopToken stop);
 
   /// Throws std::invalid_argument for a frame without a right CRC, and for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;

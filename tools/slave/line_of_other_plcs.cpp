@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "tools/host/interruption.hpp"
-
 namespace s7200::tools {
 
 LineOfOtherPlcs::LineOfOtherPlcs(Rig& rig, std::size_t line, const serial::MasterSettings& master, std::string name)
@@ -13,7 +11,7 @@ LineOfOtherPlcs::LineOfOtherPlcs(Rig& rig, std::size_t line, const serial::Maste
 
 bool LineOfOtherPlcs::wait_until_ready(Time after) {
   wait(after == kNever ? pause() : after);
-  return !interrupted();
+  return !stop_requested();
 }
 
 }  // namespace s7200::tools

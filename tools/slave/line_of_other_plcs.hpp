@@ -24,6 +24,7 @@ class LineOfOtherPlcs final : public SlaveInSimulation {
   Time now() const override { return system_.time(); }
   Time pause() const override { return master_.pause(); }
   std::string remark() const override { return master_.remark(); }
+  bool stop_requested() const override { return system_.stop_requested(); }
   std::string name() const override { return name_; }
   SerialFormat format() const override { return master_.format(); }
 

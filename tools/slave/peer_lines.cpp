@@ -5,9 +5,9 @@
 namespace s7200::tools {
 
 PeerLines::PeerLines(const SystemPlan& plan, std::size_t first, const serial::MasterSettings& master, Time after,
-                     const std::string& path)
+                     const std::string& path, StopToken stop)
     : path_(path), here_(first) {
-  RigSurroundings surroundings{.path = path};
+  RigSurroundings surroundings{.path = path, .stop = stop};
   for (std::size_t line = 0; line < plan.lines.size(); ++line)
     if (why_no_other_plc(plan, line).empty()) surroundings.lines.push_back(line);
   std::vector<std::string> problems;

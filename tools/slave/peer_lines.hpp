@@ -18,7 +18,7 @@ class PeerLines final : public SlaveInSimulation {
   /// no bridges and no S7-200. `master` has the format of all masters, where the line leaves it open. Throws
   /// SlaveUnreachable if a file that the plan names cannot be opened.
   PeerLines(const SystemPlan& plan, std::size_t first, const serial::MasterSettings& master, Time after,
-            const std::string& path);
+            const std::string& path, StopToken stop);
 
   /// Makes this the line of further calls, if a master has joined it.
   void look_at(std::size_t line) {
@@ -35,6 +35,7 @@ class PeerLines final : public SlaveInSimulation {
   Time now() const override { return rig_->system().time(); }
   Time pause() const override { return master().pause(); }
   std::string remark() const override { return master().remark(); }
+  bool stop_requested() const override { return rig_->system().stop_requested(); }
   std::string name() const override;
   SerialFormat format() const override { return master().format(); }
 

@@ -16,7 +16,7 @@ class PeerSlave final : public SlaveInSimulation {
  public:
   /// `line`: the master's, as far as it is not that of the station. `name`: as it was asked for.
   PeerSlave(std::unique_ptr<serial::Automaton> station, const serial::LineSettings& line,
-            const std::vector<serial::Fault>& faults, std::string name);
+            const std::vector<serial::Fault>& faults, std::string name, StopToken stop);
 
   /// Exchanges like PeerMaster.
   serial::Exchange exchange(const serial::Request& request) override { return master_.exchange(request); }
@@ -25,6 +25,7 @@ class PeerSlave final : public SlaveInSimulation {
   Time now() const override { return system_.time(); }
   Time pause() const override { return master_.pause(); }
   std::string remark() const override { return master_.remark(); }
+  bool stop_requested() const override { return system_.stop_requested(); }
   std::string name() const override { return name_; }
   SerialFormat format() const override { return master_.format(); }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "serial_sim/peers/quiet_time.hpp"
-#include "tools/host/interruption.hpp"
 #include "tools/views/port_mode.hpp"
 
 namespace s7200::tools {
@@ -18,7 +17,7 @@ SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const serial::Mas
 
 bool SimulatedSlave::goes_on_in_stop() const {
   const State& state = simulation_.cpu().state();
-  return state.mode == Mode::Stop && state.fatal_code == 0 && !interrupted();
+  return state.mode == Mode::Stop && state.fatal_code == 0 && !stop_requested();
 }
 
 /// False after a fatal error and after Ctrl-C.
@@ -39,7 +38,7 @@ bool SimulatedSlave::get_ready(Time limit) {
 
 bool SimulatedSlave::wait_until_ready(Time after, std::string& why) {
   const bool ready = after == kNever ? get_ready(kReadyWithin) : run_ready_until(after);
-  if (!ready && after == kNever && simulation_.cpu().state().mode == Mode::Run && !interrupted())
+  if (!ready && after == kNever && simulation_.cpu().state().mode == Mode::Run && !stop_requested())
     why = fmt::format(
         "the program's first scan has not ended, or the line was never quiet for {}, within {}; --after TIME "
         "sends all the same",

@@ -46,6 +46,7 @@ class SimulatedSlave final : public SlaveInSimulation {
   /// Waits, in STOP too, but for a fatal error: the others on the line go on.
   void wait(Time duration) override;
   Time now() const override { return simulation_.time(); }
+  bool stop_requested() const override { return simulation_.stop_requested(); }
   std::string name() const override { return name_; }
   std::string remark() const override { return remark_; }
   SerialFormat format() const override { return master_.over(simulation_.port_format()); }

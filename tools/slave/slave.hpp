@@ -56,7 +56,10 @@ class Slave {
   /// What the last exchange met besides its answer, for people: `ignored an answer to transaction 7`. Mostly empty.
   virtual std::string remark() const { return {}; }
 
-  /// The name of the slave for headings and messages: `modbus_slave.stl`, `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`.
+  /// Whether whoever has made it wants it to end. What is under way ends early then.
+  virtual bool stop_requested() const { return false; }
+
+  /// What it is, for headings and messages: `modbus_slave.stl`, `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`.
   virtual std::string name() const = 0;
 };
 

@@ -100,18 +100,19 @@ std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without,
   return text;
 }
 
-std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format, IsComplete is_complete) {
+std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format, IsComplete is_complete,
+                               StopToken stop) {
   switch (target.kind) {
     case SlaveTarget::Kind::Program:
     case SlaveTarget::Kind::System:
     case SlaveTarget::Kind::Peer:
       break;
     case SlaveTarget::Kind::Device:
-      return std::make_unique<RtuSlave>(target.path, format, is_complete);
+      return std::make_unique<RtuSlave>(target.path, format, is_complete, stop);
     case SlaveTarget::Kind::Tcp:
-      return std::make_unique<RtuSlave>(target.host, target.port, is_complete);
+      return std::make_unique<RtuSlave>(target.host, target.port, is_complete, stop);
     case SlaveTarget::Kind::ModbusTcp:
-      return std::make_unique<ModbusTcpSlave>(target.host, target.port);
+      return std::make_unique<ModbusTcpSlave>(target.host, target.port, stop);
   }
   throw std::invalid_argument(
       fmt::format("'{}' is in simulation; name a serial device, tcp:// or modbus-tcp://", stl::shortened(target.path)));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "interpreter/base/serial_format.hpp"
+#include "interpreter/base/stop_token.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/slave/slave.hpp"
 
@@ -42,7 +43,7 @@ std::string slave_targets_help(
 
 /// Connects to a target outside simulation; `format` is for devices, `is_complete` for characters. Throws
 /// SlaveUnreachable, and std::invalid_argument for a target in simulation.
-std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format,
-                               IsComplete is_complete = modbus::crc_ok);
+std::unique_ptr<Slave> connect(const SlaveTarget& target, const SerialFormat& format, IsComplete is_complete,
+                               StopToken stop);
 
 }  // namespace s7200::tools

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "tools/host/interruption.hpp"
 #include "tools/rig/first_scans.hpp"
 
 namespace s7200::tools {
@@ -24,16 +23,16 @@ static bool another_answers(const SystemPlan& plan, const Spot& spot) {
 }
 
 SystemSlave::SystemSlave(const SystemPlan& plan, const Spot& spot, const serial::MasterSettings& master, Time after,
-                         const std::string& path) {
+                         const std::string& path, StopToken stop) {
   std::vector<std::string> problems;
-  rig_ = Rig::assemble(plan, {.path = path, .spots = {spot}}, problems);
+  rig_ = Rig::assemble(plan, {.path = path, .spots = {spot}, .stop = stop}, problems);
   if (!rig_) throw SlaveUnreachable(problems.empty() ? "interrupted" : problems.front());
   rig_->power_up();
   slave_.emplace(rig_->simulation(), on_line(master, plan.lines[spot.line]), place_text(path, plan, spot),
                  another_answers(plan, spot));
   std::string why;
   if (after == kNever) run_first_scans(*rig_, kReadyWithin);
-  if (slave_->wait_until_ready(after, why) || interrupted()) return;
+  if (slave_->wait_until_ready(after, why) || stop_requested()) return;
   throw SlaveUnreachable(fmt::format("{}: {}", slave_->name(), why.empty() ? "the CPU went to STOP" : why));
 }
 

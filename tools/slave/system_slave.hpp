@@ -19,7 +19,7 @@ class SystemSlave final : public SlaveInSimulation {
   /// until `after` if that is not kNever. The plan has no bridges. Throws SlaveUnreachable if that moment never comes or a
   /// file that the plan names cannot be opened.
   SystemSlave(const SystemPlan& plan, const Spot& spot, const serial::MasterSettings& master, Time after,
-              const std::string& path);
+              const std::string& path, StopToken stop);
 
   /// Exchanges like SimulatedSlave.
   serial::Exchange exchange(const serial::Request& request) override { return slave_->exchange(request); }
@@ -28,6 +28,7 @@ class SystemSlave final : public SlaveInSimulation {
   Time now() const override { return slave_->now(); }
   Time pause() const override { return slave_->pause(); }
   std::string remark() const override { return slave_->remark(); }
+  bool stop_requested() const override { return slave_->stop_requested(); }
   std::string name() const override { return slave_->name(); }
   SerialFormat format() const override { return slave_->format(); }
 

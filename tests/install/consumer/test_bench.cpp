@@ -62,7 +62,7 @@ bool serves_behind_a_pty(const std::shared_ptr<const Program>& program) {
   std::atomic<bool> enough = false;
   std::promise<void> serving;
   tools::LiveRunOptions options;
-  options.stop = &enough;
+  options.stop = StopToken(enough);
   options.messages.serving = [&](const std::string&) { serving.set_value(); };
   serial::Simulation simulation(program);
   simulation.power_up();

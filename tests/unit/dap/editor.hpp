@@ -49,7 +49,7 @@ class Editor {
       : debuggee(std::make_shared<BareDebuggee>(std::move(program))),
         session({.launch = [this](const Json&) { return debuggee; },
                  .attachable = debuggee,
-                 .stop_request = &stop,
+                 .stop_request = StopToken(stop),
                  .patience = std::chrono::milliseconds(0)},
                 [this](const Json& message) { messages.push_back(message); }) {}
   explicit Editor(std::string_view text) : Editor(check_text(text, "test.stl", cpu214(), default_times(cpu214())).program) {}

@@ -34,7 +34,7 @@ class SystemDebuggee final : public Debuggee {
 struct SystemEditor {
   explicit SystemEditor(std::string_view text = kPolled)
       : debuggee(std::make_shared<SystemDebuggee>(text)),
-        session({.launch = [this](const Json&) { return debuggee; }, .stop_request = &stop},
+        session({.launch = [this](const Json&) { return debuggee; }, .stop_request = StopToken(stop)},
                 [this](const Json& message) { messages.push_back(message); }) {
     (*this)("initialize", {{"adapterID", "s7200"}});
     (*this)("launch", {{"stopOnEntry", true}});

@@ -210,7 +210,7 @@ TEST(Debugger, UntilTheLineItStandsAtGoesOnceAround) {
 
 TEST(Debugger, StopRequestEndsARun) {
   std::atomic<bool> stop = true;
-  AtPrompt session(program_of(kNested), &stop);
+  AtPrompt session(program_of(kNested), StopToken(stop));
   EXPECT_TRUE(has(session("continue 1h"), "Ctrl-C"));
   EXPECT_LT(session.simulation.time(), kSecond);
 }
@@ -228,7 +228,7 @@ TEST(Debugger, BetweenTwoScansItSaysSoAndNamesTheNextInstruction) {
 
 TEST(Debugger, AViewWhoseSearchIsInterruptedNeverSaysNotExecuted) {
   std::atomic<bool> stop = false;
-  AtPrompt session(program_of(kNested), &stop);
+  AtPrompt session(program_of(kNested), StopToken(stop));
   session("continue 200ms");
   stop = true;
   for (const std::string& line : session.debugger->view(15)) EXPECT_EQ(line.find("not executed"), std::string::npos) << line;
@@ -437,7 +437,7 @@ TEST(Debugger, OnlyARunThatMayStopWithinAScanLooksAtEachOfThem) {
     serial::Simulation simulation(program_of(kNested));
     simulation.power_up();
     History history(simulation, {});
-    Stepper stepper(history, nullptr);
+    Stepper stepper(history, StopToken());
     stepper.add(stop);
     std::size_t instructions = 0, wanted = 0;
     stepper.on_instruction = [&](std::size_t, const InstructionRecord&, bool) {
@@ -1623,7 +1623,7 @@ TEST(Debugger, StepsThroughTheTipDocument) {
 
 TEST(Debugger, AfterAStopRequestTheRestOfALineIsNotDoneAndCounted) {
   std::atomic<bool> stop = true;
-  AtPrompt session(program_of(kNested), &stop);
+  AtPrompt session(program_of(kNested), StopToken(stop));
   const std::string text = session("scan 5; step; set VW100=7 # not this; nor this");
   EXPECT_TRUE(has(text, "interrupted by Ctrl-C"));
   EXPECT_TRUE(has(text, "not done any more: 2 commands\n"));
@@ -1636,7 +1636,7 @@ TEST(Debugger, AfterAStopRequestTheRestOfALineIsNotDoneAndCounted) {
 
 TEST(Debugger, AfterAStopRequestTheRestOfAScriptIsNotDoneAndCounted) {
   std::atomic<bool> stop = true;
-  AtPrompt session(program_of(kNested), &stop);
+  AtPrompt session(program_of(kNested), StopToken(stop));
   std::istringstream script("scan 5; step ; ;\n\n# a comment\nset VW100=7\n");
   EXPECT_FALSE(session.debugger->run_script(script));
   EXPECT_TRUE(has(session.out.str(), "not done any more: 3 commands\n"));

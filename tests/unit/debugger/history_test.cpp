@@ -153,8 +153,8 @@ TEST(History, PartsThatCannotHoldALastWriteAreNotPlayedForItAndItIsTheSame) {
     for (const Time at : {5 * kMillisecond, 800 * kMillisecond, kNever}) {
       session.history->go_to(at);
       replayed.history->go_to(at);
-      const auto write = find_last_write(*session.history, 0, *range, nullptr).write;
-      const auto expected = find_last_write(*replayed.history, 0, *range, nullptr).write;
+      const auto write = find_last_write(*session.history, 0, *range, StopToken()).write;
+      const auto expected = find_last_write(*replayed.history, 0, *range, StopToken()).write;
       ASSERT_EQ(write.has_value(), expected.has_value()) << address;
       if (!write) continue;
       ++found;
@@ -242,7 +242,7 @@ TEST(History, RandomWalksOfStepsInBothDirectionsStandWhereAPlainRunStands) {
   const auto program = slave();
   Recorded session(program, {.interval = 10 * kMillisecond});
   session.live_through_it();
-  Stepper stepper(*session.history, nullptr);
+  Stepper stepper(*session.history, StopToken());
   const Cpu& cpu = session.simulation.cpu();
   std::mt19937 chance(12);
   const Listing listing(*program);
@@ -508,7 +508,7 @@ TEST(History, OfARecordingThatWasReplayedWhatCameOverTheHostPortIsForgottenToo) 
 
 TEST(History, ATimeIsNotReachedAfterAStopRequest) {
   std::atomic<bool> stop = false;
-  Recorded session(slave(), {.interval = kSecond, .stop_request = &stop});
+  Recorded session(slave(), {.interval = kSecond, .stop_request = StopToken(stop)});
   session.live_through_it();
   const Snapshot here = session.simulation.snapshot();
   stop = true;
@@ -527,7 +527,7 @@ TEST(History, TheLastWriteIsFoundAlsoOfAnEqualValueThroughAPointerAndInABlock) {
   const auto line_of = [&](const char* address) -> std::uint32_t {
     std::string why;
     const Snapshot before = session.simulation.snapshot();
-    const auto search = find_last_write(*session.history, 0, *parse_range(address, cpu214(), why), nullptr);
+    const auto search = find_last_write(*session.history, 0, *parse_range(address, cpu214(), why), StopToken());
     EXPECT_TRUE(session.simulation.snapshot() == before);
     return search.write && search.write->by ? program->statement(search.write->by->op).position.line : 0;
   };
@@ -557,10 +557,10 @@ TEST(History, TheLastWriteMayBeAnActionOrTheSystem) {
   session.history->act(assignment("VW50=3"));
   session.run_to(20);
   std::string why;
-  const auto by_action = find_last_write(*session.history, 0, *parse_range("VW50", cpu214(), why), nullptr);
+  const auto by_action = find_last_write(*session.history, 0, *parse_range("VW50", cpu214(), why), StopToken());
   ASSERT_TRUE(by_action.write.has_value());
   EXPECT_EQ(by_action.write->action, 0U);
-  const auto by_system = find_last_write(*session.history, 0, *parse_range("SM0.6", cpu214(), why), nullptr);
+  const auto by_system = find_last_write(*session.history, 0, *parse_range("SM0.6", cpu214(), why), StopToken());
   ASSERT_TRUE(by_system.write.has_value());
   EXPECT_FALSE(by_system.write->by.has_value() || by_system.write->action.has_value());
 }
@@ -587,7 +587,7 @@ class PlainUntil final : public Observer {
 
 TEST(History, AStopForgetsItsHitsOfBranchesThatNobodyCanReturnTo) {
   Recorded session(test::compile("LD SM0.0\nINCW VW2\nMEND\n"));
-  Stepper stepper(*session.history, nullptr);
+  Stepper stepper(*session.history, StopToken());
   stepper.add({.on = StopPoint::On::Place, .op = 1, .from_hit = kNever});
   for (int i = 0; i < 20; ++i) {
     stepper.run(goal::instructions(9), kNever, false);
@@ -604,7 +604,7 @@ TEST(History, ScansThatAreAllAlikeTakeNoCheckpointsAndAreReachedAgainBitByBit) {
   const auto program = test::compile("LD SM0.0\nMOVW 1, VW2\nMEND\n");
   Recorded session(program);
   session.simulation.cpu().use_steady_scans(SteadyScansUse::On);
-  Stepper stepper(*session.history, nullptr);
+  Stepper stepper(*session.history, StopToken());
   EXPECT_EQ(stepper.run(goal::none(), kLimit, false).reason, StopReason::Limit);
   EXPECT_GT(session.simulation.cpu().passed_over(), 90 * kSecond);
   EXPECT_LT(session.history->usage().checkpoints, 20U);
@@ -634,7 +634,7 @@ TEST(History, ALimitAmongScansThatAreAllAlikeEndsInFrontOfTheFirstInstructionAft
   const auto program = test::compile("LD SM0.0\nMOVW 1, VW2\nMEND\n");
   Recorded session(program);
   session.simulation.cpu().use_steady_scans(SteadyScansUse::On);
-  Stepper stepper(*session.history, nullptr);
+  Stepper stepper(*session.history, StopToken());
   PlainUntil plain(program);
   for (const Time limit : {50 * kSecond, 50 * kSecond + 100 * kMicrosecond, 50'300 * kMillisecond, 90 * kSecond}) {
     EXPECT_EQ(stepper.run(goal::none(), limit, false).reason, StopReason::Limit);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/faces/console/prompt.hpp"
 #include "tools/faces/files/host_files.hpp"
@@ -99,8 +100,7 @@ struct OnePlc {
 };
 
 struct AtPrompt : Talk<OnePlc> {
-  explicit AtPrompt(std::shared_ptr<const Program> program, const std::atomic<bool>* stop_request = nullptr)
-      : Talk(std::move(program)) {
+  explicit AtPrompt(std::shared_ptr<const Program> program, StopToken stop_request = {}) : Talk(std::move(program)) {
     debugger =
         std::make_unique<Prompt>(std::vector{&simulation}, out,
                                  PromptSettings{.session = {.stop_request = stop_request,

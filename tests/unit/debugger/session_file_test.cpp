@@ -240,7 +240,7 @@ TEST_F(SavedSession, ThatIsNestedWithoutEndIsRefused) {
 TEST_F(SavedSession, ThatTookMoreThanAWeekIsRunAgainOnlyIfThatIsAskedFor) {
   using Json = nlohmann::ordered_json;
   std::atomic<bool> stop = false;
-  AtPrompt session(program_of(kEcho), &stop);
+  AtPrompt session(program_of(kEcho), StopToken(stop));
   session("scan 2; save " + file("a.json"));
   Json json = Json::parse(read("a.json"));
   json.erase("sum");

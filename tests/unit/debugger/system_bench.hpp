@@ -46,7 +46,7 @@ struct SystemBench {
     rig = Rig::assemble(std::move(file.plan), {.path = path, .spots = spots}, problems);
     for (const std::string& problem : problems) ADD_FAILURE() << problem;
     rig->power_up();
-    rig->system().stop_when(nullptr);
+    rig->system().stop_when(StopToken());
     for (std::size_t spot = 0; spot < spots.size(); ++spot) stations.push_back(&rig->simulation(spot));
   }
 

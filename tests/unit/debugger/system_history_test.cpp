@@ -179,7 +179,7 @@ TEST(SystemHistory, StepsInBothDirectionsAtAnyStationStandWhereAPlainRunStands) 
   const int walks = asked ? std::atoi(asked) : 40;
   Recorded session(10 * kMillisecond);
   session.live_through_it();
-  Stepper stepper(session.history, nullptr);
+  Stepper stepper(session.history, StopToken());
   std::mt19937 chance(7);
   for (int i = 0; i < walks; ++i) {
     if (i % 8 == 0) session.history.go_to(static_cast<Time>(60 + chance() % 150) * kMillisecond);
@@ -239,8 +239,8 @@ TEST(SystemHistory, TheLastWriteIsOneOfTheStationItIsAskedOf) {
   std::string why;
   const MemoryRange range = *parse_range("VB100", cpu214(), why);
   const Snapshot here = session.system().snapshot();
-  const auto of_slave = find_last_write(session.history, kSlave2, range, nullptr);
-  const auto of_other = find_last_write(session.history, kSlave1, range, nullptr);
+  const auto of_slave = find_last_write(session.history, kSlave2, range, StopToken());
+  const auto of_other = find_last_write(session.history, kSlave1, range, StopToken());
   EXPECT_TRUE(session.system().snapshot() == here);
   ASSERT_TRUE(of_slave.write.has_value());
   EXPECT_EQ(of_slave.write->action, 0U);
@@ -253,7 +253,7 @@ TEST(SystemHistory, ARunEndsAtItsLimitThoughNoCpuExecutesAProgram) {
       "lines:\n  bus: {stations: [slave]}\n"
       "events:\n  - {at: 100ms, power_off: slave1}\n  - {at: 150ms, power_off: slave2}\n  - {at: 5s, power_on: slave2}\n");
   History history(bench.stations, {});
-  Stepper stepper(history, nullptr);
+  Stepper stepper(history, StopToken());
   const Stop stop = stepper.run(goal::none(), kSecond, false);
   EXPECT_EQ(stop.reason, StopReason::Limit);
   EXPECT_EQ(history.now().time, kSecond);

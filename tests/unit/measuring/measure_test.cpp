@@ -11,14 +11,14 @@ namespace {
 const std::atomic<bool> kGoesOn = false, kStopped = true;
 
 TEST(Measure, AFigureThatIsStoppedIsNone) {
-  EXPECT_EQ(measure_tip_like({kMillisecond, kGoesOn}, true).size(), 1U);
-  EXPECT_TRUE(measure_tip_like({kMillisecond, kStopped}, true).empty());
-  EXPECT_TRUE(measure_start("/bin/echo", {kMillisecond, kStopped}).empty());
+  EXPECT_EQ(measure_tip_like({kMillisecond, StopToken(kGoesOn)}, true).size(), 1U);
+  EXPECT_TRUE(measure_tip_like({kMillisecond, StopToken(kStopped)}, true).empty());
+  EXPECT_TRUE(measure_start("/bin/echo", {kMillisecond, StopToken(kStopped)}).empty());
 }
 
 TEST(Measure, ACommandThatPrintsNothingHasNoFirstOutput) {
-  EXPECT_EQ(measure_start("/bin/echo", {kMillisecond, kGoesOn}).size(), 1U);
-  EXPECT_THROW(measure_start("/bin/true", {kMillisecond, kGoesOn}), std::runtime_error);
+  EXPECT_EQ(measure_start("/bin/echo", {kMillisecond, StopToken(kGoesOn)}).size(), 1U);
+  EXPECT_THROW(measure_start("/bin/true", {kMillisecond, StopToken(kGoesOn)}), std::runtime_error);
 }
 
 }  // namespace

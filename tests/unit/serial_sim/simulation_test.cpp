@@ -33,7 +33,7 @@ class StopAt final : public TraceSink {
 struct Stopping {
   explicit Stopping(const char* text) : simulation(test::compile(text)), stop(simulation, 2 * kSecond) {
     simulation.cpu().set_sink(&stop);
-    simulation.stop_when(&stop.request);
+    simulation.stop_when(StopToken(stop.request));
     simulation.power_up();
   }
   bool stopped_in_time() const { return simulation.time() >= 2 * kSecond && simulation.time() < 3 * kSecond; }
@@ -67,7 +67,7 @@ TEST(SimulationStop, AsLongAsNoOneAsksNothingChanges) {
   const auto state_after = [](bool may_be_asked) {
     Simulation simulation(test::compile(test::slave_text()));
     const std::atomic<bool> never = false;
-    if (may_be_asked) simulation.stop_when(&never);
+    if (may_be_asked) simulation.stop_when(StopToken(never));
     simulation.power_up();
     EXPECT_EQ(simulation.run_until(kSecond), Halt::Time);
     simulation.configure_master(simulation.cpu().state().port[0].format);

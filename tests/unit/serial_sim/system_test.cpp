@@ -411,7 +411,7 @@ TEST(System, ACpuThatWasPausedWhenItsPowerWentOffDoesNotHoldTheOthers) {
 TEST(System, ARunWithoutEndComesBackWhenItIsAskedTo) {
   Plant plant({slave(1), slave(2)});
   const std::atomic<bool> request = true;
-  plant.system.stop_when(&request);
+  plant.system.stop_when(StopToken(request));
   EXPECT_EQ(plant.system.run_until(kNever), Halt::Request);
 }
 

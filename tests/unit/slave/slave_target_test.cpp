@@ -58,7 +58,7 @@ TEST(SlaveTarget, ASystemFileAndAPlcOfAnotherMakeAreNeitherProgramsNorConnectedT
   EXPECT_EQ(peer.kind, Kind::Peer);
   EXPECT_EQ(peer.path, "pc1200");
   for (const SlaveTarget& target : {system, peer, parse_slave_target("slave.stl")})
-    EXPECT_THROW(connect(target, {}), std::invalid_argument);
+    EXPECT_THROW(connect(target, {}, modbus::crc_ok, {}), std::invalid_argument);
 }
 
 TEST(SlaveTarget, HelpLeavesOutWhatAVerbDoesNotTake) {

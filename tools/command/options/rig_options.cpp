@@ -115,6 +115,8 @@ std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& 
   settings_.faults = faults_.faults();
   settings_.link = link;
   settings_.standard_output = &std::cout;
+  settings_.stop = interruption();
+  settings_.begun = catch_interruption;
   std::vector<std::string> problems;
   auto rig = Rig::assemble(program, settings_, problems);
   return keep_why(std::move(rig), problems);
@@ -255,7 +257,9 @@ RigSurroundings RigOptions::surroundings(const std::string& path, const std::str
           .standard_output = &std::cout,
           .trace = settings_.trace,
           .trace_detail = settings_.trace_detail,
-          .spots = std::move(spots)};
+          .spots = std::move(spots),
+          .stop = interruption(),
+          .begun = catch_interruption};
 }
 
 std::string RigOptions::target() const {

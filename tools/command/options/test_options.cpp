@@ -12,6 +12,7 @@
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/stand_in_options.hpp"
+#include "tools/host/interruption.hpp"
 #include "tools/scenario/junit.hpp"
 #include "tools/scenario/transcript.hpp"
 #include "tools/slave/slave_target.hpp"
@@ -75,6 +76,15 @@ void TestOptions::add_to(CLI::App& app) {
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE")->group(help_group::kResults);
   app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
   app.add_flag("--keys", keys, "print what a scenario may contain, as Markdown")->excludes("--json");
+}
+
+void TestOptions::complete_suite() {
+  suite.band = band.settings();
+  suite.jobs = jobs > 0 ? jobs : band.wanted() ? band.jobs() : 1;
+  suite.plc = other.settings();
+  suite.protocol = protocol->name;
+  suite.exchanges_wanted = json || !record.empty() || !against.empty();
+  suite.stop = interruption();
 }
 
 void TestOptions::check() const {

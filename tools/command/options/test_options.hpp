@@ -34,6 +34,9 @@ struct TestOptions {
   /// Throws std::invalid_argument for options that do not go together.
   void check() const;
 
+  /// What `suite` has from the other options, and that an interruption ends it.
+  void complete_suite();
+
   /// Where --record and --junit write.
   struct Destinations {
     std::optional<Destination> record{}, junit{};

@@ -14,7 +14,6 @@
 #include "tools/faces/dap/admission.hpp"
 #include "tools/faces/dap/framing.hpp"
 #include "tools/faces/dap/inbox.hpp"
-#include "tools/host/interruption.hpp"
 #include "tools/host/server_rules.hpp"
 
 namespace s7200::tools::dap {
@@ -27,8 +26,10 @@ using Clock = std::chrono::steady_clock;
 /// Reads in a thread of its own: a run is to be ended from outside.
 class Reader {
  public:
-  Reader(int in, Inbox& inbox, const Admission& admission, bool may_be_anyone)
-      : in_(in), inbox_(inbox), admission_(admission), may_be_anyone_(may_be_anyone), thread_([this] { read_all(); }) {}
+  Reader(int in, Inbox& inbox, const Admission& admission, bool may_be_anyone, StopToken end)
+      : in_(in), inbox_(inbox), admission_(admission), may_be_anyone_(may_be_anyone), end_(end), thread_([this] {
+          read_all();
+        }) {}
   ~Reader() {
     done_ = true;
     thread_.join();
@@ -40,7 +41,7 @@ class Reader {
   void read_all() {
     std::array<char, 65'536> bytes;
     while (!done_) {
-      if (interrupted()) return inbox_.close();
+      if (end_.stop_requested()) return inbox_.close();
       if (may_be_anyone_ && is_too_silent()) return inbox_.close(fmt::format("said nothing for {} s", kMostSilence.count()));
       if (!inbox_.has_room()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(kLookAgain));
@@ -109,6 +110,7 @@ class Reader {
   bool may_be_anyone_;  ///< it has come over a port
   Clock::time_point heard_ = Clock::now();
   std::string first_bytes_;
+  StopToken end_;
   FrameReader frames_;
   bool any_message_ = false;
   std::string wrong_so_far_;  ///< with a stream on which no message has come yet
@@ -119,7 +121,7 @@ class Reader {
 }  // namespace
 
 std::string serve(int in, const Write& write, const SessionSettings& settings, std::atomic<bool>& stop_request,
-                  const std::string& token) {
+                  StopToken end, const std::string& token) {
   Inbox inbox(stop_request);
   Admission admission(token);
   std::string turned_away;
@@ -127,7 +129,7 @@ std::string serve(int in, const Write& write, const SessionSettings& settings, s
   Session session(settings, [&](const Json& message) {
     lost = lost || !write(framed(message.dump(-1, ' ', false, Json::error_handler_t::replace)));
   });
-  const Reader reader(in, inbox, admission, !token.empty());
+  const Reader reader(in, inbox, admission, !token.empty(), end);
   while (!session.is_over() && !lost && turned_away.empty()) {
     Json message;
     switch (inbox.take(session.runs(), message)) {

@@ -16,6 +16,7 @@
 #include <memory>
 #include <string>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/faces/dap/attributes.hpp"
 #include "tools/faces/dap/debuggee.hpp"
 #include "tools/faces/dap/messages.hpp"
@@ -27,9 +28,9 @@ struct Conversation;
 struct SessionSettings {
   /// Powers up what a launch asks for; throws Refused.
   std::function<std::shared_ptr<Debuggee>(const Json& arguments)> launch;
-  std::shared_ptr<Debuggee> attachable{};           ///< that was there before the session, and stays
-  const std::atomic<bool>* stop_request = nullptr;  ///< ends what is going on
-  std::chrono::milliseconds patience{500};          ///< after this long progress is reported
+  std::shared_ptr<Debuggee> attachable{};   ///< that was there before the session, and stays
+  StopToken stop_request{};                 ///< ends what is going on
+  std::chrono::milliseconds patience{500};  ///< after this long progress is reported
 };
 
 class Session {

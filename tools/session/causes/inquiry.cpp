@@ -33,7 +33,7 @@ class Finder final : public Observer {
 
 }  // namespace
 
-Inquiry::Inquiry(History& history, std::size_t station, Time host_timeout, const std::atomic<bool>* stop_request)
+Inquiry::Inquiry(History& history, std::size_t station, Time host_timeout, StopToken stop_request)
     : history_(history),
       station_(station),
       stop_request_(stop_request),

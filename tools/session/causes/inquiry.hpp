@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/causes/asked_request.hpp"
 #include "tools/session/causes/last_decision.hpp"
 #include "tools/session/causes/witness.hpp"
@@ -23,7 +24,7 @@ struct Keeper {
 
 class Inquiry {
  public:
-  Inquiry(History& history, std::size_t station, Time host_timeout, const std::atomic<bool>* stop_request);
+  Inquiry(History& history, std::size_t station, Time host_timeout, StopToken stop_request);
 
   /// Plays the past that it is about; false after a stop request.
   bool hear_the_witness();
@@ -32,7 +33,7 @@ class Inquiry {
 
   History& history() const { return history_; }
   std::size_t station() const { return station_; }
-  const std::atomic<bool>* stop_request() const { return stop_request_; }
+  StopToken stop_request() const { return stop_request_; }
   serial::Simulation& here() const { return history_.station(station_); }
   const Program& program() const { return here().cpu().program(); }
   const Moment& start() const { return start_; }
@@ -83,7 +84,7 @@ class Inquiry {
 
   History& history_;
   std::size_t station_;
-  const std::atomic<bool>* stop_request_;
+  StopToken stop_request_;
   Moment start_;
   bool in_main_;
   std::optional<AskedRequest> request_;

@@ -7,7 +7,7 @@ namespace {
 
 class AttachmentFinder final : public Reader {
  public:
-  AttachmentFinder(const History& history, std::size_t station, std::uint8_t event, const std::atomic<bool>* stop_request)
+  AttachmentFinder(const History& history, std::size_t station, std::uint8_t event, StopToken stop_request)
       : Reader(station, stop_request), history_(history), event_(event) {}
 
   bool before(std::uint32_t op) override {
@@ -34,8 +34,7 @@ class AttachmentFinder final : public Reader {
 
 }  // namespace
 
-AttachmentSearch find_last_attachment(History& history, std::size_t station, std::uint8_t event,
-                                      const std::atomic<bool>* stop_request) {
+AttachmentSearch find_last_attachment(History& history, std::size_t station, std::uint8_t event, StopToken stop_request) {
   const Moment start = history.now();
   AttachmentFinder finder(history, station, event, stop_request);
   const auto search = history.search_back(

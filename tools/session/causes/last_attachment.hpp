@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -20,7 +21,6 @@ struct AttachmentSearch {
 };
 
 /// The last ATCH or DTCH of an event of a station before now; the simulation stands where it stood.
-AttachmentSearch find_last_attachment(History& history, std::size_t station, std::uint8_t event,
-                                      const std::atomic<bool>* stop_request);
+AttachmentSearch find_last_attachment(History& history, std::size_t station, std::uint8_t event, StopToken stop_request);
 
 }  // namespace s7200::tools

@@ -33,8 +33,7 @@ std::vector<std::string> to_lines(const DecisionSearch& search, const Listing& l
   return lines;
 }
 
-DecisionSearch find_last_decision(History& history, std::size_t station, Time host_timeout,
-                                  const std::atomic<bool>* stop_request) {
+DecisionSearch find_last_decision(History& history, std::size_t station, Time host_timeout, StopToken stop_request) {
   const Moment start = history.now();
   Inquiry inquiry(history, station, host_timeout, stop_request);
   if (!inquiry.hear_the_witness()) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/trace/trace_lines.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/views/listing.hpp"
@@ -53,7 +54,6 @@ std::vector<std::string> to_lines(const DecisionSearch& search, const Listing& l
 
 /// Of a station: the contacts of the rung so far, or the last jump, conditional end or conditional call before it. The
 /// simulation stands where it stood. `host_timeout`: as of OpenRequests.
-DecisionSearch find_last_decision(History& history, std::size_t station, Time host_timeout,
-                                  const std::atomic<bool>* stop_request);
+DecisionSearch find_last_decision(History& history, std::size_t station, Time host_timeout, StopToken stop_request);
 
 }  // namespace s7200::tools

@@ -8,7 +8,7 @@ namespace {
 
 class EnableFinder final : public Reader {
  public:
-  EnableFinder(const History& history, std::size_t station, const std::atomic<bool>* stop_request)
+  EnableFinder(const History& history, std::size_t station, StopToken stop_request)
       : Reader(station, stop_request), history_(history), station_(station) {}
 
   /// A part of the past begins, and has ended: what is found in an earlier one began earlier. Whether it was the beginning
@@ -58,7 +58,7 @@ class EnableFinder final : public Reader {
 
 }  // namespace
 
-EnableSearch find_last_enable(History& history, std::size_t station, const std::atomic<bool>* stop_request) {
+EnableSearch find_last_enable(History& history, std::size_t station, StopToken stop_request) {
   const Moment start = history.now();
   EnableFinder finder(history, station, stop_request);
   const auto search = history.search_back(

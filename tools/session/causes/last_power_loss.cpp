@@ -7,7 +7,7 @@ namespace {
 
 class PowerLossFinder final : public Reader {
  public:
-  PowerLossFinder(const History& history, std::size_t station, const std::atomic<bool>* stop_request)
+  PowerLossFinder(const History& history, std::size_t station, StopToken stop_request)
       : Reader(stop_request), history_(history), plc_(history.station(station).plc()) {}
 
   void begin() { powered_ = plc_.powered(); }
@@ -35,7 +35,7 @@ class PowerLossFinder final : public Reader {
 
 }  // namespace
 
-PowerLossSearch find_last_power_loss(History& history, std::size_t station, const std::atomic<bool>* stop_request) {
+PowerLossSearch find_last_power_loss(History& history, std::size_t station, StopToken stop_request) {
   const Moment start = history.now();
   PowerLossFinder finder(history, station, stop_request);
   const auto search = history.search_back(

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -20,6 +21,6 @@ struct PowerLossSearch {
 };
 
 /// Before now; the simulation stands where it stood.
-PowerLossSearch find_last_power_loss(History& history, std::size_t station, const std::atomic<bool>* stop_request);
+PowerLossSearch find_last_power_loss(History& history, std::size_t station, StopToken stop_request);
 
 }  // namespace s7200::tools

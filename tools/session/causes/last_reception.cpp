@@ -13,7 +13,7 @@ struct End {
 
 class ReceptionFinder final : public Reader {
  public:
-  ReceptionFinder(const History& history, std::size_t station, std::uint8_t port, const std::atomic<bool>* stop_request)
+  ReceptionFinder(const History& history, std::size_t station, std::uint8_t port, StopToken stop_request)
       : Reader(station, stop_request), history_(history), program_(history.station(station).cpu().program()), port_(port) {}
 
   /// Parts of the past are played from the newest to the oldest: what ended a reception may be in a later part than its RCV.
@@ -84,8 +84,7 @@ class ReceptionFinder final : public Reader {
 
 }  // namespace
 
-ReceptionSearch find_last_reception(History& history, std::size_t station, std::uint8_t port,
-                                    const std::atomic<bool>* stop_request) {
+ReceptionSearch find_last_reception(History& history, std::size_t station, std::uint8_t port, StopToken stop_request) {
   const Moment start = history.now();
   ReceptionFinder finder(history, station, port, stop_request);
   const auto search = history.search_back(

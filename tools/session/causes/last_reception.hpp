@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -24,7 +25,6 @@ struct ReceptionSearch {
 
 /// The last RCV that a station has executed at a port before now, also one that was refused; nothing if there was none. The
 /// simulation stands where it stood.
-ReceptionSearch find_last_reception(History& history, std::size_t station, std::uint8_t port,
-                                    const std::atomic<bool>* stop_request);
+ReceptionSearch find_last_reception(History& history, std::size_t station, std::uint8_t port, StopToken stop_request);
 
 }  // namespace s7200::tools

@@ -15,7 +15,7 @@ struct StopFinder final : Reader {
 
 }  // namespace
 
-std::optional<Time> find_last_stop(History& history, std::size_t station, const std::atomic<bool>* stop_request) {
+std::optional<Time> find_last_stop(History& history, std::size_t station, StopToken stop_request) {
   const Moment start = history.now();
   StopFinder finder(station, stop_request);
   history.search_back(

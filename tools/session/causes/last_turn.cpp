@@ -8,7 +8,7 @@ namespace {
 class TurnFinder final : public Reader {
  public:
   TurnFinder(const History& history, std::size_t station, const std::function<bool(const State& state)>& holds,
-             const std::atomic<bool>* stop_request)
+             StopToken stop_request)
       : Reader(station, stop_request), history_(history), cpu_(history.station(station).cpu()), holds_(holds) {}
 
   void begin() { held_ = holds_(cpu_.state()); }
@@ -44,7 +44,7 @@ class TurnFinder final : public Reader {
 }  // namespace
 
 TurnSearch find_last_turn(History& history, std::size_t station, const std::function<bool(const State& state)>& holds,
-                          const std::atomic<bool>* stop_request) {
+                          StopToken stop_request) {
   const Moment start = history.now();
   TurnFinder finder(history, station, holds, stop_request);
   const auto search = history.search_back(

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -25,6 +26,6 @@ struct TurnSearch {
 /// What has made `holds` true last, before now; nothing if it was true all along. Instructions that left it so are none of
 /// it. The simulation stands where it stood.
 TurnSearch find_last_turn(History& history, std::size_t station, const std::function<bool(const State& state)>& holds,
-                          const std::atomic<bool>* stop_request);
+                          StopToken stop_request);
 
 }  // namespace s7200::tools

@@ -11,7 +11,7 @@ namespace {
 
 class WriteFinder final : public Reader {
  public:
-  WriteFinder(const History& history, std::size_t station, const MemoryRange& range, const std::atomic<bool>* stop_request)
+  WriteFinder(const History& history, std::size_t station, const MemoryRange& range, StopToken stop_request)
       : Reader(station, stop_request),
         cpu_(history.station(station).cpu()),
         history_(history),
@@ -124,8 +124,7 @@ class WriteFinder final : public Reader {
 
 }  // namespace
 
-WriteSearch find_last_write(History& history, std::size_t station, const MemoryRange& range,
-                            const std::atomic<bool>* stop_request) {
+WriteSearch find_last_write(History& history, std::size_t station, const MemoryRange& range, StopToken stop_request) {
   const Moment start = history.now();
   WriteFinder finder(history, station, range, stop_request);
   const auto search = history.search_back(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -28,7 +29,6 @@ struct WriteSearch {
 
 /// The last write to memory of a station before now, also of the value that was there already; the simulation stands where
 /// it stood. Instructions that fill tables, strings and messages are found only if they change the value.
-WriteSearch find_last_write(History& history, std::size_t station, const MemoryRange& range,
-                            const std::atomic<bool>* stop_request);
+WriteSearch find_last_write(History& history, std::size_t station, const MemoryRange& range, StopToken stop_request);
 
 }  // namespace s7200::tools

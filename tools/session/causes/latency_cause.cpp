@@ -17,7 +17,7 @@ namespace {
 /// What a PLC does from a request to its answer.
 class AnswerReader final : public Reader {
  public:
-  AnswerReader(const History& history, std::size_t station, std::uint8_t port, Time asked, const std::atomic<bool>* stop)
+  AnswerReader(const History& history, std::size_t station, std::uint8_t port, Time asked, StopToken stop)
       : Reader(station, stop), cpu_(history.station(station).cpu()), reasons_(cpu_.program()), port_(port), asked_(asked) {}
 
   struct Service {
@@ -155,8 +155,7 @@ std::vector<std::string> lines_of(const AnswerReader& reader, const Program& pro
 }  // namespace
 
 std::optional<std::vector<std::string>> latency_cause(History& history, std::size_t station,
-                                                      const serial::Exchange& exchange,
-                                                      const std::atomic<bool>* stop_request) {
+                                                      const serial::Exchange& exchange, StopToken stop_request) {
   constexpr Time kBefore = kSecond;  // who attached a timed interrupt, and with which interval, is mostly seen
   const Moment start = history.now();
   const std::size_t line = history.requests().line_of(station, history.station(station).port());

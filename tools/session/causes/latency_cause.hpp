@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "tools/session/past/history.hpp"
 
@@ -15,7 +16,6 @@ namespace s7200::tools {
 /// wait in its order: the interrupt queue, what the routine or the scan did until XMT, a timed interrupt, the delay of XMT.
 /// No lines: none of the PLCs on the line has sent the answer. Nothing after a stop request.
 std::optional<std::vector<std::string>> latency_cause(History& history, std::size_t station,
-                                                      const serial::Exchange& exchange,
-                                                      const std::atomic<bool>* stop_request);
+                                                      const serial::Exchange& exchange, StopToken stop_request);
 
 }  // namespace s7200::tools

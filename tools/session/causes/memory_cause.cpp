@@ -27,7 +27,7 @@ constexpr Time kLookedAt = kSecond;      // whether they were executed
 /// Where the rungs of a program come to while a part of the past is played.
 class RungReader final : public Reader {
  public:
-  RungReader(const Program& program, std::size_t station, const std::atomic<bool>* stop_request)
+  RungReader(const Program& program, std::size_t station, StopToken stop_request)
       : Reader(station, stop_request), reasons(program) {}
 
   void record(const TraceRecord& record) override { reasons.note(record); }
@@ -46,7 +46,7 @@ class RungReader final : public Reader {
 
 class MemoryInquiry {
  public:
-  MemoryInquiry(History& history, std::size_t station, const std::atomic<bool>* stop_request)
+  MemoryInquiry(History& history, std::size_t station, StopToken stop_request)
       : history_(history), station_(station), stop_request_(stop_request) {}
 
   bool interrupted() const { return interrupted_; }
@@ -200,7 +200,7 @@ class MemoryInquiry {
 
   History& history_;
   std::size_t station_;
-  const std::atomic<bool>* stop_request_;
+  StopToken stop_request_;
   bool interrupted_ = false;
   std::vector<MemoryRange> next_{};
 };
@@ -223,7 +223,7 @@ std::string named(const Program& program, const MemoryRange& range) {
 }
 
 std::optional<std::vector<std::string>> memory_cause(History& history, std::size_t station, const MemoryRange& range,
-                                                     const std::atomic<bool>* stop_request) {
+                                                     StopToken stop_request) {
   const Moment start = history.now();
   MemoryInquiry inquiry(history, station, stop_request);
   std::vector<std::string> lines{inquiry.who(range)};

@@ -57,7 +57,7 @@ std::string without_figures(std::string_view line) {
 
 std::optional<std::vector<std::string>> causes_of_no_answer(History& history, std::size_t station,
                                                             std::span<const std::uint8_t> request, Time timeout,
-                                                            const std::atomic<bool>* stop_request) {
+                                                            StopToken stop_request) {
   std::vector<std::string> lines;
   for (const std::size_t plc : stations_concerned(history, station, request)) {
     const DecisionSearch search = find_last_decision(history, plc, timeout, stop_request);

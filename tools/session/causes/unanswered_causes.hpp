@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -18,7 +19,7 @@ namespace s7200::tools {
 /// so, else each that may have. No lines: it is not known. Nothing after a stop request.
 std::optional<std::vector<std::string>> causes_of_no_answer(History& history, std::size_t station,
                                                             std::span<const std::uint8_t> request, Time timeout,
-                                                            const std::atomic<bool>* stop_request);
+                                                            StopToken stop_request);
 
 /// Tells causes apart by what was done, not by when it was, how many characters it was about, or the values met.
 class DifferentCauses {

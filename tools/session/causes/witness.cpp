@@ -6,7 +6,7 @@
 
 namespace s7200::tools {
 
-Witness::Witness(History& history, std::size_t station, std::uint8_t port, const std::atomic<bool>* stop_request)
+Witness::Witness(History& history, std::size_t station, std::uint8_t port, StopToken stop_request)
     : Reader(stop_request),
       reasons(history.station(station).cpu().program()),
       line(history, station, port),

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "tools/session/causes/line_account.hpp"
 #include "tools/session/past/reader.hpp"
@@ -16,7 +17,7 @@ namespace s7200::tools {
 
 class Witness final : public Reader {
  public:
-  Witness(History& history, std::size_t station, std::uint8_t port, const std::atomic<bool>* stop_request);
+  Witness(History& history, std::size_t station, std::uint8_t port, StopToken stop_request);
 
   bool before_action() override;
   void acted() override { line.note_action(); }

@@ -47,7 +47,7 @@ std::string changer_text(const History& history, std::optional<std::size_t> numb
 }
 
 WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, const MemoryRange& range,
-                         std::string_view name, const std::atomic<bool>* stop_request) {
+                         std::string_view name, StopToken stop_request) {
   const Program& program = history.station(station).cpu().program();
   const WriteSearch search = find_last_write(history, station, range, stop_request);
   if (search.interrupted) return {.writer = {}, .interrupted = true};
@@ -68,7 +68,7 @@ WriterSearch find_writer(History& history, std::size_t station, const Listing& l
 }
 
 WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, std::uint8_t event,
-                         const std::atomic<bool>* stop_request) {
+                         StopToken stop_request) {
   const Program& program = history.station(station).cpu().program();
   const AttachmentSearch search = find_last_attachment(history, station, event, stop_request);
   if (search.interrupted) return {.writer = {}, .interrupted = true};

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/views/listing.hpp"
 
@@ -34,8 +35,8 @@ std::string asked_by_text(const History& history, const Asker& asker, const std:
 
 /// Of memory of a station, which is called `name`; or of an event. The simulation stands where it stood.
 WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, const MemoryRange& range,
-                         std::string_view name, const std::atomic<bool>* stop_request);
+                         std::string_view name, StopToken stop_request);
 WriterSearch find_writer(History& history, std::size_t station, const Listing& listing, std::uint8_t event,
-                         const std::atomic<bool>* stop_request);
+                         StopToken stop_request);
 
 }  // namespace s7200::tools

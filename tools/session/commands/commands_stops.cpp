@@ -45,7 +45,7 @@ bool is_unclosed(const std::string& text) {
   return !text.empty() && (text.front() == '\'' || text.front() == '"') && (text.size() == 1 || text.back() != text.front());
 }
 
-std::string without_quotes(std::string text) {
+std::string without_pair_of_quotes(std::string text) {
   const bool quoted = text.size() >= 2 && text.front() == text.back() && (text.front() == '\'' || text.front() == '"');
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
@@ -76,7 +76,7 @@ bool read_options(Words words, const Program& program, StopPoint& stop, std::str
       stop.from_hit = *hits;
     } else if (option == "log") {
       if (is_unclosed(joined(given))) return why = fmt::format("the closing {} is missing", given.front().front()), false;
-      stop.log = without_quotes(joined(given));
+      stop.log = without_pair_of_quotes(joined(given));
       if (stop.log.empty()) return why = expects(option, "a text, for example: log '{VW100} at {time}'"), false;
       if (!check_message(stop.log, program, why)) return false;
     } else {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/base/wrapped.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "tools/session/commands/live_trace.hpp"
@@ -35,11 +36,11 @@ struct DebuggedStation {
 
 /// How a session is begun.
 struct SessionSetup {
-  serial::MasterSettings master{};                  ///< how `send` talks
-  std::vector<DebuggedStation> stations{};          ///< of a system, which says itself how; none: one PLC without a name
-  std::size_t station = 0;                          ///< that it looks at first
-  std::uint8_t slave = 1;                           ///< that requests by address go to if they name none
-  const std::atomic<bool>* stop_request = nullptr;  ///< ends a run when it becomes true; may be set by a signal handler
+  serial::MasterSettings master{};          ///< how `send` talks
+  std::vector<DebuggedStation> stations{};  ///< of a system, which says itself how; none: one PLC without a name
+  std::size_t station = 0;                  ///< that it looks at first
+  std::uint8_t slave = 1;                   ///< that requests by address go to if they name none
+  StopToken stop_request{};                 ///< ends a run when it becomes true; may be set by a signal handler
   /// Why a run has ended by itself, such as a bridge that has failed: said once, empty otherwise. The next one goes on.
   std::function<std::string()> take_failure = [] { return std::string(); };
   /// What is said of what a stop request has ended.
@@ -137,7 +138,7 @@ class Session {
   std::string said_of(std::size_t station) const;  ///< `slave: `; nothing if there is but one PLC
   std::size_t name_width() const;                  ///< of the longest, of all on the lines
   std::optional<std::uint32_t> current_op() const;
-  bool stop_requested() const { return setup.stop_request && *setup.stop_request; }
+  bool stop_requested() const { return setup.stop_request.stop_requested(); }
 
   /// Goes over to another station, and says so.
   void look_at(std::size_t station);

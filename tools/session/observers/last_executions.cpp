@@ -11,7 +11,7 @@ namespace {
 /// The last execution of each instruction of [first, end).
 class Status final : public Reader {
  public:
-  Status(const Cpu& cpu, std::size_t station, std::uint32_t first, std::uint32_t end, const std::atomic<bool>* stop_request)
+  Status(const Cpu& cpu, std::size_t station, std::uint32_t first, std::uint32_t end, StopToken stop_request)
       : Reader(station, stop_request), cpu_(cpu), first_(first), end_(end) {}
 
   void instruction(const InstructionRecord& record) override {
@@ -36,7 +36,7 @@ class Status final : public Reader {
 }  // namespace
 
 LastExecutions last_executions(History& history, std::size_t station, std::uint32_t first, std::uint32_t end, Time within,
-                               const std::atomic<bool>* stop_request) {
+                               StopToken stop_request) {
   Status status(history.station(station).cpu(), station, first, end, stop_request);
   const Moment start = history.now();
   const Time oldest = start.time - std::min(start.time, within);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <map>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/views/execution_text.hpp"
 
@@ -21,6 +22,6 @@ inline constexpr Time kLookedAt = 2 * kSecond;
 /// Of the instructions [first, end) of a station, up to now: of the last `within` at least. The simulation stands where it
 /// stood.
 LastExecutions last_executions(History& history, std::size_t station, std::uint32_t first, std::uint32_t end, Time within,
-                               const std::atomic<bool>* stop_request);
+                               StopToken stop_request);
 
 }  // namespace s7200::tools

@@ -7,8 +7,7 @@ namespace {
 
 class Collector final : public Reader {
  public:
-  Collector(const Cpu& cpu, std::size_t station, const std::atomic<bool>* stop_request)
-      : Reader(station, stop_request), cpu_(cpu) {}
+  Collector(const Cpu& cpu, std::size_t station, StopToken stop_request) : Reader(station, stop_request), cpu_(cpu) {}
 
   /// An earlier part is going to be played.
   void begin() {
@@ -28,7 +27,7 @@ class Collector final : public Reader {
 }  // namespace
 
 std::optional<std::vector<Execution>> last_instructions(History& history, std::size_t station, std::size_t count,
-                                                        const std::atomic<bool>* stop_request) {
+                                                        StopToken stop_request) {
   const Moment start = history.now();
   Collector collector(history.station(station).cpu(), station, stop_request);
   const auto search = history.search_back(

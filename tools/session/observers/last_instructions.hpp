@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/views/execution_text.hpp"
 
@@ -17,6 +18,6 @@ inline constexpr std::uint32_t kMostInstructions = 10'000, kUsualInstructions = 
 /// Those of a station before now, oldest first, at most `count`; nothing after a stop request. The simulation stands where
 /// it stood.
 std::optional<std::vector<Execution>> last_instructions(History& history, std::size_t station, std::size_t count,
-                                                        const std::atomic<bool>* stop_request);
+                                                        StopToken stop_request);
 
 }  // namespace s7200::tools

@@ -11,7 +11,7 @@ namespace {
 class TimelineReader final : public Reader {
  public:
   TimelineReader(std::size_t station, const std::shared_ptr<const Program>& program,
-                 const TraceReasons::Disabled& interrupts, const std::atomic<bool>* stop_request)
+                 const TraceReasons::Disabled& interrupts, StopToken stop_request)
       : Reader(station, stop_request), timeline_(program, nullptr, Timeline::Looks::AtInstructions) {
     timeline_.begin_amid(interrupts);
   }
@@ -32,7 +32,7 @@ class TimelineReader final : public Reader {
 
 std::optional<TimelineReport> timeline_of_past(History& history, std::size_t station,
                                                const std::shared_ptr<const Program>& program, Time from,
-                                               const std::atomic<bool>* stop_request) {
+                                               StopToken stop_request) {
   const Moment now = history.now();
   history.go_to(std::min(from, now.time));
   if (now < history.now()) history.go_to(now);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/views/timeline.hpp"
 
@@ -14,6 +15,6 @@ namespace s7200::tools {
 /// stood.
 std::optional<TimelineReport> timeline_of_past(History& history, std::size_t station,
                                                const std::shared_ptr<const Program>& program, Time from,
-                                               const std::atomic<bool>* stop_request);
+                                               StopToken stop_request);
 
 }  // namespace s7200::tools

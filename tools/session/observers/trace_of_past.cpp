@@ -29,7 +29,7 @@ Time oldest_waiting(const History& history) {
 
 class TraceReader final : public Reader {
  public:
-  TraceReader(const History& history, const std::vector<TraceLines*>& traces, const std::atomic<bool>* stop_request)
+  TraceReader(const History& history, const std::vector<TraceLines*>& traces, StopToken stop_request)
       : Reader(stop_request), history_(history), traces_(traces) {}
   void record(const TraceRecord& record) override { traces_[history_.told_of()]->of(record); }
   void instruction(const InstructionRecord& record) override { traces_[history_.told_of()]->of(record); }
@@ -41,7 +41,7 @@ class TraceReader final : public Reader {
 
 }  // namespace
 
-Disabled interrupts_disabled(History& history, std::size_t station, const std::atomic<bool>* stop_request) {
+Disabled interrupts_disabled(History& history, std::size_t station, StopToken stop_request) {
   const Cpu& cpu = history.station(station).cpu();
   if (cpu.state().interrupts_enabled) return {};
   if (!has_disi(cpu.program())) return {Disabled::By::NoEni};
@@ -52,7 +52,7 @@ Disabled interrupts_disabled(History& history, std::size_t station, const std::a
   return {known ? Disabled::By::NoEni : Disabled::By::Forgotten};
 }
 
-bool tell_what_was_before(History& history, const std::vector<TraceLines*>& traces, const std::atomic<bool>* stop_request) {
+bool tell_what_was_before(History& history, const std::vector<TraceLines*>& traces, StopToken stop_request) {
   const Moment now = history.now();
   const Time oldest = oldest_waiting(history);
   bool told = history.go_to(oldest - std::min(oldest, kToldBefore));

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/trace/trace.hpp"
 #include "tools/session/past/action.hpp"
 #include "tools/session/past/host_frames.hpp"
@@ -126,11 +127,11 @@ class History final {
     std::vector<std::string> planned{};        ///< what the system file does, in words, in its order
     /// Does a SystemEvent to the rig; none comes without it.
     std::function<void(const EventPlan& event)> carry_out{};
-    std::size_t bound = 256 << 20;                    ///< bytes for checkpoints
-    std::size_t log_bound = 64 << 20;                 ///< bytes for what came in over a bridge
-    Time interval = 500 * kMillisecond;               ///< of checkpoints while it executes, until they have to be thinned
-    const std::atomic<bool>* stop_request = nullptr;  ///< ends what plays for long: go_to() a time, replay()
-    std::function<void()> progress{};                 ///< told often while something runs or plays
+    std::size_t bound = 256 << 20;       ///< bytes for checkpoints
+    std::size_t log_bound = 64 << 20;    ///< bytes for what came in over a bridge
+    Time interval = 500 * kMillisecond;  ///< of checkpoints while it executes, until they have to be thinned
+    StopToken stop_request{};            ///< ends what plays for long: go_to() a time, replay()
+    std::function<void()> progress{};    ///< told often while something runs or plays
   };
 
   /// The past begins now. The simulation must live as long as this.
@@ -355,7 +356,7 @@ class History final {
   void tell_progress() const {
     if (settings_.progress) settings_.progress();
   }
-  bool stop_requested() const { return settings_.stop_request && *settings_.stop_request; }
+  bool stop_requested() const { return settings_.stop_request.stop_requested(); }
   Moment go_to_before(const Moment& end, Time ahead);
   void begin_branch(serial::Simulation::Snapshot state);
   void power_up_stations(const std::vector<RetentiveMemory>& memory);

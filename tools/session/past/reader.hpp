@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {
@@ -11,15 +12,15 @@ namespace s7200::tools {
 class Reader : public Observer {
  public:
   /// Of all stations. `stop_request` may be null; it is not owned.
-  explicit Reader(const std::atomic<bool>* stop_request) : stop_request_(stop_request) {}
+  explicit Reader(StopToken stop_request) : stop_request_(stop_request) {}
   /// Of one station alone.
-  Reader(std::size_t station, const std::atomic<bool>* stop_request) : Observer(station), stop_request_(stop_request) {}
+  Reader(std::size_t station, StopToken stop_request) : Observer(station), stop_request_(stop_request) {}
 
   bool wants_instructions() const override { return true; }
-  bool before(std::uint32_t) override { return !(stop_request_ && *stop_request_); }
+  bool before(std::uint32_t) override { return !stop_request_.stop_requested(); }
 
  private:
-  const std::atomic<bool>* stop_request_;
+  StopToken stop_request_;
 };
 
 }  // namespace s7200::tools

@@ -21,7 +21,7 @@ bool is_of_others(const serial::Plc& plc, const TraceRecord& record) {
 
 }  // namespace
 
-Stepper::Stepper(History& history, const std::atomic<bool>* stop_request)
+Stepper::Stepper(History& history, StopToken stop_request)
     : on_record([](std::size_t, const TraceRecord&) {}),
       on_instruction([](std::size_t, const InstructionRecord&, bool) {}),
       on_answer([](std::size_t, const serial::Exchange&) {}),

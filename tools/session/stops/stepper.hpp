@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/model/ports.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/session/stops/heard_frames.hpp"
@@ -40,7 +41,7 @@ class Stepper final : public Observer {
   using Goal = std::function<bool(const State& state, std::uint32_t op, const Progress& progress)>;
 
   /// `stop_request` may be set from a signal handler; it may be null. Nothing is owned.
-  Stepper(History& history, const std::atomic<bool>* stop_request);
+  Stepper(History& history, StopToken stop_request);
 
   /// Besides the stop request, a run ends as if it had been asked to when this becomes true. Not owned.
   void pause_when(const std::atomic<bool>* asked) { pause_asked_ = asked; }
@@ -177,10 +178,10 @@ class Stepper final : public Observer {
   void look_at_lines(std::size_t station, Time now);
   void note_ended(const EndedRequest& request);
   bool hears(const StopPoint& stop, std::size_t line) const;
-  bool asked_to_stop() const { return (stop_request_ && *stop_request_) || (pause_asked_ && *pause_asked_); }
+  bool asked_to_stop() const { return (stop_request_.stop_requested()) || (pause_asked_ && *pause_asked_); }
 
   History& history_;
-  const std::atomic<bool>* stop_request_;
+  StopToken stop_request_;
   const std::atomic<bool>* pause_asked_ = nullptr;
   std::size_t focus_ = 0;
   std::vector<SetStop> stops_;

@@ -1,0 +1,22 @@
+// How work is asked to end before it is done.
+#pragma once
+
+#include <atomic>
+
+namespace s7200 {
+
+/// Whoever starts work hands it one, and the work asks it now and then; a copy is as good. It looks at a flag of its
+/// giver's, which lives longer and may be set by a signal handler or another thread. Without one nobody asks the work to
+/// end.
+class StopToken {
+ public:
+  StopToken() = default;
+  explicit StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}
+
+  bool stop_requested() const { return flag_ != nullptr && *flag_; }
+
+ private:
+  const std::atomic<bool>* flag_ = nullptr;
+};
+
+}  // namespace s7200
