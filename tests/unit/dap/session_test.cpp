@@ -73,7 +73,7 @@ TEST(DapSession, WrongArgumentsAreAnErrorAndTheSessionGoesOn) {
   EXPECT_EQ(editor.error_of("readMemory", {{"memoryReference", 5}, {"count", "x"}}), "memoryReference: 5 is not a text");
   EXPECT_EQ(editor.breakpoint({{"line", -3}})["message"], "there is no line -3: lines are counted from 1");
   EXPECT_TRUE(has(editor.error_of("lastWrite", {{"expression", "event 99"}}),
-                  "there is no event 99; who expects one address, or event and a number"));
+                  "there is no event 99; expected one address, or event and a number"));
   EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / 0"}}), "'1 / 0', column 5: a division by 0");
   EXPECT_EQ(editor.error_of("evaluate", {{"expression", "1 / VW40"}}), "cannot be computed: a division by 0");
   EXPECT_FALSE(editor.breakpoint({{"line", 4}, {"condition", "1/0 = 1"}})["verified"]);
@@ -1157,7 +1157,7 @@ TEST(DapSession, RequestsByNameGoToTheStationOfTheLaunchUnlessTheyNameOne) {
   editor("configurationDone");
   editor("stepScan", {{"threadId", 1}, {"count", 3}});
   EXPECT_EQ(editor("sendFrame", {{"frame", "read 40011:2"}})["frame"], "07 03 00 0a 00 02 e4 6f");
-  EXPECT_TRUE(has(editor.error_of("sendFrame", {{"frame", "read 11:2"}}), "send read 11:2: "));
+  EXPECT_TRUE(has(editor.error_of("sendFrame", {{"frame", "read 11:2"}}), "'read 11:2': "));
 }
 
 /// The second of two characters comes before the routine of the first has begun, and the queue holds one.

@@ -53,6 +53,19 @@ Words words_in(const Json& arguments, const CommandRequest& row) {
   return words;
 }
 
+/// What is wrong, without the name of the command, which a request has not: `'read 11:2': …`, `expected one address, …`
+std::string without_command(std::string error, const Words& command) {
+  const std::string& name = command.front();
+  const std::string given = joined({command.begin() + 1, command.end()});
+  for (const auto& [from, to] :
+       {std::pair(name + " cancel: ", std::string()), std::pair(name + ": ", std::string()),
+        std::pair(fmt::format("{} {}: ", name, given), fmt::format("'{}': ", stl::shortened(given)))})
+    if (error.starts_with(from)) return to + error.substr(from.size());
+  const std::string expects = name + " expects";
+  if (const std::size_t at = error.find(expects); at != std::string::npos) error.replace(at, expects.size(), "expected");
+  return error;
+}
+
 constexpr std::string_view kAboutExpressions =
     "An expression in STL terms shows its value: VW100, VB0:16, *VD3570:word, VW2 * 2 + 1, M31.7 and VW3300 > 8.\n";
 
@@ -85,6 +98,20 @@ Json placed(Conversation& talk, Json json) {
   json.erase("op");
   json.update(place);
   return json;
+}
+
+/// Executes a command, and tells the client what has come of it but for where the session stands now.
+Reply done(Conversation& talk, const Words& command) {
+  const std::set<int> stops = stop_numbers(talk);
+  const History::Place before = talk.debuggee->history().here();
+  Reply reply = execute(*talk.session, command);
+  const History::Place now = talk.debuggee->history().here();
+  note_branch(talk, before.branch);
+  note_changed_stops(talk, stops);
+  if (now.branch != before.branch || now.moment.actions != before.moment.actions) note_change(talk);
+  if (reply.interrupted) refuse_interrupted();
+  if (reply.error) talk.print(reply.text);
+  return reply;
 }
 
 /// What one command says.
@@ -142,18 +169,8 @@ Json stl_status(Conversation& talk, const Json& arguments) {
 }  // namespace
 
 Reply executed(Conversation& talk, const Words& command) {
-  const std::set<int> stops = stop_numbers(talk);
-  const History::Place before = talk.debuggee->history().here();
-  Reply reply = execute(*talk.session, command);
-  const History::Place now = talk.debuggee->history().here();
-  note_branch(talk, before.branch);
-  note_changed_stops(talk, stops);
-  if (now.branch != before.branch || now.moment.actions != before.moment.actions) note_change(talk);
-  if (reply.interrupted) refuse_interrupted();
-  if (reply.error) {
-    talk.print(reply.text);
-    throw Refused(*reply.error);
-  }
+  Reply reply = done(talk, command);
+  if (reply.error) throw Refused(*reply.error);
   return reply;
 }
 
@@ -161,7 +178,8 @@ Json run_command(Conversation& talk, const std::string& request, const Json& arg
   const CommandRequest& row = *std::ranges::find(kCommandRequests, request, &CommandRequest::request);
   Words words = words_in(arguments, row);
   words.insert(words.begin(), std::string(row.command));
-  const Reply reply = executed(talk, words);
+  const Reply reply = done(talk, words);
+  if (reply.error) throw Refused(without_command(*reply.error, words));
   Json body = placed(talk, reply.json);
   const std::string why = text_in(body, "whyNoMoment");
   if (body.contains("whyNoMoment")) body.erase("whyNoMoment");
