@@ -37,7 +37,7 @@ enum class Half : std::uint8_t { Request, Answer, Both };
 
 enum class Station : std::uint8_t { Master, Plc };
 
-/// What a faulty slave does that sends a whole frame with a right CRC. Nothing: the slave is only late.
+/// The misbehaviour of a faulty slave that sends a whole frame with a right CRC. Nothing: the slave is only late.
 enum class Misbehaviour : std::uint8_t {
   Nothing,
   Exception,  ///< it refuses the request, with an exception code
@@ -58,7 +58,7 @@ struct Length {
   Time at(const BitClock& clock) const;
 };
 
-/// One fault. Which members count depends on its kind: see fault_kinds().
+/// A fault. Its kind determines which members count, see fault_kinds().
 struct Fault {
   static constexpr int kStartBit = -1, kParityBit = 8, kStopBit = 9;
   static constexpr std::uint32_t kEachCharacter = 0;
@@ -108,7 +108,7 @@ struct FaultError {
   bool operator==(const FaultError&) const = default;
 };
 
-/// Where a parameter stands in the text, with its value.
+/// The place of a parameter in the text, with its value.
 struct GivenParameter {
   std::string_view name;   ///< as in fault_parameters()
   std::size_t column = 1;  ///< from 1

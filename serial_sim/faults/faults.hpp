@@ -76,7 +76,7 @@ class Faults final : private Interference {
     bool operator==(const State&) const = default;
   };
 
-  /// `owner`: its number in the queue. Nothing is owned.
+  /// `owner` is the faults' number in the queue. Nothing is owned.
   Faults(Line& line, EventQueue& queue, EventOwner owner) : line_(line), queue_(queue), owner_(owner) {}
 
   /// The characters of this UART are answers, unless it is the master among several. Noise and lengths in bits go by the

@@ -30,7 +30,7 @@ class Field {
     bool operator==(const State&) const = default;
   };
 
-  /// `owner`: its number in the queue. Neither reference is owned.
+  /// `owner` is the field's number in the queue. Neither reference is owned.
   Field(FieldScript script, Cpu& cpu, EventQueue& queue, EventOwner owner);
 
   /// The CPU has been powered up at `at`: what the script says of the time until then holds before the first scan.

@@ -36,7 +36,7 @@ std::vector<std::string_view> fields_of(std::string_view row) {
   return fields;
 }
 
-/// `5kHz`, `0.5 Hz`: read as a duration whose nanosecond is a millihertz. In any range.
+/// Parses a frequency in mHz, in any range: `5kHz`, `0.5 Hz`. It is read as a duration whose nanosecond is a millihertz.
 std::optional<std::uint64_t> parse_frequency(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"MHz", "s"}, {"kHz", "ms"}, {"Hz", "us"}};
   for (const auto& [unit, duration] : kUnits) {

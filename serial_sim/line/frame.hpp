@@ -14,7 +14,7 @@ namespace s7200::serial {
 
 inline constexpr std::size_t kLongestRawFrame = 1024;
 
-/// One character of a raw frame.
+/// A character of a raw frame.
 struct FrameCharacter {
   std::uint8_t byte = 0;
   bool wrong_parity = false;  ///< to be sent with its parity bit the wrong way round
@@ -27,7 +27,7 @@ using Frame = std::vector<FrameCharacter>;
 Frame to_frame(std::span<const std::uint8_t> bytes);
 Bytes bytes_of(std::span<const FrameCharacter> frame);
 
-/// Such a frame can only be sent in a format with parity.
+/// Whether a character has wrong parity; such a frame can only be sent in a format with parity.
 bool has_wrong_parity(std::span<const FrameCharacter> frame);
 
 struct FrameError {

@@ -29,7 +29,7 @@ class FrameSplitter final : public WireSink {
   /// A frame that no silence ends is cut after so many characters.
   static constexpr std::size_t kLongestFrame = 4096;
 
-  /// `on_frame` is told in the order in which frames begin.
+  /// The splitter calls `on_frame` in the order in which frames begin.
   explicit FrameSplitter(std::function<void(const WireFrame&)> on_frame) : on_frame_(std::move(on_frame)) {}
 
   void edge(Wire wire, Time at, bool mark, int driver) override;

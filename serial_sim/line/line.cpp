@@ -84,7 +84,7 @@ void Line::Periods::unite(Time from, Time to) {
   if (begins) changes.insert(place, from);
 }
 
-/// Between the two it lasts where it did not, and the other way round.
+/// Inverts [from, to): what lasts there ends, and the other way round.
 void Line::Periods::invert(Time from, Time to) {
   toggle(from);
   if (to != kNever) toggle(to);

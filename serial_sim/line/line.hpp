@@ -57,7 +57,7 @@ class Line {
  public:
   static constexpr int kDrivers = 32;  ///< at most: what an RS-485 segment takes
 
-  /// From `at` on driver `driver` holds `mark`. `at` is not before that driver's last edge; it may lie in the future.
+  /// Lets driver `driver` hold `mark` from `at` on. `at` is not before that driver's last edge; it may lie in the future.
   /// Every listener is told, so that this is all it takes to send, to collide or to make noise.
   void drive(int driver, Time at, bool mark);
 
@@ -69,7 +69,7 @@ class Line {
   /// to.
   void disturb(const Disturbance& disturbance);
 
-  /// Every disturbance ends at `at`, whoever made it; those to come do not come.
+  /// Ends every disturbance at `at`, whatever caused it; later ones are removed.
   void heal(Time at);
 
   /// The interference that disturbs stations and their characters, or null. Like listeners it is wiring, not state, and is
@@ -77,8 +77,8 @@ class Line {
   Interference* interference() const { return wiring_.interference; }
   void set_interference(Interference* interference) { wiring_.interference = interference; }
 
-  /// From `at` on the drivers of `far`, a bit each, and all others neither hear each other nor disagree: the cable is cut
-  /// between them. 0: it is whole again. Instants ascend. Every listener is told.
+  /// Cuts the cable from `at` on: the drivers of `far`, a bit each, and all others neither hear each other nor disagree. 0
+  /// makes it whole again. Instants ascend. Every listener is told.
   void separate(Time at, std::uint32_t far);
 
   /// The drivers that do not hear the others from an instant on, as in separate().
@@ -90,8 +90,8 @@ class Line {
   /// The separation in force at an instant that is not forgotten; nothing while the cable is whole.
   std::optional<Separation> separation(Time at) const;
 
-  /// From now on the level of a bit for which drivers that are switched on disagree follows from chance: mark or space, for
-  /// all receivers on their part of the cable alike. The same seed gives the same levels.
+  /// Leaves to chance, from now on, the level of a bit for which active drivers disagree: mark or space, for all receivers
+  /// on their part of the cable alike. The same seed gives the same levels.
   void leave_contention_to_chance(std::uint64_t seed) {
     contention_ = {.seed = seed, .on_until = std::vector<Time>(kDrivers)};
   }
@@ -244,7 +244,7 @@ class Line {
   }
   void reveal_implied() const;
   Driver& driver(int number) const;
-  /// `of` each driver that has edges or holds the line at space.
+  /// Calls `of` with each driver that has edges or holds the line at space.
   template <class Of>
   void each_busy(Of of, std::uint32_t audible = ~0U) const {
     reveal();

@@ -49,8 +49,8 @@ class Uart final : public SerialPort, private LineListener {
     bool receiver_enabled() const { return off_from == kNever; }
   };
 
-  /// `driver`: which of the line's drivers this UART is. Neither reference is owned; both outlive the UART.
-  /// It listens to the line from now on, or from plug_in() on: each listener costs time at every edge.
+  /// `driver` is the number of this UART's driver on the line. Neither reference is owned; both outlive the UART. It listens
+  /// to the line from now on, or from plug_in() on: each listener costs time at every edge.
   Uart(Line& line, EventQueue& queue, EventOwner owner, int driver, bool plugged_in = true);
   ~Uart() override;
   Uart(const Uart&) = delete;

@@ -39,7 +39,7 @@ class WireSink {
 /// It only watches: the line keeps no edge longer for it than for those who listen.
 class WireTap final : public LineListener {
  public:
-  /// `plc`: the driver that is the PLC. The line is not owned.
+  /// `plc` is the number of the PLC's driver. The line is not owned.
   WireTap(Line& line, int plc) : line_(line), plc_(plc) {}
   ~WireTap() { line_.detach(*this); }
   WireTap(const WireTap&) = delete;

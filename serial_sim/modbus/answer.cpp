@@ -60,7 +60,7 @@ const FunctionRow* row_of(std::span<const std::uint8_t> request) {
   return request.size() - kAroundData < needed ? nullptr : row;
 }
 
-/// Each check returns what is wrong, or an empty text if the answer is right; then it stores the values in `result`.
+/// Each check returns the error in the answer, or an empty text and the values in `result`.
 std::string check_read(Data asked, Data answer, Shape shape, Answer& result) {
   const std::size_t count = load16(&asked[2]);
   const std::size_t bytes = shape == Shape::ReadBits ? (count + 7) / 8 : 2 * count;

@@ -12,9 +12,9 @@ namespace s7200::modbus {
 
 using serial::Verdict;
 
-/// `values`, of reads: the bits, 0 or 1, or the registers, those of file records one reference after the other. Of function
-/// 8: the data words. `bytes`, of functions 7 and 17: the data without its byte count. Of references of a maker's own kind:
-/// theirs. Of functions that are not in the table: all data.
+/// In an answer, `values` are the bits (0 or 1) or the registers of a read, those of file records one reference after the
+/// other, and the data words of function 8. `bytes` are the data of functions 7 and 17 without their byte count, the
+/// references of a maker's own kind, and all data of functions that are not in the table.
 using serial::Answer;
 
 /// Checks an answer; both texts are RTU frames. An answer of more than 4 characters is never right if its CRC is wrong.
@@ -24,7 +24,7 @@ Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::
 /// and an answer has other lengths. A write of one has the same form as its answer, and does not count.
 bool is_request(std::span<const std::uint8_t> frame);
 
-/// How data are named: `register 1` or `register 40002`.
+/// The way to name data: `register 1` or `register 40002`.
 enum class Numbering : std::uint8_t { OnTheWire, Notation };
 
 /// The answer in one line for people: `3 registers: 16#1234 16#0000 16#FFFF`, `coils 0…7: 1010 1010`, `exception 2: illegal

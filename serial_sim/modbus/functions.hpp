@@ -63,7 +63,8 @@ struct DiagnosticRow {
 std::span<const DiagnosticRow> diagnostics_subfunctions();
 const DiagnosticRow* find_diagnostics_subfunction(std::uint16_t subfunction);
 
-/// `illegal data address`; `unknown code` for one that the specification (section 7) does not know.
+/// The name of an exception: `illegal data address`; `unknown code` for one that the specification (section 7) does not
+/// know.
 std::string_view exception_name(std::uint16_t code);
 
 inline constexpr std::uint8_t kExceptionFlag = 0x80;  ///< in the function code of an exception
@@ -71,7 +72,7 @@ inline constexpr std::uint8_t kBroadcast = 0;         ///< station address of al
 inline constexpr std::uint8_t kLastStation = 247;     ///< Modbus over Serial Line V1.02, 2.2
 inline constexpr std::size_t kLongestRtuFrame = 256;  ///< Modbus over Serial Line V1.02, 2.5.1
 
-/// In which way a request (function code and data) exceeds what the specification allows, for people: `126 registers in one
+/// How a request (function code and data) exceeds the limits of the specification, for people: `126 registers in one
 /// request: function 3 (read holding registers) takes 1 to 125`. Empty when it does not, and for functions that are not in
 /// the table.
 std::string beyond_limits(std::span<const std::uint8_t> pdu);

@@ -57,7 +57,7 @@ class LineTurns {
   /// ms).
   static constexpr Time kTurnaround = 100 * kMillisecond;
 
-  /// How long to wait for the start of an answer, and for a line that is quiet enough to ask.
+  /// `timeout` is the time to wait for the start of an answer, and for a line that is quiet enough to ask.
   explicit LineTurns(Time timeout) : timeout_(timeout) {}
 
   void ask(Client client, Request request);

@@ -43,7 +43,7 @@ class MbapReader {
   /// The next complete message, in the order of the stream.
   std::optional<TcpMessage> next();
 
-  /// What in the stream is not Modbus TCP. No message follows it: the start of the next message cannot be known.
+  /// The error in a stream that is not Modbus TCP. No message follows it: the start of the next message cannot be known.
   const std::string& error() const { return error_; }
 
   /// The number of bytes that are not in a complete message yet.

@@ -12,7 +12,7 @@ namespace s7200::modbus {
 /// cannot be told or is not kept to.
 std::size_t first_request(std::span<const std::uint8_t> stream);
 
-/// How much of a request there is, whatever its CRC.
+/// How much of a request has come, whatever its CRC.
 enum class Extent : std::uint8_t {
   Part,     ///< less than its function has, or than any request
   Whole,    ///< as much as its function has, or more

@@ -13,7 +13,7 @@ constexpr std::size_t kStatus = 1, kAnswerData = 2, kAnswerDataLength = 16;
 
 bool is_refusal(Status status) { return status == Status::WrongCheckCode || status == Status::NotLegal; }
 
-/// What is wrong with the form of an answer; empty if nothing is.
+/// The error in the form of an answer; empty if there is none.
 std::string fault_of_form(std::span<const std::uint8_t> response, std::uint8_t end_character) {
   if (response[0] != kAnswerStart)
     return fmt::format("begins with 16#{:02X}, not with g: {}", response[0], serial::to_hex(response));

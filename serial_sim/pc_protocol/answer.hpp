@@ -25,8 +25,8 @@ enum class Status : std::uint8_t { ReadDone = 1, WriteDone = 2, WrongCheckCode =
 /// The name of a refusal: `check code wrong`, `command not legal`
 std::string_view refusal_name(std::uint16_t status);
 
-/// `bytes` of the result are the eight of a read; `values` stay empty, as the command does not say how many are wanted. The
-/// check code is looked at in answers to reads only.
+/// Checks an answer. `bytes` of the result are the eight of a read; `values` stay empty, as the command does not say how
+/// many are wanted. The check code is looked at in answers to reads only.
 serial::Answer check_answer(std::span<const std::uint8_t> command, std::span<const std::uint8_t> response,
                             std::uint8_t end_character);
 

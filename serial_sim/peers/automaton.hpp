@@ -18,8 +18,8 @@ struct Transmission {
   bool operator==(const Transmission&) const = default;
 };
 
-/// Whoever gives it characters, edges of its sync signal and the time takes from it what it has to say and looks when it
-/// wants to be woken. Its state is a value: a copy goes on as the original would.
+/// A station without its wires. Its owner gives it characters, edges of its sync signal and the time, takes the answers from
+/// it, and asks when it wants to be woken. Its state is a value: a copy goes on as the original would.
 class Automaton {
  public:
   virtual ~Automaton() = default;

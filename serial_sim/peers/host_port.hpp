@@ -65,7 +65,7 @@ class HostPort {
   /// Plugs the port into the line, where it listens from `at` on.
   void attach(const SerialFormat& format, Time at);
 
-  /// How characters are received from the next one after `at` on.
+  /// Sets the format of received characters, from the next one after `at` on.
   void receive_as(const SerialFormat& format, Time at);
 
   /// Appends to what is sent. Characters follow each other back to back, each in its own format; the first start bit begins

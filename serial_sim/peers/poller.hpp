@@ -39,7 +39,7 @@ class Poller {
                                                                                                        ///< request
   };
 
-  /// `owner`: its number in the queue. Neither reference is owned.
+  /// `owner` is the poller's number in the queue. Neither reference is owned.
   Poller(Uart& uart, Requester& requester, EventQueue& queue, EventOwner owner, PollPlan plan, Wiring wiring);
 
   /// Sends the first request at `at`.

@@ -26,7 +26,7 @@ struct Request {
   bool operator==(const Request&) const = default;
 };
 
-/// How a master is set, and how it talks.
+/// The settings of a master and its habits.
 struct MasterSettings : LineSettings {
   Time timeout = kSecond;
   Time gap = 0;
@@ -34,7 +34,7 @@ struct MasterSettings : LineSettings {
   Request request(const Frame& of) const { return {.frame = of, .timeout = timeout, .gap = gap}; }
 };
 
-/// How to wait for a transmission that no one asked for.
+/// The way to wait for a transmission that was not asked for.
 struct Listening {
   Time timeout = kSecond;         ///< from now to its start edge
   std::optional<Time> silence{};  ///< that ends it; 3.5 characters of the master's format if not given
@@ -89,7 +89,7 @@ class Requester {
     bool operator==(const State&) const = default;
   };
 
-  /// `owner`: its number in the queue, for its own timers. Neither reference is owned.
+  /// `owner` is the requester's number in the queue, for its own timers. Neither reference is owned.
   Requester(Uart& uart, EventQueue& queue, EventOwner owner);
 
   /// The first start bit begins at `at`. The last exchange is over. What was heard before and not listened to is forgotten.
@@ -111,18 +111,18 @@ class Requester {
   /// Whether its request is on the line.
   bool sends() const { return state_.phase == Phase::Sending && state_.sent > 0; }
 
-  /// Busy with a request and its answer, not with listening.
+  /// Whether it is busy with a request and its answer, not with listening.
   bool asks() const { return busy() && !state_.request.frame.empty(); }
 
   const std::vector<ReceivedCharacter>& heard() const { return state_.heard; }
 
-  /// `wire` is told of each edge of the sync signal; an empty function ends that. Wiring, not state.
+  /// Lets `wire` be told of each edge of the sync signal; an empty function ends that. Wiring, not state.
   void when_sync(std::function<void(bool high, Time at)> wire) { sync_wire_ = std::move(wire); }
 
-  /// The one under way, or the last one.
+  /// The exchange that is under way, or the last one.
   const Exchange& exchange() const { return state_.exchange; }
 
-  /// `another_sends`: another master has its request on the line.
+  /// Takes a report of the UART. `another_sends`: another master has its request on the line.
   void on(const Uart::Report& report, bool another_sends = false);
   void handle(const Event& event);
 

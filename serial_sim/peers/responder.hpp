@@ -25,7 +25,7 @@ class Responder {
     bool operator==(const State&) const = default;
   };
 
-  /// `owner`: its number in the queue, for its own timers. Neither reference is owned.
+  /// `owner` is the responder's number in the queue, for its own timers. Neither reference is owned.
   Responder(Uart& uart, EventQueue& queue, EventOwner owner, std::unique_ptr<Automaton> automaton);
 
   Automaton& automaton() { return *state_.automaton; }

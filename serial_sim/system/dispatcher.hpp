@@ -66,7 +66,7 @@ class Dispatcher {
   /// is left to the next call unless its rank is still to come in its queue.
   void handle(const Due& due);
 
-  /// How many events so far: what a run costs, whatever the host.
+  /// The number of events so far: the cost of a run, whatever the host.
   std::uint64_t handled() const { return handled_; }
 
   std::vector<EventQueue> state() const;

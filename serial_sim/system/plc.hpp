@@ -58,7 +58,7 @@ class Plc final : private EventHandler, private OutputListener {
     bool operator==(const State&) const = default;
   };
 
-  /// `lines`: one for each port of the program's CPU, by number. They are not owned.
+  /// `lines` has a line for each port of the program's CPU, by number. They are not owned.
   Plc(Dispatcher& events, std::span<SharedLine* const> lines, std::shared_ptr<const Program> program, FieldScript field);
   Plc(const Plc&) = delete;
   Plc& operator=(const Plc&) = delete;
@@ -82,8 +82,8 @@ class Plc final : private EventHandler, private OutputListener {
   Cpu& cpu() { return cpu_; }
   const Cpu& cpu() const { return cpu_; }
 
-  /// `end` is told, at its instant, each time the output goes on or off; without power it is off. All outputs are off when
-  /// the CPU is powered up. Wiring, not state; before anything runs.
+  /// Calls `end`, at its instant, each time the output goes on or off; without power it is off. All outputs are off when the
+  /// CPU is powered up. Wiring, not state; to be called before anything runs.
   void wire_output(Dispatcher& events, const OutputPoint& output, std::function<void(bool on, Time at)> end);
 
   /// The format that the program has set a port to; that of PPI until the program has switched it to Freeport mode.
@@ -102,7 +102,7 @@ class Plc final : private EventHandler, private OutputListener {
   /// The number of the port's driver on the line.
   int driver(std::uint8_t port = 0) const { return ports_.at(port)->uart.driver(); }
 
-  /// `follower` is told, at once, each time the program sets a port, and when; an empty function ends that.
+  /// Calls `follower`, at once, each time the program sets a port; an empty function ends that.
   void when_configured(std::function<void(const SerialFormat& format, Time at)> follower, std::uint8_t port = 0) {
     ports_.at(port)->follower = std::move(follower);
   }
@@ -113,7 +113,8 @@ class Plc final : private EventHandler, private OutputListener {
   /// Ends the watching of the lines.
   void unwatch_lines();
 
-  /// How far the CPU may run if nothing happens to the system before `horizon`: until then it hears nothing from others.
+  /// The time until which the CPU may run if nothing happens to the system before `horizon`: until then it hears nothing
+  /// from others.
   Time may_run_until(Time horizon) const;
 
   /// Tells those who watch the lines that no driver gets another edge before `until`.

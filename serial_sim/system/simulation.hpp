@@ -13,7 +13,7 @@ namespace s7200::serial {
 
 class Simulation {
  public:
-  /// `port`: the one of the PLC that is on the line with the others.
+  /// `port` is the PLC's port that is on the line with the others.
   explicit Simulation(std::shared_ptr<const Program> program, FieldScript field = {}, std::uint8_t port = 0);
 
   /// A view of a system that the caller has built, from a PLC's port and its line: `master` and `host` are null if there is

@@ -119,7 +119,7 @@ class ResponderStation final : public PeerStation, private FrameSender {
 
   State state() const { return {uart_.state(), responder_.state(), powered_}; }
 
-  /// `now` is the time of the whole system.
+  /// Restores the station; `now` is the time of the whole system.
   void restore(const State& state, Time now);
 
  private:

@@ -15,7 +15,7 @@ constexpr Time kLookEvery = 100 * kMillisecond;
 /// scans there are.
 constexpr Time kFurthestAtOnce = 3600 * kSecond;
 
-/// `end`, or `most` from now on if that is earlier.
+/// The earlier of `end` and `now` + `most`.
 Time at_most(Time now, Time most, Time end) { return now + std::min(most, end - now); }
 
 template <class Part, class... Arguments>

@@ -84,14 +84,13 @@ class System {
   /// before anything runs.
   void schedule(Time at, std::function<void()> deed);
 
-  /// `watcher` is told before and after each of these is done, by its number; an empty function ends that. Wiring, not
-  /// state.
+  /// Calls `watcher` before and after each of these actions with its number; an empty function ends that. Wiring, not state.
   void watch_schedule(std::function<void(std::size_t number, bool done)> watcher) { watcher_ = std::move(watcher); }
 
   /// Whether any action is scheduled, or was.
   bool has_schedule() const { return !schedule_.empty(); }
 
-  /// How many events have been handled: what a run costs, whatever the host.
+  /// The number of events that have been handled: the cost of a run, whatever the host.
   std::uint64_t events_handled() const { return events_.handled(); }
 
   /// The number of PLCs.

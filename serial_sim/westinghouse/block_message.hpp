@@ -52,7 +52,7 @@ std::uint8_t data_check(std::span<const std::uint8_t> data, DataCheck by);
 
 Bytes message(Opcode opcode, std::uint8_t b1 = 0, std::uint8_t b2 = 0, std::uint8_t b3 = 0, std::uint8_t b4 = 0);
 
-/// What the second to the sixth byte of the messages are; `bytes` is 1 to 256, `data` as long.
+/// The messages, from their second to their sixth byte; `bytes` is 1 to 256, `data` as long.
 Bytes set_unit_address(std::uint8_t unit);
 Bytes read_block(std::uint16_t address, std::size_t bytes);
 Bytes write_block(std::uint16_t address, std::span<const std::uint8_t> data, DataCheck by = DataCheck::Sum);
@@ -70,12 +70,12 @@ std::span<const std::uint8_t> erase_key();
 /// Whether there is as much of an answer as its beginning says.
 bool is_whole_answer(std::span<const std::uint8_t> response);
 
-/// `bytes` of the result: of a read the data, of a set unit address keyswitch and fault register, of a highway command the
-/// three bytes after it. An exception is a two-byte error of the highway.
+/// Checks an answer. `bytes` of the result are the data of a read, keyswitch and fault register of a set unit address, or
+/// the three bytes after a highway command. An exception is a two-byte error of the highway.
 serial::Answer check_block_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
                                   DataCheck by = DataCheck::Sum);
 
-/// `wrong data check`, and whether it is right by the other rule.
+/// The message `wrong data check`, and whether it is right by the other rule.
 std::string wrong_data_check(std::span<const std::uint8_t> data, std::uint8_t check, DataCheck by);
 
 /// The meaning of `bytes` in the answer to a set unit address: `keyswitch in stop, fault register 16#0204`.

@@ -78,7 +78,7 @@ void add_hppc_address(Bytes& to, std::uint32_t address);
 /// Whether the message has as many bytes as its length says.
 bool is_whole_hppc(std::span<const std::uint8_t> message);
 
-/// `bytes` of the result: the operands of the answer. An exception is an error response.
+/// Checks an answer. `bytes` of the result are its operands. An exception is an error response.
 serial::Answer check_hppc_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> response,
                                  FcsTable table);
 

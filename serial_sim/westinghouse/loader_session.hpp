@@ -83,7 +83,7 @@ LoaderOperation loader_pointers();
 LoaderOperation loader_block(std::uint8_t number);
 LoaderOperation loader_directory();
 
-/// `bytes`, with each 10 doubled.
+/// The bytes with each 10 doubled.
 Bytes stuffed(std::span<const std::uint8_t> bytes);
 
 /// The bytes with each doubled 10 taken back; a 10 that is not doubled stays.

@@ -206,7 +206,7 @@ Bytes ModbusPlc::status(Data pdu) const {
   return {pdu[0], low_byte(bits)};
 }
 
-/// Any four bytes come back: no loopback code is interpreted.
+/// Returns any four bytes: no loopback code is interpreted.
 Bytes ModbusPlc::loopback(Data pdu) const {
   if (pdu.size() == 5 && settings_.exception != 0) return exception(pdu, settings_.exception);
   if (pdu.size() == 5) return begin_of(pdu, pdu.size());

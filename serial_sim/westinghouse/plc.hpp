@@ -58,8 +58,8 @@ void add_line_settings(std::vector<Setting<Self>>& rows, std::string_view choice
   add({"stop_bits", choice, "stop bits of a character", Decimal, {}, 1, 2}, &SerialFormat::stop_bits);
 }
 
-/// `Self` has `static const std::vector<Setting<Self>>& settings()`, `static const std::vector<Cells<Self>>& cells()`, and
-/// ==.
+/// The texts of a PLC `Self`, which has `static const std::vector<Setting<Self>>& settings()`, `static const
+/// std::vector<Cells<Self>>& cells()`, and ==.
 template <class Self>
 class PlcOf : public Plc {
  public:
