@@ -69,11 +69,11 @@ class Bridge {
  public:
   virtual ~Bridge() = default;
 
-  /// Begins to serve, and says where. Returns false and sets `why` if it cannot. `line` and `context` outlive the bridge's
+  /// Starts to serve, and says where. Returns false and sets `why` if it cannot. `line` and `context` outlive the bridge's
   /// handlers.
   virtual bool start(LiveLine& line, boost::asio::io_context& context, std::string& why) = 0;
 
-  /// Ends serving. `context` and what else start() was given may go then; the summary stays.
+  /// Stops serving. `context` and the other arguments of start() may go then; the summary stays.
   virtual void stop() = 0;
 
   /// Whether it carries any characters, PPI too, and not only frames of Modbus.

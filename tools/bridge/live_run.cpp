@@ -19,9 +19,9 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = Pace::Clock;
 
-/// What a character of the program may have to wait for being seen at its begin; from then on its end is known and met
-/// exactly. Shorter while something is going on, longer while it is known that the program sends nothing: what comes in ends
-/// the wait at once, so there is only to look who has come or gone, and whether to stop.
+/// How long a character of the program may wait until it is seen; from then on its end is known and met exactly. The slice
+/// is shorter while something is going on, and longer while it is known that the program sends nothing: characters that come
+/// in end the wait at once, so that it only has to look for clients that come or go, and for a stop.
 constexpr auto kIdleSlice = 1ms;
 constexpr auto kBusySlice = 200us;
 constexpr auto kBusyFor = 200ms;

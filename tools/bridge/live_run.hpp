@@ -59,7 +59,7 @@ class LiveRun {
  public:
   /// Neither the simulation nor the bridge is owned; `bridge` may be null.
   LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge);
-  /// Any number of bridges on the lines of one machine, which is not owned.
+  /// Runs a machine, which is not owned, with any number of bridges on its lines.
   LiveRun(LiveMachine& machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options);
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
@@ -68,9 +68,9 @@ class LiveRun {
   /// Lets the bridge serve. Returns false and sets `why` if it cannot.
   bool start(std::string& why);
 
-  /// From now on in real time, until the simulation has come to `end`, the CPU stops, or pauses and `goes_on` says no, a
-  /// stop is asked for (Halt::Request), or a bridge fails (Halt::Request, and failure()). The next run goes on without that.
-  /// `meanwhile` is told many times a second, whatever the simulation does.
+  /// Runs in real time from now on, until the simulation has come to `end`, the CPU stops, or pauses and `goes_on` returns
+  /// false, a stop is asked for (Halt::Request), or a bridge fails (Halt::Request, and failure()). The next run goes on
+  /// without that bridge. `meanwhile` is called many times a second, whatever the simulation does.
   serial::Halt run_until(
       Time end, std::function<bool()> goes_on = [] { return false; }, const std::function<void()>& meanwhile = [] {});
 
@@ -82,7 +82,7 @@ class LiveRun {
 
   Pace::Report pace() const;
 
-  /// How often a master on a bridge spoke while the PLC at the other end of that line was sending; 0 for a line without a
+  /// How often a master on a bridge sent while the PLC at the other end of that line was sending; 0 for a line without a
   /// bridge.
   std::uint64_t collisions(const serial::SharedLine* line) const;
 
@@ -96,8 +96,8 @@ struct LiveLimits {
   Time end = kNever;        ///< simulated
   std::uint64_t scans = 0;  ///< 0: any number
   bool strict = false;      ///< the first run-time error ends it
-  /// Is told when the CPU goes to STOP and no fatal error is the reason, and the run goes on, for a master may start the CPU
-  /// again; the options say in_stop_too. Null: STOP ends the run.
+  /// Is called when the CPU goes to STOP without a fatal error and the run goes on, for a master may start the CPU again;
+  /// the options have in_stop_too. Null: STOP ends the run.
   std::function<void()> stopped{};
 };
 

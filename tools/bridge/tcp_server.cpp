@@ -64,8 +64,8 @@ asio::ip::address plain(const asio::ip::address& address) {
   return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
 }
 
-/// What a program of this computer that has closed its end of a connection left its system to send. Nothing if its end is
-/// open, or not on this computer. An end that no program has open any more has no inode (proc(5), /proc/net/tcp).
+/// The bytes that a program of this computer left to its system to send when it closed its end of a connection. Nothing if
+/// its end is open, or not on this computer. An end that no program has open any more has no inode (proc(5), /proc/net/tcp).
 std::optional<std::size_t> left_behind(const tcp::socket& socket) {
   Error gone;
   const tcp::endpoint its = socket.remote_endpoint(gone), ours = socket.local_endpoint(gone);
@@ -100,7 +100,7 @@ struct Connection {
   Clock::time_point served{};                                 ///< when something went out for it last
 };
 
-/// Every handler holds its connection: what is closed and forgotten here dies with its last handler.
+/// Serves connections. Every handler holds its connection: one that is closed and forgotten here dies with its last handler.
 class Server final : public TcpServer {
  public:
   Server(Protocol& protocol, asio::io_context& context, const LiveMessages& messages)
@@ -276,7 +276,8 @@ class Server final : public TcpServer {
                       });
   }
 
-  /// `why` is said where the client is to blame, or we. `unsent`: what its system has not even sent yet.
+  /// Closes a connection. `why` is told if the client is to blame, or the server. `unsent`: bytes that its system has not
+  /// even sent yet.
   void close(Client client, const std::string& why, std::size_t unsent = 0) {
     const auto connection = connections_.extract(client).mapped();
     if (!why.empty()) note(fmt::format("client {} was disconnected: {}", connection->name, why));

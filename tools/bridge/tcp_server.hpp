@@ -38,7 +38,7 @@ class TcpServer {
   static constexpr int kReceiveBuffer = 16'384;  // bytes that the system takes from a client ahead of us
   static constexpr int kMostPartial = static_cast<int>(kMostSilence.count()), kLinger = 10;  // seconds of the computer
 
-  /// What the protocol says to it.
+  /// The protocol of the server, as the server sees it.
   class Protocol {
    public:
     virtual ~Protocol() = default;
@@ -72,7 +72,7 @@ class TcpServer {
   virtual void send(Client client, std::span<const std::uint8_t> bytes) = 0;
   virtual void send_to_all(std::span<const std::uint8_t> bytes) = 0;
 
-  /// To be called often: reads from those that had to wait, looks for those that have to go.
+  /// Reads from connections that had to wait, and looks for those that have to go; to be called often.
   virtual void turn() = 0;
   virtual const Counts& counts() const = 0;
 };

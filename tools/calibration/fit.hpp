@@ -41,8 +41,8 @@ struct Fit {
 /// first loops.
 Fit fit(const Loops& loops, const std::vector<LoopTime>& times);
 
-/// How much slower the CPU is than the table that is corrected says: the middle one of all figures that were measured.
-/// Nothing if loops that did not run have more forms than were measured: the first loops alone do not tell.
+/// How much slower the CPU is than the corrected table says: the median of all figures that were measured. Nothing if loops
+/// that did not run have more forms than were measured: the first loops alone do not tell.
 std::optional<double> ratio_to_known(const Fit& fit);
 
 /// The table of the CPU: what was found, where and when as `source` says, and for all else the figures of `known` times that

@@ -19,7 +19,7 @@ struct Form {
   bool operator==(const Form&) const = default;
 };
 
-/// How far from a figure the true one is at most.
+/// The greatest distance of the true figure from `figure`.
 Time farthest(Time figure, const TimeRange& range);
 
 /// The times that a CPU runs with of its own, with what its other tables know besides: a line for each set of first operands

@@ -18,7 +18,7 @@ constexpr double kInnerNs = 60e6;
 /// The run begins at a tick of the timer, found by a loop of half a millisecond at most, and ends between two ticks.
 constexpr double kWithinNs = 1.5e6;
 
-/// How often the program is asked, and how long it has for an answer.
+/// How often the program is asked, and how long it has time to answer.
 struct Patience {
   int attempts;
   Time timeout;

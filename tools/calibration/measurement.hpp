@@ -28,7 +28,7 @@ struct Measured {
   std::uint8_t loops = 0;
 };
 
-/// How many loops the program has. The last one runs scans and has no FOR.
+/// The number of the program's loops. The last one runs scans and has no FOR.
 std::size_t measured_loops(const Program& program);
 
 /// The time of one repetition of a loop, and its possible error.

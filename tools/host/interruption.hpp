@@ -20,7 +20,7 @@ void end_at_interruption(void (*end)(int number));
 /// Lets the signals be noted from now on.
 void catch_interruption();
 
-/// Ends what is going on as a signal does, but without a word: standard output takes nothing more.
+/// Interrupts the command as a signal does, but silently: standard output takes nothing more.
 void interrupt_quietly();
 
 bool interrupted();
@@ -34,7 +34,7 @@ bool forget_ctrl_c();
 /// Called by a second Ctrl-C just before it kills: `restore` may do what a signal handler may. Null: nothing is called.
 void before_the_kill(void (*restore)());
 
-/// `interrupted by Ctrl-C`, or by SIGTERM or SIGHUP if that came.
+/// The reason in words: `interrupted by Ctrl-C`, or by SIGTERM or SIGHUP if that came.
 std::string_view interruption_text();
 
 /// Whether a signal was the reason, not interrupt_quietly().

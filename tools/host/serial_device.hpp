@@ -43,7 +43,8 @@ class SerialDevice {
   static constexpr std::size_t kMostAtOnce = 4096;
   bool read(std::vector<Character>& characters, std::string& why);
 
-  /// How many of the bytes were taken, 0 when none can be taken just now. Nothing, and `why`, when the device is gone.
+  /// Writes bytes. Returns how many were taken, 0 when none can be taken just now. Nothing, with `why` set, when the device
+  /// is gone.
   std::optional<std::size_t> write(std::span<const std::uint8_t> bytes, std::string& why);
 
   /// Forgets what has come in and was not read.

@@ -8,8 +8,8 @@
 
 namespace s7200::tools {
 
-/// False, and errno, when `fd` is not a terminal line or is gone. On the controlling side of a pty both work on the other
-/// side.
+/// Read and write settings. Return false and set errno when `fd` is not a terminal line or is gone. On the controlling side
+/// of a pty both work on the other side.
 bool read_settings(int fd, termios2& settings);
 bool write_settings(int fd, const termios2& settings);
 

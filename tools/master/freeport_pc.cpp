@@ -19,7 +19,7 @@ constexpr std::uint8_t kPcStation = 2;  // of the published program
 
 class PcRequest final : public ProtocolRequest {
  public:
-  /// `command`: nothing for a raw frame. `count`: bytes that are wanted of the eight that a read brings.
+  /// `command` is nothing for a raw frame. `count` is the number of bytes that are wanted of the eight that a read brings.
   PcRequest(serial::Frame frame, std::optional<Command> command, std::size_t count, std::uint8_t end_character)
       : frame_(std::move(frame)), command_(std::move(command)), count_(count), end_character_(end_character) {}
 
@@ -110,7 +110,7 @@ class FreeportPcParser final : public WordParser {
   void raw(const Words& operands);
 
  private:
-  /// `count` bytes from `address` on, by a command with `data`.
+  /// Adds a command with `data` for `count` bytes from `address` on.
   void add(Type type, const std::string& address, std::size_t count, Bytes data);
 
   std::uint8_t end_character_ = pc_protocol::kEndCharacter;

@@ -194,7 +194,7 @@ class ModbusParser final : public WordParser {
   /// A request of the station at hand, within the limits of the specification.
   void add(const Bytes& pdu, About about = {});
   void add_loopback();
-  /// Throws if the request goes beyond the limits; whether it is answered.
+  /// Checks a request: throws if it goes beyond the limits, and returns whether it is answered.
   bool check(const Bytes& pdu) const;
 
   /// The address of an operand: an area was named before, or the notation names it.

@@ -101,7 +101,7 @@ struct ProtocolUse {
   std::size_t chosen(std::string_view option, std::span<const std::string_view> words) const;
 };
 
-/// How a master waits for answers, and what it does before it asks again, unless options say otherwise.
+/// How long a master waits for answers, and what it does before it asks again, unless options say otherwise.
 struct Patience {
   Time timeout = kSecond;
   int retries = 0;
@@ -121,7 +121,8 @@ struct Protocol {
   std::string actions_help;               ///< a table for people
   std::vector<std::string> action_words;  ///< what each of them begins with
 
-  /// Throws std::invalid_argument for the first word that cannot be done, so that nothing is sent if any of them is wrong.
+  /// Parses actions. Throws std::invalid_argument for the first word that cannot be done, so that nothing is sent if any of
+  /// them is wrong.
   std::vector<MasterAction> (*actions)(const std::vector<std::string>& words, const ProtocolUse& use);
 
   /// Whether characters are a complete answer: nothing more has to be waited for.

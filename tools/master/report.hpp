@@ -23,7 +23,7 @@ struct MasterResult {
 /// count as wrong where `broadcasts_are_silent`.
 serial::Answer assess(const MasterAction& action, const serial::Exchange& exchange, bool broadcasts_are_silent);
 
-/// `16#04D2 16#FFFB`, `exception 2: illegal data address`, `error 16#12: no session`, `no answer`: all in one line.
+/// The result in one line: `16#04D2 16#FFFB`, `exception 2: illegal data address`, `error 16#12: no session`, `no answer`.
 std::string short_text(const MasterResult& result);
 
 /// What was asked, and how long after the request the last answer began: `read 40011:2   station 1, function 3, holding

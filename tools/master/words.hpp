@@ -23,7 +23,7 @@ using Words = std::vector<std::string>;
 
 [[noreturn]] void refuse(const std::string& why);
 
-/// `text` up to `separator`, and what comes after it; nothing if it is not there.
+/// Splits `text` at `separator`; nothing if it has none.
 std::optional<std::pair<std::string, std::string>> split_at(const std::string& text, char separator);
 
 /// The parts of `text` between commas, one at least.
@@ -66,7 +66,7 @@ class WordParser {
   /// Adds a raw frame; `text` is the frame as the user wrote it.
   void add_raw(const std::string& text, std::uint8_t station, std::shared_ptr<ProtocolRequest> request);
 
-  /// Each verb with the words up to the next one. `example`: an action.
+  /// Parses each verb with the words up to the next one. `example` is an action for messages.
   template <class Parser>
   std::vector<MasterAction> parse_with(Parser& parser, std::span<const Verb<Parser>> verbs, const Words& words,
                                        std::string_view example);

@@ -12,8 +12,8 @@ namespace s7200::tools {
 /// Parses bits such as `on,off,1,0`. Throws std::invalid_argument.
 std::vector<std::uint16_t> parse_bits(std::string_view text);
 
-/// `1234,-5,16#04D2,2#1010`: registers from -32768 to 65535. In a form of 32 bits each value takes two registers, and the
-/// form float takes 1.5e3 too. Throws std::invalid_argument.
+/// Parses registers from -32768 to 65535: `1234,-5,16#04D2,2#1010`. In a form of 32 bits each value takes two registers, and
+/// the form float takes 1.5e3 too. Throws std::invalid_argument.
 std::vector<std::uint16_t> parse_registers(std::string_view text, const ValueFormat& format);
 
 /// A number from `least` to `most`, in the notations above. Throws std::invalid_argument naming it by `what`.

@@ -98,8 +98,8 @@ class ExchangeBand {
   /// The number of tables with this verdict.
   std::size_t count(const std::string& verdict) const;
 
-  /// `after 15.8 … 19.6 ms   answered: 200 of 202 tables; no answer: 2 of 202; CPU in STOP: 2 of 202; characters or events
-  /// lost: 3 of 202`
+  /// The outcomes as text: `after 15.8 … 19.6 ms   answered: 200 of 202 tables; no answer: 2 of 202; CPU in STOP: 2 of 202;
+  /// characters or events lost: 3 of 202`
   std::string text() const;
   nlohmann::ordered_json json() const;
 

@@ -23,7 +23,7 @@ struct Figure {
   double speed() const { return takes > 0 ? 1 / takes : per_second; }
 };
 
-/// How many rounds share the time of a figure; the best one counts.
+/// The number of rounds that share the time of a figure; the best one counts.
 inline constexpr int kRounds = 5;
 
 /// For so long of the host's time each figure is measured. Once `stop` asks for it, no more are: all functions return those
@@ -44,7 +44,7 @@ inline constexpr std::array<std::uint32_t, 3> kMixedLengths{340, 1900, 4000};
 /// of Application Tip 41. `every_scan`: no scan is passed over.
 std::vector<Figure> measure_tip_like(const Effort& effort, bool every_scan);
 
-/// How fast files are checked, as `s7200 check` does it: lines of a listing of 100,000 (long_listing.hpp).
+/// Measures the speed of checking files, as `s7200 check` does it: lines of a listing of 100,000 (long_listing.hpp).
 std::vector<Figure> measure_files(const Effort& effort);
 
 /// Measures the time from the start of the process `command instructions LD` to its first output, by the clock; the shortest

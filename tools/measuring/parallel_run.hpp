@@ -15,7 +15,7 @@
 
 namespace s7200::tools {
 
-/// Begins at once, `jobs` at a time, and ends with the object.
+/// Runs work on threads: it begins at once, `jobs` at a time, and ends with the object.
 template <class Result>
 class ParallelRun {
  public:

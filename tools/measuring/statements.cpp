@@ -100,7 +100,7 @@ constexpr std::array<Rate, 7> kRates{{{300, 0x5D, 166},
                                       {19200, 0x45, 5}}};
 constexpr Rate k38400{38400, 0x41, 5};
 
-/// How the slave serves the longest request that it takes, 60 registers, and a read.
+/// The times of the slave for the longest request that it takes, 60 registers, and for a read.
 struct Served {
   bool all_answered = false;
   std::size_t lost = 0;  ///< events, of characters or others

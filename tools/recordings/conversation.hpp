@@ -51,7 +51,7 @@ class FrameReader {
   /// Whether a slave may answer a frame with the same bytes.
   virtual bool may_be_echoed(const RecordedFrame& frame) const = 0;
 
-  /// How many of the bytes are the first message, by what it says of itself; 0 if it is not all there, or does not say.
+  /// The length in bytes of the first message, by its own contents; 0 if it is not all there, or does not tell its length.
   virtual std::size_t first_message(std::span<const std::uint8_t> bytes, const RecordedFrame* open) const = 0;
 
   /// Whether the bytes begin a message, by what it says of itself, and do not end it.
@@ -84,7 +84,7 @@ struct RecordedProtocol {
   bool of_other_makes = false;  ///< no program of ours answers, but PLCs of another make do
   ChosenWords chosen{};
 
-  /// False if the protocol has no such option. `word` is one of its words.
+  /// Chooses a word of an option. Returns false if the protocol has no such option. `word` is one of its words.
   bool choose(std::string_view option, std::string_view word);
 };
 std::span<const RecordedProtocol> recorded_protocols();
@@ -151,7 +151,8 @@ class Conversation {
   bool is_several(const Stream& stream, const RecordedFrame& frame) const;
   Rest rest_after_messages(const Stream& stream, const RecordedFrame& frame) const;
   bool announces_more(const Stream& stream, const RecordedFrame& frame, const Rest& rest) const;
-  /// How many of the rows are one frame, the first of which is `whole`: by what they say, and because they follow closely.
+  /// The number of rows that are one frame, the first of which is `whole`: by their contents, and because they follow
+  /// closely.
   std::size_t announced_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   std::size_t close_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   ReadFrame read(Stream& stream, RecordedFrame frame, bool echo);

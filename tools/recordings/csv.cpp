@@ -38,7 +38,7 @@ bool contains(std::string_view text, std::initializer_list<std::string_view> wor
   return std::ranges::any_of(words, [&](std::string_view word) { return capitals.find(word) != std::string::npos; });
 }
 
-/// `us`, `[ms]`, `t [us]`: all that it says.
+/// Whether a name is only a unit: `us`, `[ms]`, `t [us]`
 bool is_unit(std::string_view name) {
   std::string word = stl::upper_case(name);
   std::erase_if(word, [](char c) { return std::ispunct(static_cast<unsigned char>(c)) != 0 || c == ' '; });
@@ -46,7 +46,7 @@ bool is_unit(std::string_view name) {
   return unit_of(word).has_value();
 }
 
-/// `Time,TX,RX`: a column with the bytes of each direction. A row with digits has bytes already, and names nothing.
+/// Finds a column with the bytes of each direction: `Time,TX,RX`. A row with digits has bytes already, and names nothing.
 void find_one_for_each_direction(const std::vector<std::string>& names, Columns& columns) {
   const auto has_digit = [](const std::string& name) { return std::ranges::any_of(name, stl::is_digit); };
   if (std::ranges::any_of(names, has_digit)) return;
@@ -85,7 +85,7 @@ Columns columns_of(std::string_view line) {
   return columns;
 }
 
-/// `2026-11-27T10:00:00.123Z`, `…+02:00` of Logic 2: all of a table has the same zone.
+/// The time without its zone: `2026-11-27T10:00:00.123Z`, `…+02:00` of Logic 2. All times of a table have the same zone.
 std::string_view without_zone(std::string_view time) {
   constexpr std::size_t kZone = 6, kSign = 0, kColon = 3;
   if (time.find('T') == std::string_view::npos) return time;

@@ -17,7 +17,7 @@ class DecodedSummary {
   /// Whether there were frames, and none of them was right.
   bool all_wrong() const { return frames_ > 0 && wrong_ + not_read_ == frames_; }
 
-  /// `requests: 5, answered: 3 after 15.833 ms to 16.833 ms; wrong frames: 1, frames of no request: 0`
+  /// The summary as text: `requests: 5, answered: 3 after 15.833 ms to 16.833 ms; wrong frames: 1, frames of no request: 0`
   std::string text() const;
   nlohmann::ordered_json json() const;
 

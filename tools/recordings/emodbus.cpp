@@ -67,7 +67,7 @@ std::optional<LeadingTime> time_of_heading(std::string_view line) {
   return leading_time(line);
 }
 
-/// Nearest to the dump stands what it is: `Received request, Sent packet`.
+/// The direction in a heading, by its last words, which stand next to the dump: `Received request, Sent packet`.
 Direction direction_after_name(std::string_view text) {
   const std::size_t last = text.find_last_of(":,");
   return direction_of(last == std::string_view::npos ? text : text.substr(last + 1));

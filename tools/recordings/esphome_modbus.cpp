@@ -30,7 +30,7 @@ std::optional<std::string_view> said_after(std::string_view line, std::string_vi
   return stl::trim(rest.substr(0, rest.find('\x1b')));
 }
 
-/// `01.03.00.0A (4)`: bytes with signs between them, and how many.
+/// Written bytes with signs between them, and their number: `01.03.00.0A (4)`
 std::optional<Bytes> written_bytes(std::string_view text) {
   std::string plain(text.substr(0, text.find(" (")));
   std::ranges::replace_if(

@@ -30,8 +30,8 @@ std::optional<std::int32_t> day_number(int year, unsigned month, unsigned day) {
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
 
-/// `2026-11-22`, `2026/11/22`, `22.11.2026`, `3/1/2026`; with slashes and the year last, either the day or the month is
-/// first.
+/// A date: `2026-11-22`, `2026/11/22`, `22.11.2026`, `3/1/2026`; with slashes and the year last, either the day or the month
+/// is first.
 ReadDate date_of(const std::string& text) {
   constexpr std::string_view kSeparators = "-./";
   const std::size_t second = text.find_first_of(kSeparators) + 1, third = text.find_first_of(kSeparators, second) + 1;
@@ -51,7 +51,8 @@ constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "
                                                    "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
 constexpr std::array<std::string_view, 7> kWeekdays{"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
 
-/// `Nov 27 ` of syslog, `Fri Nov 27 ` of ctime. The year is not before the time: any leap year has all days.
+/// Takes a date with the name of its month: `Nov 27 ` of syslog, `Fri Nov 27 ` of ctime. The year is not before the time:
+/// any leap year has all days.
 std::optional<ReadDate> take_date_with_name(Scan& scan) {
   const std::size_t begin = scan.at();
   std::string_view name = scan.take_while(stl::is_letter, 3);
@@ -93,7 +94,7 @@ std::optional<ReadDate> take_date(Scan& scan) {
   return {};
 }
 
-/// `12:34:56.789`, `1:02:03 PM`, with a date before it or without.
+/// A time of day with a date before it or without: `12:34:56.789`, `1:02:03 PM`
 std::optional<LeadingTime> time_of_day(std::string_view text) {
   Scan scan(text);
   scan.skip(kBeforeTime);
@@ -143,7 +144,7 @@ const TimeUnit* take_unit(Scan& scan) {
   return nullptr;
 }
 
-/// `01,03,00` are bytes: a time of a row has one comma with digits on both sides.
+/// Whether the text is a list of bytes such as `01,03,00`: a time of a row has one comma with digits on both sides.
 bool is_list_of_bytes(std::string_view whole, std::string_view part, std::string_view after) {
   return whole.size() == 2 && part.size() == 2 && after.size() > 2 && after[0] == ',' &&
          std::isxdigit(static_cast<unsigned char>(after[1])) != 0 &&
@@ -258,10 +259,11 @@ std::string_view without_comment(std::string_view line) {
   return line.substr(0, end_of_bytes_before_comment(line));
 }
 
-/// `feed` and `added` after pairs of digits are words of a language.
+/// Whether a word is of a language, not hex: `feed` and `added` after pairs of digits.
 bool is_of_a_language(std::string_view word) { return word.size() > 2 && std::ranges::all_of(word, is_letter); }
 
-/// `plc:5020`, `plc.local:502`: the number of a TCP port has no 0 in front, and a name with a dot is that of a host.
+/// Whether the number is a TCP port: `plc:5020`, `plc.local:502`. It has no 0 in front, and a name with a dot is that of a
+/// host.
 bool is_port_of_host(std::string_view name, std::string_view number) {
   if (name.back() != ':' || !is_decimal(number) || direction_of(name) != Direction::Unknown) return false;
   const bool four_digits = number.size() == 4 && number.front() != '0';
@@ -279,7 +281,7 @@ bool ends_name(std::string_view word, std::size_t end) {
   return is_any_of(word[end - 1], ":;>,])-|") || (lead >= kThreeBytes && lead < kFourBytes);
 }
 
-/// `Tx:01` is `01` after its name; `len=09` and `plc:5020` are none.
+/// The length of a name before bytes: `Tx:01` is `01` after its name; `len=09` and `plc:5020` have no such name.
 std::size_t length_of_name(std::string_view word) {
   std::size_t end = word.size();
   while (end > 0 && !ends_name(word, end)) --end;
@@ -381,7 +383,7 @@ void take_numbers_out(std::vector<Word>& words) {
 
 bool names_a_direction(const Word& word) { return direction_of(word.text) != Direction::Unknown; }
 
-/// `1`, `3G`, `??`, `123` beside bytes: one of them may be damaged.
+/// Whether a word beside bytes may be a damaged byte: `1`, `3G`, `??`, `123`
 bool may_be_a_damaged_byte(const Word& word) {
   if (word.number == Word::Number::Yes || names_a_direction(word)) return false;
   const auto is_sign = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '?' || c == '*'; };
@@ -400,7 +402,8 @@ bool ends_with_fraction(std::string_view text) {
          stl::is_digit(text[point - 2]);
 }
 
-/// `:010300C80002`, of Modbus ASCII: it ends with digits that may be bytes. A clock, a decimal and `len=09` do not.
+/// Whether a word ends with digits that may be bytes: `:010300C80002`, of Modbus ASCII. A clock, a decimal and `len=09` do
+/// not.
 bool ends_with_digits(const Word& word) {
   const std::size_t end = word.text.find_last_not_of("0123456789ABCDEFabcdef");
   if (end == std::string_view::npos || end + 1 == word.text.size()) return false;
@@ -409,7 +412,7 @@ bool ends_with_digits(const Word& word) {
          word.text.find("]:") == std::string_view::npos;
 }
 
-/// `E4 09 be` before `careful`: no tool writes capitals and small letters.
+/// Whether bytes have capitals and small letters, as no tool writes them: `E4 09 be` before `careful`.
 bool has_both_cases(Words run) {
   const auto any = [&](std::string_view letters) {
     return std::ranges::any_of(run, [&](const Word& w) { return w.text.find_first_of(letters) != std::string_view::npos; });
@@ -422,7 +425,7 @@ bool has_mark(const Word& word) {
   return is_marked(word.text.substr(std::min(word.text.find_first_not_of("[<(\""), word.text.size())));
 }
 
-/// `01 03 04 12 34 81 07 4660`: a number of several digits after pairs of them.
+/// Whether bytes end with a number of several digits after pairs of digits: `01 03 04 12 34 81 07 4660`
 bool ends_with_number(Words run) { return run.size() > 2 && run[0].bytes == 1 && run[1].bytes == 1 && run.back().bytes > 1; }
 
 /// A word among the bytes that may be something else; null if there is none. A number before pairs of digits counts lines or
@@ -461,14 +464,14 @@ const Word* what_is_doubtful(Words before, Words run, Words after) {
   return is_comment && (run.size() > 1 || run.front().bytes > 1) ? nullptr : &after.front();
 }
 
-/// `3`, `3G`, `7?`, `123` after bytes: what is left of one. `ok` is none.
+/// Whether a word after bytes may be the rest of a damaged byte: `3`, `3G`, `7?`, `123`, but not `ok`.
 bool may_be_a_damaged_byte_after(const Word& word) {
   const bool is_short = word.text.size() <= 2 && is_hex_digit(word.text.front());
   return word.text.find_first_of("?*") != std::string_view::npos ||
          (word.bytes == 0 && (is_short || std::ranges::all_of(word.text, is_hex_digit)));
 }
 
-/// `value 4660`, `= 0x1234, 0x5678` after bytes without such a mark.
+/// Whether a word after bytes is a number in another notation: `value 4660`, `= 0x1234, 0x5678`
 bool is_a_number(const Word& word, Words run) {
   const std::string_view digits = word.text.substr(0, word.text.find_last_not_of(",;)") + 1);
   return word.bytes == 0 || is_decimal(digits) || (is_marked(digits) && !has_mark(run.front()));
@@ -542,7 +545,8 @@ bool is_plain_word(const Word& word) {
   return word.bytes == 0 && word.text.size() > 1 && std::ranges::all_of(word.text, is_letter) && !names_a_direction(word);
 }
 
-/// `slave 10`, `waiting for 50`, `warte ab`, `de facto`: a number at the end of words, or one of the words, not a byte.
+/// Whether the bytes are a number at the end of words, or one of the words: `slave 10`, `waiting for 50`, `warte ab`, `de
+/// facto`
 bool is_of_a_sentence(Words before, Words run, Words after) {
   if (run.size() != 1) return false;
   const std::string_view text = run.front().text;
@@ -554,14 +558,14 @@ bool is_of_a_sentence(Words before, Words run, Words after) {
   return (is_number && names_a_station) || (is_prose && is_plain_word(before.back()));
 }
 
-/// `01 03 …`, two of them at least.
+/// Whether there are at least two pairs of digits: `01 03 …`
 bool has_pairs(Words words) {
   const auto is_pair = [](const Word& word) { return word.bytes == 1; };
   return std::ranges::adjacent_find(words, [&](const Word& a, const Word& b) { return is_pair(a) && is_pair(b); }) !=
          words.end();
 }
 
-/// `RX 0103041234567`, `RX 001 003`: digits at the end of a line that are not pairs.
+/// Digits at the end of a line that are not pairs: `RX 0103041234567`, `RX 001 003`
 std::optional<BytesInLine> cut_off_bytes(Words words) {
   constexpr std::size_t kFewestDigits = 5;
   const auto is_hex = [](const Word& word) { return std::ranges::all_of(word.text, is_hex_digit); };
@@ -665,7 +669,7 @@ std::string without_signs(std::string_view text) {
   return letters;
 }
 
-/// `slave 1 TX`: whose line it is, not who speaks.
+/// Whether a word names the station of a line, not its sender: `slave 1 TX`
 bool is_station_with_number(std::string_view word, std::string_view after) {
   const std::size_t next = after.find_first_not_of(kAllBlanks);
   return (word == "SLAVE" || word == "MASTER") && next != 0 && next != std::string_view::npos && stl::is_digit(after[next]);
@@ -799,7 +803,7 @@ std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
   return found;
 }
 
-/// `RX #2 01 03`: a direction before the sign of a comment speaks for bytes after it.
+/// The bytes in a comment: a direction before the sign of a comment speaks for bytes after it, `RX #2 01 03`.
 std::optional<BytesInLine> BytesOfLines::bytes_in_comment(std::string_view line) {
   const auto cut_off = cut_off_bytes(words_);
   const std::size_t comment = without_comment(line).size();

@@ -30,11 +30,11 @@ struct LeadingTime {
 };
 std::optional<LeadingTime> leading_time(std::string_view text);
 
-/// How long the number of a row before its time is, with what divides them: `17 12:34:56.789`, `17;12:34:56.789`. 0: the
+/// The length of a row's number before its time, with the signs between them: `17 12:34:56.789`, `17;12:34:56.789`. 0: the
 /// text does not begin so.
 std::size_t length_of_index(std::string_view text);
 
-/// How long a unit is, by the first word of a column's name that is one: `Time [ms]`, `time_us`.
+/// The length of a unit, by the first word of a column's name that is one: `Time [ms]`, `time_us`.
 std::optional<Time> unit_of(std::string_view name);
 
 /// Whether the name of a column says that it has times, in one of several languages: `Time [s]`, `Zeit`.

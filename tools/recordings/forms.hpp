@@ -44,7 +44,7 @@ void read_modbus_tcp(LineRecording& recording);
 bool looks_like_vcd(std::string_view bytes);
 std::optional<LineRecording> read_vcd(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
-/// Any zip; the reader names those of other tools.
+/// Recognises any zip; the reader names those of other tools.
 bool looks_like_sigrok_session(std::string_view bytes);
 std::optional<LineRecording> read_sigrok_session(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 

@@ -57,7 +57,8 @@ void take_comment(std::string_view comment, Head& head) {
   }
 }
 
-/// `Time [s],Channel 0`; the channels of sigrok are all called `logic` there, and have their names in a comment.
+/// Takes the names of the columns: `Time [s],Channel 0`. The channels of sigrok are all called `logic` there, and have their
+/// names in a comment.
 bool take_names(std::string_view line, Head& head) {
   head.separator = separator_of_levels(line);
   auto names = fields_of(line, head.separator);
@@ -101,7 +102,7 @@ class LevelsTableReader {
       levels_.channels.push_back({.name = head_.names[i]});
   }
 
-  /// False, and `why`: it is not a row of the table.
+  /// Takes a row. Returns false and sets `why` if it is not a row of the table.
   bool take(std::string_view line, std::string& why) {
     const auto fields = fields_of(line, head_.separator);
     const auto at = time_of(fields.front());

@@ -51,7 +51,7 @@ std::optional<std::uint16_t> number_after(std::string_view line, std::string_vie
   return parse_decimal<std::uint16_t>(rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size())));
 }
 
-/// A printed value: `[11]:         4660`, `[11]:   0x1234`, `[12]:         65535 (-1)`
+/// A printed value: `[11]: 	4660`, `[11]: 	0x1234`, `[12]: 	65535 (-1)`
 struct PrintedValue {
   std::uint16_t reference = 0, value = 0;
 };

@@ -34,7 +34,7 @@ std::string bits_text(Data bytes, std::size_t count) {
   return text;
 }
 
-/// `file 4, record 1, 2 registers`, `extended memory 0010:0004, 2 bytes: 12 34`
+/// A reference as text: `file 4, record 1, 2 registers`, `extended memory 0010:0004, 2 bytes: 12 34`
 std::string reference_text(const modbus::Reference& reference) {
   const bool file = reference.type == modbus::kFileReference;
   std::string text =
@@ -81,7 +81,7 @@ std::string carried_text(const modbus::FunctionRow& row, Data data) {
 /// Modbus TCP knows no broadcast: its unit 0 is an address like any other.
 bool is_to_all(const RecordedFrame& frame) { return frame.stream == 0 && frame.bytes[0] == modbus::kBroadcast; }
 
-/// `station 1, read holding registers 40001, 10 of them`
+/// A request as text: `station 1, read holding registers 40001, 10 of them`
 std::string modbus_request_text(const RecordedFrame& recorded) {
   const Data frame = recorded.bytes;
   const std::uint8_t station = frame[0], function = frame[1];

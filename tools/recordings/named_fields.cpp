@@ -48,7 +48,7 @@ constexpr std::array kNames{
     Name{"adu", Holds::Data},
 };
 
-/// `SerialReceived` and `tx_data` in words: `serial received`, `tx data`.
+/// The words of a name: `serial received` for `SerialReceived`, `tx data` for `tx_data`.
 std::string words_of_name(std::string_view name) {
   std::string words;
   for (std::size_t i = 0; i < name.size(); ++i) {

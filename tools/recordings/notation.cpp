@@ -24,7 +24,7 @@ std::optional<std::uint8_t> byte_in_base(std::string_view digits, int base) {
   return error == std::errc{} && stopped == end && !digits.empty() ? std::optional(byte) : std::nullopt;
 }
 
-/// `18 (0X12)`, `'18' (0x12)`, `1 (0X1)`, `\r (0x0D)`: the same character twice. Logic and ESPHome write so.
+/// A character that is written twice, as in Logic and ESPHome: `18 (0X12)`, `'18' (0x12)`, `1 (0X1)`, `\r (0x0D)`
 std::optional<Bytes> with_hex(std::string_view cell) {
   const std::size_t bracket = cell.rfind('(');
   if (bracket == std::string_view::npos || bracket == 0 || !cell.ends_with(')')) return {};
@@ -46,15 +46,15 @@ std::optional<Bytes> decimal(std::string_view cell) {
   return cell.size() > 1 && cell.front() == '0' ? std::nullopt : one(parse_decimal<std::uint8_t>(cell));
 }
 
-/// `[0D]` for what cannot be printed and `U` for what can, as sigrok and DSView have it.
+/// A character as sigrok and DSView write it: `[0D]` for one that cannot be printed, `U` for one that can.
 std::optional<Bytes> bracketed(std::string_view cell) {
   if (cell.size() == 1 && cell.front() >= ' ' && cell.front() <= '~') return Bytes{static_cast<std::uint8_t>(cell.front())};
   const bool has_brackets = cell.size() == 4 && cell.front() == '[' && cell.back() == ']';
   return has_brackets ? one(byte_in_base(cell.substr(1, 2), 16)) : std::nullopt;
 }
 
-/// `V`, `COMMA`, `' '`, `\r`, and `'18'` in decimal for what cannot be printed, as Logic 1 has it; Logic 2 writes the
-/// characters themselves.
+/// A character as Logic 1 writes it: `V`, `COMMA`, `' '`, `\r`, and `'18'` in decimal for one that cannot be printed; Logic
+/// 2 writes the characters themselves.
 std::optional<Bytes> characters(std::string_view cell) {
   if (cell == "COMMA") return Bytes{','};
   if (cell == "' '") return Bytes{' '};

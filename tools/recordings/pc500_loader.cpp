@@ -85,7 +85,7 @@ class LoaderReader final : public FrameReader {
     return landmark == kLandmarks.end() ? std::nullopt : std::optional(*landmark);
   }
 
-  /// How many of the bytes are this step; 0 if they are not, or not all there.
+  /// The number of bytes of this step; 0 if the bytes are not this step, or not all of it.
   std::size_t first_of(Step step, Data bytes) const {
     if (is_of_plc(step) && westinghouse::begins_with(bytes, westinghouse::kRefusal)) return westinghouse::kRefusal.size();
     switch (step) {

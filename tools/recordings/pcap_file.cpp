@@ -326,7 +326,7 @@ class CaptureReader {
   /// The present packet; nothing at the end.
   const std::optional<Packet>& packet() const { return packet_; }
 
-  /// False, and `why`, if the packet has a time that no recording has.
+  /// Reads the next packet. Returns false and sets `why` if its time is one that no recording has.
   bool read_next(std::string& why) {
     pcap_pkthdr* head = nullptr;
     const u_char* data = nullptr;

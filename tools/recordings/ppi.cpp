@@ -138,7 +138,7 @@ std::optional<Pdu> pdu_of(Data bytes, std::string& why) {
 
 std::string error_text(std::uint16_t error) { return serial::error_text(error, s7_error_name(error)); }
 
-/// `Q0.0 = 1, VB500 = 16#09`; of values that are released their places alone.
+/// Forced values as text, or only the places of released values: `Q0.0 = 1, VB500 = 16#09`
 std::string forced_text(const s7::ForcedList& list) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < list.variables.size(); ++i) {
@@ -273,7 +273,7 @@ std::string write_answer_text(const Pdu& pdu, const std::vector<Variable>& varia
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// `variables`: of the request; none if that was not heard.
+/// An answer as text. `variables` are those of the request; none if the request was not heard.
 std::string answer_text(const Pdu& pdu, const std::vector<Variable>& variables) {
   if (pdu.kind == s7::kUserData) return user_data_text(pdu);
   if (pdu.error != 0) return error_text(pdu.error);

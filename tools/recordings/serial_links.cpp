@@ -102,7 +102,7 @@ bool may_be_status(Data packet) {
   return packet.size() >= 2 && (packet[0] & kReserved) == kOne && (packet[1] & kLine) == kEmpty;
 }
 
-/// Begins of packets on the bus within a transfer: FTDI puts its status before each of them.
+/// The size of the packets on the bus within a transfer: FTDI puts its status before each of them.
 std::size_t packet_size_of(Data data) {
   constexpr std::size_t kFullSpeed = 64, kHighSpeed = 512;
   for (std::size_t at = kFullSpeed; at < data.size(); at += kFullSpeed)

@@ -57,7 +57,7 @@ class Sampler {
     }
   }
 
-  /// False: they last longer than a recording can.
+  /// Takes samples. Returns false if they last longer than a recording can.
   bool take(std::string_view piece) {
     for (const char c : piece) {
       unit_ += c;

@@ -53,7 +53,7 @@ std::string_view take_name(std::string_view& text) {
   return whole.substr(0, whole.size() - text.size());
 }
 
-/// `[pid  1234] ` or `1234  `; a number with a point or a colon is a time.
+/// Takes the number of the process: `[pid  1234] ` or `1234  `; a number with a point or a colon is a time.
 std::string take_process(std::string_view& line) {
   std::string_view text = line;
   const bool bracketed = text.starts_with("[pid ");
@@ -208,7 +208,8 @@ class StraceReader {
     return known != kinds_.end() ? known->second : Kind::Unknown;
   }
 
-  /// `openat(AT_FDCWD, "/dev/ttyUSB0", O_RDWR) = 3`, `socket(AF_INET, …) = 4`, `eventfd2(0, 0) = 5`.
+  /// Notes the kind of a new descriptor: `openat(AT_FDCWD, "/dev/ttyUSB0", O_RDWR) = 3`, `socket(AF_INET, …) = 4`,
+  /// `eventfd2(0, 0) = 5`.
   void note_descriptor(const Call& call) {
     const auto result = result_of(call.rest);
     if (!result) return;
@@ -298,7 +299,7 @@ class StraceReader {
   std::size_t number_ = 0;
 };
 
-/// `write(3, "` and its like, with its result.
+/// Whether a line is a call of strace with its result: `write(3, "` and its like.
 bool is_of_strace(std::string_view line) {
   const auto call = call_of(line);
   if (!call || call->resumed || find_mover(call->name) == nullptr) return false;

@@ -28,7 +28,7 @@ struct TcpdumpRow {
   Bytes bytes{};
 };
 
-/// `	0x0010:  7f00 0001 9c40 01f6  .....@..`: groups of two bytes with a blank between them.
+/// A row of a dump, groups of two bytes with a blank between them: `	0x0010:  7f00 0001 9c40 01f6  .....@..`
 std::optional<TcpdumpRow> tcpdump_row(std::string_view line) {
   constexpr std::size_t kFullRow = 16;
   Scan scan(line);
@@ -48,7 +48,7 @@ std::optional<TcpdumpRow> tcpdump_row(std::string_view line) {
   return row.bytes.empty() ? std::nullopt : std::optional(std::move(row));
 }
 
-/// How many bytes an IP packet says that it has; 0 if it is none.
+/// The length in bytes that an IP packet states; 0 if it is not an IP packet.
 std::size_t length_of_ip(const Bytes& packet) {
   constexpr std::size_t kIp4Head = 20, kIp6Head = 40;
   if (packet.size() >= kIp4Head && packet[0] >> 4 == 4 && (packet[0] & 15) >= 5) return load16(&packet[2]);
@@ -77,7 +77,7 @@ std::string pcap_of(const std::vector<PrintedPacket>& packets, int link_type) {
   return file;
 }
 
-/// False after a message: a row is missing.
+/// Takes the rows of packets. Returns false after a message if a row is missing.
 bool take_rows(std::string_view text, std::vector<PrintedPacket>& packets, std::string& why) {
   DayCounter days;
   std::size_t number = 0;

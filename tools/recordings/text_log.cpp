@@ -62,7 +62,8 @@ LeadingDirection leading_direction(std::string_view line) {
   return {named, scan.at()};
 }
 
-/// `RX: 12.5`: what has come is not in hex. Empty for a remark, `RX: timeout`, and for a head, `RX 8 bytes`, `RX len=8`.
+/// The received text that is not hex: `RX: 12.5`. Empty for a remark, `RX: timeout`, and for a head, `RX 8 bytes`, `RX
+/// len=8`.
 std::string figure_after_direction(std::string_view line) {
   const std::vector<std::string> words = stl::split_words(line);
   const auto direction =
@@ -81,7 +82,7 @@ struct RecordedCharacter {
   std::uint8_t byte;
 };
 
-/// `> 	0x01 (^A)`: a character in each line, with its name.
+/// A line with a character and its name: `> 	0x01 (^A)`
 std::optional<RecordedCharacter> character_of_interceptty(std::string_view line) {
   Scan scan(line);
   const char arrow = scan.take("<>");
@@ -163,7 +164,7 @@ class LogReader {
     }
   };
 
-  /// `line 3: left out, and 2 more: no bytes in it`
+  /// Adds a note: `line 3: left out, and 2 more: no bytes in it`
   void note(const Lines& lines, std::string_view what, std::string_view why) {
     if (lines.count == 0) return;
     const std::string more = lines.count == 1 ? "" : fmt::format(", and {} more", lines.count - 1);
@@ -196,17 +197,18 @@ class LogReader {
            (decimal && static_cast<std::size_t>(decimal_number(offset.digits)) == bytes_above());
   }
 
-  /// How many bytes of the frame stand above the row.
+  /// The number of bytes of the frame above the row.
   std::size_t bytes_above() const { return goes_on_ || has_offsets_ ? recording_.frames.back().bytes.size() : 0; }
 
-  /// `00000010  01 03 …` of hexdump: eight digits, two blanks, and pairs of digits.
+  /// Whether a line is a row of hexdump, eight digits, two blanks, and pairs of digits: `00000010  01 03 …`
   static bool is_dump(std::string_view line) {
     Scan scan(line);
     const bool has_offset = scan.take_hex(8).size() == 8 && scan.skip(kAllBlanks) >= 2;
     return has_offset && scan.take_hex(2).size() == 2 && (scan.at_end() || scan.skip(kAllBlanks, 1) == 1);
   }
 
-  /// `00000008` below the last row: how many bytes there were, with those of rows that were left out.
+  /// Whether a line ends a dump, as `00000008` does below the last row: the number of its bytes, with those of rows that
+  /// were left out.
   bool ends_dump(std::string_view line) const {
     const std::string_view digits = stl::trim(line);
     return in_dump_ && digits.size() == 8 && digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos &&

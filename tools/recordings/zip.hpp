@@ -12,7 +12,8 @@ namespace s7200::tools {
 
 class Zip {
  public:
-  /// `bytes` must live as long as the archive. Returns nothing and sets `why` if they have no directory of an archive.
+  /// Opens an archive; `bytes` must live as long as it. Returns nothing and sets `why` if they have no directory of an
+  /// archive.
   static std::optional<Zip> open(std::string_view bytes, std::string& why);
 
   bool has(std::string_view name) const { return entries_.find(name) != entries_.end(); }

@@ -13,8 +13,8 @@
 
 namespace s7200::tools {
 
-/// Any number of captures of one line; the end of a file's name says which kind it is. What is run again after the
-/// simulation has been restored is not captured again.
+/// The captures of one line, any number of them; the end of a file's name determines its kind. Instants that run again after
+/// the simulation has been restored are not captured again.
 class CaptureFiles final : private serial::WireSink {
  public:
   /// Return false and set `why` if a capture cannot be written as it was asked for.

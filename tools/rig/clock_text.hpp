@@ -17,7 +17,7 @@ std::optional<ClockTime> parse_clock(std::string_view text);
 /// Empty if it has a clock that can be set.
 std::string why_no_clock(const CpuModel& model);
 
-/// `-50ppm`, from -1000ppm to 1000ppm: millionths; nothing for anything else.
+/// Parses a clock's error in millionths: `-50ppm`, from -1000ppm to 1000ppm; nothing for anything else.
 std::optional<std::int32_t> parse_clock_error(std::string_view text);
 
 }  // namespace s7200::tools

@@ -16,7 +16,7 @@ std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model)
 /// Returns nothing and sets `why` if the text is not such a memory, or that of another CPU.
 std::optional<RetentiveMemory> memory_from_json(std::string_view json, const CpuModel& model, std::string& why);
 
-/// How a PLC comes to its retentive memory.
+/// The source of a PLC's retentive memory.
 struct MemorySettings {
   std::string path{};     ///< empty: none is kept
   bool ram_lost = false;  ///< power was off too long: only the EEPROM is left

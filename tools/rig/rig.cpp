@@ -19,7 +19,7 @@ serial::Verdict verdict_on(const serial::Exchange& exchange) {
   return modbus::check_answer(serial::bytes_of(exchange.request), exchange.response_bytes()).verdict;
 }
 
-/// `the run ends, and RCV at port 0 still waits for the end of its message: …`
+/// Messages such as `the run ends, and RCV at port 0 still waits for the end of its message: …`
 std::vector<std::string> open_messages(const serial::Plc& plc) {
   std::vector<std::string> texts;
   if (!plc.powered()) return texts;

@@ -88,7 +88,7 @@ class Rig final {
   const serial::Poller* poller(std::size_t peer) const { return pollers_[peer] ? &pollers_[peer]->poller() : nullptr; }
   serial::HostPort& host_port(std::size_t bridge) { return hosts_[bridge]->port(); }
 
-  /// How a station's port is set; nothing of one without power, of a master that has not asked yet, and of a bridge.
+  /// The format of a station's port; nothing for one without power, for a master that has not asked yet, and for a bridge.
   std::optional<SerialFormat> format_of(const StationPlan& station) const;
 
   /// Carries out an event now.

@@ -12,7 +12,8 @@ std::string_view ppi_station_meaning();
 std::string_view ppi_second_meaning();
 std::string_view retain_meaning();
 
-/// `ppi_baud`, `ppi_station`, `ppi_second` and `retain`: what is there goes into `block`. Complains about what the CPU does not have.
+/// Reads `ppi_baud`, `ppi_station`, `ppi_second` and `retain` into `block`. Complains about keys for what the CPU does not
+/// have.
 void read_system_block(const YamlNode& map, const CpuModel& model, SystemBlock& block, YamlValues& values);
 
 }  // namespace s7200::tools

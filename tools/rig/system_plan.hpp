@@ -117,7 +117,7 @@ struct Spot {
 
 const std::string& name_of(const SystemPlan& plan, const StationPlan& station);
 
-/// How a master talks on a line: as it was asked to, and for the rest as the line says.
+/// The settings of a master on a line: its own, and for the rest those of the line.
 serial::MasterSettings on_line(serial::MasterSettings master, const LinePlan& line);
 
 /// The line's first PLC along the cable; null if there is none.

@@ -73,7 +73,7 @@ std::vector<const YamlNode*> items_of(const YamlNode& map, std::string_view key,
 /// Reads assignments: `{VW20: 5, I0.3: 1}`
 std::vector<Assignment> read_assignments(const YamlNode& set, const Program& program, YamlValues& values);
 
-/// `station`: what stands beside the fault to say whose it is, or null. Nothing after a complaint.
+/// Reads a fault. `station` is the node beside it that names its station, or null. Nothing after a complaint.
 std::optional<FaultPlan> read_fault(const YamlNode& what, const YamlNode* station, const LinePlan& line,
                                     const SystemPlan& plan, YamlValues& values);
 

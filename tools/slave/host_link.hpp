@@ -63,7 +63,7 @@ class HostLink {
 
   virtual int fd() const = 0;
 
-  /// How many were taken; 0 when none can be just now.
+  /// Writes some bytes. Returns how many were taken; 0 when none can be just now.
   virtual std::size_t write_some(std::span<const std::uint8_t> bytes) = 0;
 
   StopToken stop_;

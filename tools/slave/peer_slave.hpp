@@ -14,7 +14,8 @@ namespace s7200::tools {
 
 class PeerSlave final : public SlaveInSimulation {
  public:
-  /// `line`: the master's, as far as it is not that of the station. `name`: as it was asked for.
+  /// `line` has the master's settings, as far as they are not those of the station. `name` is the target as the user wrote
+  /// it.
   PeerSlave(std::unique_ptr<serial::Automaton> station, const serial::LineSettings& line,
             const std::vector<serial::Fault>& faults, std::string name, StopToken stop);
 

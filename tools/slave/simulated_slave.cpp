@@ -20,7 +20,7 @@ bool SimulatedSlave::goes_on_in_stop() const {
   return state.mode == Mode::Stop && state.fatal_code == 0 && !stop_requested();
 }
 
-/// False after a fatal error and after Ctrl-C.
+/// Runs until `end`. Returns false after a fatal error and after Ctrl-C.
 bool SimulatedSlave::run_until(Time end) {
   if (simulation_.run_until(end) == serial::Halt::Time) return true;
   return goes_on_in_stop() && simulation_.system().run_until(end) == serial::Halt::Time;

@@ -30,7 +30,7 @@ struct SlaveTarget {
   std::string host, port;  ///< an IPv6 address without its brackets
 };
 
-/// Throws std::invalid_argument for an address without host or port, and for a scheme that is neither.
+/// Parses a target. Throws std::invalid_argument for an address without host or port, and for a scheme that is neither.
 SlaveTarget parse_slave_target(const std::string& text);
 
 /// Whether the target is westinghouse:MODEL.

@@ -46,7 +46,7 @@ nlohmann::ordered_json to_json(const stl::Diagnostic& d, const stl::SourceLines&
   return json;
 }
 
-/// `; fine for CPU 215, 216 or 22x`
+/// The other CPUs as text: `; fine for CPU 215, 216 or 22x`
 std::string other_cpus_text(const std::vector<const CpuModel*>& others) {
   CpuSet fitting = 0;
   for (const CpuModel* model : others) fitting = static_cast<CpuSet>(fitting | model->self);

@@ -10,7 +10,7 @@
 
 namespace s7200::tools {
 
-/// `  // of the line  [Q0.0 Pump // contactor]`: its comment, and the symbols of its addresses.
+/// The comment of an instruction, and the symbols of its addresses: `  // of the line  [Q0.0 Pump // contactor]`
 std::string remark_on(std::uint32_t op, const Program& program);
 
 /// An executed instruction with what no record has room for.

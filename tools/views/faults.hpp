@@ -10,7 +10,8 @@
 
 namespace s7200::tools {
 
-/// `a pause before a character: character=2, of=request`: what it does, and where, as far as its text leaves that out.
+/// A fault in words, with its place as far as the words leave that out: `a pause before a character: character=2,
+/// of=request`
 std::string described(const serial::Fault& fault);
 
 /// The name of the station with a driver, where faults are of one; empty if it has none.

@@ -27,7 +27,8 @@ class Listing {
   /// The name of an instruction's routine: `main`, `SBR 51`, `INT 123`
   const std::string& routine_of(std::uint32_t op) const { return networks_.routine_of(op); }
 
-  /// `network 6 "SBR 51: is it undisturbed?"`; nothing in front of the first NETWORK line of a routine, or without any.
+  /// The network of an instruction: `network 6 "SBR 51: is it undisturbed?"`; empty in front of the first NETWORK line of a
+  /// routine, or without any.
   const std::string& network_of(std::uint32_t op) const { return network_[op]; }
 
   /// Whether it is the first instruction of a network, or of a routine. A program without NETWORK lines has a network for

@@ -42,7 +42,7 @@ std::string line_text(const Listing& listing, std::uint32_t op) {
   return fmt::format("{} line {}", listing.routine_of(op), listing.line_of(op));
 }
 
-/// `SBR 63 line 700, called in SBR 51 line 340, called in main line 12`
+/// The calls as text: `SBR 63 line 700, called in SBR 51 line 340, called in main line 12`
 std::string calls_text(const State& state, const Listing& listing, std::uint32_t op) {
   std::string text = line_text(listing, op);
   for (std::size_t depth = state.call_depth; depth > 0; --depth)

@@ -24,7 +24,8 @@ std::string waiting_text(const QueuedInterrupt& entry);
 /// `the end of its message: the character 16#0D or 10 characters (2 so far)`; empty if it is off.
 std::string awaited_text(const MessageReceiver& message, const ReceiveChoices& choices);
 
-/// `412.345678 ms  scan 7  INT 123  S0=1`, and the line it stands in front of: `>  1242  INCB VB101   // one more`.
+/// The place of the CPU: `412.345678 ms  scan 7  INT 123  S0=1`, and the line it stands in front of: `>  1242  INCB VB101
+/// // one more`.
 std::string place_text(const Cpu& cpu, const Listing& listing);
 
 /// The registers as text: time, place, calls, accumulators, flags, interrupts.
@@ -33,7 +34,7 @@ std::string registers_text(const Cpu& cpu, const Listing& listing);
 /// The nine levels of the logic stack, top first.
 std::string stack_text(const State& state);
 
-/// `SMB30 = 16#09: Freeport, 9600 baud, 8 data bits, no parity`
+/// A port's control byte in words: `SMB30 = 16#09: Freeport, 9600 baud, 8 data bits, no parity`
 std::string control_byte_text(const State& state, std::size_t port);
 
 /// SMB30 in words, receiver, transmitter, and what the master on the line is doing.
@@ -45,10 +46,10 @@ std::string special_text(const Cpu& cpu, const MemoryRange& range);
 /// The symbol of the address that a range begins at; null without one.
 const stl::Symbol* symbol_of(const Program& program, const MemoryRange& range);
 
-/// `Speed`: the symbol of an address; nothing without one.
+/// The symbol of an address: `Speed`; empty without one.
 std::string symbol_name(const Program& program, const MemoryRange& range);
 
-/// `Speed  // of the pump`: that symbol with its comment; nothing without one.
+/// The symbol of an address with its comment: `Speed  // of the pump`; empty without one.
 std::string symbol_text(const Program& program, const MemoryRange& range);
 
 /// A watched value, bytes as MemoryRange::bytes_in() gives them: `1`, `16#05 (5)`, `16#FFFB (-5)`, several as hex bytes. A

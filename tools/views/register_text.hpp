@@ -16,7 +16,7 @@ struct ValueFormat {
   ValueForm form = ValueForm::HexAndDecimal;
   bool low_word_first = false;  ///< of the two registers of a value of 32 bits; Modbus does not say
 
-  /// How many registers make a value; 0 for text, where all make one.
+  /// The number of registers that make a value; 0 for text, where all make one.
   std::size_t registers() const;
 };
 

@@ -13,10 +13,10 @@ namespace s7200::tools {
 std::string errors_text(const Cpu& cpu);
 nlohmann::ordered_json errors_json(const Cpu& cpu);
 
-/// `CPU in STOP, scan watchdog (fatal error 0003)`; empty in RUN.
+/// Why the CPU is in STOP: `CPU in STOP, scan watchdog (fatal error 0003)`; empty in RUN.
 std::string stop_text(const Cpu& cpu);
 
-/// How many run-time errors were at other places than those listed: State keeps the first sixteen.
+/// The number of run-time errors at other places than those listed: State keeps the first sixteen.
 std::uint64_t errors_not_listed(const Cpu& cpu);
 
 /// A note for arguments that are probably one frame whose blanks have torn it apart: several, a single byte among them.

@@ -10,7 +10,8 @@ namespace s7200::tools {
 
 class StreamedResults {
  public:
-  /// `list`: the key of the list, which follows what `results` has. `indent`: of the entry of another list that this is.
+  /// `list` is the key of the list that follows the keys of `results`. `indent` is the indentation if this is an entry of
+  /// another list.
   StreamedResults(nlohmann::ordered_json results, std::string_view list, std::size_t indent = 0);
 
   /// The text to print next: for one more entry of the list, ...

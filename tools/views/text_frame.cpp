@@ -87,7 +87,7 @@ std::string written(const Byte& byte) {
   return {static_cast<char>(*byte)};
 }
 
-/// `${` would be a parameter in a scenario.
+/// The text without `${`, which would be a parameter in a scenario.
 std::string without_parameters(std::string text) {
   for (std::size_t at = 0; (at = text.find("${", at)) != std::string::npos;) text.replace(at, 1, "\\x24");
   return text;

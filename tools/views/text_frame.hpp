@@ -30,7 +30,8 @@ std::size_t quotation_length(std::string_view text);
 /// Whether bytes are shown as text: 20 to 7E, CR, LF, TAB, STX and ETX, and at least one of the first kind.
 bool is_text(std::span<const std::uint8_t> bytes);
 
-/// `'HELLO\r'`, which reads back to the same bytes, in a shell, in YAML and in a file of frames; empty for what is not text.
+/// A text in quotes, `'HELLO\r'`, which reads back to the same bytes in a shell, in YAML and in a file of frames; empty for
+/// bytes that are not text.
 std::string quoted_text(std::span<const std::uint8_t> bytes);
 std::string quoted_text(std::span<const std::optional<std::uint8_t>> pattern);
 

@@ -84,7 +84,8 @@ class Timeline::Reader {
  public:
   explicit Reader(const Program& program) : program_(program) {}
 
-  /// `why`: an interrupt that begins has waited; or the line of the program that did it, with its comment.
+  /// Reads a record. `why` is the reason why an interrupt has waited; or the line of the program that did it, with its
+  /// comment.
   void read(const TraceRecord& r, const std::string& why) {
     switch (r.kind) {
       case TraceKind::ScanBegin:
@@ -409,7 +410,8 @@ void Timeline::begin_amid(const TraceReasons::Disabled& interrupts) {
   reasons_.forget(interrupts);
 }
 
-/// `  line 82: XMT VB200, 0  // answer` of what stands there: not of an event, whose routine says why it waited.
+/// The place of the record in the program: `  line 82: XMT VB200, 0  // answer`. An event has none, since its routine says
+/// why it waited.
 std::string Timeline::place_text(const TraceRecord& record) {
   const bool shown =
       record.kind == TraceKind::Transmit || record.kind == TraceKind::PortControl || record.kind == TraceKind::Receive;

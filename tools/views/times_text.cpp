@@ -104,7 +104,7 @@ constexpr std::size_t kColumn = 16;
 
 nlohmann::ordered_json in_us(Time time) { return static_cast<double>(time) / kMicrosecond; }
 
-/// `25%`; `± 0.6`, `± 0.6, 0.02`: of base and unit.
+/// The uncertainty of base and unit: `25%`; `± 0.6`, `± 0.6, 0.02`.
 std::string within_text(const TimeRow& row) {
   if (row.base_within == 0 && row.per_unit_within == 0) return fmt::format("{:g}%", row.uncertainty);
   std::string text = "± " + in_microseconds(row.base_within);

@@ -83,7 +83,7 @@ class YamlValues {
   /// Reads a duration of at most a day.
   std::optional<Time> duration(const YamlNode* node);
 
-  /// `true` or `false`; false if it is left out.
+  /// Reads `true` or `false`; false if the node is null.
   bool truth(const YamlNode* node);
 };
 
