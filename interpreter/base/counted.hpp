@@ -9,7 +9,7 @@
 
 namespace s7200 {
 
-/// `character`, `characters`: the name of so many, where the number stands elsewhere or not at all.
+/// The noun for a number that stands elsewhere or not at all: `character`, `characters`.
 inline std::string noun(std::uint64_t count, std::string_view thing) {
   return fmt::format("{}{}", thing, count == 1 ? "" : "s");
 }

@@ -101,8 +101,8 @@ std::vector<Cause> causes_of(const Diagnostics& diagnostics) {
   return causes;
 }
 
-/// `3 more, in lines 4, 7, 9`; of many lines only the first ones and the last. A line of another file than that of `first`
-/// has its file's name.
+/// The number and the lines of further diagnostics: `3 more, in lines 4, 7, 9`; of many lines only the first ones and the
+/// last. A line of another file than that of `first` has its file's name.
 std::string where_else(const Diagnostic& first, const std::vector<const Diagnostic*>& others, const SourceLines& source) {
   constexpr std::size_t kLinesShown = 10;
   std::vector<std::uint32_t> lines;

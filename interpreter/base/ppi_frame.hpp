@@ -37,7 +37,7 @@ struct Body {
   std::span<const std::uint8_t> data{};
 };
 
-/// How long the frame is that begins so; nothing while that cannot be said, 0 if it is none.
+/// The length of the frame that begins so; nothing while that cannot be said, 0 if it is not a frame.
 std::optional<std::size_t> frame_length(std::span<const std::uint8_t> begin);
 
 /// The body of a complete frame. Nothing if it has none, and for a wrong check sum or end.

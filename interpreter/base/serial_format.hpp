@@ -14,7 +14,7 @@ namespace s7200 {
 
 enum class Parity : std::uint8_t { None, Even, Odd };
 
-/// `none`, `even`, `odd`: as options and scenarios write them.
+/// The words for a parity, as in options and scenarios: `none`, `even`, `odd`.
 inline constexpr std::array<std::string_view, 3> kParityWords{"none", "even", "odd"};
 inline constexpr std::string_view word_of(Parity parity) { return kParityWords[static_cast<std::size_t>(parity)]; }
 
@@ -35,7 +35,7 @@ struct SerialFormat {
   /// Start bit, data bits, parity bit, stop bits: 11 for 8E1, 10 for 8N1.
   constexpr int bits() const { return 1 + data_bits + (parity == Parity::None ? 0 : 1) + stop_bits; }
 
-  /// How long `count` half bits take, from the start edge; rounded to the nanosecond once, so errors never add up.
+  /// The time of `count` half bits from the start edge; rounded to the nanosecond once, so errors never add up.
   constexpr Time half_bits(std::int64_t count) const { return (count * kSecond + baud) / (2 * std::int64_t{baud}); }
   constexpr Time bit_times(std::int64_t count) const { return half_bits(2 * count); }
 
@@ -51,7 +51,7 @@ struct SerialFormat {
   }
 };
 
-/// `9600 baud, 8 data bits, even parity, 1 stop bit`
+/// A format in words: `9600 baud, 8 data bits, even parity, 1 stop bit`
 std::string format_text(const SerialFormat& format);
 
 /// The format of a character as text: `8E1`

@@ -30,7 +30,7 @@ class SerialPort {
   /// Half duplex: the receiver is off while the port sends. A character being received is lost.
   virtual void enable_receiver(bool enabled, Time at) = 0;
 
-  /// Begins the start bit at `at`. The port reports when the last stop bit has ended.
+  /// Sends a byte, whose start bit begins at `at`. The port reports when the last stop bit has ended.
   virtual void send(std::uint8_t byte, Time at) = 0;
 
   /// Holds the line at space for `bit_times` bits, then reports as for a character.

@@ -45,7 +45,7 @@ struct FileLine {
 
 FileLine in_file(const SourceLines& source, std::uint32_t line);
 
-/// `line 7`, or `symbols.txt:7` if the line `from` is in another file.
+/// The name of a line: `line 7`, or `symbols.txt:7` if the line `from` is in another file.
 std::string line_text(const SourceLines& source, std::uint32_t line, std::uint32_t from);
 
 /// The section that a line is in; empty if it is in none.

@@ -40,8 +40,8 @@ std::size_t indent_of(std::string_view line, std::size_t width) {
   return indent;
 }
 
-/// How many bytes of the line stay in a line of `width` characters: up to a blank, or the whole of a word that is wider.
-/// The line is not broken at the blanks that it begins with.
+/// The number of bytes that fit in a line of `width` characters: up to a blank, or the whole of a word that is wider. The
+/// line is not broken at the blanks that it begins with.
 std::size_t bytes_that_fit(std::string_view line, std::size_t width) {
   std::size_t column = 0, bytes = 0, last_blank = 0;
   bool in_text = false;

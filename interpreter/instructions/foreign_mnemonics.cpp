@@ -177,14 +177,15 @@ constexpr Box kForeignBoxes[] = {
 };
 // clang-format on
 
-/// `SRW OUT, N`; the IN1 of an instruction that works on OUT is the IN2 of its box.
+/// The instruction that follows MOVW in place of a box: `SRW OUT, N`; the IN1 of an instruction that works on OUT is the IN2
+/// of its box.
 std::string syntax_after_move(const Instruction& instruction) {
   std::string text = syntax(instruction);
   if (const std::size_t in1 = text.find("IN1"); in1 != std::string::npos) text.replace(in1, 3, "IN2");
   return text;
 }
 
-/// `write MOVW IN1, OUT, then +I IN2, OUT; OUT must not be IN2`
+/// A hint such as `write MOVW IN1, OUT, then +I IN2, OUT; OUT must not be IN2`.
 std::string hint_for(const Box& box) {
   const Instruction& instruction = *find_instruction(box.mnemonic);
   if (box.move.empty())

@@ -176,7 +176,7 @@ const CpuModel* smallest_cpu(Condition has) {
   return nullptr;
 }
 
-/// `224XP` or `224xp`. Null if the simulator has no model of that name.
+/// The model of a name: `224XP` or `224xp`. Null if the simulator has no model of that name.
 const CpuModel* find_cpu(std::string_view name);
 
 }  // namespace s7200

@@ -50,7 +50,8 @@ inline constexpr std::uint8_t kProtocol = 0x32;
 enum Kind : std::uint8_t { kRequest = 1, kAnswer = 3, kUserData = 7 };
 inline constexpr std::size_t kRequestHead = 10, kAnswerHead = 12, kLongestPdu = 240;
 
-/// How long a master asks for the answer to a request that was accepted (a choice: interpreter/cpu/network.hpp).
+/// The longest time for which a master asks for the answer to a request that was accepted (a choice:
+/// interpreter/cpu/network.hpp).
 inline constexpr Time kLongestWork = kSecond;
 
 enum Function : std::uint8_t {
@@ -96,7 +97,7 @@ enum DataType : std::uint8_t { kInBits = 3, kInBitsOfBytes = 4, kInBytes = 9 };
 /// Bytes before each value in the data of a write: return code, type and length.
 inline constexpr std::size_t kValueHead = 4;
 
-/// How many bytes a value has whose data say this.
+/// The number of bytes of a value whose data have this type and length.
 std::size_t data_bytes(std::uint8_t type, std::size_t length);
 
 struct WireArea {
@@ -112,7 +113,7 @@ inline constexpr std::array kWireAreas{WireArea{0x04, Area::S},  WireArea{0x05, 
 std::uint32_t bytes_of_element(Area area);
 inline constexpr std::uint8_t kElementIsOn = 0x02;  ///< status, the first byte of T and C
 
-/// `value`: that of the image, of one element.
+/// Appends one element; `value` is in the form of the image.
 void append_element(Bytes& to, Area area, std::span<const std::uint8_t> value, bool is_on);
 
 /// The values alone, as the image has them; a part of an element at the end is left out.

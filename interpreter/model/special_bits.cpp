@@ -80,7 +80,7 @@ constexpr SpecialBit kPulseControlBits[]{{sm::pulses::kTakeCycle, "take the cycl
                                          {sm::pulses::kPwm, "PWM"},
                                          {sm::pulses::kEnable, "enabled"}};
 
-/// `named(bit)` for those that are set, with commas.
+/// Joins `named(bit)` of the bits that are set with commas.
 template <class Named>
 std::string set_bits(std::uint32_t at, std::uint8_t value, const Named& named) {
   std::string text;

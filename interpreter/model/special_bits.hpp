@@ -16,7 +16,7 @@ struct SpecialBit {
 /// The bits of a byte of special memory, by its place in the image; nothing for a byte without any.
 std::span<const SpecialBit> special_bits(std::uint32_t at);
 
-/// `SM1.0 zero, SM1.2 negative`: those that are set.
+/// The bits that are set, as text: `SM1.0 zero, SM1.2 negative`.
 std::string special_bits_text(std::uint32_t at, std::uint8_t value);
 
 /// The meanings of the bits that are set, without their addresses: `zero, negative`.

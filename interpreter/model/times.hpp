@@ -39,7 +39,7 @@ struct TimeRow {
   bool operator==(const TimeRow&) const = default;
 };
 
-/// Between which a true figure lies, in ns.
+/// The range in which a true figure lies, in ns.
 struct TimeRange {
   double least = 0, most = 0;
 
@@ -51,7 +51,7 @@ TimeRange range_of_unit(const TimeRow& row);
 /// The name of a line for a sum.
 inline constexpr std::string_view kSum = "(sum)";
 
-/// `CALL + RET`, and the names in it.
+/// The name of a sum, `CALL + RET`, and the names in it.
 std::string form_of_sum(const std::vector<std::string>& parts);
 std::vector<std::string> parts_of_sum(std::string_view form);
 

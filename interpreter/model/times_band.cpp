@@ -23,7 +23,8 @@ Time drawn_time(double ns, Time in_place_of) {
   return std::clamp<Time>(std::llround(ns), in_place_of == 0 ? 0 : 1, kLongestFigure);
 }
 
-/// How often each line of a table is a part of a sum, by its number: a line may have several mnemonics of the sum.
+/// The number of times that each line of a table is a part of a sum, by the line's number: a line may have several mnemonics
+/// of the sum.
 std::map<std::size_t, int> lines_of_sum(const TimeTable& table, const std::string& sum) {
   std::map<std::size_t, int> lines;
   for (const std::string& name : parts_of_sum(sum))
@@ -75,7 +76,7 @@ TimeTable random_times(const TimeTable& table, std::uint32_t seed, std::uint32_t
   std::mt19937 random(seeds);
   /// Draws a number between 0 and 1.
   const auto place = [&] { return (static_cast<double>(random()) + 0.5) / 0x1p32; };
-  /// Between 1 / (1 + percent / 100) and its inverse.
+  /// Draws a factor between 1 / (1 + percent / 100) and its inverse.
   const auto factor = [&](double percent) { return std::pow(1 + percent / 100, 2 * place() - 1); };
   const double of_all = factor(kAsAWhole);
   const auto of_ratio = [&](Time figure, double uncertainty) {

@@ -34,7 +34,7 @@ void settle(std::span<PartOfSum> parts, double sum);
 /// alone moves, from 50 to 27.
 TimeTable random_times(const TimeTable& table, std::uint32_t seed, std::uint32_t number);
 
-/// How many random tables there are in a band, and which.
+/// The number of random tables in a band, and their seed.
 struct BandSettings {
   std::size_t random = 0;
   std::uint32_t seed = 1;
@@ -53,7 +53,7 @@ class TimesBand {
   std::size_t size() const { return named_.size() + settings_.random; }
   TimeTable operator[](std::size_t table) const;
 
-  /// `cpu214`, `random table 12 of seed 1`; they are counted from 1 on.
+  /// The name of a table: `cpu214`, `random table 12 of seed 1`; random tables are counted from 1 on.
   std::string name(std::size_t table) const;
 
   /// The last table, which is a random one: in place of a name it has the text that a copy must say of it.

@@ -174,7 +174,8 @@ class Given {
   std::map<std::string, Areas> areas_;
 };
 
-/// `# CPU 224`, and the commas that spreadsheets add. With more words it is a comment like any other.
+/// The CPU in a comment such as `# CPU 224`, perhaps with the commas that spreadsheets add. With more words it is a comment
+/// like any other.
 std::string cpu_of(std::string_view comment) {
   if (!comment.starts_with(kCpu)) return {};
   comment.remove_prefix(kCpu.size());

@@ -11,7 +11,7 @@
 
 namespace s7200::stl {
 
-/// `4`, `-5`, `16#FF`, `2#1010`, `'AB'`, and in S7-Micro/DOS notation `K4`, `KHFF`.
+/// An integer: `4`, `-5`, `16#FF`, `2#1010`, `'AB'`, and in S7-Micro/DOS notation `K4`, `KHFF`.
 struct Integer {
   std::int64_t value = 0;  ///< -2^31 … 2^32-1
   enum class Form : std::uint8_t { Decimal, Hex, Binary, Ascii } form = Form::Decimal;
@@ -28,7 +28,8 @@ struct Real {
 
 enum class Size : std::uint8_t { None, Bit, Byte, Word, Double };
 
-/// `VB100`, `I0.3`, `VX10.3`, `T33`, `AIW4`, `AC0`, `SMB30`: letters split into area and size. DBW10 is VW10.
+/// An address, with its letters split into area and size: `VB100`, `I0.3`, `VX10.3`, `T33`, `AIW4`, `AC0`, `SMB30`. DBW10 is
+/// VW10.
 struct Address {
   std::string area;          ///< upper case: I Q V M SM S L AI AQ T C HC AC; not yet checked against a CPU
   Size size = Size::None;    ///< as written; Bit when a bit number follows; Word for AI4 and AQ4, which are words anyway
@@ -65,7 +66,7 @@ struct Operand {
   std::string symbol{};  ///< the name that stands for the address, as written; empty if there is none
 };
 
-/// One instruction. Labels, routine heads and block ends are instructions too (LBL, SBR, INT, MEND …).
+/// An instruction. Labels, routine heads and block ends are instructions too (LBL, SBR, INT, MEND …).
 struct Statement {
   std::string mnemonic;  ///< upper case
   Position position{};

@@ -118,7 +118,8 @@ constexpr std::uint32_t kLocalBytes = 64;
 
 // --- the reader ---
 
-/// `LD I0.0`, but not `Version 2` or `Pump M1`: an instruction, or a mnemonic and operands one of which is a whole address.
+/// Whether a line is a statement, an instruction or a mnemonic and operands one of which is a whole address: `LD I0.0`, but
+/// not `Version 2` or `Pump M1`.
 bool is_statement(std::string_view code, const IsInstruction& is_instruction) {
   const ParseResult parsed = parse(code, {});
   const auto* statement = parsed.source.lines.empty() ? nullptr : std::get_if<Statement>(&parsed.source.lines.front());
@@ -449,7 +450,7 @@ class BlockReader {
 
   void unclosed_declarations() { error(declaration_start_, "the declarations have no END_VAR", "end them with END_VAR"); }
 
-  /// `ptr : DWORD`, `a, b : INT`, `ptr:LD0 : DWORD`
+  /// Declares variables: `ptr : DWORD`, `a, b : INT`, `ptr:LD0 : DWORD`
   void declare(std::string_view text, const std::string& comment) {
     const std::size_t colon = text.rfind(':');
     const std::string_view type_name = colon == std::string_view::npos ? std::string_view{} : trim(text.substr(colon + 1));

@@ -44,7 +44,7 @@ class Words {
   }
 
  private:
-  /// How long the part between quotes is that a text begins with; the rest of the line if it is not closed.
+  /// The length of the quoted part at the beginning of a text; the rest of the line if it is not closed.
   static std::size_t quoted(std::string_view text) {
     std::size_t end = 1;
     while (end < text.size() && text[end] != text[0]) end += text[end] == '$' ? 2U : 1U;
@@ -57,7 +57,7 @@ class Words {
 
 bool is_quoted(std::string_view word) { return word.front() == '\'' || word.front() == '"'; }
 
-/// `VB0`, `V0`, `DBW2`: how an address of a data block begins.
+/// Whether a word begins an address of a data block: `VB0`, `V0`, `DBW2`
 bool begins_with_v_address(std::string_view word) {
   std::size_t letters = 0;
   while (letters < word.size() && is_letter(word[letters])) ++letters;

@@ -361,7 +361,7 @@ class DocumentReader {
                           (is_main_heading(statement) || instructions_.has(statement.mnemonic, statement.operands.size()));
   }
 
-  /// `O l0.1`: where the statement is in capitals, a small L at the beginning of an address was an I, or a 1.
+  /// A warning for `O l0.1`: where the statement is in capitals, a small L at the beginning of an address was an I, or a 1.
   std::optional<Diagnostic> look_alike(const Statement& statement) {
     const std::string_view clean = at(statement.position.line).clean;
     if (clean.find('l') == std::string_view::npos || has_small_letters(at(statement.position.line).mnemonic)) return {};
@@ -473,8 +473,8 @@ class DocumentReader {
     return beside_stl && !advice_on(reading).what.empty();
   }
 
-  /// Between the statements of a routine, of what begins with no mnemonic: whether it can be nothing but text. What is left
-  /// is damage, also where a person would see that it is text: an error can be looked at, a dropped line cannot.
+  /// Whether a line between the statements of a routine that begins with no mnemonic can be nothing but text. Any other line
+  /// is damage, even where a person would see that it is text: an error can be looked at, a dropped line cannot.
   bool is_text(const LineReading& reading) const {
     if (reading.words >= 3 && !reading.first_solid) return true;
     auto words = tokens(std::string_view(reading.clean).substr(0, comment_start(reading.clean)));

@@ -54,7 +54,7 @@ bool has_box_drawing(std::string_view code) {
   return false;
 }
 
-/// `   I0.0      I0.1        Q0.0`, perhaps between power rails: anything but a statement.
+/// Whether a line is a row of operands, perhaps between power rails, and not a statement: `   I0.0      I0.1        Q0.0`
 bool is_row_of_operands(std::string_view line, const InstructionSet& instructions) {
   std::string code(before_comment(line));
   std::ranges::replace(code, '|', ' ');

@@ -36,7 +36,7 @@ std::optional<std::uint32_t> number_in(std::string_view digits) {
   return number;
 }
 
-/// `SBR_0`, `SBR0`, `MAIN`, `0`: a word and a number, either of which may be missing.
+/// A name in a heading: a word and a number, either of which may be missing. `SBR_0`, `SBR0`, `MAIN`, `0`
 struct HeadingPart {
   std::string_view word, digits;
 };

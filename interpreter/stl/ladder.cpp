@@ -104,7 +104,7 @@ std::uint32_t number_of(const LadderRow& row) {
   return number;
 }
 
-/// `┌──────┐`, the upper edge of the frame around SBR, INT or LBL and a number.
+/// Whether the row is the upper edge of the frame around SBR, INT or LBL and a number: `┌──────┐`
 bool is_frame_top(const LadderRow& row) {
   const std::size_t column = first_cell(row);
   return row.at(column) == U'┌' && row.at(column + 1) == U'─' && text_of(row, column, row.cells.size()).ends_with("┐");

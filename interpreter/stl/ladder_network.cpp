@@ -18,13 +18,13 @@ constexpr std::size_t kWidestContact = 16;
 constexpr std::size_t kWidestBox = 32;
 constexpr std::size_t kMostContacts = 256;
 
-/// How far from its element an operand may begin or end.
+/// The greatest distance between an element and the begin or end of its operand.
 constexpr std::size_t kNear = 3;
 constexpr std::size_t kFar = 10;
 
 bool is_relation(std::string_view symbol) { return symbol.find_first_of("<>=") != std::string_view::npos; }
 
-/// How many operands stand above a contact: NOT and the edges have none, a comparison has one on each side.
+/// The number of operands above a contact: NOT and the edges have none, a comparison has one on each side.
 std::size_t operands_above(std::string_view symbol) {
   if (is_relation(symbol)) return 2;
   return symbol == "NOT" || symbol == "P" || symbol == "N" ? 0 : 1;
@@ -229,7 +229,7 @@ class NetworkReader {
 
   // ---- contacts and coils -----------------------------------------------------------------------------------------------
 
-  /// `┤   ├`. The ┤ of a wire has a wire above or below it.
+  /// Finds contacts, `┤   ├`. The ┤ of a wire has a wire above or below it.
   void find_contacts() {
     for (std::size_t row = 0; row < rows_.size(); ++row)
       for (std::size_t column = 0; column < sides_[row].size(); ++column)

@@ -17,11 +17,11 @@ struct LookAlike {
   std::string meant;  ///< the word without it
 };
 
-/// `VB1OO`, `IO.0`, `16#O9`, `VВ100` with a Cyrillic В: a word that becomes an address or a constant. Nothing for any other
-/// word, and for one that is right as it is.
+/// The address or constant that a mistaken word becomes: `VB1OO`, `IO.0`, `16#O9`, `VВ100` with a Cyrillic В. Nothing for
+/// any other word, and for one that is right as it is.
 std::optional<LookAlike> look_alike_operand(std::string_view word);
 
-/// `АN` with a Cyrillic А: a word that becomes one of ASCII letters and digits.
+/// The word of ASCII letters and digits that a mistaken mnemonic becomes: `АN` with a Cyrillic А.
 std::optional<LookAlike> look_alike_mnemonic(std::string_view word);
 
 }  // namespace s7200::stl

@@ -804,7 +804,8 @@ class LineReader {
     LineReader({text, {}, lines_.starts}, result_).read(false);
   }
 
-  /// `LD I0.0 = Q0.0`, `LD I0.0; A I0.1`, `LD I0.0 AW>= VW0, 5`: true after a message.
+  /// Reports a second statement in a line: `LD I0.0 = Q0.0`, `LD I0.0; A I0.1`, `LD I0.0 AW>= VW0, 5`. Returns true after a
+  /// message.
   bool report_second_statement(Place where) {
     Place start = where;
     while (start != begin() && !separates_words(start[-1])) --start;

@@ -447,7 +447,8 @@ class LineWriter {
   std::vector<Result> results_;
 };
 
-/// `LD I0.0`, `movb 1, vb0`: a short word and operands one of which is an address. Good enough to tell a program from text.
+/// Whether a line is a short word and operands one of which is an address: `LD I0.0`, `movb 1, vb0`. Good enough to tell a
+/// program from text.
 bool looks_like_statement(std::string_view line) {
   constexpr std::size_t kLongestMnemonic = 8, kMostWords = 6;
   std::string text(line);

@@ -17,7 +17,7 @@ namespace s7200::stl {
 
 class PlainText {
  public:
-  /// `original` (UTF-8) must live as long as this.
+  /// The text `original` (UTF-8) must live as long as this object.
   explicit PlainText(std::string_view original);
 
   /// The text for the readers. A line of the original may be several lines of it.

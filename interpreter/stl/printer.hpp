@@ -7,12 +7,12 @@
 
 namespace s7200::stl {
 
-/// `16#49`, `VB100`, `*AC1`, `&VB0`, `'AB'`: international addresses, constants in the form in which they were written (K4
-/// becomes 4, KHFF becomes 16#FF), a symbol before its address: `Pump:Q0.0`.
+/// An operand as text: international addresses, constants in the form in which they were written (K4 becomes 4, KHFF becomes
+/// 16#FF), a symbol before its address. `16#49`, `VB100`, `*AC1`, `&VB0`, `'AB'`, `Pump:Q0.0`
 std::string to_text(const Operand& operand);
 
-/// `1.5`, `1E+10`, `INF`, `NAN`: the shortest form that reads back as the same value, with a point or an exponent to mark it
-/// as a real.
+/// The shortest text that reads back as the same value, with a point or an exponent to mark it as a real: `1.5`, `1E+10`,
+/// `INF`, `NAN`.
 std::string to_text(const Real& constant);
 
 /// A statement as text, without the comment: `MOVW    65, VW3290`

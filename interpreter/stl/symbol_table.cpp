@@ -25,7 +25,7 @@ bool is_name(std::string_view text) {
 
 constexpr std::size_t kLongestValue = 40;
 
-/// `I0.0` of `%I0.0`, as IEC 61131-3 writes it, and of `I 0.0`, as STEP 7 aligns it.
+/// The address without the mark of IEC 61131-3 or the gap of STEP 7: `I0.0` for `%I0.0` and for `I 0.0`.
 std::string without_iec_mark_and_gap(std::string_view text) {
   if (text.starts_with('%')) text.remove_prefix(1);
   const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin());
@@ -196,7 +196,7 @@ Cells headings_among(const std::vector<std::string_view>& parts) {
   return cells;
 }
 
-/// `->`, `=>`, `AT`: between a name and its address.
+/// Whether a word is a sign between a name and its address: `->`, `=>`, `AT`
 bool is_sign(std::string_view word) {
   return upper_case(word) == "AT" || word.find_first_not_of("-=>:") == std::string_view::npos;
 }

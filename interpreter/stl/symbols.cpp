@@ -190,7 +190,7 @@ class Resolver {
     std::erase_if(result_.diagnostics, [&](const Diagnostic& d) { return d.cause == kGermanAddresses && d.position == at; });
   }
 
-  /// `S1`, `K1` and `E1`, if there are variables or symbols of these names.
+  /// Takes `S1`, `K1` and `E1` for names if there are variables or symbols of these names.
   void resolve_short_name(Operand& operand, const Locals* locals) {
     if (source_.symbols.empty() && !locals) return;
     const std::string written = written_at(operand.position);
@@ -203,7 +203,7 @@ class Resolver {
     forget_german(operand.position);
   }
 
-  /// `CALL E1`, if there is a block of this name.
+  /// Takes the operand of `CALL E1` for a name if there is a block of this name.
   void take_for_block_name(Operand& operand) {
     if (std::holds_alternative<Name>(operand.value) || !operand.symbol.empty() || source_.blocks.empty()) return;
     const std::string written = written_at(operand.position);
@@ -212,7 +212,7 @@ class Resolver {
     forget_german(operand.position);
   }
 
-  /// `Pump:Q0.0`: the same as the table says, and as in all other places.
+  /// Compares the address in `Pump:Q0.0` with the one in the table, and with all other places.
   void compare_with_symbol(const Operand& operand, const Locals* locals) {
     const WrittenName written(operand.symbol);
     const std::string here = to_text({without_mark(operand.value), {}});

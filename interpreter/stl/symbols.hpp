@@ -12,7 +12,7 @@
 
 namespace s7200::stl {
 
-/// `SBR0`, `INT12`, `OB1`: what a block is called beside its name.
+/// The number of a block, which it has beside its name: `SBR0`, `INT12`, `OB1`
 struct BlockNumber {
   Block::Kind kind;
   std::uint32_t number;
