@@ -15,7 +15,7 @@ struct Diagnostic {
   Position position{};
   std::string message;  ///< one line, no full stop
   std::string hint{};   ///< what to do; may be empty
-  std::string cause{};  ///< the same for all that one change would fix; empty: it has a cause of its own
+  std::string cause{};  ///< equal in all diagnostics that one change would fix; empty: a cause of its own
   std::string name{};   ///< of a warning: the name that switches it off
 
   bool operator==(const Diagnostic&) const = default;

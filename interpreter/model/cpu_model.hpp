@@ -128,10 +128,10 @@ TimerBase timer_base(std::uint32_t number);
 
 /// The use of bytes of special memory, as a program sees it.
 enum class SpecialUse : std::uint8_t {
-  Modelled,  ///< what the manual says
+  Modelled,  ///< used as in the manual
   Plain,     ///< memory that the CPU makes no use of
   Still,     ///< what they have at power-up: nothing that would change them is simulated
-  Refused,   ///< nothing: the CPU would do something that is not modelled
+  Refused,   ///< refused: the CPU would do something that is not modelled
 };
 
 /// Bytes of special memory. On a CPU that has them but not what they are for, they are plain memory.

@@ -42,7 +42,7 @@ enum class NetworkError : std::uint8_t {
   Parameter,   ///< a value in the table
   NoResource,  ///< the station is busy with another master
   Layer7,      ///< the station does not understand the request, or its answer is not understood
-  Message,     ///< there are no such data in the station
+  Message,     ///< the station does not have these data
 };
 
 /// The status in the table of a NETR or NETW.

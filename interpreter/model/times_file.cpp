@@ -19,11 +19,11 @@ namespace {
 enum Column : std::size_t {
   kMnemonic,     ///< several, with blanks between them, that take the same time; `(scan overhead)`, a system time
   kForm,         ///< areas of the first operand that it is of, `I Q M`; anything else is said to people, and it is of all
-  kBase,         ///< what an execution takes
+  kBase,         ///< time of an execution
   kPerUnit,      ///< and for each bit, byte or the like; empty: nothing
-  kUnit,         ///< what that is, to people
+  kUnit,         ///< the unit, in words
   kMarker,       ///< what kind of figure it is: kMarkers
-  kSource,       ///< who says so
+  kSource,       ///< source of the figure
   kUncertainty,  ///< empty: that of the marker, or none if one of the next two columns is filled
   kBaseWithin,   ///< so far the true figures are from these at most; empty: the percentage says it
   kPerUnitWithin,

@@ -15,7 +15,7 @@ namespace {
 
 struct HeadingWord {
   std::string_view word;
-  std::optional<Block::Kind> kind;  // nothing for a word that only follows another
+  std::optional<Block::Kind> kind;  // nothing for a word that stands only after another
 };
 
 constexpr std::array kHeadingWords{

@@ -586,7 +586,7 @@ bool stands_without_mark(std::string_view line) {
 struct Row {
   std::uint32_t original = 0;            // line of the original
   std::string text{};                    // text of the line
-  std::vector<std::uint32_t> columns{};  // there, of each character and of the end; empty: the same
+  std::vector<std::uint32_t> columns{};  // columns of the original, of each character and of the end; empty: the same
   std::uint32_t changes = 0;
 
   void leave_out_beginning(std::size_t bytes, Change change) {

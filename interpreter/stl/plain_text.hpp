@@ -30,7 +30,7 @@ class PlainText {
  private:
   struct Line {
     std::uint32_t original = 0;            // line of the original
-    std::vector<std::uint32_t> columns{};  // in it, of each character and of the end; empty: the same
+    std::vector<std::uint32_t> columns{};  // columns of the original, of each character and of the end; empty: the same
     std::uint32_t changes = 0;             // what was changed, a bit of each kind
   };
 

@@ -12,7 +12,7 @@ namespace s7200::serial {
 /// A frame that is being sent, and the one before it, of a station.
 struct AnswerInProgress {
   std::size_t length = 0;              ///< of the frame, with its CRC; 0: no frame is being sent, or it is not known
-  std::vector<std::uint8_t> bytes{};   ///< of it so far, as the station gives them
+  std::vector<std::uint8_t> bytes{};   ///< of the answer so far, as the station gives them
   std::vector<std::uint8_t> sent{};    ///< in their place
   std::vector<std::uint8_t> before{};  ///< the frame before it; empty: there was none
   bool operator==(const AnswerInProgress&) const = default;

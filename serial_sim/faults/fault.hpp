@@ -75,7 +75,7 @@ struct Fault {
   // The place in an exchange.
   Half of = Half::Request;
   std::optional<std::uint32_t> character;  ///< from 1; kEachCharacter; 0 for the place before the first of Extra
-  int bit = 0;                             ///< of the data, LSB first, or one of those above
+  int bit = 0;                             ///< of the data, LSB first, or one of the constants above
   Length offset;                           ///< after the start edge of the character
   std::optional<Time> from;                ///< at an instant, since the injection, instead of in an exchange
   Time lasts = kNever;
@@ -147,7 +147,7 @@ struct ParameterOfKind {
   std::string_view standard;  ///< its value when it is left out; kRequired, kLeftOut
 };
 inline constexpr std::string_view kRequired = "";
-inline constexpr std::string_view kLeftOut = "-";  ///< nothing stands in for it
+inline constexpr std::string_view kLeftOut = "-";  ///< it may be left out and has no value then
 
 struct FaultKindInfo {
   FaultKind kind{};

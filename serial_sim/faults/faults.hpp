@@ -68,7 +68,7 @@ class Faults final : private Interference {
   struct State {
     std::vector<Injected> injected;             // in the order of injection
     int announcer = -1;                         ///< driver of the Requester that began the present exchange, or -1
-    bool begun = false;                         ///< there was an exchange at all
+    bool begun = false;                         ///< an exchange has begun
     int master = -1;                            ///< driver of the station that asks the others, or -1
     std::array<std::uint32_t, 2> characters{};  ///< of request and answer so far
     std::array<Time, 2> sent_until{};           ///< end of the last of them

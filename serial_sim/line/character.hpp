@@ -44,7 +44,7 @@ struct BitTimes {
 
   BitClock clock;
   int bits = 0, stop_bit = 0;  ///< of the clock's format: how many, and the number of the first stop bit
-  std::array<Time, 2 * (SerialFormat::kMostBits + 1) + 1> half_bits{};  ///< so many
+  std::array<Time, 2 * (SerialFormat::kMostBits + 1) + 1> half_bits{};  ///< the time of each number of half bits
 };
 
 }  // namespace s7200::serial

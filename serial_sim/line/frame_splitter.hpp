@@ -53,8 +53,8 @@ class FrameSplitter final : public WireSink {
   Line line_;
   EventQueue queue_;
   Uart uart_{line_, queue_, EventOwner{}, 0};
-  std::vector<Speaker> speakers_;  ///< who has driven the line to space, in order of time; one after the other differ
-  std::vector<Speaker> driving_;   ///< who has begun to drive to space, seen on the line or not, since the last character
+  std::vector<Speaker> speakers_;  ///< stations that drove the line to space, in order of time; neighbours differ
+  std::vector<Speaker> driving_;   ///< stations that began to drive to space since the last character, seen or not
   WireFrame open_;
   int sender_ = Line::kNobody;  ///< of the open frame's last character
   bool mixed_ = false;          ///< several have sent characters of the open frame at the same time

@@ -15,7 +15,7 @@ namespace s7200::serial {
 struct Mishap {
   Time delay = 0;                           ///< it begins so much later
   std::vector<std::uint8_t> before, after;  ///< the sender sends these too
-  Time pause = 0;                           ///< of the line, in front of those after it
+  Time pause = 0;                           ///< of the line, in front of the characters after it
   bool lost = false;                        ///< its time passes, the line stays at mark
   std::optional<std::uint8_t> instead{};    ///< what is sent in its place
 };

@@ -287,8 +287,8 @@ class Line {
   mutable Implied implied_;              // what drivers_ does not have yet
   std::vector<Separation> separations_;  // in order of time
   Contention contention_;
-  std::array<Periods, 3> disturbances_;  // by effect; however many overlap, they are no more than what is left of them
-  bool disturbed_ = false;               // there are any, or marks by chance
+  std::array<Periods, 3> disturbances_;  // by effect; overlapping ones are kept combined
+  bool disturbed_ = false;               // there are disturbances, or marks by chance
   Wiring wiring_;
   mutable Answers answers_;
 };

@@ -12,8 +12,8 @@ namespace s7200::serial {
 
 /// The wires at the port of a PLC of any make: the two directions, and the line, which carries both.
 enum class Wire : std::uint8_t {
-  Rx,    ///< what all others together, and disturbances, make of the line: without what the PLC drives
-  Tx,    ///< what the PLC drives
+  Rx,    ///< the line without the PLC: the level that all others together, and disturbances, give it
+  Tx,    ///< the level that the PLC drives
   Line,  ///< the level at the port: what a receiver there reads that is always on, in a collision too
 };
 

@@ -37,8 +37,8 @@ inline constexpr std::uint8_t kExtendedMemoryReference = 0x33;
 /// A reference of functions 20 and 21: a place in a file.
 struct Reference {
   std::uint8_t type = kFileReference;
-  std::uint16_t file = 0;    ///< or segment
-  std::uint16_t record = 0;  ///< or offset
+  std::uint16_t file = 0;    ///< number of the file or segment
+  std::uint16_t record = 0;  ///< number of the record or offset
   std::uint16_t count = 0;   ///< registers, or bytes
   Bytes data{};              ///< to be written
 

@@ -14,7 +14,7 @@ namespace s7200::serial {
 struct PollPlan {
   std::vector<Request> requests;  ///< at least one
   std::optional<Time> pause{};    ///< between an exchange and the next request; default_quiet() if not given
-  Time starts = kSecond;          ///< its first request, after it has power: programs have set their ports by then
+  Time starts = kSecond;          ///< time of the first request after power-up: programs have set their ports by then
   Time every = 0;                 ///< a round of all requests begins no sooner than so long after the one before
 };
 

@@ -50,7 +50,7 @@ class Plc final : private EventHandler, private OutputListener {
     s7200::State cpu;
     std::array<Uart::State, kPorts.size()> uart;
     std::array<std::vector<PortAction>, kPorts.size()> actions;  ///< that are still to come
-    std::vector<OutputEdge> output_edges{};                      ///< the same
+    std::vector<OutputEdge> output_edges{};                      ///< that are still to come, like the actions
     Field::State field;
     bool powered = true;
     std::uint64_t executed_before = 0;  ///< instructions, before power came back last

@@ -41,7 +41,7 @@ enum class Halt : std::uint8_t {
   Paused,   ///< a trace sink stopped a CPU, or a scan ended and a pause was asked for
   Stopped,  ///< the CPU of a Simulation is in STOP for good: not by a master, who may start it again. A System goes
             ///< on, for the sake of its other stations
-  Request,  ///< whoever may, has asked for it: stop_when()
+  Request,  ///< a stop was asked for, see stop_when()
 };
 
 class System {

@@ -85,7 +85,7 @@ serial::Answer check_hppc_answer(std::span<const std::uint8_t> request, std::spa
 /// The place of the holding registers.
 struct HoldingRegisters {
   std::uint32_t base;                   ///< of register 1
-  std::optional<std::uint16_t> number;  ///< nothing where the table ends before that
+  std::optional<std::uint16_t> number;  ///< nothing if the table ends before it
 };
 
 /// Finds the holding registers by the first 34 (hex) bytes of the parameter table or more: at offset 2E, or at 2C in a table

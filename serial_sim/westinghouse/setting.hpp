@@ -23,7 +23,7 @@ struct SettingForm {
     Decimal,
     Hex,
     Drop,        ///< highway, drop and subdrop, in hex: `00.11.00`
-    DropOrNone,  ///< the same; empty for none
+    DropOrNone,  ///< a drop; empty for none
   };
 
   std::string_view name;

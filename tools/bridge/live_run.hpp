@@ -21,7 +21,7 @@ struct LiveRunOptions {
   serial::LineSettings line{};  ///< the other end of the line
   LiveMessages messages{};
   StopToken stop{};                     ///< ends a run
-  StopToken pause{};                    ///< the same, for whoever will go on
+  StopToken pause{};                    ///< a stop after which the run will go on
   bool in_stop_too = false;             ///< a run that begins in STOP lets time pass
   std::function<void()> before_wait{};  ///< is told when the simulation has caught up with the clock; may be null
 };
@@ -45,7 +45,7 @@ struct LiveEnd {
   Bridge* bridge = nullptr;  ///< none of these is owned
   serial::HostPort* port = nullptr;
   const serial::SharedLine* line = nullptr;
-  const serial::Plc* plc = nullptr;  ///< null: there is no program on that line
+  const serial::Plc* plc = nullptr;  ///< null: the line has no program
   std::uint8_t plc_port = 0;
   SerialFormat without_program{};   ///< format of a line without a program
   serial::LineSettings settings{};  ///< the other end of the line

@@ -45,9 +45,9 @@ struct Measurement {
 
 /// A listener that follows the measurement.
 struct MeasurementListener {
-  std::function<void()> silent;                               ///< there was no answer yet
+  std::function<void()> silent;                               ///< called while there is no answer yet
   std::function<void(std::uint8_t identification)> answered;  ///< before the first loop; it may throw
-  std::function<void(std::size_t loops)> measured;            ///< so many so far
+  std::function<void(std::size_t loops)> measured;            ///< called with the number of loops so far
 };
 
 /// Measures all loops, each for about `each`; stops early once the command is interrupted or the CPU is gone. Throws

@@ -29,7 +29,7 @@ int write_all(int fd, std::string_view bytes) {
       continue;
     }
     if (errno != EINTR && errno != EAGAIN) return errno;
-    if (errno == EAGAIN) {  // whoever gave us the descriptor does not block on it
+    if (errno == EAGAIN) {  // the descriptor is one that does not block
       pollfd writable{fd, POLLOUT, 0};
       poll(&writable, 1, kLookAgain);
     }

@@ -35,7 +35,7 @@ struct FileKind {
 
 /// The existing files that may be replaced.
 enum class Replace : std::uint8_t {
-  Own,     ///< what the option wrote
+  Own,     ///< files that the option wrote
   Never,   ///< no existing file
   Judged,  ///< any: --force, or the caller has read the file
 };
@@ -113,7 +113,7 @@ class NewFile {
   int fd() const { return fd_; }
 
  private:
-  std::string beside_;  ///< its name until it is put
+  std::string beside_;  ///< name of the new file until it is put
   int fd_ = -1;
 };
 

@@ -20,7 +20,7 @@ struct SessionSettings {
   std::optional<Time> silence{};  ///< that ends an answer; as the slave has it if not given
   bool broadcasts_are_silent = true;
   Patience patience{};  ///< what is done before a request is repeated
-  ProtocolUse use{};    ///< of its `first`
+  ProtocolUse use{};    ///< for the protocol's `first`
 };
 
 class MasterSession {

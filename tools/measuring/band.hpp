@@ -67,7 +67,7 @@ nlohmann::ordered_json to_json(const LatencyRange& range);
 
 /// The outcome of one exchange with one table.
 struct BandOutcome {
-  std::optional<serial::Exchange> exchange{};  ///< nothing: it was not come to
+  std::optional<serial::Exchange> exchange{};  ///< nothing: the run did not get so far
   std::string verdict{};                       ///< in a word or two: `answered`, `no answer`
   std::size_t lost = 0;                        ///< events that the CPU's queues had no room for, of characters or others
   std::string stop{};                          ///< why the CPU was in STOP afterwards; empty in RUN

@@ -16,7 +16,7 @@ struct Statement {
   };
 
   std::string says{};    ///< what is known: `the first scan takes about 690 ms`
-  std::string source{};  ///< who says so
+  std::string source{};  ///< source of the statement
   std::string found{};   ///< the same with the table; of one that was not checked, what it takes
   Verdict verdict = Verdict::NotChecked;
   bool fitted = false;  ///< figures of the table are from there, so that it says nothing about the others

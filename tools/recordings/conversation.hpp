@@ -168,7 +168,7 @@ class Conversation {
   DirectionsTaken taken_;
   bool with_texts_ = true;
   std::map<std::uint32_t, Stream> streams_;  // by connection
-  bool hears_itself_ = false;                // whoever records: an echo was no answer
+  bool hears_itself_ = false;                // the recorder hears itself: an echo is not an answer
   std::optional<RecordedFrame> last_;
   std::size_t count_ = 0;
 };

@@ -24,7 +24,7 @@ using ReadDate = std::array<std::optional<std::int32_t>, 2>;
 /// `-12.3 ms`. A plain number is a time only with a fraction or a unit. The time is no further than kFurthestTime from 0.
 struct LeadingTime {
   Time time = 0;           ///< of day: since midnight
-  std::size_t length = 0;  ///< of its text
+  std::size_t length = 0;  ///< of the time's text
   bool of_day = false;
   ReadDate date{};  ///< of a time of day
 };

@@ -16,7 +16,7 @@ namespace {
 
 struct ShownBytes {
   std::string_view before{};
-  std::optional<Bytes> bytes{};  ///< nothing: they are not understood
+  std::optional<Bytes> bytes{};  ///< nothing: the bytes are not understood
 };
 
 /// The place of the next `b'` or `b"` that does not end a word; npos if there is none.

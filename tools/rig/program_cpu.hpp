@@ -14,7 +14,7 @@ inline constexpr std::string_view kFolderSettings = "s7200.yaml";
 struct ProgramCpu {
   const CpuModel* model = nullptr;  ///< null if the folder's settings are wrong
   std::string note{};               ///< what the user has to be told; empty if it is what he expects
-  std::string why{};                ///< what is wrong
+  std::string why{};                ///< what is wrong with the settings
 };
 
 /// The CPU in the head of the program, else in `s7200.yaml` in the folder of the file `path`, else the first CPU that can

@@ -248,7 +248,7 @@ bool Rig::has_begun(std::size_t plc) const {
 void Rig::carry_out(const EventPlan& event) {
   using What = EventPlan::What;
   const Time now = system_.now();
-  if (told_.emplace(now, &event).second) tell(event, now);  // who runs the same time again does it again
+  if (told_.emplace(now, &event).second) tell(event, now);  // an event that runs again is told once
   switch (event.what) {
     case What::PowerOff:
       return switch_power(event.station, false);

@@ -93,7 +93,7 @@ struct LinePlan {
   std::string name;
   serial::LineSettings settings{};  ///< of masters on it, as far as not as its first PLC sets its port
   std::vector<FaultPlan> faults{};
-  std::optional<std::size_t> master{};         ///< of its stations: who asks, for faults of requests and answers
+  std::optional<std::size_t> master{};         ///< the station that asks, for faults of requests and answers
   std::optional<std::uint64_t> contention{1};  ///< the seed of what drivers that disagree give; nothing: space wins
   std::vector<std::string> captures{};
   std::vector<StationPlan> stations{};  ///< in their order along the cable

@@ -26,7 +26,7 @@ struct SystemFile {
   };
   SystemPlan plan;
   Text file;
-  std::vector<Text> programs;  ///< those with errors
+  std::vector<Text> programs;  ///< texts of programs with errors
 
   bool ok() const { return !stl::has_errors(file.diagnostics); }
 };
