@@ -1,13 +1,13 @@
-// How work is asked to end before it is done.
+// A request to work that it end before it is done.
 #pragma once
 
 #include <atomic>
 
 namespace s7200 {
 
-/// Whoever starts work hands it one, and the work asks it now and then; a copy is as good. It looks at a flag of its
-/// giver's, which lives longer and may be set by a signal handler or another thread. Without one nobody asks the work to
-/// end.
+/// A token that the starter of work hands to it, and that the work asks now and then; a copy is as good. It looks at a flag
+/// of its giver's, which lives longer and may be set by a signal handler or another thread. A token without a flag never
+/// asks for an end.
 class StopToken {
  public:
   StopToken() = default;

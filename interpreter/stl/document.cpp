@@ -623,7 +623,7 @@ class DocumentReader {
   const InstructionSet& instructions_;
   std::vector<std::string> text_;
   std::vector<LineReading> readings_;
-  std::unordered_map<std::string, bool> known_;  // whether it is a mnemonic; of those that have come
+  std::unordered_map<std::string, bool> known_;  // whether a word is a mnemonic, for the words so far
   ParseResult parsed_;
   bool in_capitals_ = true;  // no statement has small letters in its mnemonic
 };

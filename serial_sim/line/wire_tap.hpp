@@ -24,8 +24,9 @@ class WireSink {
  public:
   virtual ~WireSink() = default;
 
-  /// `wire` is at `mark` from `at` on. Told in the order of time and of Wire, and only of changes. `driver`: of the line,
-  /// that holds it at space, of several the one with the lowest number; Line::kNobody at mark, and if a disturbance does.
+  /// The wire is at `mark` from `at` on. Edges are told in the order of time and of Wire, and only changes. `driver` is the
+  /// line's driver that holds it at space, of several the one with the lowest number; Line::kNobody at mark, and if a
+  /// disturbance does.
   virtual void edge(Wire wire, Time at, bool mark, int driver) = 0;
 
   /// All edges before `until` have been told. The PLC's port is set to `port`.

@@ -20,7 +20,7 @@ class Simulation {
   /// none. Nothing is owned.
   Simulation(System& system, SharedLine& line, Plc& plc, std::uint8_t port, RequesterStation* master, HostStation* host);
 
-  /// All that runs ends early once `request` is true; it is looked at every 100 ms. Not owned; null: nothing ends it.
+  /// Each run ends early once `request` asks for it; it is asked every 100 ms.
   void stop_when(StopToken request) { system_->stop_when(request); }
   bool stop_requested() const { return system_->stop_requested(); }
 

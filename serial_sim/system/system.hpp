@@ -64,7 +64,7 @@ class System {
   /// An output of a PLC drives the sync signal beside a line, as a responder there sees it. Before anything runs.
   void wire_sync(Plc& from, const OutputPoint& output, ResponderStation& to);
 
-  /// All that runs ends early once that is asked for; it is looked at every 100 ms.
+  /// Each run ends early once `request` asks for it; it is asked every 100 ms.
   void stop_when(StopToken request) { stop_request_ = request; }
   bool stop_requested() const { return stop_request_.stop_requested(); }
 
@@ -169,12 +169,12 @@ class System {
   Parts<ResponderStation> responders_;
   Parts<PollerStation> pollers_;
   std::vector<Scheduled> schedule_;
-  std::size_t done_ = 0;          // so many of them
+  std::size_t done_ = 0;          // number of actions done
   Time next_scheduled_ = kNever;  // when the next one is
-  Time doing_at_ = kNever;        // of the one that is done
+  Time doing_at_ = kNever;        // instant of the action that is being done
   std::function<void(std::size_t number, bool done)> watcher_{};
   Time clock_ = 0;        // while no CPU has power
-  bool in_step_ = false;  // how it runs, which is no state
+  bool in_step_ = false;  // the way of running, which is not state
   StopToken stop_request_{};
 };
 

@@ -25,7 +25,7 @@ void interrupt_quietly();
 
 bool interrupted();
 
-/// The same, for what runs long and looks at it by itself.
+/// The token that the signals set, for long runs that look at it by themselves.
 StopToken interruption();
 
 /// Takes a Ctrl-C back, which at a prompt gives a new one. False if there was none, and for all that ends the command.

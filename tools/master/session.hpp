@@ -33,7 +33,7 @@ class MasterSession {
   /// Neither the slave nor the actions are owned.
   MasterSession(Slave& slave, const std::vector<MasterAction>& actions, const SessionSettings& settings);
 
-  /// Does all rounds, or as many as there are until `over` says so or a stop is asked for. Throws SlaveUnreachable, and
+  /// Performs all rounds, or those until `over` returns true or a stop is asked for. Throws SlaveUnreachable, and
   /// std::invalid_argument for a frame that cannot be sent to this slave.
   void run(const Listener& listener, const std::function<bool()>& over);
 
@@ -41,7 +41,7 @@ class MasterSession {
 
  private:
   void run_round(const Listener& listener, const std::function<bool()>& over);
-  /// Nothing after a stop.
+  /// Performs an action; nothing after a stop.
   std::optional<MasterResult> perform(const MasterAction& action);
   serial::Request request_of(const MasterAction& action) const;
   /// Exchanges all steps of an action.

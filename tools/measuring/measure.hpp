@@ -26,8 +26,8 @@ struct Figure {
 /// The number of rounds that share the time of a figure; the best one counts.
 inline constexpr int kRounds = 5;
 
-/// For so long of the host's time each figure is measured. Once `stop` asks for it, no more are: all functions return those
-/// that were complete before.
+/// The host's time for which each figure is measured. Once `stop` asks for it, no more are measured: all functions return
+/// the figures that were complete before.
 struct Effort {
   Time each;
   StopToken stop{};

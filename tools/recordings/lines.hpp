@@ -8,7 +8,7 @@
 
 namespace s7200::tools {
 
-/// Up to the first CR or LF.
+/// The text up to the first CR or LF.
 inline std::string_view first_line(std::string_view text) { return text.substr(0, text.find_first_of("\r\n")); }
 
 /// The lines of a text without their ends, CR LF, LF or CR: `for (const std::string_view line : Lines(text))`.

@@ -17,7 +17,7 @@ class TraceFiles {
  public:
   using Make = std::function<std::unique_ptr<TraceSink>(std::ostream&)>;
 
-  /// `path` is written by what `make` makes; an empty path is none. `kind` without its beginning is not recognised later.
+  /// Claims `path` for what `make` makes; an empty path is none. `kind` without its beginning is not recognised later.
   bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, Make make,
              std::string& why);
   bool open(std::string& why);

@@ -32,8 +32,8 @@ std::string error_text(int error) { return std::strerror(error); }
 
 using Addresses = std::shared_ptr<addrinfo>;
 
-/// Null, and `why`, if there are none; after a stop too. Name servers may let getaddrinfo(3) wait for long, and nothing
-/// calls it off: it has a thread of its own, which is then left to itself.
+/// The addresses of a host. Null with `why` set if there are none, and after a stop. Name servers may let getaddrinfo(3)
+/// wait for long, and nothing calls it off: it has a thread of its own, which is then left to itself.
 Addresses look_up(const std::string& host, const std::string& port, StopToken stop, std::string& why) {
   struct Answer {
     int error = 0;

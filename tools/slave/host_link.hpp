@@ -20,7 +20,7 @@ class HostLink {
  public:
   using Character = SerialDevice::Character;
 
-  /// `stop` ends each wait early.
+  /// The token `stop` ends each wait early.
   explicit HostLink(StopToken stop) : stop_(stop) {}
   virtual ~HostLink() = default;
   HostLink(const HostLink&) = delete;
@@ -46,10 +46,10 @@ class HostLink {
   /// Appends the characters that have come in; never waits.
   virtual void read(std::vector<Character>& characters) = 0;
 
-  /// All of them. A side that takes none for 5 s counts as gone.
+  /// Writes all bytes. A side that takes none for 5 s counts as gone.
   void write(std::span<const std::uint8_t> bytes);
 
-  /// Waits for input, or the end of the connection, until that time of the host. Whether there is any.
+  /// Waits for input, or the end of the connection, until that time of the host. Returns whether there is any.
   bool wait_for_input(Time until) const;
 
   /// A pause until that time of the host.

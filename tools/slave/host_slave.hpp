@@ -55,11 +55,11 @@ class RtuSlave final : public HostSlave {
   static constexpr Time kSilence = 20 * kMillisecond;
   static constexpr Time kSilenceInside = 200 * kMillisecond;
 
-  /// Throws SlaveUnreachable.
+  /// Opens the device. Throws SlaveUnreachable.
   RtuSlave(const std::string& device, const SerialFormat& format, IsComplete is_complete, StopToken stop);
   RtuSlave(const std::string& host, const std::string& port, IsComplete is_complete, StopToken stop);
 
-  /// Throws std::invalid_argument for a byte with wrong parity.
+  /// Runs an exchange. Throws std::invalid_argument for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;
 
   /// Receives a transmission. Characters that came while nothing was asked of the device count as one transmission that
@@ -85,10 +85,10 @@ class RtuSlave final : public HostSlave {
 /// transactions are ignored, and remarked.
 class ModbusTcpSlave final : public HostSlave {
  public:
-  /// Throws SlaveUnreachable.
+  /// Connects to the host. Throws SlaveUnreachable.
   ModbusTcpSlave(const std::string& host, const std::string& port, StopToken stop);
 
-  /// Throws std::invalid_argument for a frame without a right CRC, and for a byte with wrong parity.
+  /// Runs an exchange. Throws std::invalid_argument for a frame without a right CRC, and for a byte with wrong parity.
   serial::Exchange exchange(const serial::Request& request) override;
 
   /// Modbus TCP has no line to listen to: throws std::invalid_argument.

@@ -59,7 +59,7 @@ class Slave {
   /// Whether whoever has made it wants it to end. What is under way ends early then.
   virtual bool stop_requested() const { return false; }
 
-  /// What it is, for headings and messages: `modbus_slave.stl`, `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`.
+  /// The name of the slave for headings and messages: `modbus_slave.stl`, `/dev/ttyUSB0 9600 8E1`, `127.0.0.1:502`.
   virtual std::string name() const = 0;
 };
 
