@@ -51,8 +51,8 @@ struct RigSurroundings {
 
 class Rig final {
  public:
-  /// Reads and opens all that the settings name. Null, and all of what is wrong, if something cannot be had; no file has
-  /// been touched then.
+  /// Reads and opens all files that the settings name. Returns null with all `problems` if one of them cannot be opened;
+  /// then no file has been changed.
   static std::unique_ptr<Rig> assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
                                        std::vector<std::string>& problems);
 
