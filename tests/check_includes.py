@@ -10,8 +10,8 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 
-INTERPRETER = ["interpreter/base", "interpreter/stl", "interpreter/model", "interpreter/program", "interpreter/trace",
-               "interpreter/cpu", "interpreter/instructions"]
+INTERPRETER = ["interpreter/base", "interpreter/stl", "interpreter/model", "interpreter/program", "interpreter/analysis",
+               "interpreter/trace", "interpreter/cpu", "interpreter/instructions"]
 SERIAL_SIM = ["serial_sim/line", "serial_sim/faults", "serial_sim/peers", "serial_sim/modbus", "serial_sim/pc_protocol",
               "serial_sim/westinghouse", "serial_sim/field", "serial_sim/system", "serial_sim/record"]
 CORE = INTERPRETER + SERIAL_SIM
@@ -23,9 +23,10 @@ ROOMS = {
     "interpreter/stl": ["interpreter/base"],
     "interpreter/model": ["interpreter/base"],
     "interpreter/program": ["interpreter/base", "interpreter/stl", "interpreter/model"],
-    "interpreter/trace": ["interpreter/base", "interpreter/stl", "interpreter/model", "interpreter/program"],
-    "interpreter/cpu": INTERPRETER[:5],
-    "interpreter/instructions": INTERPRETER[:6],
+    "interpreter/analysis": INTERPRETER[:4],
+    "interpreter/trace": INTERPRETER[:4],
+    "interpreter/cpu": INTERPRETER[:6],
+    "interpreter/instructions": INTERPRETER[:7],
     "serial_sim/line": ["interpreter/base"],
     "serial_sim/faults": ["interpreter/base", "serial_sim/line"],
     "serial_sim/peers": ["interpreter/base", "serial_sim/line"],

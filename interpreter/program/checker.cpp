@@ -22,7 +22,6 @@
 #include "interpreter/program/chains.hpp"
 #include "interpreter/program/data_block.hpp"
 #include "interpreter/program/german.hpp"
-#include "interpreter/program/lint_ops.hpp"
 #include "interpreter/program/networks.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/other_width.hpp"
@@ -31,6 +30,7 @@
 #include "interpreter/program/special_memory_use.hpp"
 #include "interpreter/program/stand_ins.hpp"
 #include "interpreter/program/structure.hpp"
+#include "interpreter/program/unread.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/printer.hpp"
@@ -52,20 +52,18 @@ class Checker {
       if (diagnostic.severity == stl::Severity::Error) unread_lines_.insert(diagnostic.position.line);
   }
 
-  /// Null if there are errors.
-  std::shared_ptr<const Program> program(const TimeTable& times) {
+  /// All of a DecodedSource but its source.
+  DecodedSource decoded(const TimeTable& times) {
     for (const stl::Line& line : source_.lines) read(line);
     const ProgramStructure structure = check_whole();
-    std::shared_ptr<const Program> program;
-    if (!has_errors(diagnostics_)) program = decode(structure, times);
-    if (program)
-      find_warnings(*program);
-    else if (const auto known = beyond_ ? nullptr : what_is_known(structure))  // or the rest of it was not read at all
-      find_warnings(*known);
+    DecodedSource result;
+    if (!has_errors(diagnostics_))
+      result.known = result.program = decode(structure, times);
+    else if (!beyond_)  // otherwise the rest of it was not read at all
+      result.known = what_is_known(structure);
     tell_undefined_symbols_apart();
-    forget_warnings_of_stand_ins();
-    stl::sort(diagnostics_);
-    return program;
+    result.diagnostics = std::move(diagnostics_);
+    return result;
   }
 
   /// Whether there are no errors, without looking for more than one.
@@ -80,23 +78,9 @@ class Checker {
     return !has_errors(diagnostics_);
   }
 
-  stl::Diagnostics take_diagnostics() { return std::move(diagnostics_); }
-
  private:
   void error(const stl::Position& at, std::string message, std::string hint = {}, std::string cause = {}) {
     diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
-  }
-
-  void find_warnings(const Program& program) {
-    for (const WarningInfo& warning : all_warnings())
-      if (warning.find) warning.find(program, diagnostics_);
-  }
-
-  /// A program need not use all of a stand-in.
-  void forget_warnings_of_stand_ins() {
-    std::erase_if(diagnostics_, [this](const stl::Diagnostic& d) {
-      return d.severity == stl::Severity::Warning && is_stand_in(stl::in_file(source_, d.position.line).file);
-    });
   }
 
   /// With a symbol table each undefined name has a cause of its own; without one they all have the same, but for those that are
@@ -206,7 +190,7 @@ class Checker {
   /// A statement without a known instruction: it may be anything.
   void add_unread(const stl::Statement& statement) {
     placed_.emplace_back();
-    statements_.push_back({&statement, &lint::unread_instruction(), false, std::exchange(begins_network_, false)});
+    statements_.push_back({&statement, &unread_instruction(), false, std::exchange(begins_network_, false)});
   }
 
   /// What the parser could not read above a line of the source.
@@ -541,7 +525,7 @@ class Checker {
   bool is_unread(const CheckedStatement& s) const {
     const Structure structure = s.instruction->structure;
     const bool leads_elsewhere = structure == Structure::Jump || structure == Structure::Call;
-    return s.instruction == &lint::unread_instruction() || (leads_elsewhere && !s.operands_good) ||
+    return s.instruction == &unread_instruction() || (leads_elsewhere && !s.operands_good) ||
            misplaced_.contains(place_of(s.statement->position));
   }
 
@@ -551,7 +535,7 @@ class Checker {
     auto program = program_of(structure);
     for (std::uint32_t i = 0; i < statements_.size(); ++i) {
       Op op;
-      op.instruction = &lint::unread_instruction();
+      op.instruction = &unread_instruction();
       program->ops.push_back(is_unread(statements_[i]) ? op : decode(i, structure));
     }
     program->constants = constants_.bytes();
@@ -576,7 +560,7 @@ class Checker {
     return program;
   }
 
-  std::shared_ptr<const Program> decode(const ProgramStructure& structure, const TimeTable& times) {
+  std::shared_ptr<Program> decode(const ProgramStructure& structure, const TimeTable& times) {
     auto program = program_of(structure);
     program->times = times;
     program->source = source_;
@@ -813,11 +797,11 @@ class ForEachCpu {
 
 }  // namespace
 
-CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
+DecodedSource decode_program(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
   read_names(parsed, model);
-  Checker checker(parsed.source, std::move(parsed.diagnostics), model);
-  auto program = checker.program(times);
-  return {std::move(program), std::move(parsed.source), checker.take_diagnostics()};
+  DecodedSource result = Checker(parsed.source, std::move(parsed.diagnostics), model).decoded(times);
+  result.source = std::move(parsed.source);
+  return result;
 }
 
 std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {

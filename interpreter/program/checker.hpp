@@ -1,4 +1,5 @@
-// AST + instruction table + CPU model -> Program, or everything that is wrong with it.
+// AST + instruction table + CPU model -> Program, or the errors in it. The warnings about a whole program, which check()
+// adds, are found in interpreter/analysis/.
 #pragma once
 
 #include <memory>
@@ -11,20 +12,22 @@
 
 namespace s7200 {
 
-struct CheckResult {
-  std::shared_ptr<const Program> program;  ///< null if there are errors
+struct DecodedSource {
+  std::shared_ptr<Program> program;  ///< null if there are errors
+  /// The program, or what is known of one with errors, for the search for warnings; null if too little is known.
+  std::shared_ptr<const Program> known;
   stl::Source source;
-  stl::Diagnostics diagnostics;  ///< errors and warnings, including the parser's, in order of place
+  stl::Diagnostics diagnostics;  ///< errors, and warnings about single statements; including the parser's, in no order
 };
 
 /// Checks mnemonics, operands (count, kind, width, range on that CPU), routines, labels, loops, where instructions are
 /// allowed, and the logic stack; then decodes. `times` may be a corrected table.
-CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times);
+DecodedSource decode_program(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times);
 
-/// The CPUs on which check() finds no errors. Each is given up at the first one.
+/// The CPUs on which decode_program() finds no errors. Each is given up at the first one.
 std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed);
 
-/// The first of `tried` on which check() finds no errors; null if there is none.
+/// The first of `tried` on which decode_program() finds no errors; null if there is none.
 const CpuModel* first_cpu_without_errors(stl::ParseResult parsed, std::span<const CpuModel* const> tried);
 
 /// The model's own table of times.

@@ -121,7 +121,7 @@ const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {
     if (std::ranges::find(tried, model) == tried.end()) tried.push_back(model);
   if (const CpuModel* first = first_cpu_without_errors(parsed, tried)) return *first;
   const auto errors_on = [&](const CpuModel* model) {
-    const auto diagnostics = check(parsed, *model, default_times(*model)).diagnostics;
+    const auto diagnostics = decode_program(parsed, *model, default_times(*model)).diagnostics;
     return std::ranges::count(diagnostics, stl::Severity::Error, &stl::Diagnostic::severity);
   };
   return **std::ranges::min_element(tried.begin(), tried.begin() + kCommon.size(), {}, errors_on);

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "interpreter/program/lint_ops.hpp"
+#include "interpreter/program/unread.hpp"
 
 namespace s7200 {
 namespace {
@@ -30,7 +30,7 @@ Levels after_top(const Op& op, Levels levels) {
 Levels after(const Op& op, Levels levels) {
   const Instruction& instruction = *op.instruction;
   const std::string_view mnemonic = instruction.mnemonic;
-  if (lint::is_unread(op) || instruction.structure != Structure::None) {
+  if (is_unread(op) || instruction.structure != Structure::None) {
     if (instruction.structure == Structure::Compare && instruction.rung.stack.needs == 1) return after_top(op, levels);
     if (instruction.structure == Structure::Compare) return pushed(levels, false);
     return instruction.rung.needs_power_flow && instruction.structure != Structure::Jump ? levels : 0;

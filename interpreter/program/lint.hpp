@@ -1,5 +1,5 @@
-// Warnings that need the whole program. If it has errors, what they are in is unread (lint_ops.hpp). Each function finds one
-// warning of warnings.hpp.
+// Warnings that need the whole program. If it has errors, what they are in is unread (program/unread.hpp). Each function
+// finds one warning of warnings.hpp.
 //
 // A wrong warning is worse than none. So two coils, or two executions of a timer, are reported only if no pass through the
 // program does one without the other; not if JMP, CRET, END, FOR or a conditional CALL may leave one out.

@@ -29,13 +29,6 @@ std::string written(const Program& program, std::uint32_t op, std::size_t operan
   return stl::to_text(program.statement(op).operands[operand]);
 }
 
-const Instruction& unread_instruction() {
-  static constexpr Instruction kUnreadStatement{.effect = Effect::ConditionalEnd};
-  return kUnreadStatement;
-}
-
-bool has_unread(const Program& program) { return std::ranges::any_of(program.ops, is_unread); }
-
 Bits bits_of(const Program& program, const Op& op, std::size_t operand) {
   const OperandRule& rule = op.instruction->operand[operand];
   const auto reach = static_cast<std::uint64_t>(rule.reach(count_of(program, op)));

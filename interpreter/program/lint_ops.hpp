@@ -1,7 +1,5 @@
-// What the warnings about a whole program ask of its ops: where they are written, and which memory they use.
-//
-// The program may have errors: of a statement with a wrong operand the operand is unread, and a statement that says nothing
-// is an unread op. Both may be anything.
+// What the warnings about a whole program ask of its ops: where they are written, and which memory they use. The program may
+// have errors (unread.hpp).
 #pragma once
 
 #include <cstdint>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/program/program.hpp"
+#include "interpreter/program/unread.hpp"
 
 namespace s7200::lint {
 
@@ -16,11 +15,6 @@ const stl::Position& place(const Program& program, std::uint32_t op);
 std::uint32_t line(const Program& program, std::uint32_t op);
 /// An operand as it is written.
 std::string written(const Program& program, std::uint32_t op, std::size_t operand);
-
-/// A statement of which nothing is known: it may do anything to memory and leave its routine.
-const Instruction& unread_instruction();
-inline bool is_unread(const Op& op) { return op.instruction == &unread_instruction(); }
-bool has_unread(const Program& program);
 
 /// Bits of the image, numbered from its start.
 struct Bits {

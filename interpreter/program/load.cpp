@@ -231,12 +231,12 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
   return source;
 }
 
-CheckResult check_text(std::string_view utf8, const std::string& name, const CpuModel& model, const TimeTable& times) {
+stl::ParseResult read_text(std::string_view utf8, const std::string& name) {
   const stl::PlainText plain(utf8);
   const SourceKind kind = stl::is_block_export(plain.text()) ? SourceKind::Blocks : SourceKind::Listing;
   stl::ParseResult parsed = read_as(kind, plain.text(), name);
   plain.restore(parsed);
-  return check(std::move(parsed), model, times);
+  return parsed;
 }
 
 }  // namespace s7200

@@ -1,4 +1,4 @@
-// From the bytes of a file to a checked program, whether they are an STL file or a published document.
+// From the bytes of a file to the source in it, whether they are an STL file or a published document.
 #pragma once
 
 #include <optional>
@@ -32,7 +32,7 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
 /// The files of a project as one source, named after the first of them that is a program. There is at least one.
 SourceText join_files(std::vector<SourceText> files);
 
-/// Reads and checks a program text in memory: a listing or a block export.
-CheckResult check_text(std::string_view utf8, const std::string& name, const CpuModel& model, const TimeTable& times);
+/// The source in a program text in memory: a listing or a block export.
+stl::ParseResult read_text(std::string_view utf8, const std::string& name);
 
 }  // namespace s7200

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "interpreter/program/lint_ops.hpp"
+#include "interpreter/program/unread.hpp"
 #include "interpreter/program/warnings.hpp"
 
 namespace s7200 {
@@ -75,7 +75,7 @@ class StructureCheck {
 
   void visit(std::uint32_t i) {
     const CheckedStatement& s = statements_[i];
-    if (s.instruction == &lint::unread_instruction()) return may_be_anything();
+    if (s.instruction == &unread_instruction()) return may_be_anything();
     switch (s.instruction->structure) {
       case Structure::SubroutineHead:
         return begin_routine(i, kSubroutine, subroutines_);
@@ -413,7 +413,7 @@ class StackCheck {
   void visit(const CheckedStatement& s) {
     const Instruction& instruction = *s.instruction;
     const bool load = instruction.rung.stack.needs == 0 && instruction.rung.stack.change == 1;
-    if (&instruction == &lint::unread_instruction()) return give_up(s.begins_network);
+    if (&instruction == &unread_instruction()) return give_up(s.begins_network);
     if (!known_ && !knows_again(s, load)) return;
     if (s.begins_network) depth_ = 0;
     if (s.begins_network || (load && after_output_)) begin_rung();

@@ -3,35 +3,30 @@
 #include <algorithm>
 #include <array>
 
-#include "interpreter/program/lint.hpp"
-
 namespace s7200 {
 
 std::span<const WarningInfo> all_warnings() {
   static constexpr std::array kTable{
-      WarningInfo{Warning::DoubleCoil, "double-coil", "a coil that another one always overwrites", find_double_coils},
-      WarningInfo{Warning::DoubleCounter, "double-counter", "a counter that counts twice in a scan", find_double_counters},
-      WarningInfo{Warning::DoubleLoop, "double-loop", "two PIDs of the same loop", find_double_loops},
-      WarningInfo{Warning::DoubleTimer, "double-timer", "a timer that is executed twice in a scan", find_double_timers},
+      WarningInfo{Warning::DoubleCoil, "double-coil", "a coil that another one always overwrites"},
+      WarningInfo{Warning::DoubleCounter, "double-counter", "a counter that counts twice in a scan"},
+      WarningInfo{Warning::DoubleLoop, "double-loop", "two PIDs of the same loop"},
+      WarningInfo{Warning::DoubleTimer, "double-timer", "a timer that is executed twice in a scan"},
       WarningInfo{Warning::LogicStack, "logic-stack", "a rung that leaves more than one value on the logic stack"},
-      WarningInfo{Warning::NoEni, "no-eni", "ATCH in a program without ENI: no interrupt is ever served", find_missing_eni},
+      WarningInfo{Warning::NoEni, "no-eni", "ATCH in a program without ENI: no interrupt is ever served"},
       WarningInfo{Warning::NoFreeport, "no-freeport",
-                  "XMT before SMB30 is written, or XMT or port events in a program that never writes it",
-                  find_missing_freeport},
+                  "XMT before SMB30 is written, or XMT or port events in a program that never writes it"},
       WarningInfo{Warning::NoReceiveEvent, "no-receive-event",
-                  "SMB2 or SM3.0 in a program that attaches nothing to event 8 or 25", find_missing_receive_event},
+                  "SMB2 or SM3.0 in a program that attaches nothing to event 8 or 25"},
       WarningInfo{Warning::OtherSign, "other-sign", "a constant whose bits the instruction reads with the other sign"},
-      WarningInfo{Warning::PortBusy, "port-busy", "XMT or RCV while the port is surely sending or receiving",
-                  find_busy_port},
+      WarningInfo{Warning::PortBusy, "port-busy", "XMT or RCV while the port is surely sending or receiving"},
       WarningInfo{Warning::Preset, "preset", "a constant preset of 0 or below: the timer or counter has nothing to count"},
-      WarningInfo{Warning::ReceiveOnce, "receive-once", "RCV in the first scan, and nothing that executes one again",
-                  find_receive_once},
+      WarningInfo{Warning::ReceiveOnce, "receive-once", "RCV in the first scan, and nothing that executes one again"},
       WarningInfo{Warning::Recursion, "recursion", "a subroutine that calls itself, directly or through others"},
       WarningInfo{Warning::UnusedLabel, "unused-label", "a label that no JMP goes to"},
       WarningInfo{Warning::UnusedRoutine, "unused-routine", "a routine that is never called or attached"},
       WarningInfo{Warning::UnusedSpecialMemory, "unused-sm",
                   "special memory that the CPU makes no use of, or a word over a byte of it"},
-      WarningInfo{Warning::UnusedStep, "unused-step", "an S bit that is set but that no segment loads", find_unused_steps},
+      WarningInfo{Warning::UnusedStep, "unused-step", "an S bit that is set but that no segment loads"},
   };
   return kTable;
 }

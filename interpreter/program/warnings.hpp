@@ -1,12 +1,12 @@
 // What a check warns about: programs that are legal and that the CPU runs, but probably not as intended.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "interpreter/base/diagnostic.hpp"
-#include "interpreter/program/program.hpp"
 
 namespace s7200 {
 
@@ -34,8 +34,6 @@ struct WarningInfo {
   Warning warning;
   std::string_view name;     ///< the name that switches it off
   std::string_view meaning;  ///< one line
-  /// Finds all of these in a program; null if they are found while operands and structure are checked.
-  void (*find)(const Program& program, stl::Diagnostics& diagnostics) = nullptr;
 };
 
 /// The table of warnings, in the order of their names.

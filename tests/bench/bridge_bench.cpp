@@ -20,7 +20,7 @@
 #include <mutex>
 #include <thread>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/bridge/live_run.hpp"

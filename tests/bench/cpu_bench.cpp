@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"

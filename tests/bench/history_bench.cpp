@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/host/files.hpp"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"

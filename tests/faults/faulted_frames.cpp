@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"

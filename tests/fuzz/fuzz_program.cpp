@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/convert.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/system/simulation.hpp"

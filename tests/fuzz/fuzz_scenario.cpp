@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "tests/fuzz/promise.hpp"
 #include "tools/scenario/junit.hpp"
 #include "tools/scenario/reader.hpp"

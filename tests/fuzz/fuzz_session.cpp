@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "tests/fuzz/promise.hpp"
 #include "tools/json/json.hpp"
 #include "tools/session/commands/session_file.hpp"

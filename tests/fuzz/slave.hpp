@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/host/files.hpp"

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <string>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/cpu_choice.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/trace/text_trace.hpp"

@@ -6,8 +6,8 @@
 #include <array>
 #include <memory>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/cpu/cpu.hpp"
-#include "interpreter/program/load.hpp"
 #include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tests/reference_model/comparison.hpp"

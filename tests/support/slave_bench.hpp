@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"

@@ -10,6 +10,7 @@
 #include <new>
 #include <string>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/measuring/long_listing.hpp"
 #include "tools/recordings/conversation.hpp"

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/warnings.hpp"
 #include "tools/command/commands.hpp"

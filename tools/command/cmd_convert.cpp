@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/convert.hpp"
 #include "tools/command/commands.hpp"

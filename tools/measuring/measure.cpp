@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"

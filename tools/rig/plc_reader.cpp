@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/ppi_frame.hpp"

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/base/diagnostic.hpp"
 #include "tools/rig/event_reader.hpp"
 #include "tools/rig/line_reader.hpp"
 #include "tools/rig/peer_reader.hpp"

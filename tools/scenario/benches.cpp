@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
 #include "interpreter/program/stand_ins.hpp"

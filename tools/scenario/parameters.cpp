@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/base/diagnostic.hpp"
 #include "interpreter/base/text.hpp"
-#include "interpreter/program/load.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/load.hpp"
 
 namespace s7200::tools {

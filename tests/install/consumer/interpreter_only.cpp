@@ -1,5 +1,5 @@
 // Checks a program text with the interpreter alone.
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 
 int main() {
   using namespace s7200;

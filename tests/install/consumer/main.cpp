@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "serial_sim/system/simulation.hpp"
 
 int main() {

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/bridge/pty_bridge.hpp"
 #include "tools/host/files.hpp"

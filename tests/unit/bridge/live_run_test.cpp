@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 
 namespace s7200::tools {
 namespace {

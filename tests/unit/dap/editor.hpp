@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "tools/faces/dap/session.hpp"
 
 namespace s7200::tools::dap {

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <utility>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/stop_token.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/faces/console/prompt.hpp"
 #include "tools/faces/files/host_files.hpp"
 #include "tools/host/interruption.hpp"

@@ -5,7 +5,7 @@
 
 #include <bit>
 
-#include "interpreter/program/checker.hpp"
+#include "interpreter/analysis/check.hpp"
 
 namespace s7200 {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/load.hpp"
 
 namespace s7200 {

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/times.hpp"
 #include "interpreter/program/load.hpp"
@@ -26,8 +27,9 @@ std::set<std::string> causes_of(const std::string& text) {
 const std::set<std::string> kOneMessage{std::string(stl::kIsDrawing)};
 
 TEST(Drawings, ElementsOfLadderAreRecognised) {
-  for (const char* line : {"--| |--|/|--( )--", "-|P|-", "--] [--", "--]/[--( S )", "|/|", "-( )- Q0.0", "|--[I0.0]--[/I0.1]--(Q0.0)--|",
-                           "I0.0 -| |- I0.1 -|/|- ( Q0.0 )", "---|NOT|---", "--|==W|--", "├──┤ ├──", "--( R )--", "(S)"})
+  for (const char* line :
+       {"--| |--|/|--( )--", "-|P|-", "--] [--", "--]/[--( S )", "|/|", "-( )- Q0.0", "|--[I0.0]--[/I0.1]--(Q0.0)--|",
+        "I0.0 -| |- I0.1 -|/|- ( Q0.0 )", "---|NOT|---", "--|==W|--", "├──┤ ├──", "--( R )--", "(S)"})
     EXPECT_TRUE(stl::has_drawing(line)) << line;
 }
 

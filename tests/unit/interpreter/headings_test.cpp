@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/times.hpp"
 #include "interpreter/program/convert.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/ladder_compare.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tests/support/source_path.hpp"

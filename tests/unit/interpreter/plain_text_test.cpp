@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/times.hpp"
 #include "interpreter/program/load.hpp"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/support/plc.hpp"
 

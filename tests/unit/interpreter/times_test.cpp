@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/model/times_file.hpp"
-#include "interpreter/program/load.hpp"
 #include "interpreter/program/load_times.hpp"
 #include "tools/host/files.hpp"
 

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <map>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/cpu/cpu.hpp"
-#include "interpreter/program/load.hpp"
 #include "tests/reference_model/silent_port.hpp"
 #include "tests/support/source_path.hpp"
 #include "tests/vectors/vector_file.hpp"

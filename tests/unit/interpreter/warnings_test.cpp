@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/program/lint.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/support/source_path.hpp"

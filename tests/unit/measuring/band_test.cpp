@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/model/times_file.hpp"
-#include "interpreter/program/load.hpp"
 #include "tools/host/files.hpp"
 
 namespace s7200::tools {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tools/scenario/junit.hpp"
 #include "tools/scenario/reader.hpp"

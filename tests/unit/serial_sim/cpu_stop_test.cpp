@@ -1,8 +1,8 @@
 // The change to STOP: when it comes, and what the clock does.
 #include <gtest/gtest.h>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/program/load.hpp"
 #include "serial_sim/system/simulation.hpp"
 
 namespace s7200 {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <span>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"

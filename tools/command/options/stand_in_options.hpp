@@ -1,7 +1,7 @@
 // Stand-ins for libraries of Micro/WIN (program/stand_ins.hpp): who has them is told, and who wants none gets none.
 #pragma once
 
-#include "interpreter/program/checker.hpp"
+#include "interpreter/analysis/check.hpp"
 
 namespace CLI {
 class App;

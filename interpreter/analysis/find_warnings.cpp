@@ -1,0 +1,15 @@
+#include "interpreter/analysis/find_warnings.hpp"
+
+#include "interpreter/program/lint.hpp"
+
+namespace s7200 {
+
+void find_warnings(const Program& program, stl::Diagnostics& diagnostics) {
+  constexpr void (*kFinders[])(const Program&, stl::Diagnostics&) = {
+      find_double_coils,     find_double_counters,       find_double_loops, find_double_timers, find_missing_eni,
+      find_missing_freeport, find_missing_receive_event, find_busy_port,    find_receive_once,  find_unused_steps,
+  };
+  for (const auto find : kFinders) find(program, diagnostics);
+}
+
+}  // namespace s7200
