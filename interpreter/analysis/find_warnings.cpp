@@ -1,6 +1,6 @@
 #include "interpreter/analysis/find_warnings.hpp"
 
-#include "interpreter/program/lint.hpp"
+#include "interpreter/analysis/lint.hpp"
 
 namespace s7200 {
 

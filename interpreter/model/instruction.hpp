@@ -113,8 +113,8 @@ enum class Structure : std::uint8_t {
   Compare  ///< its errors stop the CPU
 };
 
-/// Effects for the warnings about a whole program (program/lint.hpp), and for the search for what it looks at
-/// (program/looks.hpp).
+/// What the warnings about a whole program (analysis/lint.hpp), and the search for what it looks at (program/looks.hpp), look
+/// for.
 enum class Effect : std::uint8_t {
   None,
   LoadsBit,  ///< LD

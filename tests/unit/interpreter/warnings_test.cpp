@@ -9,7 +9,7 @@
 #include <set>
 
 #include "interpreter/analysis/check.hpp"
-#include "interpreter/program/lint.hpp"
+#include "interpreter/analysis/lint.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/host/files.hpp"

@@ -1,4 +1,4 @@
-#include "interpreter/program/lint_ops.hpp"
+#include "interpreter/analysis/lint_ops.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "interpreter/program/lint.hpp"
+#include "interpreter/analysis/lint.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/program/lint_ops.hpp"
+#include "interpreter/analysis/lint_ops.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/program/warnings.hpp"
 

@@ -1,4 +1,4 @@
-#include "interpreter/program/first_scan.hpp"
+#include "interpreter/analysis/first_scan.hpp"
 
 #include <cstdint>
 

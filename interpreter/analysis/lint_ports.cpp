@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/analysis/first_scan.hpp"
+#include "interpreter/analysis/lint.hpp"
+#include "interpreter/analysis/lint_ops.hpp"
 #include "interpreter/model/ports.hpp"
-#include "interpreter/program/first_scan.hpp"
-#include "interpreter/program/lint.hpp"
-#include "interpreter/program/lint_ops.hpp"
 #include "interpreter/program/warnings.hpp"
 
 namespace s7200 {
