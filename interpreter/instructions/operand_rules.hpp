@@ -35,16 +35,16 @@ constexpr OperandRule named(std::string_view name, OperandRule rule) {
 // --- bits; S, R and SHRB work on as many as the count says ---
 
 inline constexpr OperandRule
-    kBit          {.name = "BIT",   .width = Width::Bit,                    .areas = kMemoryTC},
-    kDataBit      {.name = "DATA",  .width = Width::Bit,                    .areas = kMemoryTC},
-    kInputPoint   {.name = "BIT",   .width = Width::Bit,                    .areas = kInputs},
-    kSegmentIn    {.name = "BIT",   .width = Width::Bit,                    .areas = kSegments},
-    kSegmentOut   {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kSegments},
-    kBitOut       {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kMemoryTC},
-    kOutputPoint  {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kOutputs},
-    kBits         {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kMemoryTC, .counted = 1},
-    kOutputPoints {.name = "BIT",   .width = Width::Bit, .role = Role::Out, .areas = kOutputs,  .counted = 1},
-    kShiftRegister{.name = "S_BIT", .width = Width::Bit, .role = Role::Out, .areas = kMemoryTC, .counted = 1};
+    kBit          {.name = "BIT",   .width = Width::Bit,                      .areas = kMemoryTC},
+    kDataBit      {.name = "DATA",  .width = Width::Bit,                      .areas = kMemoryTC},
+    kInputPoint   {.name = "BIT",   .width = Width::Bit,                      .areas = kInputs},
+    kSegmentIn    {.name = "BIT",   .width = Width::Bit,                      .areas = kSegments},
+    kSegmentOut   {.name = "BIT",   .width = Width::Bit, .role = Role::Out,   .areas = kSegments},
+    kBitOut       {.name = "BIT",   .width = Width::Bit, .role = Role::Out,   .areas = kMemoryTC},
+    kOutputPoint  {.name = "BIT",   .width = Width::Bit, .role = Role::Out,   .areas = kOutputs},
+    kBits         {.name = "BIT",   .width = Width::Bit, .role = Role::Out,   .areas = kMemoryTC, .counted = 1},
+    kOutputPoints {.name = "BIT",   .width = Width::Bit, .role = Role::Out,   .areas = kOutputs,  .counted = 1},
+    kShiftRegister{.name = "S_BIT", .width = Width::Bit, .role = Role::InOut, .areas = kMemoryTC, .counted = 1};
 
 // --- values that are read ---
 
@@ -138,29 +138,33 @@ inline constexpr OperandRule
     kOutDwords{.name = "OUT", .width = Width::Double, .role = Role::Out, .areas = kMemory,                    .pointer = true, .counted = 1},
     kOutDigits{.name = "OUT", .width = Width::Byte,   .role = Role::Out, .areas = kMemory,                    .pointer = true, .counted = 2};
 
-// --- tables and buffers: at least so many elements, whatever they hold ---
+// --- tables and buffers: at least so many elements, whatever they hold; and at most so many bytes ---
+
+// Their number and 100 entries, a table's length before them; a length and what it counts; a head and 16 bytes of data.
+inline constexpr std::uint16_t kMostOfEntries = 2 + 2 * 100, kMostOfTable = 2 + kMostOfEntries;
+inline constexpr std::uint16_t kMostOfMessage = 1 + 255, kMostOfString = 1 + 254, kMostOfNetwork = 7 + 16;
 
 inline constexpr OperandRule
     // A table: its length, the number of its entries, and at least one of them; FND gets the number of entries and the rest
     // after it.
-    kTable   {.name = "TBL", .width = Width::Word, .role = Role::InOut, .areas = kMemoryTC, .pointer = true, .elements = 3},
-    kEntries {.name = "SRC", .width = Width::Word,                      .areas = kMemoryTC, .pointer = true},
+    kTable   {.name = "TBL", .width = Width::Word, .role = Role::InOut, .areas = kMemoryTC, .pointer = true, .elements = 3,  .most = kMostOfTable},
+    kEntries {.name = "SRC", .width = Width::Word,                      .areas = kMemoryTC, .pointer = true,                 .most = kMostOfEntries},
     kPidLoop {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kVMemory,                   .elements = 36},  // nine reals
-    kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kLasting,  .pointer = true},
-    kReceived{.name = "TBL", .width = Width::Byte, .role = Role::Out,   .areas = kLasting,  .pointer = true},
-    kNetwork {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kVAndM,    .pointer = true, .elements = 8},  // with a byte of data
+    kMessage {.name = "TBL", .width = Width::Byte,                      .areas = kLasting,  .pointer = true,                 .most = kMostOfMessage},
+    kReceived{.name = "TBL", .width = Width::Byte, .role = Role::Out,   .areas = kLasting,  .pointer = true,                 .most = kMostOfMessage},
+    kNetwork {.name = "TBL", .width = Width::Byte, .role = Role::InOut, .areas = kVAndM,    .pointer = true, .elements = 8,  .most = kMostOfNetwork},  // with a byte of data
     kClockIn {.name = "T",   .width = Width::Byte,                      .areas = kMemory,   .pointer = true, .elements = 8},
     kClockOut{.name = "T",   .width = Width::Byte, .role = Role::Out,   .areas = kMemory,   .pointer = true, .elements = 8};
 
 // --- strings and text: from the length byte, or the first character, on ---
 
 inline constexpr OperandRule
-    kInString   {.name = "IN",  .width = Width::Byte,                      .areas = kStringMemory, .constant = true, .pointer = true, .text = true},
-    kOutString  {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kStringMemory,                   .pointer = true, .text = true},
-    kInOutString{.name = "OUT", .width = Width::Byte, .role = Role::InOut, .areas = kStringMemory,                   .pointer = true, .text = true},
+    kInString   {.name = "IN",  .width = Width::Byte,                      .areas = kStringMemory, .constant = true, .pointer = true, .text = true,                 .most = kMostOfString},
+    kOutString  {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kStringMemory,                   .pointer = true, .text = true,                 .most = kMostOfString},
+    kInOutString{.name = "OUT", .width = Width::Byte, .role = Role::InOut, .areas = kStringMemory,                   .pointer = true, .text = true,                 .most = kMostOfString},
     kOutString8 {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kStringMemory,                   .pointer = true, .text = true, .elements = 9},
     kOutString12{.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kStringMemory,                   .pointer = true, .text = true, .elements = 13},
-    kOutText    {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kMemory,                         .pointer = true,               .elements = 3},
+    kOutText    {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kMemory,                         .pointer = true,               .elements = 3,  .most = 15},
     kOutText8   {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kMemory,                         .pointer = true,               .elements = 8},
     kOutText12  {.name = "OUT", .width = Width::Byte, .role = Role::Out,   .areas = kMemory,                         .pointer = true,               .elements = 12};
 

@@ -58,6 +58,24 @@ constexpr Rung kOneToTwo   {                          .stack = {.needs = 1, .cha
 constexpr Rung kTwoToOne   {                          .stack = {.needs = 2, .change = -1}};                         // ALD, LPP
 constexpr Rung kReadSecond {                          .stack = {.needs = 2, .change =  0}};                         // LRD
 
+// What is read and written besides operands, at most. The numbers of special memory are those of all ports, counters and outputs.
+using AllBesides = decltype(Instruction::besides);
+constexpr Besides kStatusByte   {sm::kInterruptStatus, 1, Role::InOut}, kLocalMemory{image::kL, image::kConstants - image::kL, Role::Out};
+constexpr Besides kMessageEnd0 {sm::byte(86), 1, Role::InOut},         kMessageEnd1{sm::byte(186), 1, Role::InOut};
+constexpr Besides kHowToReceive0{sm::byte(87), 8, Role::In},           kHowToReceive1{sm::byte(187), 8, Role::In};
+constexpr Besides kCounters0To2{sm::byte(36), 30, Role::InOut},        kCounters3To5{sm::byte(136), 30, Role::InOut}, kCounts{image::kHC, 24, Role::InOut};
+constexpr Besides kPulses      {sm::byte(66), 20, Role::InOut},        kProfiles   {sm::byte(166), 20, Role::InOut}, kSegmentTables{image::kV, image::kL - image::kV, Role::In};
+
+constexpr AllBesides kReadsInputs  {{{image::kInputs, image::kPointBytes, Role::In}}};
+constexpr AllBesides kWritesOutputs{{{image::kOutputs, image::kPointBytes, Role::InOut}}};
+constexpr AllBesides kChangesLevel {{kLocalMemory}};  // of another routine
+constexpr AllBesides kReturning    {{kLocalMemory, {image::kAC, 16, Role::Out}, {sm::kFlags, 1, Role::Out}}};
+constexpr AllBesides kEnabling     {{kStatusByte}};
+constexpr AllBesides kSending      {{kStatusByte}};
+constexpr AllBesides kReceiving    {{kStatusByte, kMessageEnd0, kMessageEnd1, kHowToReceive0, kHowToReceive1}};
+constexpr AllBesides kCounting     {{kCounters0To2, kCounters3To5, kCounts}};
+constexpr AllBesides kPulsing      {{kCounters0To2, kCounters3To5, kCounts, kPulses, kProfiles, kSegmentTables, {image::kOutputs, 1, Role::InOut}}};
+
 constexpr Instruction kBitLogic[] = {
     {.mnemonic = "LD",   .operand = {kBit},        .rung = kPush,                               .effect = Effect::LoadsBit, .body = kContact<Load, false>, .meaning = "push BIT"},
     {.mnemonic = "LDN",  .operand = {kBit},        .rung = kPush,                                                           .body = kContact<Load, true>,  .meaning = "push NOT BIT"},
@@ -83,13 +101,13 @@ constexpr Instruction kBitLogic[] = {
     {.mnemonic = "LDS",  .operand = {kStackLevel}, .rung = kOneToTwo,   .cpus = kCpu22x,                                                              .body = kOnStack<push_level>,         .meaning = "push a copy of level n"},
     {.mnemonic = "AENO",                           .rung = kTop,        .cpus = kCpu22x,                                  .effect = Effect::ReadsEno, .body = and_eno,                      .meaning = "top of stack AND ENO, which the last box has set"},
 
-    {.mnemonic = "=",   .operand = {kBitOut},               .rung = kCoil,                                   .effect = Effect::Coil,     .body = kCoilBody,                       .meaning = "write the top of the stack to BIT"},
-    {.mnemonic = "=I",  .operand = {kOutputPoint},          .rung = kCoil,    .hidden = Hidden::OutputPoint,                             .body = immediate_coil,                  .meaning = "write the top of the stack to the output point and its image"},
-    {.mnemonic = "S",   .operand = {kBits, kCount},         .rung = kPowered,                                .effect = Effect::SetsBits, .body = kOnCore<set_bits<true, false>>,  .meaning = "set N bits from BIT on"},
-    {.mnemonic = "R",   .operand = {kBits, kCount},         .rung = kPowered,                                                            .body = kOnCore<set_bits<false, false>>, .meaning = "reset N bits from BIT on; of timers and counters the current values too"},
-    {.mnemonic = "SI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = kOnCore<set_bits<true, true>>,   .meaning = "set N output points and their image"},
-    {.mnemonic = "RI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                             .body = kOnCore<set_bits<false, true>>,  .meaning = "reset N output points and their image"},
-    {.mnemonic = "NOP", .operand = {kAnyNumber},                                                                                         .body = kOnStack<no_operation>,          .meaning = "nothing"},
+    {.mnemonic = "=",   .operand = {kBitOut},               .rung = kCoil,                                   .effect = Effect::Coil,       .body = kCoilBody,                       .meaning = "write the top of the stack to BIT"},
+    {.mnemonic = "=I",  .operand = {kOutputPoint},          .rung = kCoil,    .hidden = Hidden::OutputPoint,                               .body = immediate_coil,                  .meaning = "write the top of the stack to the output point and its image"},
+    {.mnemonic = "S",   .operand = {kBits, kCount},         .rung = kPowered,                                .effect = Effect::SetsBits,   .body = kOnCore<set_bits<true, false>>,  .meaning = "set N bits from BIT on"},
+    {.mnemonic = "R",   .operand = {kBits, kCount},         .rung = kPowered,                                .effect = Effect::ResetsBits, .body = kOnCore<set_bits<false, false>>, .meaning = "reset N bits from BIT on; of timers and counters the current values too"},
+    {.mnemonic = "SI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                               .body = kOnCore<set_bits<true, true>>,   .meaning = "set N output points and their image"},
+    {.mnemonic = "RI",  .operand = {kOutputPoints, kCount}, .rung = kPowered, .hidden = Hidden::OutputPoint,                               .body = kOnCore<set_bits<false, true>>,  .meaning = "reset N output points and their image"},
+    {.mnemonic = "NOP", .operand = {kAnyNumber},                                                                                           .body = kOnStack<no_operation>,          .meaning = "nothing"},
 };
 
 constexpr Instruction kCompareContacts[] = {
@@ -173,17 +191,17 @@ constexpr Instruction kCompareContacts[] = {
 };
 
 constexpr Instruction kMove[] = {
-    {.mnemonic = "MOVB", .operand = {kInByte, kOutByte},             .rung = kBox,                   .effect = Effect::CopiesByte, .body = kOnMemory<move<std::uint8_t>>,      .meaning = "copy byte IN to OUT"},
-    {.mnemonic = "MOVW", .operand = {kInWord, kOutWordOrAnalog},     .rung = kBox,                                                 .body = kOnMemory<move<std::uint16_t>>,     .meaning = "copy word IN to OUT"},
-    {.mnemonic = "MOVD", .operand = {kInDwordOrAddress, kOutDword},  .rung = kBox,                                                 .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy double word IN to OUT"},
-    {.mnemonic = "MOVR", .operand = {kInReal, kOutReal},             .rung = kBox, .cpus = kFrom214,                               .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy real IN to OUT"},
-    {.mnemonic = "BMB",  .operand = {kInBytes, kOutBytes, kCount},   .rung = kBox,                                                 .body = kOnCore<move_block<std::uint8_t>>,  .meaning = "copy N bytes from IN on to OUT on"},
-    {.mnemonic = "BMW",  .operand = {kInWords, kOutWords, kCount},   .rung = kBox,                                                 .body = kOnCore<move_block<std::uint16_t>>, .meaning = "copy N words from IN on to OUT on"},
-    {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215,                               .body = kOnCore<move_block<std::uint32_t>>, .meaning = "copy N double words from IN on to OUT on"},
-    {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                                                 .body = kOnCore<fill>,                      .meaning = "write word IN to N words from OUT on"},
-    {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                                                 .body = kOnMemory<swap_bytes>,              .meaning = "exchange the two bytes of a word"},
-    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,                                .body = read_points,                        .meaning = "copy eight input points to OUT"},
-    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,                                .body = write_points,                       .meaning = "copy IN to eight output points and their image"},
+    {.mnemonic = "MOVB", .operand = {kInByte, kOutByte},             .rung = kBox,                   .effect = Effect::CopiesByte,                            .body = kOnMemory<move<std::uint8_t>>,      .meaning = "copy byte IN to OUT"},
+    {.mnemonic = "MOVW", .operand = {kInWord, kOutWordOrAnalog},     .rung = kBox,                                                                            .body = kOnMemory<move<std::uint16_t>>,     .meaning = "copy word IN to OUT"},
+    {.mnemonic = "MOVD", .operand = {kInDwordOrAddress, kOutDword},  .rung = kBox,                                                                            .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy double word IN to OUT"},
+    {.mnemonic = "MOVR", .operand = {kInReal, kOutReal},             .rung = kBox, .cpus = kFrom214,                                                          .body = kOnMemory<move<std::uint32_t>>,     .meaning = "copy real IN to OUT"},
+    {.mnemonic = "BMB",  .operand = {kInBytes, kOutBytes, kCount},   .rung = kBox,                                                                            .body = kOnCore<move_block<std::uint8_t>>,  .meaning = "copy N bytes from IN on to OUT on"},
+    {.mnemonic = "BMW",  .operand = {kInWords, kOutWords, kCount},   .rung = kBox,                                                                            .body = kOnCore<move_block<std::uint16_t>>, .meaning = "copy N words from IN on to OUT on"},
+    {.mnemonic = "BMD",  .operand = {kInDwords, kOutDwords, kCount}, .rung = kBox, .cpus = kFrom215,                                                          .body = kOnCore<move_block<std::uint32_t>>, .meaning = "copy N double words from IN on to OUT on"},
+    {.mnemonic = "FILL", .operand = {kInWord, kOutWords, kCount},    .rung = kBox,                                                                            .body = kOnCore<fill>,                      .meaning = "write word IN to N words from OUT on"},
+    {.mnemonic = "SWAP", .operand = {kSwapped},                      .rung = kBox,                                                                            .body = kOnMemory<swap_bytes>,              .meaning = "exchange the two bytes of a word"},
+    {.mnemonic = "BIR",  .operand = {kInputByte, kOutByte},          .rung = kBox, .cpus = kCpu22x,                                .besides = kReadsInputs,   .body = read_points,                        .meaning = "copy eight input points to OUT"},
+    {.mnemonic = "BIW",  .operand = {kInByte, kOutputByte},          .rung = kBox, .cpus = kCpu22x,                                .besides = kWritesOutputs, .body = write_points,                       .meaning = "copy IN to eight output points and their image"},
 };
 
 constexpr Instruction kIntegerArithmetic[] = {
@@ -237,38 +255,38 @@ constexpr Instruction kShiftAndRotate[] = {
 };
 
 constexpr Instruction kProgramControl[] = {
-    {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kPowered,                                                    .outside_segments = true, .structure = Structure::Jump,                                             .body = kOnCore<jump>,                   .meaning = "go on at LBL n of the same routine"},
-    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                                 .structure = Structure::Label,                                            .body = kOnStack<no_operation>,          .meaning = "place that JMP n goes to"},
-    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,     .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::For,                                              .body = kOnCore<begin_loop>,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
-    {.mnemonic = "NEXT",                                            .rung = kMark,    .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::Next,                                             .body = kOnCore<next_pass>,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
-    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                              .allowed = kInterrupt22x,                           .structure = Structure::Call,                                             .body = kOnCore<call>,                   .meaning = "call subroutine n"},
-    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                                 .structure = Structure::SubroutineHead,                                   .body = kOnStack<no_operation>,          .meaning = "head of subroutine n"},
-    {.mnemonic = "RET",                                             .rung = kMark,                             .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .body = kOnCore<return_from_subroutine>, .meaning = "end of a subroutine"},
-    {.mnemonic = "CRET",                                            .rung = kPowered,                          .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .body = kOnCore<return_from_subroutine>, .meaning = "return from a subroutine"},
-    {.mnemonic = "END",                                             .rung = kPowered,                          .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd, .body = kOnCore<end_main_program>,       .meaning = "end the main program of this scan"},
-    {.mnemonic = "MEND",                                            .rung = kMark,                             .allowed = kMain,                                   .structure = Structure::MainEnd,                                          .body = kLastOnCore<end_main_program>,   .meaning = "end of the main program"},
-    {.mnemonic = "STOP",                                            .rung = kPowered,                                                                                                                      .effect = Effect::ConditionalEnd, .body = stop,                            .meaning = "go to STOP"},
-    {.mnemonic = "WDR",                                             .rung = kPowered,                                                                                                                                                        .body = reset_watchdog,                  .meaning = "restart the scan watchdog"},
-    {.mnemonic = "DLED", .operand = {kInByte},                      .rung = kBox,     .cpus = kCpu22xRelease2,                                                                                                                               .body = switch_diagnostic_led,           .meaning = "diagnostic LED off if IN is 0, otherwise yellow"},
+    {.mnemonic = "JMP",  .operand = {kLabel},                       .rung = kPowered,                                                    .outside_segments = true, .structure = Structure::Jump,                                                                       .body = kOnCore<jump>,                   .meaning = "go on at LBL n of the same routine"},
+    {.mnemonic = "LBL",  .operand = {kLabel},                       .rung = kMark,                                                                                 .structure = Structure::Label,                                                                      .body = kOnStack<no_operation>,          .meaning = "place that JMP n goes to"},
+    {.mnemonic = "FOR",  .operand = {kLoopIndex, kInitial, kFinal}, .rung = kBox,     .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::For,                                                                        .body = kOnCore<begin_loop>,             .meaning = "repeat up to NEXT with INDX from INIT to FINAL"},
+    {.mnemonic = "NEXT",                                            .rung = kMark,    .cpus = kFrom214,        .allowed = kInterrupt22x, .outside_segments = true, .structure = Structure::Next,                                                                       .body = kOnCore<next_pass>,              .meaning = "end of a FOR loop; leaves the top of the stack at 1"},
+    {.mnemonic = "CALL", .operand = {kSubroutineNumber},            .rung = kBox,                              .allowed = kInterrupt22x,                           .structure = Structure::Call,                                             .besides = kChangesLevel, .body = kOnCore<call>,                   .meaning = "call subroutine n"},
+    {.mnemonic = "SBR",  .operand = {kSubroutineNumber},            .rung = kMark,                                                                                 .structure = Structure::SubroutineHead,                                                             .body = kOnStack<no_operation>,          .meaning = "head of subroutine n"},
+    {.mnemonic = "RET",                                             .rung = kMark,                             .allowed = kSubroutine,                             .structure = Structure::SubroutineEnd,                                    .besides = kChangesLevel, .body = kOnCore<return_from_subroutine>, .meaning = "end of a subroutine"},
+    {.mnemonic = "CRET",                                            .rung = kPowered,                          .allowed = kSubroutine,                                                                     .effect = Effect::ConditionalEnd, .besides = kChangesLevel, .body = kOnCore<return_from_subroutine>, .meaning = "return from a subroutine"},
+    {.mnemonic = "END",                                             .rung = kPowered,                          .allowed = kMain,         .outside_segments = true,                                         .effect = Effect::ConditionalEnd,                           .body = kOnCore<end_main_program>,       .meaning = "end the main program of this scan"},
+    {.mnemonic = "MEND",                                            .rung = kMark,                             .allowed = kMain,                                   .structure = Structure::MainEnd,                                                                    .body = kLastOnCore<end_main_program>,   .meaning = "end of the main program"},
+    {.mnemonic = "STOP",                                            .rung = kPowered,                                                                                                                      .effect = Effect::ConditionalEnd,                           .body = stop,                            .meaning = "go to STOP"},
+    {.mnemonic = "WDR",                                             .rung = kPowered,                                                                                                                                                                                  .body = reset_watchdog,                  .meaning = "restart the scan watchdog"},
+    {.mnemonic = "DLED", .operand = {kInByte},                      .rung = kBox,     .cpus = kCpu22xRelease2,                                                                                                                                                         .body = switch_diagnostic_led,           .meaning = "diagnostic LED off if IN is 0, otherwise yellow"},
 };
 
 constexpr Instruction kInterrupts[] = {
-    {.mnemonic = "INT",   .operand = {kRoutineNumber},   .rung = kMark,                                .structure = Structure::InterruptHead,                                      .body = kOnStack<no_operation>,         .meaning = "head of interrupt routine n"},
-    {.mnemonic = "RETI",                                 .rung = kMark,    .allowed = kInterrupt,      .structure = Structure::InterruptEnd,                                       .body = kOnCore<return_from_interrupt>, .meaning = "end of an interrupt routine"},
-    {.mnemonic = "CRETI",                                .rung = kPowered, .allowed = kInterrupt,                                             .effect = Effect::ConditionalEnd,    .body = kOnCore<return_from_interrupt>, .meaning = "return from an interrupt routine"},
-    {.mnemonic = "ENI",                                  .rung = kPowered, .allowed = kNotInInterrupt,                                        .effect = Effect::EnablesInterrupts, .body = enable_interrupts<true>,        .meaning = "enable interrupts"},
-    {.mnemonic = "DISI",                                 .rung = kPowered, .allowed = kNotInInterrupt,                                                                             .body = enable_interrupts<false>,       .meaning = "disable interrupts: events wait in their queues"},
-    {.mnemonic = "ATCH",  .operand = {kRoutine, kEvent}, .rung = kBox,                                 .structure = Structure::Attach,                                             .body = attach,                         .meaning = "attach interrupt routine INT to event EVNT"},
-    {.mnemonic = "DTCH",  .operand = {kEvent},           .rung = kBox,                                                                                                             .body = detach,                         .meaning = "detach event EVNT: it is ignored"},
+    {.mnemonic = "INT",   .operand = {kRoutineNumber},   .rung = kMark,                                .structure = Structure::InterruptHead,                                                             .body = kOnStack<no_operation>,         .meaning = "head of interrupt routine n"},
+    {.mnemonic = "RETI",                                 .rung = kMark,    .allowed = kInterrupt,      .structure = Structure::InterruptEnd,                                       .besides = kReturning, .body = kOnCore<return_from_interrupt>, .meaning = "end of an interrupt routine"},
+    {.mnemonic = "CRETI",                                .rung = kPowered, .allowed = kInterrupt,                                             .effect = Effect::ConditionalEnd,    .besides = kReturning, .body = kOnCore<return_from_interrupt>, .meaning = "return from an interrupt routine"},
+    {.mnemonic = "ENI",                                  .rung = kPowered, .allowed = kNotInInterrupt,                                        .effect = Effect::EnablesInterrupts, .besides = kEnabling,  .body = enable_interrupts<true>,        .meaning = "enable interrupts"},
+    {.mnemonic = "DISI",                                 .rung = kPowered, .allowed = kNotInInterrupt,                                                                             .besides = kEnabling,  .body = enable_interrupts<false>,       .meaning = "disable interrupts: events wait in their queues"},
+    {.mnemonic = "ATCH",  .operand = {kRoutine, kEvent}, .rung = kBox,                                 .structure = Structure::Attach,                                                                    .body = attach,                         .meaning = "attach interrupt routine INT to event EVNT"},
+    {.mnemonic = "DTCH",  .operand = {kEvent},           .rung = kBox,                                                                                                                                    .body = detach,                         .meaning = "detach event EVNT: it is ignored"},
 };
 
 constexpr Instruction kCommunication[] = {
-    {.mnemonic = "XMT",  .operand = {kMessage, kPort},    .rung = kBox,                   .effect = Effect::Transmits,   .body = transmit,           .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
-    {.mnemonic = "RCV",  .operand = {kReceived, kPort},   .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,    .body = receive,            .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
-    {.mnemonic = "NETR", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                                .body = use_network<false>, .meaning = "PPI master: read 1 to 16 bytes of another station into TBL"},
-    {.mnemonic = "NETW", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                                .body = use_network<true>,  .meaning = "PPI master: write 1 to 16 bytes of TBL to another station"},
-    {.mnemonic = "GPA",  .operand = {kAddressOut, kPort}, .rung = kBox, .cpus = kCpu22x,                                 .body = get_port_address,   .meaning = "station address of a port to ADDR"},
-    {.mnemonic = "SPA",  .operand = {kAddressIn, kPort},  .rung = kBox, .cpus = kCpu22x,  .effect = Effect::SetsStation, .body = set_port_address,   .meaning = "ADDR becomes the station address of a port"},
+    {.mnemonic = "XMT",  .operand = {kMessage, kPort},    .rung = kBox,                   .effect = Effect::Transmits,   .besides = kSending,   .body = transmit,           .meaning = "Freeport: send the characters of TBL, their number in its first byte"},
+    {.mnemonic = "RCV",  .operand = {kReceived, kPort},   .rung = kBox, .cpus = kFrom215, .effect = Effect::Receives,    .besides = kReceiving, .body = receive,            .meaning = "Freeport: receive a message into TBL, the number of its characters in the first byte"},
+    {.mnemonic = "NETR", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                                                       .body = use_network<false>, .meaning = "PPI master: read 1 to 16 bytes of another station into TBL"},
+    {.mnemonic = "NETW", .operand = {kNetwork, kPort},    .rung = kBox, .cpus = kFrom214,                                                       .body = use_network<true>,  .meaning = "PPI master: write 1 to 16 bytes of TBL to another station"},
+    {.mnemonic = "GPA",  .operand = {kAddressOut, kPort}, .rung = kBox, .cpus = kCpu22x,                                                        .body = get_port_address,   .meaning = "station address of a port to ADDR"},
+    {.mnemonic = "SPA",  .operand = {kAddressIn, kPort},  .rung = kBox, .cpus = kCpu22x,  .effect = Effect::SetsStation,                        .body = set_port_address,   .meaning = "ADDR becomes the station address of a port"},
 };
 
 constexpr Instruction kTimersAndCounters[] = {
@@ -355,11 +373,11 @@ constexpr Instruction kSequenceControl[] = {
 };
 
 constexpr Instruction kPeripherals[] = {
-    {.mnemonic = "TODR", .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                    .effect = Effect::ReadsTimeOfDay, .body = read_clock,      .meaning = "read the clock into the 8 bytes at T"},
-    {.mnemonic = "TODW", .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                                                      .body = write_clock,     .meaning = "set the clock from the 8 bytes at T"},
-    {.mnemonic = "HDEF", .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                   .allowed = kNotInInterrupt, .structure = Structure::DefineCounter,                                   .body = define_counter,  .meaning = "give a high-speed counter its mode, once"},
-    {.mnemonic = "HSC",  .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                                                        .body = program_counter, .meaning = "take over the counter's control byte, values and enable"},
-    {.mnemonic = "PLS",  .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                                                      .body = program_pulses,  .meaning = "start the pulse train or PWM of Q0.X"},
+    {.mnemonic = "TODR", .operand = {kClockOut},                .rung = kBox, .cpus = kFrom214,                                                                    .effect = Effect::ReadsTimeOfDay,                       .body = read_clock,      .meaning = "read the clock into the 8 bytes at T"},
+    {.mnemonic = "TODW", .operand = {kClockIn},                 .rung = kBox, .cpus = kFrom214,                                                                                                                            .body = write_clock,     .meaning = "set the clock from the 8 bytes at T"},
+    {.mnemonic = "HDEF", .operand = {kHighSpeedCounter, kMode}, .rung = kBox,                   .allowed = kNotInInterrupt, .structure = Structure::DefineCounter,                                   .besides = kCounting, .body = define_counter,  .meaning = "give a high-speed counter its mode, once"},
+    {.mnemonic = "HSC",  .operand = {kHighSpeedCounter},        .rung = kBox,                                                                                                                        .besides = kCounting, .body = program_counter, .meaning = "take over the counter's control byte, values and enable"},
+    {.mnemonic = "PLS",  .operand = {kPulseOutput},             .rung = kBox, .cpus = kFrom214,                                                                                                      .besides = kPulsing,  .body = program_pulses,  .meaning = "start the pulse train or PWM of Q0.X"},
 };
 
 // Known by name, so that a program that uses them is told so.

@@ -68,6 +68,7 @@ struct OperandRule {
   bool count = false;         ///< this operand says how far the counted operands reach
   std::uint8_t counted = 0;   ///< how many counted things fit in an element; 0: the operand is not counted
   std::uint8_t elements = 1;  ///< of an operand that is not counted: the fewest it takes
+  std::uint16_t most = 0;     ///< bytes it reaches at most, if the memory there says how far: a table, a message, a string
   TimerKind timer = TimerKind::Any;
 
   std::int64_t usual_min() const { return std::max(min, usual_from); }
@@ -113,13 +114,13 @@ enum class Structure : std::uint8_t {
   Compare  ///< its errors stop the CPU
 };
 
-/// What the warnings about a whole program (analysis/lint.hpp), and the search for what it looks at (program/looks.hpp), look
-/// for.
+/// What the analyses (interpreter/analysis/) look for.
 enum class Effect : std::uint8_t {
   None,
   LoadsBit,  ///< LD
   Coil,
   SetsBits,
+  ResetsBits,      ///< R: and the current values of timers and counters
   ConditionalEnd,  ///< of a routine or of the scan
   EnablesInterrupts,
   Transmits,
@@ -183,6 +184,15 @@ struct ChainPart {
   bool inverted = false;  ///< LDN, AN, ON
 };
 
+/// Bytes of the image that an instruction reads or writes besides its operands, at most.
+struct Besides {
+  std::uint32_t at = 0;
+  std::uint32_t bytes = 0;  ///< 0: nothing
+  Role role = Role::In;
+
+  bool operator==(const Besides&) const = default;
+};
+
 /// The functions that execute an instruction.
 struct Bodies {
   constexpr Bodies() = default;
@@ -208,6 +218,7 @@ struct Instruction {
   Structure structure = Structure::None;
   Hidden hidden = Hidden::None;
   Effect effect = Effect::None;
+  std::array<Besides, 7> besides{};
   Bodies body{};
   std::string_view meaning{};       ///< one line
   std::string_view not_modelled{};  ///< of one without a body: why, and what to write instead
