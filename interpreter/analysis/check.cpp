@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "interpreter/analysis/find_warnings.hpp"
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/stand_ins.hpp"
 #include "interpreter/stl/project.hpp"
@@ -22,6 +23,7 @@ void forget_warnings_of_stand_ins(const stl::Source& source, stl::Diagnostics& d
 CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
   DecodedSource decoded = decode_program(std::move(parsed), model, times);
   if (decoded.known) find_warnings(*decoded.known, decoded.diagnostics);
+  if (decoded.program) decoded.program->looks = looks_of(*decoded.program);
   forget_warnings_of_stand_ins(decoded.source, decoded.diagnostics);
   stl::sort(decoded.diagnostics);
   return {std::move(decoded.program), std::move(decoded.source), std::move(decoded.diagnostics)};

@@ -8,35 +8,35 @@
 #include <cstdint>
 #include <optional>
 
+#include "interpreter/analysis/facts.hpp"
 #include "interpreter/base/diagnostic.hpp"
-#include "interpreter/program/program.hpp"
 
 namespace s7200 {
 
 /// A coil that always overwrites what an earlier one has written. An inactive segment writes its coils too, so LSCR does not
 /// keep them apart. Memory may have two coils if it is read in between; an output may not, because the last coil decides.
-void find_double_coils(const Program& program, stl::Diagnostics& diagnostics);
+void find_double_coils(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// A timer or counter has one current value: executed twice in a scan, it counts twice or is reset by the other rung.
-void find_double_timers(const Program& program, stl::Diagnostics& diagnostics);
-void find_double_counters(const Program& program, stl::Diagnostics& diagnostics);
+void find_double_timers(const Facts& facts, stl::Diagnostics& diagnostics);
+void find_double_counters(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// Interrupts are disabled when the CPU enters RUN (facts 3.3).
-void find_double_loops(const Program& program, stl::Diagnostics& diagnostics);
-void find_missing_eni(const Program& program, stl::Diagnostics& diagnostics);
+void find_double_loops(const Facts& facts, stl::Diagnostics& diagnostics);
+void find_missing_eni(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// SMB30 is 0 when the CPU enters RUN: the port speaks PPI.
-void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics);
+void find_missing_freeport(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// SMB2 and SM3.0 are written just before the routine of event 8 or 25 starts, and by nothing else (facts 2.3).
-void find_missing_receive_event(const Program& program, stl::Diagnostics& diagnostics);
+void find_missing_receive_event(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// RCV receives one message each time it is executed.
-void find_receive_once(const Program& program, stl::Diagnostics& diagnostics);
+void find_receive_once(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// XMT and RCV of a port exclude each other: error 0009 or 000B (facts 2.4). Only what is certain: in one pass, or while an
 /// RCV waits that is always started again.
-void find_busy_port(const Program& program, stl::Diagnostics& diagnostics);
+void find_busy_port(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// Whether a port answers in PPI mode, at the station of the system block, all the time: no instruction may put it in
 /// another mode or, with SPA, at another station.
@@ -50,6 +50,6 @@ std::optional<std::uint8_t> ppi_station_set(const Program& program, std::uint8_t
 bool is_ppi_master(const Program& program, std::uint8_t port);
 
 /// Bits set by S, = or SCRT. An instruction that reads S memory by bytes, words or pointers counts as loading all of it.
-void find_unused_steps(const Program& program, stl::Diagnostics& diagnostics);
+void find_unused_steps(const Facts& facts, stl::Diagnostics& diagnostics);
 
 }  // namespace s7200

@@ -40,13 +40,15 @@ bool keeps_power(const Instruction& instruction) {
 constexpr std::uint8_t kOnInFirstScan = sm::kAlwaysOn | sm::kFirstScan;
 
 /// Whether an instruction may write the control byte of a port.
-bool sets_up_port(const Program& program, const Op& op, const PortInfo& port) {
-  return touches(program, op, {port.control * 8u, 8}, true);
+bool sets_up_port(const Facts& facts, std::uint32_t op, const PortInfo& port) {
+  return may_write(facts, op, {port.control * 8u, 8});
 }
 
 /// Whether some instruction may write the control byte of a port. Without any, each XMT and RCV has its warning.
-bool is_set_up(const Program& program, std::size_t number) {
-  return std::ranges::any_of(program.ops, [&](const Op& op) { return sets_up_port(program, op, kPorts[number]); });
+bool is_set_up(const Facts& facts, std::size_t number) {
+  for (std::uint32_t op = 0; op < facts.program.ops.size(); ++op)
+    if (sets_up_port(facts, op, kPorts[number])) return true;
+  return false;
 }
 
 /// XMT and RCV.
@@ -78,11 +80,12 @@ void walk(const Program& program, std::uint32_t from, bool on, std::uint8_t sure
 }
 
 /// XMT or RCV that the first scan surely executes before anything can have written the control byte of its port.
-void find_early_use(const Program& program, std::size_t number, stl::Diagnostics& diagnostics) {
+void find_early_use(const Facts& facts, std::size_t number, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
   const PortInfo& port = kPorts[number];
   walk(program, 0, false, kOnInFirstScan, [&](std::uint32_t i, bool on) {
     const Op& op = program.ops[i];
-    if (sets_up_port(program, op, port)) return false;
+    if (sets_up_port(facts, i, port)) return false;
     if (on && uses_port(op) && op[1].at == number)
       diagnostics.push_back(
           warn(Warning::NoFreeport, place(program, i),
@@ -97,9 +100,10 @@ bool is_event_of(const PortInfo& port, std::uint8_t event) {
   return event == port.received || event == port.sent || event == port.received_message;
 }
 
-void find_missing_freeport(const Program& program, std::size_t number, stl::Diagnostics& diagnostics) {
+void find_missing_freeport(const Facts& facts, std::size_t number, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
   const PortInfo& port = kPorts[number];
-  if (is_set_up(program, number)) return find_early_use(program, number, diagnostics);
+  if (is_set_up(facts, number)) return find_early_use(facts, number, diagnostics);
   const auto add = [&](std::uint32_t op, const std::string& what) {
     diagnostics.push_back(
         warn(Warning::NoFreeport, place(program, op),
@@ -118,8 +122,10 @@ void find_missing_freeport(const Program& program, std::size_t number, stl::Diag
 }
 
 /// Whether an instruction may put a port in another mode than PPI, of which a master answers too.
-bool may_leave_ppi(const Program& program, const Op& op, const PortInfo& port) {
-  if (!sets_up_port(program, op, port)) return false;
+bool may_leave_ppi(const Facts& facts, std::uint32_t number, const PortInfo& port) {
+  if (!sets_up_port(facts, number, port)) return false;
+  const Program& program = facts.program;
+  const Op& op = program.ops[number];
   const bool moves_into_it = op.instruction->effect == Effect::CopiesByte && op[1].at == port.control;
   const bool is_constant = moves_into_it && op[0].at >= image::kConstants;
   return !is_constant || (program.constants[op[0].at - image::kConstants] & sm::kProtocol) == sm::kFreeport;
@@ -128,16 +134,21 @@ bool may_leave_ppi(const Program& program, const Op& op, const PortInfo& port) {
 }  // namespace
 
 bool keeps_ppi_station(const Program& program, std::uint8_t port) {
-  return std::ranges::none_of(program.ops, [&](const Op& op) {
+  const Facts facts = facts_of(program);
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    const Op& op = program.ops[i];
     const bool sets_station = op.instruction->effect == Effect::SetsStation && op[1].at == port;
-    return sets_station || may_leave_ppi(program, op, kPorts[port]);
-  });
+    if (sets_station || may_leave_ppi(facts, i, kPorts[port])) return false;
+  }
+  return true;
 }
 
 std::optional<std::uint8_t> ppi_station_set(const Program& program, std::uint8_t port) {
+  const Facts facts = facts_of(program);
   std::optional<std::uint8_t> station;
-  for (const Op& op : program.ops) {
-    if (may_leave_ppi(program, op, kPorts[port])) return {};
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    const Op& op = program.ops[i];
+    if (may_leave_ppi(facts, i, kPorts[port])) return {};
     if (op.instruction->effect != Effect::SetsStation || op[1].at != port) continue;
     if (op[0].at < image::kConstants) return {};
     const std::uint8_t constant = program.constants[op[0].at - image::kConstants];
@@ -153,8 +164,8 @@ bool is_ppi_master(const Program& program, std::uint8_t port) {
   });
 }
 
-void find_missing_freeport(const Program& program, stl::Diagnostics& diagnostics) {
-  for (std::size_t port = 0; port < program.model->ports; ++port) find_missing_freeport(program, port, diagnostics);
+void find_missing_freeport(const Facts& facts, stl::Diagnostics& diagnostics) {
+  for (std::size_t port = 0; port < facts.program.model->ports; ++port) find_missing_freeport(facts, port, diagnostics);
 }
 
 namespace {
@@ -182,7 +193,8 @@ std::string receive_events_text(const CpuModel& model) {
 
 }  // namespace
 
-void find_missing_receive_event(const Program& program, stl::Diagnostics& diagnostics) {
+void find_missing_receive_event(const Facts& facts, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
   for (std::size_t number = 0; number < program.model->ports; ++number)
     if (attaches(program, kPorts[number].received)) return;
   const Bits received{sm::kReceivedCharacter * 8u, 8}, status{sm::kReceiveStatus * 8u, 8};
@@ -191,7 +203,7 @@ void find_missing_receive_event(const Program& program, stl::Diagnostics& diagno
     const Op& op = program.ops[i];
     for (std::size_t k = 0; k < op.instruction->rules().size(); ++k) {
       const OperandRule& rule = op.instruction->operand[k];
-      if (rule.kind != OperandKind::Memory || op[k].pointer || op[k].unread() || !both.contain(bits_of(program, op, k)))
+      if (rule.kind != OperandKind::Memory || op[k].pointer || op[k].unread() || !both.contains(bits_of(program, op, k)))
         continue;
       diagnostics.push_back(warn(Warning::NoReceiveEvent, place(program, i),
                                  fmt::format("{} is always 0: no ATCH attaches {}, with which received characters get there",
@@ -283,11 +295,12 @@ class Repetition {
 
 }  // namespace
 
-void find_receive_once(const Program& program, stl::Diagnostics& diagnostics) {
+void find_receive_once(const Facts& facts, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
   if (ops_with(program, Effect::Receives).empty() || has_unread(program)) return;
   const Repetition repetition(program);
   for (std::size_t number = 0; number < program.model->ports; ++number) {
-    if (!is_set_up(program, number)) continue;
+    if (!is_set_up(facts, number)) continue;
     std::optional<std::uint32_t> once;
     bool again = false;
     for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
@@ -307,11 +320,13 @@ void find_receive_once(const Program& program, stl::Diagnostics& diagnostics) {
 namespace {
 
 /// Whether RCV, when it is executed, surely begins to wait for a message: the program sets SM87.7 and never resets it.
-bool receives_whenever_executed(const Program& program, const PortInfo& port) {
+bool receives_whenever_executed(const Facts& facts, const PortInfo& port) {
+  const Program& program = facts.program;
   const std::uint32_t control = port.message + sm::message::kControl;
   bool set = false;
-  for (const Op& op : program.ops) {
-    if (!touches(program, op, {control * 8u, 8}, true)) continue;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    if (!may_write(facts, i, {control * 8u, 8})) continue;
+    const Op& op = program.ops[i];
     const bool constant = op.instruction->effect == Effect::CopiesByte && op[1].at == control &&
                           op[0].at >= image::kConstants && !op[0].unread() && !op[0].pointer;
     if (!constant || !(program.constants[op[0].at - image::kConstants] & sm::message::kEnable)) return false;
@@ -362,10 +377,11 @@ void find_refused_in_one_pass(const Program& program, std::size_t number, bool r
 
 /// The RCV that the first scan surely executes, if it then waits until a message has come: the program leaves the port as
 /// the first scan sets it.
-std::optional<std::uint32_t> waiting_rcv(const Program& program, std::size_t number) {
+std::optional<std::uint32_t> waiting_rcv(const Facts& facts, std::size_t number) {
+  const Program& program = facts.program;
   const std::vector<bool> first_scan_only = ops_of_first_scan(program);
   for (std::uint32_t i = 0; i < program.ops.size(); ++i)
-    if (sets_up_port(program, program.ops[i], kPorts[number]) && !first_scan_only[i]) return {};
+    if (sets_up_port(facts, i, kPorts[number]) && !first_scan_only[i]) return {};
   std::optional<std::uint32_t> rcv;
   walk(program, 0, false, kOnInFirstScan, [&](std::uint32_t i, bool on) {
     if (on && uses(program.ops[i], Effect::Receives, number)) rcv = i;
@@ -414,8 +430,9 @@ bool is_executed_by_inputs_only(const Program& program, std::uint32_t op) {
 }
 
 /// XMT that the program executes although an RCV waits.
-void find_xmt_while_rcv_waits(const Program& program, std::size_t number, stl::Diagnostics& diagnostics) {
-  const auto rcv = waiting_rcv(program, number);
+void find_xmt_while_rcv_waits(const Facts& facts, std::size_t number, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
+  const auto rcv = waiting_rcv(facts, number);
   if (!rcv) return;
   const std::vector<bool> first_scan_only = ops_of_first_scan(program);
   const bool always = is_received_again_at_once(program, number);
@@ -431,13 +448,14 @@ void find_xmt_while_rcv_waits(const Program& program, std::size_t number, stl::D
 
 }  // namespace
 
-void find_busy_port(const Program& program, stl::Diagnostics& diagnostics) {
+void find_busy_port(const Facts& facts, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
   if (has_unread(program)) return;
   for (std::size_t number = 0; number < program.model->ports; ++number) {
-    if (!is_set_up(program, number)) continue;
-    const bool rcv_waits = receives_whenever_executed(program, kPorts[number]);
+    if (!is_set_up(facts, number)) continue;
+    const bool rcv_waits = receives_whenever_executed(facts, kPorts[number]);
     find_refused_in_one_pass(program, number, rcv_waits, diagnostics);
-    if (rcv_waits) find_xmt_while_rcv_waits(program, number, diagnostics);
+    if (rcv_waits) find_xmt_while_rcv_waits(facts, number, diagnostics);
   }
 }
 

@@ -1,20 +1,24 @@
-#include "interpreter/program/looks.hpp"
+#include "interpreter/analysis/looks.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "interpreter/program/program.hpp"
+#include "interpreter/analysis/effects.hpp"
 
 namespace s7200 {
 namespace {
 
-/// ImageBytes of the image, from `from` until before `to`.
-struct ImageBytes {
-  std::uint32_t from, to;
+/// SM0.4 and SM0.5.
+constexpr Bits kClockBits{std::uint64_t{sm::kScanStatus} * 8 + 4, 2};
+static_assert(sm::kClock1min == 1 << 4 && sm::kClock1s == 1 << 5);
 
-  bool contain(std::uint32_t at) const { return at >= from && at < to; }
-};
-
-constexpr ImageBytes kElementValues{image::kT, image::kC}, kElementBits{image::kTBits, image::kCBits};
+/// The numbers of the elements of which some bit is among `bits`; `first`: bit 0 of element 0. From, until before.
+std::pair<std::uint64_t, std::uint64_t> elements_in(const Bits& bits, std::uint64_t first, std::uint64_t size,
+                                                    std::uint64_t elements) {
+  const std::uint64_t end = first + size * elements;
+  if (!bits.overlaps({first, size * elements})) return {0, 0};
+  return {(std::max(bits.first, first) - first) / size, (std::min(bits.end(), end) - first + size - 1) / size};
+}
 
 class Finder {
  public:
@@ -22,8 +26,6 @@ class Finder {
 
   Looks find() {
     for (std::uint32_t op = 0; op < program_.ops.size(); ++op) look_at(op);
-    for (const Parameter& parameter : program_.parameters)
-      operand(parameter.actual, parameter.role, parameter.width == Width::Bit, false);
     return looks_;
   }
 
@@ -36,16 +38,10 @@ class Finder {
     may_branch_ |= branches(instruction);
     const bool is_timer = instruction.hidden == Hidden::Number && op[0].at < image::kC;
     if (is_timer) executed(op[2].at);
-    const auto rules = instruction.rules();
-    for (std::size_t k = is_timer ? 1 : 0; k < rules.size(); ++k) {
-      if (rules[k].kind != OperandKind::Memory) continue;
-      operand(op[k], rules[k].role, rules[k].width == Width::Bit, begins_block(rules[k]));
+    for (const MemoryAccess& access : effects_of(program_, number, pointers_)) {
+      const bool its_own = is_timer && (access.operand == 0 || access.operand == kNoOperand);
+      if (!its_own) note(access);
     }
-  }
-
-  /// What is read and cannot be a constant is a table or a message: its first element says how far it goes.
-  static bool begins_block(const OperandRule& rule) {
-    return rule.counted != 0 || rule.elements != 1 || (rule.role == Role::In && rule.width != Width::Bit && !rule.constant);
   }
 
   /// Whether some of what follows may be left out in a scan, or done twice.
@@ -68,28 +64,18 @@ class Finder {
     seen_.set(timer);
   }
 
-  /// Every pointer reaches the values of timers, and on late CPUs 22x special memory. SMB0 is never written by a program.
-  void operand(const Operand& operand, Role role, bool is_bit, bool is_block) {
-    if (operand.pointer) {
-      looks_.clock_bits |= program_.model->pointer_code(Area::SM).has_value();
-      looks_.every_tick.set();
-      return;
-    }
-    if (operand.at == sm::kScanStatus) looks_.clock_bits |= !is_bit || is_clock_bit(operand);
-    if (kElementValues.contain(operand.at)) every_tick((operand.at - kElementValues.from) / 2, is_block);
-    if (role != Role::In && kElementBits.contain(operand.at))
-      every_tick((operand.at - kElementBits.from) * 8 + operand.bit, is_block);
+  void note(const MemoryAccess& access) {
+    looks_.clock_bits |= access.reads() && access.bits.overlaps(kClockBits);
+    every_tick(elements_in(access.bits, std::uint64_t{image::kT} * 8, 16, image::kTimers));
+    if (access.writes()) every_tick(elements_in(access.bits, std::uint64_t{image::kTBits} * 8, 1, image::kTimers));
   }
 
-  /// Of one timer or, in a block, of all from there on.
-  void every_tick(std::uint32_t first, bool is_block) {
-    const std::uint32_t end = is_block ? image::kTimers : first + 1;
-    for (std::uint32_t timer = first; timer < end; ++timer) looks_.every_tick.set(timer);
+  void every_tick(const std::pair<std::uint64_t, std::uint64_t>& timers) {
+    for (std::uint64_t timer = timers.first; timer < timers.second; ++timer) looks_.every_tick.set(timer);
   }
-
-  static bool is_clock_bit(const Operand& operand) { return (1u << operand.bit) & (sm::kClock1min | sm::kClock1s); }
 
   const Program& program_;
+  Pointers pointers_ = Pointers::nothing_known(program_);  // whoever sets one later must not change what is looked at
   Looks looks_;
   std::bitset<image::kTimers> seen_;  // executed so far
   bool may_branch_ = false;           // somewhere before

@@ -578,7 +578,6 @@ class Checker {
     std::sort(program->reals.begin(), program->reals.end());
     program->constants = constants_.bytes();
     program->data = std::move(data_);
-    program->looks = looks_of(*program);
     program->no_power_flow = times[SystemTime::NoPowerFlow];
     program->interrupt_entry = times[SystemTime::InterruptEntry];
     program->eeprom_save = times[SystemTime::EepromSave];

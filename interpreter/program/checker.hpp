@@ -13,7 +13,7 @@
 namespace s7200 {
 
 struct DecodedSource {
-  std::shared_ptr<Program> program;  ///< null if there are errors
+  std::shared_ptr<Program> program;  ///< null if there are errors; its `looks` are not known yet
   /// The program, or what is known of one with errors, for the search for warnings; null if too little is known.
   std::shared_ptr<const Program> known;
   stl::Source source;

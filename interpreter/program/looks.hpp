@@ -1,15 +1,12 @@
-// What a program looks at of the things that change by themselves. Worked out once at load; the CPU passes over scans that
-// are all alike only as far as none of these change (cpu/steady_scans.hpp).
+// What a program looks at of the things that change by themselves. It is worked out once at load (analysis/looks.hpp); the
+// CPU passes over scans that are all alike only as far as none of these change (cpu/steady_scans.hpp).
 #pragma once
 
 #include <bitset>
-#include <memory>
 
 #include "interpreter/model/area.hpp"
 
 namespace s7200 {
-
-struct Program;
 
 struct Looks {
   bool clock_bits = false;  ///< SM0.4 or SM0.5, or something that holds them
@@ -21,11 +18,5 @@ struct Looks {
 
   bool operator==(const Looks&) const = default;
 };
-
-/// The same program, of which every scan is wanted: none is passed over.
-std::shared_ptr<const Program> with_every_scan(const Program& program);
-
-/// `program` is decoded. What a pointer reaches counts as looked at, and as written.
-Looks looks_of(const Program& program);
 
 }  // namespace s7200

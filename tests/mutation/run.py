@@ -46,7 +46,7 @@ RULES = f"{BODIES}/operand_rules.hpp"
 CHAINS = f"{BODIES}/contact_chains.cpp"
 LINKS = [f"{BODIES}/linked.hpp", CHAINS]
 CHAINS_ARE_MADE_OF = [*LINKS, f"{BODIES}/bit_logic.hpp"]
-STEADY_SCANS = ["interpreter/cpu/steady_scans.cpp", "interpreter/cpu/timers.cpp", "interpreter/program/looks.cpp"]
+STEADY_SCANS = ["interpreter/cpu/steady_scans.cpp", "interpreter/cpu/timers.cpp", "interpreter/analysis/looks.cpp"]
 # Of other files what those about scans hang on: these lines only, each file a library by itself too.
 BESIDE_STEADY_SCANS = {"interpreter/cpu/cpu.cpp": r"touched = true", "interpreter/cpu/clock.cpp": r"/ second \+ 1",
                        "interpreter/cpu/scan.cpp": r"scan_begin \+= by|update_clocks\(core, s, s\.scan_begin\)|^  s\.next_clock = "}

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/statements_output.hpp"

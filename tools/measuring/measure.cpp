@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"

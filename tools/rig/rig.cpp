@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/analysis/looks.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "tools/rig/clock_text.hpp"
 #include "tools/rig/system_trace.hpp"

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/program/load_times.hpp"
 #include "interpreter/program/slips.hpp"
 #include "interpreter/program/stand_ins.hpp"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/measuring/parallel_run.hpp"
 #include "tools/rig/rig.hpp"

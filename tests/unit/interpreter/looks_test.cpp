@@ -1,5 +1,5 @@
 // What programs look at of the things that change by themselves.
-#include "interpreter/program/looks.hpp"
+#include "interpreter/analysis/looks.hpp"
 
 #include "tests/support/plc.hpp"
 
@@ -55,10 +55,12 @@ TEST(Looks, AValueOrABitIsThatOfOneTimer) {
   EXPECT_EQ(every_tick("LD T36\nMOVW VW0, AQW62\nMOVW C0, VW0\nMOVD HC0, VD0\nMOVD AC3, AC0\n= C0\n= I0.0\n"), "");
 }
 
-TEST(Looks, ABlockOfTimersGoesOnToTheLastOne) {
-  for (const char* block : {"BMW T253, VW0, 2\n", "BMW VW0, T253, 2\n", "FILL 5, T253, 2\n", "R T253, 1\n",
+TEST(Looks, ABlockOfTimersGoesAsFarAsItsCountMaySay) {
+  for (const char* block : {"BMW T253, VW0, VB9\n", "BMW VW0, T253, VB9\n", "FILL 5, T253, VB9\n", "R T253, VB9\n",
                             "ATT VW0, T253\n", "FIFO T253, VW0\n", "FND> T253, 50, VW0\n"})
     EXPECT_EQ(every_tick(std::string("LD I0.0\n") + block), "253 254 255 ") << block;
+  for (const char* block : {"BMW T253, VW0, 2\n", "BMW VW0, T253, 2\n", "FILL 5, T253, 2\n", "R T253, 2\n"})
+    EXPECT_EQ(every_tick(std::string("LD I0.0\n") + block), "253 254 ") << block;
   EXPECT_EQ(every_tick("LD I0.0\nINCW T253\n+I 5, T30\nAW>= T40, 7\n= Q0.0\n"), "30 40 253 ");
 }
 

@@ -7,8 +7,10 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 
 #include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/effects.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "tests/reference_model/silent_port.hpp"
 #include "tests/support/source_path.hpp"
@@ -105,22 +107,13 @@ class Execution {
   /// What is wrong; empty if nothing is.
   std::string result() {
     if (!checked_.program) return "the checker refuses it: " + checked_.diagnostics.at(0).message + "\n";
-    Cpu cpu(checked_.program, queue_, EventOwner{}, {&port_});
-    cpu.power_up();
-    cpu.run(checked_.program->scan_phase[Program::kReadInputs]);
-    prepare(cpu);
-    const Time start = cpu.time();
-    const Image before = cpu.state().image;
-    Image expected = before;
-    if (vector_.until)
-      run_until(cpu, *vector_.until);
-    else
-      run_steps(cpu);
+    const Outcome outcome = execute({});
+    Image expected = outcome.before;
     for (const auto& assignment : vector_.after) assign(expected, assignment);
-    compare_memory(expected, cpu.state().image);
-    if (!vector_.is_program()) compare_with_roles(cpu, before);
-    compare_state(cpu.state());
-    if (vector_.time) compare("time in ns", *vector_.time, cpu.time() - start);
+    compare_memory(expected, outcome.state.image);
+    if (is_one_instruction() && !vector_.stops) compare_with_effects(outcome);  // a stop is the system's
+    compare_state(outcome.state);
+    if (vector_.time) compare("time in ns", *vector_.time, outcome.time);
     return wrong_;
   }
 
@@ -139,9 +132,36 @@ class Execution {
     return vector_.is_program() ? text : text + "MEND\n";
   }
 
-  void prepare(Cpu& cpu) const {
-    Image image = cpu.state().image;
-    for (const auto& assignment : vector_.before) assign(image, assignment);
+  bool is_one_instruction() const { return !vector_.is_program() && vector_.steps == 1 && !vector_.until; }
+
+  struct Outcome {
+    Image before{};
+    State state{};
+    Time time = 0;
+    bool powered = true;
+  };
+
+  /// From the memory of the vector, or from `memory`.
+  Outcome execute(const std::optional<Image>& memory) {
+    queue_ = {};
+    Cpu cpu(checked_.program, queue_, EventOwner{}, {&port_});
+    cpu.power_up();
+    cpu.run(checked_.program->scan_phase[Program::kReadInputs]);
+    prepare(cpu, memory);
+    const Time start = cpu.time();
+    const Image before = cpu.state().image;
+    const bool powered = cpu.state().stack.top() || checked_.program->ops[cpu.state().pc].power_mask == 0;
+    if (vector_.until)
+      run_until(cpu, *vector_.until);
+    else
+      run_steps(cpu);
+    return {before, cpu.state(), cpu.time() - start, powered};
+  }
+
+  void prepare(Cpu& cpu, const std::optional<Image>& memory) const {
+    Image image = memory.value_or(cpu.state().image);
+    if (!memory)
+      for (const auto& assignment : vector_.before) assign(image, assignment);
     cpu.poke(0, image);
     State state = cpu.state();
     state.pc = prefix_;
@@ -189,26 +209,58 @@ class Execution {
     }
   }
 
-  /// What an instruction has written is an operand whose rule says that it is written, SM and points apart.
-  void compare_with_roles(const Cpu& cpu, const Image& before) {
-    for (std::uint32_t at = 0; at < image::kConstants; ++at) {
-      const bool is_an_operand = at < image::kSM || (at >= image::kS && at < image::kInputs) || at >= image::kV;
-      if (is_an_operand && before[at] != cpu.state().image[at] && !is_of_a_written_operand(cpu, at))
-        wrong_ += fmt::format("  {}: written, and no operand's rule says so\n", name_of_place(at));
-    }
+  // --- what interpreter/analysis/effects.hpp says of the instruction ---
+
+  using Mask = Image;  // with a 1 for each bit that is meant
+
+  template <class Condition>
+  static Mask bits_with(const std::vector<MemoryAccess>& effects, const Condition& condition) {
+    Mask mask{};
+    for (const MemoryAccess& access : effects)
+      for (std::uint64_t bit = access.bits.first; condition(access) && bit < access.bits.end(); ++bit)
+        mask[bit / 8] = static_cast<std::uint8_t>(mask[bit / 8] | 1 << bit % 8);
+    return mask;
   }
 
-  /// One of the same area begins before the byte or at it. The bits of timers and counters are theirs.
-  bool is_of_a_written_operand(const Cpu& cpu, std::uint32_t at) const {
-    const Op& op = checked_.program->ops[prefix_];
-    const std::string area = name_of_place(at).substr(0, 2);
-    for (std::size_t i = 0; i < op.instruction->rules().size(); ++i) {
-      const OperandRule& rule = op.instruction->operand[i];
-      if (rule.role == Role::In || rule.kind != OperandKind::Memory) continue;
-      const auto place = cpu.place_of(op[i]);
-      if (place && name_of_place(*place).substr(0, 2) == area && (*place <= at || area == "T " || area == "C ")) return true;
+  void complain_of(std::uint32_t at, int bits, std::string_view when, std::string_view what) {
+    if (bits != 0) wrong_ += fmt::format("  {}, bits 2#{:b}: {} ({})\n", name_of_place(at), bits, what, when);
+  }
+
+  void compare_with_effects(const Outcome& outcome) {
+    const Program& program = *checked_.program;
+    compare_with_effects(outcome, effects_now(program, prefix_, outcome.before), "now");
+    compare_with_effects(outcome, effects_of(program, prefix_, Pointers::nothing_known(program)), "ever");
+  }
+
+  /// With all memory inverted that it does not read, the instruction does the same.
+  void compare_with_effects(const Outcome& outcome, const std::vector<MemoryAccess>& effects, std::string_view when) {
+    const Mask written = bits_with(effects, [](const MemoryAccess& access) { return access.writes(); });
+    const Mask read = bits_with(effects, [](const MemoryAccess& access) { return access.reads(); });
+    const Mask surely = bits_with(effects, [&](const MemoryAccess& access) {
+      return access.writes() && access.certainty == Certainty::Must && does_its_work(outcome);
+    });
+    Image inverted = outcome.before;
+    for (std::uint32_t at = 0; at < image::kConstants; ++at)
+      if (at < image::kSM || at >= image::kS) inverted[at] = static_cast<std::uint8_t>(inverted[at] ^ ~read[at]);
+    const Outcome other = execute(inverted);
+    for (std::uint32_t at = 0; at < image::kConstants; ++at) {
+      const int changed = outcome.before[at] ^ outcome.state.image[at], changed_too = inverted[at] ^ other.state.image[at];
+      const int different = outcome.state.image[at] ^ other.state.image[at];
+      complain_of(at, (changed | changed_too) & ~written[at], when, "changed, and no effect says so");
+      complain_of(at, different & surely[at], when, "an effect says that it is written, and it is not");
+      complain_of(at, different & changed_too, when, "depends on what no effect says is read");
     }
-    return false;
+    const State &one = outcome.state, &two = other.state;
+    const bool same =
+        other.time == outcome.time && one.pc == two.pc && one.stack == two.stack && one.error_count == two.error_count;
+    if (!same) wrong_ += fmt::format("  what it does besides depends on what no effect says is read ({})\n", when);
+  }
+
+  /// Not without power flow, with an error, RTA with a size that it cannot write, or RCV that ends a reception.
+  bool does_its_work(const Outcome& outcome) const {
+    const bool may_do_less = vector_.ops[0].starts_with("RTA ") || vector_.ops[0].starts_with("RCV ");
+    const bool failed = outcome.state.error_count != 0 || (outcome.state.image[sm::kFlags] & kFailures) != 0;
+    return outcome.powered && !failed && !may_do_less;
   }
 
   void compare_state(const State& state) {

@@ -75,6 +75,8 @@ TEST(DoubleCoil, IsMemoryThatNothingReadsInBetween) {
   EXPECT_EQ(warnings_of("LD I0.0\n= M0.0\nLD M0.0\n= Q0.0\nLD I0.1\n= M0.0\nLD M0.0\n= Q0.1\nMEND\n"), "") << "used twice";
   EXPECT_EQ(warnings_of("LD I0.0\n= M0.0\nMOVB MB0, QB1\nLD I0.1\n= M0.0\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD I0.0\n= M0.0\nMOVB *VD0, QB1\nLD I0.1\n= M0.0\nMEND\n"), "") << "a pointer may lead there";
+  EXPECT_EQ(warnings_of("LD I0.0\n= M0.0\nMOVD &VB9, AC1\nMOVB *AC1, QB1\nLD I0.1\n= M0.0\nMEND\n"), "6 double-coil\n")
+      << "this one leads to VB9";
   EXPECT_EQ(warnings_of("LD I0.0\n= M0.0\nCALL 0\nLD I0.1\n= M0.0\nMEND\nSBR 0\nLD M0.0\n= Q0.0\nRET\n"), "");
   EXPECT_EQ(warnings_of("LD I0.0\n= M0.0\nATCH 0, 10\nENI\nLD I0.1\n= M0.0\nMEND\nINT 0\nLD M0.0\n= Q0.0\nRETI\n"), "");
 }
@@ -82,6 +84,8 @@ TEST(DoubleCoil, IsMemoryThatNothingReadsInBetween) {
 TEST(DoubleCoil, IsNotACoilOnEachOfTwoWaysThroughTheProgram) {
   EXPECT_EQ(warnings_of("LD I0.0\nJMP 1\nLD I0.1\n= Q0.0\nLD SM0.0\nJMP 2\nLBL 1\nLD I0.2\n= Q0.0\nLBL 2\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD I0.1\n= Q0.0\nLD I0.0\nJMP 1\nLD I0.2\n= Q0.0\nLBL 1\nMEND\n"), "") << "a value by default";
+  EXPECT_EQ(warnings_of("LSCR S0.0\nLD I0.0\n= Q0.0\nLD I0.1\nCSCRE\nLD I0.2\n= Q0.0\nSCRE\nMEND\n", *find_cpu("224")), "")
+      << "the segment may be left in between";
   EXPECT_EQ(warnings_of("LD I0.1\n= Q0.0\nLD I0.0\nEND\nLD I0.2\n= Q0.0\nMEND\n"), "");
   EXPECT_EQ(warnings_of("LD I0.1\n= Q0.0\nLD I0.0\nFOR VW0, 1, VW2\nLD I0.2\n= Q0.0\nNEXT\nMEND\n"), "");
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"

@@ -4,17 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "interpreter/analysis/bits.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "interpreter/program/address.hpp"
 
 namespace s7200::tools {
-
-/// Bits of the image, from bit 0 of its first byte on.
-struct Bits {
-  std::uint64_t first = 0, count = 0;
-
-  bool overlaps(const Bits& other) const { return first < other.first + other.count && other.first < first + count; }
-};
 
 Bits bits_of(const MemoryRange& range);
 

@@ -1,8 +1,8 @@
 #include "tools/session/past/written_memory.hpp"
 
 #include <algorithm>
-#include <span>
 
+#include "interpreter/analysis/effects.hpp"
 #include "interpreter/model/area.hpp"
 #include "interpreter/model/ports.hpp"
 
@@ -61,22 +61,17 @@ WriteMarker::Writes WriteMarker::writes_of(const Program& program, std::uint32_t
   for (std::size_t i = 0; i < rules.size(); ++i) {
     const OperandRule& rule = rules[i];
     if (rule.kind != OperandKind::Memory || rule.role == Role::In) continue;
-    if (rule.text || rule.name == "TBL") return Writes::Unknown;
+    if (rule.most != 0) return Writes::Unknown;
     if (op[i].pointer || rule.counted != 0) writes = Writes::Elsewhere;
   }
   return writes;
 }
 
 /// What a CALL gets back from the subroutine, when that ends.
-std::vector<Bits> WriteMarker::results_of(std::uint32_t number) const {
-  const Program& program = cpu_.program();
-  const Op& call = program.ops[number];
+std::vector<Bits> WriteMarker::results_of(std::uint32_t call) const {
   std::vector<Bits> all;
-  for (const Parameter& parameter : std::span(program.parameters).subspan(call[1].at, call[2].at)) {
-    const auto place = cpu_.place_of(parameter.actual);
-    if (parameter.role != Role::In && place)
-      all.push_back({std::uint64_t{*place} * 8, std::uint64_t{8} * bytes_of(parameter.width)});
-  }
+  for (const MemoryAccess& access : effects_now(cpu_.program(), call, cpu_.state().image))
+    if (access.writes()) all.push_back(access.bits);
   return all;
 }
 

@@ -1,0 +1,171 @@
+#include "interpreter/analysis/pointers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "interpreter/analysis/effects.hpp"
+#include "interpreter/base/bytes.hpp"
+
+namespace s7200 {
+namespace {
+
+using Content = Pointers::Content;
+
+constexpr std::uint32_t kOffset = 0xFF'FFFF;  ///< bits of a pointer that say where in its area
+
+Bits bits_of_pointer(std::uint32_t at) { return {std::uint64_t{at} * 8, 32}; }
+
+/// Memory that only the program and its users write.
+bool is_plain_memory(std::uint32_t at) {
+  const bool bit_memory = at >= image::kM && at + 4 <= image::kSM, accumulator = at >= image::kAC && at + 4 <= image::kTBits;
+  return bit_memory || accumulator || (at >= image::kV && at + 4 <= image::kConstants);
+}
+
+bool is_set_by_data_block(const Program& program, std::uint32_t at) {
+  return std::ranges::any_of(program.data, [&](const InitialData& data) {
+    return bits_of_pointer(at).overlaps({std::uint64_t{image::kV + data.offset} * 8, data.bytes.size() * 8});
+  });
+}
+
+/// The value of a direct operand that is a constant.
+std::optional<std::uint32_t> constant(const Program& program, const Operand& operand) {
+  if (operand.pointer || operand.unread() || operand.at < image::kConstants) return {};
+  return load32(&program.constants[operand.at - image::kConstants]);
+}
+
+/// Some address in the areas of those that a pointer held before.
+Content anywhere_in_areas(const Content& before) {
+  Content content{.anything = before.anything, .addresses = {}, .areas = before.areas};
+  for (const std::uint32_t address : before.addresses) content.areas.insert(static_cast<std::uint8_t>(address >> 24));
+  return content;
+}
+
+/// Whether an op adds a constant to a double word, or subtracts one, that is less than an area's worth of addresses.
+bool counts(const Program& program, const Op& op) {
+  constexpr std::array<std::string_view, 2> kByOne{"INCD", "DECD"}, kByConstant{"+D", "-D"};
+  if (std::ranges::find(kByOne, op.instruction->mnemonic) != kByOne.end()) return true;
+  if (std::ranges::find(kByConstant, op.instruction->mnemonic) == kByConstant.end()) return false;
+  const auto step = constant(program, op[0]);
+  return step && std::abs(std::int64_t{static_cast<std::int32_t>(*step)}) <= kOffset;
+}
+
+Content anything() { return {.anything = true, .addresses = {}, .areas = {}}; }
+
+}  // namespace
+
+bool Pointers::Content::add(const Content& other) {
+  const auto size = [this] { return addresses.size() + areas.size() + (anything ? 1 : 0); };
+  const std::size_t before = size();
+  anything |= other.anything;
+  addresses.insert(other.addresses.begin(), other.addresses.end());
+  areas.insert(other.areas.begin(), other.areas.end());
+  return size() != before;
+}
+
+Pointers::Pointers(const Program& program) : program_(program) {
+  for (const Op& op : program.ops)
+    for (const Operand& operand : op.operand)
+      if (operand.pointer) begin(operand.at);
+  for (const Parameter& parameter : program.parameters)
+    if (parameter.actual.pointer) begin(parameter.actual.at);
+  if (contents_.empty()) return;
+  do {
+    while (add_writes()) {
+    }
+  } while (give_up_unset());
+}
+
+/// Nothing is known of what the program itself does not set. Whether there was any more of that.
+bool Pointers::give_up_unset() {
+  bool more = false;
+  for (auto& [at, content] : contents_)
+    if (content.addresses.empty() && content.areas.empty()) more |= content.add(anything());
+  return more;
+}
+
+bool Pointers::begin(std::uint32_t at) {
+  const bool unknown = !is_plain_memory(at) || is_set_by_data_block(program_, at);
+  return contents_.try_emplace(at, unknown ? anything() : Content{}).second;
+}
+
+bool Pointers::add_writes() {
+  bool more = false;
+  for (std::uint32_t i = 0; i < program_.ops.size(); ++i)
+    for (const MemoryAccess& access : effects_of(program_, i, *this)) {
+      const bool of_operand =
+          access.operand != kNoOperand || access.by_pointer || access.bits.contains({0, image::kConstants * 8u});
+      if (access.writes() && of_operand) more |= add_write(program_.ops[i], access);
+    }
+  for (const Parameter& parameter : program_.parameters) more |= add_parameter(parameter);
+  return more;
+}
+
+bool Pointers::add_write(const Op& op, const MemoryAccess& access) {
+  bool more = false;
+  for (auto& [at, content] : contents_) {
+    const Bits pointer = bits_of_pointer(at);
+    if (!access.bits.overlaps(pointer)) continue;
+    const bool whole = access.bits == pointer && !access.by_pointer;
+    const bool moved = whole && op.instruction->operand[0].address_of;
+    const bool in_area = (whole && counts(program_, op)) || access.bits.first >= pointer.first + 8;
+    const Content added = moved ? copied(op[0], more) : in_area ? anywhere_in_areas(content) : anything();
+    more |= content.add(added);
+  }
+  return more;
+}
+
+/// What a double word that is moved may be. `more` becomes true if it is the first time that it is asked for.
+Pointers::Content Pointers::copied(const Operand& from, bool& more) {
+  if (const auto address = constant(program_, from)) return {.anything = false, .addresses = {*address}, .areas = {}};
+  if (from.pointer || from.unread()) return anything();
+  more |= begin(from.at);
+  return contents_.at(from.at);
+}
+
+/// A subroutine gets the caller's operand and hands it back.
+bool Pointers::add_parameter(const Parameter& parameter) {
+  bool more = false;
+  const auto pass = [&](const Operand& from, const Operand& to) {
+    const Bits written{std::uint64_t{to.at} * 8, std::uint64_t{8} * bytes_of(parameter.width)};
+    for (auto& [at, content] : contents_) {
+      if (!written.overlaps(bits_of_pointer(at))) continue;
+      const bool whole = written == bits_of_pointer(at);
+      more |= content.add(whole ? copied(from, more) : anything());
+    }
+  };
+  if (parameter.role != Role::Out) pass(parameter.actual, parameter.local);
+  if (parameter.role != Role::In && !parameter.actual.pointer) pass(parameter.local, parameter.actual);
+  return more;
+}
+
+bool Pointers::is_known(std::uint32_t at) const {
+  const auto found = contents_.find(at);
+  return found != contents_.end() && !found->second.anything;
+}
+
+std::vector<PointerTarget> Pointers::targets(std::uint32_t at) const {
+  const auto found = contents_.find(at);
+  const bool anything = found == contents_.end() || found->second.anything;
+  std::vector<PointerTarget> all;
+  for (std::uint32_t code = 0; code < kReaches; ++code) {
+    const Reach& reach = program_.reach[code];
+    if (reach.size != 0 && (anything || found->second.areas.contains(static_cast<std::uint8_t>(code))))
+      all.push_back({reach.base, reach.base + reach.size});
+  }
+  if (anything) return all;
+  for (const std::uint32_t address : found->second.addresses) {
+    const std::uint32_t code = address >> 24, offset = address & kOffset;
+    if (code >= kReaches || offset >= program_.reach[code].size ||
+        found->second.areas.contains(static_cast<std::uint8_t>(code)))
+      continue;
+    const std::uint32_t place = program_.reach[code].base + offset;
+    all.push_back({place, place + 1});
+  }
+  return all;
+}
+
+}  // namespace s7200

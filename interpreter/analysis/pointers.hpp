@@ -1,0 +1,68 @@
+// Where the pointers of a program may lead.
+//
+// A pointer is a double word in memory. It is known if all that writes it are instructions which move an address to it
+// (MOVD &VB100, AC1; MOVD 16#08000064, VD0), copy another known one, add and subtract constants or count it up and down, or
+// change its lower bytes only; and if it is in V, M or L memory or an accumulator. Anything else, also an instruction that
+// writes through a pointer which may lead to this one, may put anything into it. So may the user, a master or the data
+// block: of a pointer that the program itself does not set nothing is known, and of another one it is assumed that nobody
+// else sets it. Of a pointer that is counted up or down only the area is known, and it is assumed that it stays in it: to
+// reach another one it has to be counted through 16 million addresses that point nowhere.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "interpreter/program/program.hpp"
+
+namespace s7200 {
+
+struct MemoryAccess;
+
+/// Where operands that a pointer leads to may begin: bytes of the image, from `from` until before `to`.
+struct PointerTarget {
+  std::uint32_t from = 0, to = 0;
+
+  bool operator==(const PointerTarget&) const = default;
+};
+
+class Pointers {
+ public:
+  explicit Pointers(const Program& program);
+
+  /// As if nothing were known of any: for what must hold whoever sets a pointer.
+  static Pointers nothing_known(const Program& program) { return Pointers(program, Nothing{}); }
+
+  /// Of a pointer in memory at `at`, in no order; empty if all addresses it gets point nowhere. If nothing is known of it:
+  /// all that a pointer can reach on the program's CPU.
+  std::vector<PointerTarget> targets(std::uint32_t at) const;
+
+  /// Whether anything is known of it.
+  bool is_known(std::uint32_t at) const;
+
+  /// What a pointer may hold.
+  struct Content {
+    bool anything = false;
+    std::set<std::uint32_t> addresses;  ///< as the pointer holds them
+    std::set<std::uint8_t> areas;       ///< any address in them: their codes, the top byte
+
+    bool add(const Content& other);  ///< whether that is more than before
+  };
+
+ private:
+  struct Nothing {};
+  Pointers(const Program& program, Nothing) : program_(program) {}
+
+  bool begin(std::uint32_t at);
+  bool add_writes();
+  bool give_up_unset();
+  bool add_write(const Op& op, const MemoryAccess& access);
+  bool add_parameter(const Parameter& parameter);
+  Content copied(const Operand& from, bool& more);
+
+  const Program& program_;
+  std::map<std::uint32_t, Content> contents_;  // by place in the image
+};
+
+}  // namespace s7200

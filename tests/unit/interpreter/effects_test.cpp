@@ -1,0 +1,129 @@
+// Which bits programs read and write. That it is so for each instruction is tried with all its vectors (vectors_test.cpp).
+#include "interpreter/analysis/effects.hpp"
+
+#include "interpreter/program/operands.hpp"
+#include "tests/support/plc.hpp"
+
+namespace s7200::test {
+namespace {
+
+const CpuModel& model() { return *find_cpu("224"); }
+
+std::string place_text(std::uint64_t bit) {
+  const auto place = static_cast<std::uint32_t>(bit / 8);
+  const AreaInfo& area = area_at(place);
+  return fmt::format("{}{}.{}", area.name, place - area.base, bit % 8);
+}
+
+/// `VB0: V0.0+8 must; V1.0+8 may`: the accesses of an operand, or of all that is besides.
+std::string accesses(const Program& program, std::uint32_t op, std::uint8_t operand) {
+  std::vector<std::string> all;
+  for (const MemoryAccess& access : effects_of(program, op, Pointers(program)))
+    if (access.operand == operand)
+      all.push_back(fmt::format("{} {}+{} {}",
+                                access.role == Role::In    ? "reads"
+                                : access.role == Role::Out ? "writes"
+                                                           : "changes",
+                                place_text(access.bits.first), access.bits.count,
+                                access.certainty == Certainty::Must ? "must" : "may"));
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+/// Of the last op before MEND.
+std::string accesses(std::string_view text, std::uint8_t operand) {
+  const auto program = program_of(std::string(text) + "MEND\n", model());
+  return accesses(*program, static_cast<std::uint32_t>(program->ops.size() - 2), operand);
+}
+
+TEST(Effects, AnOperandIsAsWideAsItsInstructionSays) {
+  EXPECT_EQ(accesses("LD I0.3\n", 0), "reads I0.3+1 must");
+  EXPECT_EQ(accesses("LD SM0.0\nMOVW VW10, AQW0\n", 0), "reads V10.0+16 must");
+  EXPECT_EQ(accesses("LD SM0.0\n+D VD10, VD20\n", 1), "changes V20.0+32 must");
+  EXPECT_EQ(accesses("LD SM0.0\nMOVB 5, VB0\n", 0), "") << "a constant";
+}
+
+TEST(Effects, ABlockGoesAsFarAsItsCountSays) {
+  EXPECT_EQ(accesses("LD SM0.0\nBMB VB0, VB100, 4\n", 1), "writes V100.0+32 must");
+  EXPECT_EQ(accesses("LD SM0.0\nBMB VB0, VB100, VB9\n", 1), "writes V100.0+2040 may");
+  EXPECT_EQ(accesses("LD SM0.0\nS M31.6, VB9\n", 0), "writes M31.6+2 may") << "and no further than its area";
+  EXPECT_EQ(accesses("LD SM0.0\nSCPY VB0, VB300\n", 1), "writes V300.0+8 must; writes V301.0+2032 may");
+}
+
+TEST(Effects, ResetClearsTheValuesOfTimersAndCountersToo) {
+  EXPECT_NE(accesses("LD I0.0\nR T37, 2\n", kNoOperand).find("writes T74.0+32 must"), std::string::npos);
+  EXPECT_EQ(accesses("LD I0.0\nS T37, 2\n", kNoOperand).find("writes T"), std::string::npos);
+}
+
+TEST(Effects, APointerThatIsSetOnceLeadsToOnePlace) {
+  EXPECT_EQ(accesses("LD SM0.0\nMOVD &VB100, AC1\nMOVB 1, *AC1\n", 1), "reads AC4.0+32 must; writes V100.0+8 may");
+  EXPECT_EQ(accesses("LD SM0.0\nMOVD &VB100, AC1\nMOVD AC1, VD4\nMOVD &MB2, VD4\nMOVW 1, *VD4\n", 1),
+            "reads V4.0+32 must; writes M2.0+16 may; writes V100.0+16 may")
+      << "copied, or another one";
+}
+
+TEST(Effects, APointerThatIsCountedLeadsAnywhereInItsArea) {
+  const std::string all_of_m = "reads AC4.0+32 must; changes M0.0+256 may";
+  EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, AC1\nINCD AC1\nINCB *AC1\n", 0), all_of_m);
+  EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, AC1\n+D +4, AC1\nINCB *AC1\n", 0), all_of_m);
+  EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, VD0\nMOVW VW90, VW2\nINCB *VD0\n", 0), "reads V0.0+32 must; changes M0.0+256 may")
+      << "its lower bytes are another's";
+}
+
+/// Whether anything is known of the pointer VD0.
+bool is_known(std::string_view text) {
+  const auto program = program_of("LD SM0.0\n" + std::string(text) + "MOVB *VD0, QB0\nMEND\n", model());
+  return Pointers(*program).is_known(image::kV);
+}
+
+TEST(Effects, NothingIsKnownOfAPointerThatSomethingElseMayWrite) {
+  EXPECT_TRUE(is_known("MOVD &VB100, VD0\n"));
+  EXPECT_FALSE(is_known("")) << "someone else sets it";
+  EXPECT_FALSE(is_known("MOVD &VB100, VD0\n+D VD8, VD0\n"));
+  EXPECT_FALSE(is_known("MOVD &VB100, VD0\n+D 16#01000000, VD0\n")) << "another area";
+  EXPECT_FALSE(is_known("MOVD &VB100, VD0\nMOVB VB9, VB0\n")) << "the byte with the area";
+  EXPECT_FALSE(is_known("MOVD &VB100, VD0\nFILL 0, VW0, VB9\n"));
+  EXPECT_FALSE(is_known("MOVD &VB100, VD0\nMOVB 1, *VD20\n")) << "through a pointer that may lead there";
+  EXPECT_FALSE(is_known("MOVD &VB100, VD0\nMOVD &VB1, AC2\nINCD AC2\nMOVB 1, *AC2\n"));
+  EXPECT_TRUE(is_known("MOVD &VB100, VD0\nMOVD &VB4, AC2\nMOVB 1, *AC2\n")) << "through one that does not";
+  EXPECT_FALSE(is_known("MOVD *VD8, VD0\n"));
+}
+
+TEST(Effects, APointerOfASubroutineIsWhatItsCallersGive) {
+  const auto program = program_of(
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL Work, &VB100\nNETWORK 2\nLD SM0.0\nCALL Work, &VB200\n"
+      "END_ORGANIZATION_BLOCK\nSUBROUTINE_BLOCK Work:SBR0\nVAR_INPUT\n at : DWORD;\nEND_VAR\nBEGIN\nNETWORK 1\nLD SM0.0\n"
+      "INCB *#at\nEND_SUBROUTINE_BLOCK\n",
+      model());
+  std::string found;
+  for (std::uint32_t op = 0; op < program->ops.size(); ++op)
+    if (program->ops[op].instruction->mnemonic == "INCB") found = accesses(*program, op, 0);
+  EXPECT_EQ(found, "reads L0.0+32 must; changes V100.0+8 may; changes V200.0+8 may");
+}
+
+TEST(Effects, WhatASubroutineHandsBackIsWrittenByItsCallAndByItsReturn) {
+  const auto program = program_of(
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL Work, VW10\nEND_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK Work:SBR0\nVAR_OUTPUT\n y : INT;\nEND_VAR\nBEGIN\nNETWORK 1\nLD SM0.0\nMOVW 1, #y\n"
+      "END_SUBROUTINE_BLOCK\n",
+      model());
+  int writers = 0;
+  for (std::uint32_t op = 0; op < program->ops.size(); ++op)
+    if (accesses(*program, op, kNoOperand).find("writes V10.0+16 may") != std::string::npos) ++writers;
+  EXPECT_EQ(writers, 2);
+}
+
+TEST(Effects, AtAMomentCountsAndPointersAreKnown) {
+  const auto program = program_of("LD SM0.0\nBMB *VD0, VB100, VB9\nMEND\n", model());
+  std::array<std::uint8_t, image::kSize> memory{};
+  memory[image::kV + 9] = 3;
+  const auto pointer = *pointer_to(model(), Area::M, Width::Byte, 2);
+  store32(&memory[image::kV], pointer);
+  std::vector<Bits> surely;
+  for (const MemoryAccess& access : effects_now(*program, 1, memory))
+    if (access.certainty == Certainty::Must && access.operand != 2) surely.push_back(access.bits);
+  const std::vector<Bits> wanted{{image::kV * 8u, 32}, {(image::kM + 2) * 8u, 24}, {(image::kV + 100) * 8u, 24}};
+  EXPECT_EQ(surely, wanted);
+}
+
+}  // namespace
+}  // namespace s7200::test
