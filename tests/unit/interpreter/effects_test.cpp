@@ -1,6 +1,8 @@
 // Which bits programs read and write. That it is so for each instruction is tried with all its vectors (vectors_test.cpp).
 #include "interpreter/analysis/effects.hpp"
 
+#include <set>
+
 #include "interpreter/program/operands.hpp"
 #include "tests/support/plc.hpp"
 
@@ -123,6 +125,65 @@ TEST(Effects, AtAMomentCountsAndPointersAreKnown) {
     if (access.certainty == Certainty::Must && access.operand != 2) surely.push_back(access.bits);
   const std::vector<Bits> wanted{{image::kV * 8u, 32}, {(image::kM + 2) * 8u, 24}, {(image::kV + 100) * 8u, 24}};
   EXPECT_EQ(surely, wanted);
+}
+
+/// Complains of whatever an instruction changes beside its effects.
+class ChangeWatch final : public TraceSink {
+ public:
+  explicit ChangeWatch(const Cpu& cpu) : cpu_(cpu) {
+    for (std::uint32_t op = 0; op < program().ops.size(); ++op) {
+      Image written{};
+      for (const MemoryAccess& access : effects_of(program(), op, Pointers(program())))
+        for (std::uint64_t bit = access.bits.first; access.writes() && bit < access.bits.end(); ++bit)
+          written[bit / 8] = static_cast<std::uint8_t>(written[bit / 8] | 1 << bit % 8);
+      written_.push_back(written);
+    }
+  }
+
+  bool wants_instructions() const override { return true; }
+  bool before(std::uint32_t) override {
+    before_ = cpu_.state().image;
+    return true;
+  }
+  void instruction(const InstructionRecord& record) override {
+    executed.insert(std::string(program().ops[record.op].instruction->mnemonic));
+    for (std::uint32_t at = 0; at < image::kConstants; ++at)
+      EXPECT_EQ((before_[at] ^ cpu_.state().image[at]) & ~written_[record.op][at], 0)
+          << program().ops[record.op].instruction->mnemonic << " in line " << program().statement(record.op).position.line
+          << " changes " << byte_text(at);
+  }
+
+  std::set<std::string> executed;
+
+ private:
+  using Image = std::array<std::uint8_t, image::kSize>;
+
+  const Program& program() const { return cpu_.program(); }
+
+  const Cpu& cpu_;
+  std::vector<Image> written_;  // by op
+  Image before_{};
+};
+
+TEST(Effects, WhatControlInstructionsChangeIsAmongThem) {
+  Plc plc(program_of(
+      "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.1\nMOVB 5, SMB34\nATCH 1, 10\nENI\nHDEF 0, 0\nS S0.0, 1\n"
+      "NETWORK 2\nLD SM0.0\nCALL Work, VW100, VW102\nNETWORK 3\nLD SM0.0\nFOR VW10, 1, 3\nNETWORK 4\nLD SM0.0\nINCW VW12\n"
+      "NETWORK 5\nNEXT\nNETWORK 6\nLSCR S0.0\nNETWORK 7\nLD SM0.0\nSCRT S0.1\nNETWORK 8\nLD I0.1\nCSCRE\nNETWORK 9\nSCRE\n"
+      "NETWORK 10\nLSCR S0.1\nNETWORK 11\nLD SM0.0\nCSCRE\nNETWORK 12\nSCRE\nNETWORK 13\nLD SM0.0\nJMP 1\n"
+      "NETWORK 14\nLD I0.0\n= Q0.0\nNETWORK 15\nLBL 1\nNETWORK 16\nLD M9.0\nDTCH 10\nDISI\nEND\nEND_ORGANIZATION_BLOCK\n"
+      "SUBROUTINE_BLOCK Work:SBR0\nVAR_INPUT\n x : INT;\nEND_VAR\nVAR_OUTPUT\n y : INT;\nEND_VAR\nBEGIN\nNETWORK 1\n"
+      "LD SM0.0\nMOVW #x, #y\nINCW #y\nNETWORK 2\nLD SM0.0\nCRET\nEND_SUBROUTINE_BLOCK\n"
+      "INTERRUPT_BLOCK Tick:INT1\nBEGIN\nNETWORK 1\nLD SM0.0\nINCW AC1\nINCW VW20\nMOVW VW20, VW100\nNETWORK 2\nLD "
+      "M9.1\nCRETI\n"
+      "END_INTERRUPT_BLOCK\n",
+      model()));
+  ChangeWatch watch(plc.cpu);
+  plc.cpu.set_sink(&watch);
+  plc.run_until(40 * ms);
+  for (const char* mnemonic :
+       {"ATCH", "ENI", "HDEF", "CALL", "FOR", "NEXT", "LSCR", "SCRT", "CSCRE", "SCRE", "JMP", "CRET", "RETI", "MEND"})
+    EXPECT_TRUE(watch.executed.contains(mnemonic)) << mnemonic;
 }
 
 }  // namespace
