@@ -103,8 +103,12 @@ class Collector {
       return;
     }
     for (const PointerTarget& target : known_.pointers->targets(operand.at)) {
-      const std::uint64_t last = bit_at(target.to - 1), end = last + extent_of(rule, target.to - 1).most;
-      add({{bit_at(target.from), end - bit_at(target.from)}, role_of(rule), Certainty::May, number, true});
+      const std::uint64_t reach = bit_at(target.to - 1 - target.from) + extent_of(rule, target.from).most;
+      add({{bit_at(target.from), std::min(reach, bits_to_end(rule, target.from))},
+           role_of(rule),
+           Certainty::May,
+           number,
+           true});
     }
   }
 

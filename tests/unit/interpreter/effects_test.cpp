@@ -67,6 +67,7 @@ TEST(Effects, APointerThatIsCountedLeadsAnywhereInItsArea) {
   const std::string all_of_m = "reads AC4.0+32 must; changes M0.0+256 may";
   EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, AC1\nINCD AC1\nINCB *AC1\n", 0), all_of_m);
   EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, AC1\n+D +4, AC1\nINCB *AC1\n", 0), all_of_m);
+  EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, AC1\nINCD AC1\nINCD *AC1\n", 0), all_of_m) << "no double word begins at its end";
   EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, VD0\nMOVW VW90, VW2\nINCB *VD0\n", 0), "reads V0.0+32 must; changes M0.0+256 may")
       << "its lower bytes are another's";
 }
