@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "interpreter/program/load.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tests/support/slave_bench.hpp"
 

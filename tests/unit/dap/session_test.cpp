@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "interpreter/program/load.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/dap/editor.hpp"
 #include "tools/faces/dap/base64.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/slave_bench.hpp"

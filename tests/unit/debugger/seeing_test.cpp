@@ -1,3 +1,4 @@
+#include "interpreter/program/load.hpp"
 #include "tests/unit/debugger/session.hpp"
 
 namespace s7200::tools {
