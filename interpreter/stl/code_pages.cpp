@@ -11,12 +11,12 @@ namespace {
 
 constexpr char16_t kUndefined = kReplacement;
 
-std::uint8_t byte_at(std::string_view bytes, std::size_t index) { return static_cast<std::uint8_t>(bytes[index]); }
+std::uint8_t byte_in_page(std::string_view bytes, std::size_t index) { return static_cast<std::uint8_t>(bytes[index]); }
 
 /// The character of the pair that a text begins with, kUndefined if it begins with none.
 char16_t first_pair(std::string_view bytes, const CodePage& page) {
-  if (bytes.size() < 2 || byte_at(bytes, 0) < kFirstLead || byte_at(bytes, 1) < kFirstTrail) return kUndefined;
-  const int lead = byte_at(bytes, 0) - kFirstLead, trail = byte_at(bytes, 1) - kFirstTrail;
+  if (bytes.size() < 2 || byte_in_page(bytes, 0) < kFirstLead || byte_in_page(bytes, 1) < kFirstTrail) return kUndefined;
+  const int lead = byte_in_page(bytes, 0) - kFirstLead, trail = byte_in_page(bytes, 1) - kFirstTrail;
   const auto index = static_cast<std::size_t>(lead * kTrails + trail);
   return trail < kTrails && index < page.pairs.size() ? page.pairs[index] : kUndefined;
 }
@@ -36,7 +36,7 @@ const CodePage* find_code_page(std::string_view name) {
 std::string to_utf8(std::string_view bytes, const CodePage& page) {
   std::string text;
   while (!bytes.empty()) {
-    const std::uint8_t byte = byte_at(bytes, 0);
+    const std::uint8_t byte = byte_in_page(bytes, 0);
     const char16_t pair = first_pair(bytes, page);
     const char32_t character = byte < 0x80 ? byte : pair != kUndefined ? pair : page.single[byte - 0x80];
     text += to_utf8(character);
@@ -60,7 +60,7 @@ std::string utf16_to_utf8(std::string_view bytes, ByteOrder order) {
   std::string text;
   const auto unit_at = [&](std::size_t index) -> char32_t {
     if (index + 1 >= bytes.size()) return kReplacement;
-    const char32_t first = byte_at(bytes, index), second = byte_at(bytes, index + 1);
+    const char32_t first = byte_in_page(bytes, index), second = byte_in_page(bytes, index + 1);
     return order == ByteOrder::Little ? first | second << 8 : first << 8 | second;
   };
   for (std::size_t i = 0; i < bytes.size(); i += 2) {

@@ -96,7 +96,7 @@ bool is_routine_head(const Line& line) {
                        statement->mnemonic == words(Block::Kind::Interrupt).head);
 }
 
-bool is_statement(const Line& line) { return std::holds_alternative<Statement>(line); }
+bool holds_statement(const Line& line) { return std::holds_alternative<Statement>(line); }
 
 bool is_main(const Line& line) {
   const auto* statement = std::get_if<Statement>(&line);
@@ -146,7 +146,7 @@ void put_main_program_first(ParseResult& listing) {
   std::vector<Line>& lines = listing.source.lines;
   const auto heading = std::ranges::find_if(lines, is_main);
   if (heading == lines.end()) return;
-  const auto first = std::ranges::find_if(lines, is_statement);
+  const auto first = std::ranges::find_if(lines, holds_statement);
   const auto twice = [&](const Line& line) {
     listing.diagnostics.push_back({Severity::Error, std::get<Statement>(line).position, "the main program begins twice",
                                    "a listing has one main program: what stands above its heading belongs to a routine"});

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <thread>
 
-#include "interpreter/program/load.hpp"
+#include "interpreter/analysis/check.hpp"
 #include "tools/rig/rig.hpp"
 #include "tools/rig/run.hpp"
 
