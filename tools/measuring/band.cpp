@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load_times.hpp"
 
