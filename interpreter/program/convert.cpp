@@ -15,7 +15,6 @@
 #include "interpreter/program/routine_ends.hpp"
 #include "interpreter/program/stand_ins.hpp"
 #include "interpreter/stl/block_words.hpp"
-#include "interpreter/stl/german_letters.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/symbols.hpp"
 
@@ -71,22 +70,6 @@ void to_micro_dos(stl::Statement& statement) {
     const bool decimal = constant->form == stl::Integer::Form::Decimal;
     put_text(operand, decimal ? fmt::format("K{}", constant->value) : fmt::format("KH{:X}", constant->value));
   }
-}
-
-void to_german(stl::Address& address) {
-  const auto found = std::ranges::find(stl::kGermanLetters, address.area, &stl::GermanLetters::international);
-  if (found != stl::kGermanLetters.end()) address.area = found->german;
-}
-
-void to_german(stl::Statement& statement) {
-  for (stl::Operand& operand : statement.operands) {
-    if (auto* address = std::get_if<stl::Address>(&operand.value)) to_german(*address);
-    if (auto* address = std::get_if<stl::AddressOf>(&operand.value)) to_german(address->target);
-    if (auto* address = std::get_if<stl::Indirect>(&operand.value)) to_german(address->pointer);
-  }
-  if (!statement.mnemonic.starts_with('A')) return;
-  std::string german = "U" + statement.mnemonic.substr(1);
-  if (find_german_instruction(german)) statement.mnemonic = std::move(german);
 }
 
 // --- blocks ---
