@@ -209,7 +209,8 @@ std::string blocks_text(const stl::Source& source) {
 
 class Printable {
  public:
-  Printable(stl::ParseResult& parsed, Notation notation) : parsed_(parsed), blocks_(notation == Notation::MicroWin) {}
+  Printable(stl::ParseResult& parsed, Notation notation)
+      : parsed_(parsed), notation_(notation), blocks_(notation == Notation::MicroWin) {}
 
   bool check() {
     for (const stl::Line& line : parsed_.source.lines)
@@ -218,13 +219,29 @@ class Printable {
   }
 
  private:
-  void error(const stl::Position& at, std::string message, std::string hint) {
-    parsed_.diagnostics.push_back({stl::Severity::Error, at, std::move(message), std::move(hint)});
+  void error(const stl::Position& at, std::string message, std::string hint, std::string cause = {}) {
+    parsed_.diagnostics.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
+  }
+
+  /// Of a CALL of a routine of Micro/WIN's libraries that the program itself does not have.
+  static const stl::Name* library_routine(const stl::Statement& statement) {
+    const bool calls = statement.mnemonic == "CALL" && !statement.operands.empty();
+    const auto* const name = calls ? std::get_if<stl::Name>(&statement.operands[0].value) : nullptr;
+    return name && (has_stand_in(statement) || is_library_routine(name->text)) ? name : nullptr;
+  }
+
+  void refuse_library(const stl::Operand& routine, const stl::Name& name) {
+    error(routine.position,
+          fmt::format("{} is a routine of a library: {} has no CALL with a name and parameters", stl::shortened(name.text),
+                      name_of(notation_)),
+          "use --to microwin: Micro/WIN has the library", "routines of libraries");
   }
 
   /// Micro/WIN knows the routines of its libraries by their names.
   void check(const stl::Statement& statement) {
-    const std::size_t known = blocks_ && has_stand_in(statement) ? 1 : 0;
+    const stl::Name* const library = library_routine(statement);
+    if (library && !blocks_) return refuse_library(statement.operands[0], *library);
+    const std::size_t known = library ? 1 : 0;
     const Instruction* const instruction = find_instruction(statement.mnemonic);
     for (std::size_t i = known; i < statement.operands.size(); ++i) {
       const auto* name = std::get_if<stl::Name>(&statement.operands[i].value);
@@ -247,6 +264,7 @@ class Printable {
   }
 
   stl::ParseResult& parsed_;
+  Notation notation_;
   bool blocks_;
 };
 

@@ -148,6 +148,23 @@ TEST(Convert, ParametersHaveNoNotationOutsideOfBlocks) {
   EXPECT_EQ(source.parsed.diagnostics.at(0).message, "parameters of CALL have no notation outside of blocks");
 }
 
+TEST(Convert, ARoutineOfALibraryIsSaidToNeedANotationWithBlocks) {
+  for (const std::string call : {"CALL MBUS_SLAVE, M0.2, MB2", "CALL USS_INIT, 1, 9600, 16#01, M0.0, VB0"}) {
+    for (const Notation notation : {Notation::Iec, Notation::MicroDos, Notation::German}) {
+      SourceText source =
+          file("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD SM0.0\n" + call + "\nEND_ORGANIZATION_BLOCK\n");
+      EXPECT_FALSE(convert(source.parsed, notation));
+      ASSERT_EQ(source.parsed.diagnostics.size(), 1U);
+      EXPECT_NE(source.parsed.diagnostics[0].message.find(" is a routine of a library: "), std::string::npos);
+      EXPECT_EQ(source.parsed.diagnostics[0].hint, "use --to microwin: Micro/WIN has the library");
+    }
+    EXPECT_NE(printed("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD SM0.0\n" + call + "\nEND_ORGANIZATION_BLOCK\n",
+                      Notation::MicroWin)
+                  .find(call.substr(5)),
+              std::string::npos);
+  }
+}
+
 TEST(Convert, UndefinedNamesAreNotPrinted) {
   SourceText source = file("LD Pump\n= Q0.0\nMEND\n");
   EXPECT_FALSE(convert(source.parsed, Notation::MicroWin));
@@ -191,8 +208,8 @@ TEST(Convert, KeepsNamesAmongBlocksAndTheirTable) {
   std::string why;
   std::vector<SourceText> files;
   files.push_back(*read_source("LD Button\nA \"Level low\"\n= Lamp\nMOVD &Table, VD20\nMEND\n", "p.stl", why));
-  files.push_back(*read_source("Symbol\tAddress\tComment\nButton\tI0.0\tgreen\nLamp\tQ0.1\t\nLevel low\tI0.2\t\nTable\tVB100\t\n",
-                               "s.txt", why));
+  files.push_back(*read_source(
+      "Symbol\tAddress\tComment\nButton\tI0.0\tgreen\nLamp\tQ0.1\t\nLevel low\tI0.2\t\nTable\tVB100\t\n", "s.txt", why));
   SourceText project = join_files(std::move(files));
   const auto text = convert(project.parsed, Notation::MicroWin);
   ASSERT_TRUE(text);
