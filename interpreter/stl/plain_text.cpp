@@ -580,6 +580,36 @@ bool stands_without_mark(std::string_view line) {
   return code.empty() || upper_case(code.substr(0, 7)) == "NETWORK" || routine_heading(code);
 }
 
+/// A word with letters and digits, or signs that text does not have.
+bool may_be_operand(std::string_view word) {
+  const bool has_digit = std::ranges::any_of(word, is_digit);
+  const bool has_letter = std::ranges::any_of(word, is_letter);
+  return (has_digit && has_letter) || word.find_first_of("=#*&%_<>$'\"") != word.npos;
+}
+
+/// `Beispiel`, but not `LD`, `Q` or `movb`
+bool begins_a_sentence(std::string_view word) {
+  return word.size() > 2 && is_upper(word[0]) && !is_upper(word[1]) && word[1] != '.';
+}
+
+/// Whether a line of a page can only be text, such as `Beispiel aus dem Forum:`. Symbols stand in statements of two or three
+/// words, too, so it takes a sign that ends a sentence, or three words that begin as one does.
+bool is_text(std::string_view line) {
+  const std::string_view code = trim(code_of(line));
+  if (stands_without_mark(code) || looks_like_statement(code)) return false;
+  const std::vector<std::string> words = split_words(code);
+  if (words[0].size() < 2 || std::ranges::any_of(words, may_be_operand)) return false;
+  const bool in_capitals = std::ranges::all_of(words[0], [](char c) { return is_upper(c) || !is_letter(c); });
+  const bool ends_sentence = !in_capitals && std::string_view(":!?").find(code.back()) != std::string_view::npos;
+  return ends_sentence || (words.size() > 2 && begins_a_sentence(words[0]));
+}
+
+/// `<h2>Beispiel</h2>`
+bool is_html_heading(std::string_view line) {
+  const auto tag = tag_at(trim(line));
+  return tag && tag->name.size() == 2 && tag->name[0] == 'h' && is_digit(tag->name[1]);
+}
+
 // --- all lines ---
 
 /// A line of what has been read so far.
@@ -614,7 +644,18 @@ class Page {
   void run() {
     constexpr int kMostSteps = 6;
     for (int step = 0; step < kMostSteps; ++step)
-      if (!cut_out_fences() && !leave_out_marks(quotation_mark) && !leave_out_numbers() && !leave_out_marks(list_mark)) return;
+      if (!cut_out_fences() && !leave_out_marks(quotation_mark) && !leave_out_numbers() && !leave_out_marks(list_mark))
+        return;
+  }
+
+  /// Paragraphs and headings between the lines of a program that has tags, too. `lines` are those of the original.
+  void leave_out_text(const std::vector<std::string>& lines) {
+    for (Row& row : rows) {
+      if ((row.changes & kHtml) == 0) continue;
+      const bool is_heading =
+          is_html_heading(lines[row.original - 1]) && !stands_without_mark(row.text) && !looks_like_statement(row.text);
+      if (is_heading || is_text(row.text)) leave_out_around(row, kHtml);
+    }
   }
 
   std::vector<Row> rows;
@@ -716,7 +757,8 @@ std::vector<Row> read_lines(const std::vector<std::string>& lines, const std::ve
     LineWriter writer(line, html);
     writer.skip(parts[i].from, kHtml);
     for (auto& [text, columns, changes] : writer.run(parts[i].to))
-      rows.push_back({i + 1, std::move(text), is_identity(columns) ? std::vector<std::uint32_t>{} : std::move(columns), changes});
+      rows.push_back(
+          {i + 1, std::move(text), is_identity(columns) ? std::vector<std::uint32_t>{} : std::move(columns), changes});
   }
   return rows;
 }
@@ -741,6 +783,7 @@ PlainText::PlainText(std::string_view original) : original_(original) {
     if (parts[i].empty() && !trim(lines[i]).empty()) left_out_.push_back(i + 1);
   Page page(read_lines(lines, parts, html));
   page.run();
+  if (html) page.leave_out_text(lines);
   around_ |= page.around;
   left_out_.insert(left_out_.end(), page.left_out.begin(), page.left_out.end());
   std::ranges::sort(left_out_);

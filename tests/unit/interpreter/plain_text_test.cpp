@@ -88,6 +88,22 @@ TEST(PlainText, HtmlIsLeftOutAndItsEntitiesAreRead) {
             "left out around the program: lines 1, 5");
 }
 
+TEST(PlainText, TextBetweenTagsIsLeftOutAndNamed) {
+  const std::string listing = "LD SM0.1\nMOVB 16#09, SMB30\n", rest = "LD I0.0\n= Q0.0\nMEND\n";
+  for (const char* text : {"<p>Beispiel aus dem Forum:</p>", "<p>Und dann:</p>", "<h2>Beispiel</h2>",
+                           "<div>Hier das Programm</div>", "<p>Danke!</p>", "<p>Example 1:</p>"}) {
+    EXPECT_EQ(program(text + ("\n" + listing + rest)), program("\n" + listing + rest)) << text;
+    EXPECT_EQ(program(listing + text + "\n" + rest), program(listing + "\n" + rest)) << text;
+    EXPECT_EQ(note(listing + text + "\n" + rest), "page.txt: read as plain text: HTML; left out around the program: line 3");
+  }
+}
+
+TEST(PlainText, WhatMayBeADamagedStatementBetweenTagsIsNotLeftOut) {
+  for (const char* line : {"<p>LD I0,0</p>", "<p>LD 10.0:</p>", "<div>MOVB Speed, Level</div>",
+                           "<div>movw speed level</div>", "<p>Call Pump</p>", "<h2>= Q0.0</h2>"})
+    EXPECT_TRUE(note(std::string("LD I0.0\n") + line + "\n= Q0.1\nMEND\n").find("left out") == std::string::npos) << line;
+}
+
 TEST(PlainText, TagsThatEndALineDo) {
   const std::string page = "LD I0.0<br>A I0.1 // x<br/>= Q0.0<br>MOVB 1, VB99999</p>";
   EXPECT_EQ(program(page), program("LD I0.0\nA I0.1 // x\n= Q0.0\nMOVB 1, VB99999\n"));
@@ -137,7 +153,8 @@ TEST(PlainText, MarginsOfMailAndListsAreLeftOut) {
 TEST(PlainText, ListMarksAndBoldLettersOfMarkdownAreLeftOut) {
   EXPECT_EQ(program("- LD I0.0\n- = Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
   EXPECT_EQ(program("## NETWORK 1\n* **LD I0.0**\n* `= Q0.0` // lamp\n"), program("NETWORK 1\nLD I0.0\n= Q0.0 // lamp\n"));
-  EXPECT_EQ(program("LD I0.0\n-I VW0, VW2\n*R VD4, VD8\n"), "LD      I0.0\n-I      VW0, VW2\n*R      VD4, VD8\n") << "instructions";
+  EXPECT_EQ(program("LD I0.0\n-I VW0, VW2\n*R VD4, VD8\n"), "LD      I0.0\n-I      VW0, VW2\n*R      VD4, VD8\n")
+      << "instructions";
 }
 
 TEST(PlainText, TextAroundNumberedOrQuotedLinesIsLeftOut) {
@@ -193,7 +210,8 @@ const Passage kMarks[] = {
 };
 
 TEST(PlainText, WhatAProgramHasBeenThroughMayBeCombined) {
-  const std::vector<std::string> lines{"NETWORK 1", "LD SM0.1", "MOVW -16, VW10", "MOVB 'A', VB100", "= Q0.0", "ENI", "MEND"};
+  const std::vector<std::string> lines{"NETWORK 1", "LD SM0.1", "MOVW -16, VW10", "MOVB 'A', VB100", "= Q0.0",
+                                       "ENI",       "MEND"};
   for (const Passage& signs : kSigns)
     for (const Passage& numbers : kNumbers)
       for (const Passage& marks : kMarks)
@@ -206,7 +224,8 @@ TEST(PlainText, WhatAProgramHasBeenThroughMayBeCombined) {
           }
           const CheckResult result = checked(text);
           EXPECT_TRUE(result.program && result.program->ops.size() == 6)
-              << signs.name << ", " << numbers.name << ", " << marks.name << "\n" << text << diagnostics(result);
+              << signs.name << ", " << numbers.name << ", " << marks.name << "\n"
+              << text << diagnostics(result);
         }
 }
 
