@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/base/nearest.hpp"
+#include "interpreter/model/boxes.hpp"
 #include "interpreter/model/instruction.hpp"
 
 namespace s7200 {
@@ -130,7 +131,10 @@ constexpr ForeignRow kForeignRows[] = {
     {"CMP_I",    kLadderBox, "write LDW, AW or OW with =, <>, >=, <=, > or <: LDW>= IN1, IN2"},
     {"CMP_DI",   kLadderBox, "write LDD, AD or OD with =, <>, >=, <=, > or <: LDD>= IN1, IN2"},
     {"CMP_R",    kLadderBox, "write LDR, AR or OR with =, <>, >=, <=, > or <: LDR>= IN1, IN2"},
+    {"NETWERK",  kHeading, "write NETWORK"},
+    {"REDE",     kHeading, "write NETWORK"},
     {"RESEAU",   kHeading, "write NETWORK"},
+    {"SEGMENTO", kHeading, "write NETWORK"},
     {"RETE",     kHeading, "write NETWORK"},
     {"RED",      kHeading, "write NETWORK"},
     {"SR",       kLadderBox, "write R BIT, 1 for its reset input, then S BIT, 1 for its set input: the last has priority"},
@@ -239,6 +243,25 @@ const Instruction* find_german_instruction(std::string_view mnemonic) {
   if (!mnemonic.starts_with('U')) return nullptr;
   const Instruction* meant = find_instruction(std::string("A").append(mnemonic.substr(1)));
   return meant && !meant->rung.needs_power_flow && meant->modelled() ? meant : nullptr;  // but not ATCH, ATH, ATT
+}
+
+/// A box has its inputs first and OUT last. An instruction that works on OUT itself has it after an input, as +I IN1, OUT,
+/// or before it, as SLB OUT, N.
+std::vector<BoxStep> steps_of_box(std::string_view name, std::size_t operands) {
+  const auto* const box = std::ranges::find(kForeignBoxes, name, &Box::name);
+  if (box == std::end(kForeignBoxes)) return {};
+  const Instruction& instruction = *find_instruction(box->mnemonic);
+  if (!instruction.modelled()) return {};
+  const std::size_t taken = instruction.rules().size() + (box->move.empty() ? 0 : 1);
+  if (operands != taken) return {};
+  std::vector<BoxStep> steps;
+  if (!box->move.empty()) steps.push_back({find_instruction(box->move), {0, operands - 1}});
+  std::size_t input = box->move.empty() ? 0 : 1;
+  BoxStep last{&instruction};
+  for (const OperandRule& rule : instruction.rules())
+    last.operands.push_back(box->move.empty() || rule.role == Role::In ? input++ : operands - 1);
+  steps.push_back(std::move(last));
+  return steps;
 }
 
 UnknownMnemonic unknown_mnemonic(std::string_view mnemonic) {

@@ -17,6 +17,7 @@
 
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/boxes.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/model/times_file.hpp"
 #include "interpreter/program/chains.hpp"
@@ -83,8 +84,8 @@ class Checker {
     diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
 
-  /// With a symbol table each undefined name has a cause of its own; without one they all have the same, but for those that are
-  /// nearly a symbol of Micro/WIN.
+  /// With a symbol table each undefined name has a cause of its own; without one they all have the same, but for those that
+  /// are nearly a symbol of Micro/WIN.
   void tell_undefined_symbols_apart() {
     for (stl::Diagnostic& diagnostic : diagnostics_) {
       if (diagnostic.cause != kUndefinedSymbols) continue;
@@ -178,7 +179,10 @@ class Checker {
     if (!statement) return;
     add_unread_lines(statement->position.line);
     const Instruction* instruction = known_instruction(*statement);
-    if (!instruction) return add_unread(*statement);
+    if (!instruction) {
+      check_box(*statement);
+      return add_unread(*statement);
+    }
     placed_.emplace_back();
     const bool good = place_operands(*instruction, *statement);
     if (!good) mark_unread_operands(*instruction);
@@ -191,6 +195,19 @@ class Checker {
   void add_unread(const stl::Statement& statement) {
     placed_.emplace_back();
     statements_.push_back({&statement, &unread_instruction(), false, std::exchange(begins_network_, false)});
+  }
+
+  /// The operands of a box in place of a mnemonic, so that their mistakes show in the same run as that of the box.
+  void check_box(const stl::Statement& statement) {
+    std::set<std::size_t> refused;
+    for (const BoxStep& step : steps_of_box(statement.mnemonic, statement.operands.size()))
+      for (std::size_t i = 0; i < step.operands.size(); ++i) {
+        const std::size_t number = step.operands[i];
+        const stl::Operand& operand = statement.operands[number];
+        if (refused.contains(number)) continue;
+        if (!place_operand(*step.instruction, step.instruction->operand[i], operand, model_, constants_, diagnostics_))
+          refused.insert(number);
+      }
   }
 
   /// What the parser could not read above a line of the source.
@@ -251,7 +268,8 @@ class Checker {
   void unknown_instruction(const stl::Statement& statement, const std::string& cause) {
     const std::string shown = stl::shortened(statement.mnemonic);
     if (statement.mnemonic == "CPU")  // as the head of a printed program; one that is modelled is a comment
-      return error(statement.position, "this line names no CPU that is modelled", "take the line out and name one with --cpu", cause);
+      return error(statement.position, "this line names no CPU that is modelled",
+                   "take the line out and name one with --cpu", cause);
     if (is_library_routine(statement.mnemonic))
       return error(statement.position, fmt::format("{} is a routine of a library, not an instruction", shown),
                    fmt::format("write CALL {} and its parameters", shown), cause);
@@ -806,7 +824,8 @@ DecodedSource decode_program(stl::ParseResult parsed, const CpuModel& model, con
 std::vector<const CpuModel*> cpus_without_errors(stl::ParseResult parsed) {
   const ForEachCpu read(std::move(parsed));
   std::vector<const CpuModel*> fine;
-  std::ranges::copy_if(all_cpus(), std::back_inserter(fine), [&](const CpuModel* model) { return read.is_fine_for(*model); });
+  std::ranges::copy_if(all_cpus(), std::back_inserter(fine),
+                       [&](const CpuModel* model) { return read.is_fine_for(*model); });
   return fine;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/fusion/include/adapt_struct.hpp>
 #include <boost/optional.hpp>
 #include <boost/range/iterator_range.hpp>
@@ -121,8 +122,8 @@ struct MustDirective {
 };
 constexpr MustDirective must;
 
-/// Reads a text from `at` on by a grammar, and moves `at` to where that ends. Returns false if the text does not match, or if
-/// a part that must be there is not; `missing` then names it.
+/// Reads a text from `at` on by a grammar, and moves `at` to where that ends. Returns false if the text does not match, or
+/// if a part that must be there is not; `missing` then names it.
 template <class Grammar, class Attribute>
 bool parse_beginning(Place& at, Place end, const Grammar& described, Attribute& attribute, Missing& missing) {
   return x3::parse(at, end, x3::with<Missing>(std::ref(missing))[described], attribute) && missing.where == nullptr;
@@ -340,6 +341,16 @@ std::string describe(std::string_view rest) {
   return code < 0x7F ? fmt::format("'{}'", written) : fmt::format("'{}' (U+{:04X})", written, code);
 }
 
+constexpr std::string_view kStepsHint =
+    "the preset of a timer is a number of its steps: 100 ms are 10 of a timer of 10 ms, 1 of one of 100 ms";
+
+/// Headings of networks with letters beyond ASCII.
+constexpr std::array<std::string_view, 6> kForeignHeadings{"RÉSEAU", "Réseau", "réseau", "СЕТЬ", "Сеть", "网络"};
+
+/// What else stands before =: instructions without operands in a line with two statements, and the title of a block.
+constexpr std::array<std::string_view, 10> kBeforeCoils{"NOT", "EU",  "ED",  "ALD",  "OLD",
+                                                        "LPS", "LRD", "LPP", "AENO", "TITLE"};
+
 /// Whether a unit of time follows: `ms` or `s`, as in 100ms.
 bool is_time_unit(std::string_view rest) {
   const std::string unit = lower_case(rest.substr(0, rest.find_first_of(" \t,;/")));
@@ -355,8 +366,7 @@ std::string hint_for(const std::string& expected, std::string_view rest) {
   if (expected == "a bit number") return "a bit is written V10.3; a timer or counter is itself a bit, T37 or C5";
   if (expected == "a mnemonic") return "a line is a mnemonic and its operands; a comment begins with //";
   if (expected == "an operand") return "an operand is an address (VB100), a constant (65, 16#FF) or a pointer (*VD100)";
-  if (expected == "the end of the constant" && is_time_unit(rest))
-    return "the preset of a timer is a number of its steps: 100 ms are 10 of a timer of 10 ms, 1 of one of 100 ms";
+  if (expected == "the end of the constant" && is_time_unit(rest)) return std::string(kStepsHint);
   if (expected == "the end of the constant") return "constants are written 65, 16#FF, 2#1010, 1.5 or 'AB'";
   if (expected == "the end of the line" && (rest.starts_with('<') || rest.starts_with('>') || rest.starts_with("==")))
     return "a comparison is one word: LDW>= VW0, 5, AB= VB0, 1, OD< VD0, VD4";
@@ -772,7 +782,9 @@ class LineReader {
   }
 
   void report_unexpected(Place where, std::string expected) {
-    if (report_look_alike(where) || report_second_statement(where)) return;
+    if (report_heading(where) || report_time(where) || report_assignment() || report_look_alike(where) ||
+        report_second_statement(where))
+      return;
     const std::string_view rest(where, static_cast<std::size_t>(end() - where));
     const bool at_start = text_.substr(0, text_.size() - rest.size()).find_first_not_of(" \t\f") == std::string_view::npos;
     if (at_start) expected = "a mnemonic";
@@ -782,6 +794,44 @@ class LineReader {
     const bool numbered = at_start && !rest.empty() && is_digit(rest.front());
     report(places_.position(where, 1), std::move(message), hint_for(expected, rest),
            numbered ? "a number at the beginning of the line" : "");
+  }
+
+  /// Reports `RÉSEAU 1`. Returns true after a message. Headings in ASCII are unknown mnemonics to the checker.
+  bool report_heading(Place where) {
+    const std::string_view word = word_at(text_, static_cast<std::size_t>(where - begin()));
+    if (!trim(text_).starts_with(word) || std::ranges::find(kForeignHeadings, word) == kForeignHeadings.end()) return false;
+    report(position(Range(word.data(), word.data() + word.size())),
+           fmt::format("{} is the heading of a network in another language", word), "write NETWORK",
+           "headings in another language");
+    return true;
+  }
+
+  /// Reports `T#100ms`. Returns true after a message.
+  bool report_time(Place where) {
+    const std::string_view word = word_at(text_, static_cast<std::size_t>(where - begin()));
+    const std::string prefix = upper_case(word.substr(0, word.find('#')));
+    const bool is_time =
+        prefix.size() < word.size() && (prefix == "T" || prefix == "TIME" || prefix == "S5T" || prefix == "S5TIME");
+    if (!is_time) return false;
+    report(position(Range(word.data(), word.data() + word.size())), fmt::format("{} is a time", shortened(word)),
+           std::string(kStepsHint));
+    return true;
+  }
+
+  /// Reports `Motor = Q0.0` and `VW2 := VW0`. Returns true after a message.
+  bool report_assignment() {
+    const std::string_view code = trim(text_.substr(0, comment_start(text_)));
+    const std::string_view target = code.substr(0, code.find_first_of(" \t:="));
+    const std::string_view rest = trim(code.substr(target.size()));
+    const bool compares = code.substr(target.size()).starts_with('=') || rest.starts_with("==") ||
+                          rest.find(',') != rest.npos;  // LDB= VB0 1, LDB = VB0, 1
+    const bool assigns = rest.starts_with(":=") || (rest.starts_with('=') && !compares);
+    if (target.empty() || !assigns || std::ranges::find(kBeforeCoils, upper_case(target)) != kBeforeCoils.end())
+      return false;
+    report(
+        position(Range(code.data(), code.data() + code.size())), fmt::format("{} is an assignment", shortened(code)),
+        "write LD and = for a bit, MOVB, MOVW, MOVD or MOVR for a value; the address of a symbol stands in a symbol table");
+    return true;
   }
 
   /// Reports a mistaken letter or digit: `IO.0`, `16#O9`. Returns true after a message.

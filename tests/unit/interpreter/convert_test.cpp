@@ -149,7 +149,7 @@ TEST(Convert, ParametersHaveNoNotationOutsideOfBlocks) {
 }
 
 TEST(Convert, ARoutineOfALibraryIsSaidToNeedANotationWithBlocks) {
-  for (const std::string call : {"CALL MBUS_SLAVE, M0.2, MB2", "CALL USS_INIT, 1, 9600, 16#01, M0.0, VB0"}) {
+  for (const std::string call : {"CALL MBUS_SLAVE, M0.2, MB2", "CALL USS_INIT, 1, 9600, 16#1, M0.0, VB0"}) {
     for (const Notation notation : {Notation::Iec, Notation::MicroDos, Notation::German}) {
       SourceText source =
           file("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD SM0.0\n" + call + "\nEND_ORGANIZATION_BLOCK\n");

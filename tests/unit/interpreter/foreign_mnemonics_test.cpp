@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/program/load.hpp"
 
 namespace s7200 {
 namespace {
@@ -30,6 +31,8 @@ TEST(ForeignMnemonics, HintsNameWhatDoesTheSame) {
                                        {"P", "write EU after the contacts before it"},
                                        {"N", "write ED after the contacts before it"},
                                        {"RESEAU", "write NETWORK"},
+                                       {"NETWERK", "write NETWORK"},
+                                       {"REDE", "write NETWORK"},
                                        {"CMP_I", "write LDW, AW or OW with =, <>, >=, <=, > or <: LDW>= IN1, IN2"},
                                        {"SF", "write TOF"},
                                        {"DMOV", "write MOVD"},
@@ -93,6 +96,19 @@ TEST(ForeignMnemonics, AllBoxesAreKnown) {
         "SCR",      "SR",       "RS",       "P",       "N",        "BGN_ITIME", "CAL_ITIME", "READ_RTCX", "SET_RTCX",
         "DIAG_LED"})
     EXPECT_TRUE(find_instruction(box) || !unknown_mnemonic(box).what.empty()) << box;
+}
+
+TEST(ForeignMnemonics, TheOperandsOfABoxAreCheckedWithIt) {
+  const auto result = check_text(
+      "LD SM0.0\nMOV_B VW10, VB0\nADD_I VB1, VW2, VW4\nSHL_W VW6, VW8, VW10\nINC_W VW12, VB14\nADD_I VW0, 5, VW2\n"
+      "ADD_I VB0, 5\nMEND\n",
+      "x", cpu214(), default_times(cpu214()));
+  const std::string text = render(result.diagnostics, result.source, false);
+  for (const char* part :
+       {"x:2:7: error: IN of MOVB is a byte, VW10 is a word", "x:3:7: error: IN of MOVW is a word, VB1 is a ",
+        "x:4:12: error: N of SLW is a byte, VW8 is a word", "x:5:13: error: OUT of MOVW is a word, VB14"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << text;
+  for (const char* fine : {"x:6:7:", "x:7:7:"}) EXPECT_EQ(text.find(fine), std::string::npos) << fine << text;
 }
 
 TEST(UnknownMnemonics, TheOneThatIsNearIsNamedWithItsMeaning) {

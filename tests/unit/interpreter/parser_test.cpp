@@ -179,10 +179,34 @@ TEST(Parser, ABitNumberIsOnlyForBytes) {
 }
 
 TEST(Parser, TheTimeOfAPresetIsANumberOfSteps) {
-  const std::string steps = "the preset of a timer is a number of its steps: 100 ms are 10 of a timer of 10 ms, 1 of one of 100 ms";
+  const std::string steps =
+      "the preset of a timer is a number of its steps: 100 ms are 10 of a timer of 10 ms, 1 of one of 100 ms";
   EXPECT_EQ(error("TON T37, 100ms").hint, steps);
   EXPECT_EQ(error("TON T37, 5s // later").hint, steps);
+  for (const char* preset : {"T#100ms", "T#5s", "t#1m", "S5T#2S", "TIME#100ms"}) {
+    const Diagnostic found = error(std::string("TON T37, ") + preset);
+    EXPECT_EQ(found.message, std::string(preset) + " is a time");
+    EXPECT_EQ(found.hint, steps);
+  }
   EXPECT_EQ(error("MOVW 65x, VW0").hint, "constants are written 65, 16#FF, 2#1010, 1.5 or 'AB'");
+}
+
+TEST(Parser, AHeadingInAnotherLanguageIsNamed) {
+  for (const char* heading : {"RÉSEAU 1", "Réseau 2 // pompe", "СЕТЬ 1", "网络 1"}) {
+    const Diagnostic found = error(heading);
+    EXPECT_TRUE(found.message.ends_with(" is the heading of a network in another language")) << found.message;
+    EXPECT_EQ(found.hint, "write NETWORK");
+    EXPECT_EQ(found.position.column, 1U);
+  }
+}
+
+TEST(Parser, AnAssignmentIsNamed) {
+  for (const char* line : {"Motor = Q0.0", "Motor := I0.3", "Q0.1 = I0.0", "VW2:=VW0", "\"Motor\" = Q0.0"}) {
+    const Diagnostic found = error(line);
+    EXPECT_EQ(found.message, std::string(line) + " is an assignment");
+    EXPECT_EQ(found.position.column, 1U);
+  }
+  EXPECT_EQ(error("NOT = Q0.0").message, "two statements in one line");
 }
 
 TEST(Parser, AComparisonIsOneWord) {
@@ -404,9 +428,7 @@ TEST(Parser, TwoStatementsInOneLineAreNamed) {
   }
 }
 
-TEST(Parser, ACommentAfterASemicolonIsNoStatement) {
-  EXPECT_EQ(error("LD I0.0 ; lamp").message, "unexpected 'l'");
-}
+TEST(Parser, ACommentAfterASemicolonIsNoStatement) { EXPECT_EQ(error("LD I0.0 ; lamp").message, "unexpected 'l'"); }
 
 TEST(Parser, NumbersAtTheBeginningOfLinesHaveOneCause) {
   EXPECT_EQ(count_causes(parse("1\n2\n3\nLD I0.0\n", "test.stl").diagnostics), 1U);
