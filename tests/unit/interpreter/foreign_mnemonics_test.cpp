@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "interpreter/analysis/check.hpp"
+#include "interpreter/base/diagnostic.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/load.hpp"
 
@@ -103,7 +105,7 @@ TEST(ForeignMnemonics, TheOperandsOfABoxAreCheckedWithIt) {
       "LD SM0.0\nMOV_B VW10, VB0\nADD_I VB1, VW2, VW4\nSHL_W VW6, VW8, VW10\nINC_W VW12, VB14\nADD_I VW0, 5, VW2\n"
       "ADD_I VB0, 5\nMEND\n",
       "x", cpu214(), default_times(cpu214()));
-  const std::string text = render(result.diagnostics, result.source, false);
+  const std::string text = stl::render(result.diagnostics, result.source, false);
   for (const char* part :
        {"x:2:7: error: IN of MOVB is a byte, VW10 is a word", "x:3:7: error: IN of MOVW is a word, VB1 is a ",
         "x:4:12: error: N of SLW is a byte, VW8 is a word", "x:5:13: error: OUT of MOVW is a word, VB14"})
