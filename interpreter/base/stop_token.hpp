@@ -1,13 +1,13 @@
-// A request to work that it end before it is done.
+// How work is asked to end early.
 #pragma once
 
 #include <atomic>
 
 namespace s7200 {
 
-/// A token that the starter of work hands to it, and that the work asks now and then; a copy is as good. It looks at a flag
-/// of its giver's, which lives longer and may be set by a signal handler or another thread. A token without a flag never
-/// asks for an end.
+/// Whoever starts work hands it a token, and the work asks the token now and then whether to stop; a copy is as good. The
+/// flag that it looks at belongs to whoever has made it, outlives it, and may be set by a signal handler or another thread.
+/// A token without a flag never asks for a stop.
 class StopToken {
  public:
   StopToken() = default;

@@ -31,7 +31,7 @@ bool is_after_the_journal(const Finding& finding, const std::vector<Recording>& 
   return !finding.place && can_have_a_cause(finding) && std::ranges::any_of(recordings, is_full);
 }
 
-/// Nothing after a stop.
+/// The reasons for a finding; nothing if a stop was asked for meanwhile.
 std::optional<std::vector<std::string>> reasons_of(History& history, Time timeout, const Finding& finding, StopToken stop) {
   if (finding.memory) return memory_cause(history, finding.station, *finding.memory, stop);
   if (is_about_a_time(finding)) return latency_cause(history, finding.station, *finding.exchange, stop);

@@ -53,7 +53,7 @@ struct TimelineReport {
   static constexpr std::size_t kMostRows = 1000;
   std::vector<TimelineRow> rows{};
 
-  // Of all rows.
+  // These figures are of all rows, also of those that are left out.
   std::size_t scans = 0;  ///< from beginning to end
   Time shortest_scan = kNever, longest_scan = 0;
   std::size_t served = 0;  ///< interrupts
