@@ -1,4 +1,4 @@
-// What the warnings ask of a program, worked out once.
+// What warnings and views ask of a program, worked out once.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,11 @@ namespace s7200 {
 struct Facts {
   const Program& program;
   ControlFlow flow;
+  Pointers pointers;
   std::vector<std::vector<MemoryAccess>> effects;  ///< by op: effects_of()
+  /// By op: the number of its network. That of its NETWORK line; in a routine without numbered lines, counted from 1; 0 in
+  /// front of the first of them.
+  std::vector<std::uint32_t> networks;
 };
 
 /// `program` must live as long as what is returned.

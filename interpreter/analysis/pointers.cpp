@@ -113,6 +113,7 @@ bool Pointers::add_write(const Op& op, const MemoryAccess& access) {
     const bool moved = whole && op.instruction->operand[0].address_of;
     const bool in_area = (whole && counts(program_, op)) || access.bits.first >= pointer.first + 8;
     const Content added = moved ? copied(op[0], more) : in_area ? anywhere_in_areas(content) : anything();
+    if (added.anything) given_up_.try_emplace(at, static_cast<std::uint32_t>(&op - program_.ops.data()));
     more |= content.add(added);
   }
   return more;
@@ -145,6 +146,15 @@ bool Pointers::add_parameter(const Parameter& parameter) {
 bool Pointers::is_known(std::uint32_t at) const {
   const auto found = contents_.find(at);
   return found != contents_.end() && !found->second.anything;
+}
+
+std::optional<Pointers::Unknown> Pointers::unknown(std::uint32_t at) const {
+  using Reason = Unknown::Reason;
+  if (is_known(at)) return {};
+  if (!is_plain_memory(at)) return Unknown{Reason::Elsewhere};
+  if (is_set_by_data_block(program_, at)) return Unknown{Reason::DataBlock};
+  const auto found = given_up_.find(at);
+  return found == given_up_.end() ? Unknown{Reason::NotSet} : Unknown{Reason::Written, found->second};
 }
 
 std::vector<PointerTarget> Pointers::targets(std::uint32_t at) const {

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -41,6 +42,20 @@ class Pointers {
   /// Whether anything is known of it.
   bool is_known(std::uint32_t at) const;
 
+  /// Why nothing is known of a pointer in memory at `at`.
+  struct Unknown {
+    enum class Reason : std::uint8_t {
+      NotSet,     ///< the program does not set it
+      DataBlock,  ///< the data block does, or a programming device
+      Elsewhere,  ///< it is not in V, M or L memory or an accumulator
+      Written     ///< `op` puts into it what no address is known of
+    };
+    Reason reason = Reason::NotSet;
+    std::uint32_t op = 0;
+  };
+  /// Nothing for a pointer that is_known().
+  std::optional<Unknown> unknown(std::uint32_t at) const;
+
   /// What a pointer may hold.
   struct Content {
     bool anything = false;
@@ -62,7 +77,8 @@ class Pointers {
   Content copied(const Operand& from, bool& more);
 
   const Program& program_;
-  std::map<std::uint32_t, Content> contents_;  // by place in the image
+  std::map<std::uint32_t, Content> contents_;        // by place in the image
+  std::map<std::uint32_t, std::uint32_t> given_up_;  // by place in the image: the op that put anything into it
 };
 
 }  // namespace s7200
