@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|files|scenarios|input|readme|times|systems"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|inspect|files|scenarios|input|readme|times|systems"""
 import contextlib
 import csv
 import html
@@ -1146,7 +1146,7 @@ class Options(Case):
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
     ANY_TEXT = ("TABLE", "DIR", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
-    BEGINNING = {"check": [SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
+    BEGINNING = {"check": [SLAVE], "inspect": [SLAVE, "xref"], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "decode": [LOG], "import-capture": [LOG], "debug": [SLAVE, "-x", "quit"], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
     @staticmethod
@@ -2458,6 +2458,7 @@ class JsonPage(Case):
         self.addCleanup(os.close, secondary)
         plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
         yield from (["check", echo, wrong], ["check", SOURCE / "tests/programs/libraries/slave.awl", "--cpu", "224"], ["import", self.program(Files.DOCUMENT, "page.txt")],
+                    ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"],
                     ["import", "--compare", self.program(Files.DRAWING.replace("LD", "LDN"), "drawn.txt")], ["run", faulty, *plant],
                     ["check", EXPORTS / "broken.awl", EXPORTS / "pump_symbols.txt"], ["convert", SLAVE, "--to", "microdos"],
                     ["run", faulty, "--for", "20ms", "--realtime"], ["send", faulty, "01", "--timeout", "10ms", *plant],
@@ -2499,6 +2500,35 @@ class JsonPage(Case):
             del documented[verb]
         self.assertEqual({verb: keys - printed[verb] for verb, keys in documented.items()},
                          {verb: set() for verb in VERBS if verb not in ("debug", "dap")}, "on the page, and never printed")
+
+
+class Inspect(Case):
+    PUMP = [EXPORTS / "pump.awl", EXPORTS / "pump_symbols.txt", EXPORTS / "pump_data.txt"]
+
+    def test_views_keep_to_100_columns_and_need_no_colour(self):
+        for view in ("xref",):
+            for program in ([SLAVE], self.PUMP):
+                with self.subTest(view=view, program=program):
+                    shown = self.ends(FINE, "inspect", *program, view).stdout
+                    self.assertGreater(shown.count("\n"), 5)
+                    self.assertNotIn("\x1b", shown)
+                    self.assertLessEqual(max(map(len, shown.split("\n"))), 100)
+
+    def test_what_is_not_there_is_said_with_what_is_near(self):
+        self.assertIn("name a view of it: xref", self.ends(UNUSABLE, "inspect", SLAVE).stderr)
+        self.assertIn("SBR_63", self.ends(UNUSABLE, "inspect", SLAVE, "xref", "SBR_99").stderr)
+        self.assertIn("near it the program uses", self.ends(FINE, "inspect", SLAVE, "xref", "VW3").stdout)
+        self.assertIn("cannot read", self.ends(UNUSABLE, "inspect", "missing.stl", "xref").stderr)
+
+    def test_a_program_with_errors_is_inspected_as_far_as_it_goes(self):
+        done = self.ends(FAILED, "inspect", self.program("LD I0.0\nMOVW VB1, VW10\n= Q0.0\nMEND\n"), "xref")
+        self.assertIn("has errors: what they are in is left out", done.stderr)
+        self.assertIn("Q0.0 (output)", done.stdout)
+
+    def test_several_programs_are_shown_with_their_names(self):
+        shown = self.ends(FINE, "inspect", SLAVE, SOURCE / "stl_programs/scale.stl", "xref", "SM0.0").stdout
+        self.assertRegex(shown, r"(?m)^\S*modbus_slave\.stl$")
+        self.assertRegex(shown, r"(?m)^\S*scale\.stl$")
 
 
 class Files(Case):
@@ -4119,7 +4149,7 @@ class Readme(Case):
 
 
 if __name__ == "__main__":
-    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "files": Files, "readme": Readme, "scenarios": Scenarios,
+    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "inspect": Inspect, "files": Files, "readme": Readme, "scenarios": Scenarios,
              "input": StandardInput, "times": Times, "systems": Systems}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

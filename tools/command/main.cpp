@@ -29,6 +29,7 @@ struct Verb {
 };
 constexpr std::array kVerbs{
     Verb{"check", add_check},
+    Verb{"inspect", add_inspect},
     Verb{"import", add_import},
     Verb{"convert", add_convert},
     Verb{"run", add_run},

@@ -1,0 +1,66 @@
+// What `s7200 inspect PROGRAM xref` shows.
+#include "tools/views/xref_view.hpp"
+
+#include "tests/support/inspected.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using test::inspected;
+
+TEST(XrefView, HasTheColumnsOfMicroWinAndALineForEachUse) {
+  EXPECT_EQ(xref_text(inspected("NETWORK 1\nLD I0.0\n= Q0.0\nMEND\n")),
+            "I0.0 (input)\n"
+            "  reads      I0.0             MAIN    1   test.stl:2              LD I0.0\n"
+            "Q0.0 (output)\n"
+            "  writes     Q0.0             MAIN    1   test.stl:3              = Q0.0\n");
+}
+
+TEST(XrefView, ShowsSymbolsBesideAddressesAndWhoWritesSpecialMemory) {
+  const std::string text = xref_text(inspected("LD SM0.5\nMOVB SMB2, VB1\nMEND\n"));
+  EXPECT_NE(text.find("SM0.5 (clock of 1 s; the CPU writes it)\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("SMB2 (Freeport: character received; the port writes it)\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("VB1; never read\n"), std::string::npos) << text;
+}
+
+TEST(XrefView, SaysWhyAPointerMayLeadAnywhere) {
+  const std::string text = xref_text(inspected("LD SM0.0\nMOVB 1, *AC1\nMOVB 2, VB7\nMEND\n"));
+  EXPECT_NE(text.find("  may reach  *AC1 (see Pointers)\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("*AC1: anywhere in I, Q, M, SM, S, AI, AQ, T, C, V; no instruction sets it\n"), std::string::npos) << text;
+}
+
+TEST(XrefView, KeepsToWhatIsAskedFor) {
+  constexpr std::string_view kProgram =
+      "NETWORK 1\nLD I0.0\nMOVW 1, VW10\nMEND\nNETWORK 2\nSBR 3\nLD SM0.0\nMOVB VB11, VB20\nRET\n";
+  const std::string of_byte = xref_text(inspected(kProgram, {"V11.3"}));
+  EXPECT_EQ(of_byte,
+            "VW10, VB11\n"
+            "  writes     VW10             MAIN    1   test.stl:3              MOVW 1, VW10\n"
+            "  reads      VB11             SBR_3   2   test.stl:8              MOVB VB11, VB20\n");
+  EXPECT_EQ(xref_text(inspected(kProgram, {"SBR_3:2"})).find("MOVW 1"), std::string::npos);
+  EXPECT_EQ(xref_text(inspected(kProgram, {"VW12"})),
+            "VW12: no instruction names it; near it the program uses VB11 and VB20\n");
+}
+
+TEST(XrefView, JsonHasTheSameUses) {
+  const auto json = xref_json(inspected("LD I0.0\nMOVW 1, VW10\nTON T37, 100\nLD V10.3\nLD T37\n= Q0.0\nMEND\n"));
+  const auto& entry = json["entries"][2];
+  EXPECT_EQ(entry["address"], "VW10");
+  EXPECT_EQ(entry["parts"], nlohmann::ordered_json::parse(R"(["VW10", "V10.3"])"));
+  EXPECT_EQ(entry["uses"].size(), 2U);
+  EXPECT_EQ(entry["uses"][0]["access"], "writes");
+  EXPECT_EQ(entry["uses"][0]["instruction"], "MOVW 1, VW10");
+  EXPECT_EQ(entry["uses"][0]["line"], 2);
+  EXPECT_EQ(json["entries"][3]["address"], "T37");
+  EXPECT_EQ(json["entries"][3]["meaning"], "TON, 100 ms");
+  EXPECT_EQ(json["constants"][1]["constant"], "100");
+}
+
+TEST(XrefView, AProgramWithErrorsIsShownAsFarAsItIsRead) {
+  const auto json = xref_json(inspected("LD I0.0\nMOVW VB1, VW10\n= Q0.0\nMEND\n"));
+  ASSERT_EQ(json["entries"].size(), 3U);
+  EXPECT_EQ(json["entries"][2]["address"], "VW10");
+}
+
+}  // namespace
+}  // namespace s7200::tools

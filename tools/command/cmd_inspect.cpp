@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "interpreter/base/joined.hpp"
+#include "interpreter/base/text.hpp"
+#include "tools/command/commands.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/inspected_program.hpp"
+#include "tools/command/options/choices.hpp"
+#include "tools/command/options/program_options.hpp"
+#include "tools/command/options/stand_in_options.hpp"
+#include "tools/command/options/tables_by_cpu.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/interruption.hpp"
+#include "tools/views/inspect_views.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct InspectOptions {
+  CpuOptions cpu;
+  std::vector<std::string> words;
+  bool json = false;
+};
+
+/// The words of the command line: files, then a view, then what it is to be about.
+struct Request {
+  std::vector<std::string> paths, about;
+  const InspectView* view = nullptr;
+};
+
+Request request_of(const std::vector<std::string>& words) {
+  Request request;
+  for (const std::string& word : words) {
+    if (request.view)
+      request.about.push_back(word);
+    else if (const InspectView* view = request.paths.empty() ? nullptr : find_inspect_view(word))
+      request.view = view;
+    else
+      request.paths.push_back(word);
+  }
+  return request;
+}
+
+std::string view_names() { return stl::joined(inspect_views(), &InspectView::name); }
+
+int run_inspect(const InspectOptions& options) {
+  const Request request = request_of(options.words);
+  if (!request.view) {
+    print_error(fmt::format("after the PROGRAM name a view of it: {}", view_names()));
+    return kUnusable;
+  }
+  if (!options.cpu.model()) return kUnusable;
+  catch_interruption();
+  int exit_code = kFine;
+  TablesByCpu tables(options.cpu);
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  auto programs = read_programs(request.paths, exit_code);
+  for (ProgramFiles& file : programs) {
+    if (interrupted()) break;
+    const auto inspection = inspected(options.cpu, file, request.about, tables, exit_code);
+    if (!inspection) continue;
+    if (options.json) {
+      files.push_back({{"file", file.path}, {"cpu", inspection->program->model->name}});
+      files.back()[std::string(request.view->name)] = request.view->json(*inspection);
+    } else {
+      if (programs.size() > 1) fmt::print("{}\n", stl::printable(file.path));
+      fmt::print("{}", request.view->text(*inspection));
+      std::fflush(stdout);
+    }
+  }
+  if (options.json) {
+    auto results = results_of("inspect");
+    results["files"] = std::move(files);
+    fmt::print("{}", lines_of(results));
+  }
+  print_interruption();
+  return interrupted() ? static_cast<int>(kCheckFailed) : exit_code;
+}
+
+std::string views_text() {
+  std::string text = "Views:\n";
+  for (const InspectView& view : inspect_views()) text += fmt::format("  {:<9} {}\n", view.name, view.meaning);
+  return text;
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<InspectOptions>();
+  CLI::App* verb = app.add_subcommand("inspect", "what is in a program that nobody knows: who uses what, and where");
+  std::vector<std::string> names;
+  for (const InspectView& view : inspect_views()) names.emplace_back(view.name);
+  offer_beside_files(verb->add_option("PROGRAM", options->words,
+                                      "STL files or published documents, with symbol tables and data blocks; then a view; "
+                                      "then addresses, symbols, routines (SBR_3) or networks (SBR_3:2) to keep to"),
+                     names)
+      ->required();
+  options->cpu.add_cpu_and_times_to(*verb, fmt::format("CPU that they are to run on {}", kCpuFound));
+  add_repair_option(*verb, options->cpu.repairs);
+  add_no_stand_ins_option(*verb, options->cpu.no_stand_ins);
+  verb->add_flag("--json", options->json, "print the results as JSON");
+  verb->footer(views_text() +
+               "Topics: models, programs, times\n"
+               "Example: s7200 inspect stl_programs/modbus_slave.stl xref VB1000");
+  verb->callback([options, &exit_code] { exit_code = run_inspect(*options); });
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,59 @@
+#include "tools/command/inspected_program.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "interpreter/program/checker.hpp"
+#include "tools/command/exit_code.hpp"
+#include "tools/command/options/stand_in_options.hpp"
+#include "tools/command/terminal.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// What is known of a program; null after a message if that is nothing. Errors are said, and what they are in is left out.
+std::shared_ptr<const Program> decoded(const CpuOptions& options, const SourceText& text, const CpuModel& model,
+                                       const TimeTable& times, int& exit_code) {
+  DecodedSource source = decode_program(text.parsed, model, times);
+  std::erase_if(source.diagnostics, [](const auto& d) { return d.severity == stl::Severity::Warning; });
+  stl::sort(source.diagnostics);
+  print_diagnostics(source.diagnostics, source.source);
+  print_notes(reading_notes(text));
+  if (source.program && !accept_stand_ins(*source.program, options.no_stand_ins)) {
+    exit_code = std::max<int>(exit_code, kCheckFailed);
+    return nullptr;
+  }
+  if (source.program) return source.program;
+  exit_code = std::max<int>(exit_code, kCheckFailed);
+  if (source.known)
+    print_note(fmt::format("{} has errors: what they are in is left out", source.source.name));
+  else
+    print_error(fmt::format("{} has errors after which too little is known of it", source.source.name));
+  return source.known;
+}
+
+}  // namespace
+
+std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const std::vector<std::string>& about,
+                                    TablesByCpu& tables, int& exit_code) {
+  if (!repair(file.text, options.repairs)) return exit_code = kUnusable, std::nullopt;
+  const CpuModel* model = options.model_for(file.text, file.path);
+  const TimeTable* times = model ? tables.of(*model) : nullptr;
+  if (!times) return exit_code = kUnusable, std::nullopt;
+  auto program = decoded(options, file.text, *model, *times, exit_code);
+  if (!program) return {};
+  std::optional<Inspection> inspection(std::in_place, std::move(program));
+  std::string why;
+  auto selection = parse_selection(about, inspection->facts, why);
+  if (!selection) {
+    print_error(fmt::format("{}: {}", file.path, why));
+    return exit_code = kUnusable, std::nullopt;
+  }
+  inspection->selection = std::move(*selection);
+  return inspection;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,23 @@
+#include "tools/views/inspect_views.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "tools/views/xref_view.hpp"
+
+namespace s7200::tools {
+
+std::span<const InspectView> inspect_views() {
+  static constexpr std::array kTable{
+      InspectView{"xref", "each address and constant: which instructions read and write it, also through pointers",
+                  xref_text, xref_json},
+  };
+  return kTable;
+}
+
+const InspectView* find_inspect_view(std::string_view name) {
+  const auto found = std::ranges::find(inspect_views(), name, &InspectView::name);
+  return found == inspect_views().end() ? nullptr : &*found;
+}
+
+}  // namespace s7200::tools

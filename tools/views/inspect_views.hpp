@@ -1,0 +1,26 @@
+// The views of `s7200 inspect`: a row each.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tools/views/inspection.hpp"
+
+namespace s7200::tools {
+
+struct InspectView {
+  std::string_view name;     ///< as it is asked for; the key of its JSON
+  std::string_view meaning;  ///< one line
+  std::string (*text)(const Inspection& inspection);
+  nlohmann::ordered_json (*json)(const Inspection& inspection);
+};
+
+/// In the order of the help.
+std::span<const InspectView> inspect_views();
+
+/// Returns null if there is no view of that name.
+const InspectView* find_inspect_view(std::string_view name);
+
+}  // namespace s7200::tools

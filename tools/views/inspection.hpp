@@ -1,0 +1,46 @@
+// A program that is looked into, and how its places are named in all views of it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/selection.hpp"
+
+namespace s7200::tools {
+
+/// A program with what is known of it, and what was asked about. The program may have errors; then what they are in is
+/// unread (interpreter/program/unread.hpp).
+struct Inspection {
+  std::shared_ptr<const Program> program;
+  Facts facts;
+  Selection selection{};
+
+  explicit Inspection(std::shared_ptr<const Program> inspected) : program(std::move(inspected)), facts(facts_of(*program)) {}
+};
+
+/// Where an instruction stands, in the columns of Micro/WIN's cross reference: `SBR_3   2  slave.stl:120`.
+std::string place_text(const Inspection& inspection, std::uint32_t op);
+/// The same in running text: `SBR_3, network 2, slave.stl:120`.
+std::string place_in_words(const Inspection& inspection, std::uint32_t op);
+/// {"routine", "network", "file", "line", "instruction"}: the network is null in front of the first.
+nlohmann::ordered_json place_json(const Inspection& inspection, std::uint32_t op);
+
+/// The routine that an instruction is in: `SBR_3`
+std::string routine_at(const Inspection& inspection, std::uint32_t op);
+/// A routine with the name of its block and its title: `SBR_3 "Pump control"`
+std::string routine_in_words(const Inspection& inspection, const Routine& routine);
+
+/// An instruction without the padding of listings: `MOVW Speed:VW10, VW12`
+std::string instruction_text(const Inspection& inspection, std::uint32_t op);
+
+/// Text for a column: padded to `width` characters, with at least one blank after it.
+std::string column(std::string text, std::size_t width);
+
+/// `text` in lines of up to 100 columns, each but the first after `indent` blanks.
+std::string wrapped_at(std::string_view text, std::size_t indent);
+
+}  // namespace s7200::tools
