@@ -55,6 +55,13 @@ TEST(Commands, AnswerProgramsToo) {
   EXPECT_FALSE(session("status 16").json["lines"].empty());
   EXPECT_EQ(session("port").json["port"], 0);
   EXPECT_EQ(session("set VW40=6").json["values"][0]["value"], "16#0006 (6)");
+  session("break 3");
+  EXPECT_EQ(session("break").json["stops"][0]["line"], 3);
+  EXPECT_EQ(session("continue 1s").json["stopped"], "stop point");
+  session("delete all");
+  EXPECT_TRUE(session("watch").json["stops"].empty());
+  EXPECT_EQ(session("continue 10ms").json["stopped"], "limit");
+  EXPECT_EQ(session("scan").json["stopped"], "goal");
   EXPECT_TRUE(session("regs").json.is_null()) << "nothing for programs";
 }
 

@@ -110,27 +110,31 @@ std::string options_text(const StopPoint& stop) {
   return text;
 }
 
-void list_stops(Session& session) {
+/// {"stops": [{"number": 1, "kind": "break", "text": "line 40 …", "hits": 0, "line": 40, "op": 12}]}: `line` and `op` of
+/// those at a place.
+Json list_stops(Session& session) {
+  Json stops = Json::array();
   session.stepper.count_hits();
   for (const bool watches : {false, true})
     for (const StopPoint& s : session.stepper.stops()) {
       if (s.is_watch() != watches) continue;
       const Session::Station& of = session.stations[s.station];
+      const std::string_view kind = watches ? "watch" : "break";
       std::string what = session.said_of(s.station) + (s.on == On::Place ? op_text(of.listing, s.op) : s.name);
       if (watches) what += " is " + value_of(of.simulation->cpu(), *s.range);
-      session.said << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, watches ? "watch" : "break", counted(s.hits, "hit"),
-                                  what, options_text(s));
+      session.said << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, kind, counted(s.hits, "hit"), what, options_text(s));
+      Json stop{{"number", s.number}, {"kind", kind}, {"text", what + options_text(s)}, {"hits", s.hits}};
+      if (s.on == On::Place) stop.update({{"line", of.listing.line_of(s.op)}, {"op", s.op}});
+      stops.push_back(std::move(stop));
     }
   if (session.stepper.stops().empty()) session.said << "no breakpoints and no watches\n";
+  return {{"stops", stops}};
 }
 
 }  // namespace
 
 Reply set_break(Session& session, const Words& arguments) {
-  if (arguments.empty()) {
-    list_stops(session);
-    return {};
-  }
+  if (arguments.empty()) return {.json = list_stops(session)};
   Words words = arguments;
   Words place = take_words(words);
   std::string why;
@@ -166,10 +170,7 @@ Reply set_break(Session& session, const Words& arguments) {
 }
 
 Reply watch(Session& session, const Words& arguments) {
-  if (arguments.empty()) {
-    list_stops(session);
-    return {};
-  }
+  if (arguments.empty()) return {.json = list_stops(session)};
   Words words = arguments;
   Words addresses = take_words(words);
   if (addresses.empty()) return wrong(expects("watch", "an address, for example: watch VW100"));

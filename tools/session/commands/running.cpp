@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
@@ -26,6 +28,11 @@ class Told final : public Observer {
  private:
   std::function<void(const TraceRecord&)> tell_;
 };
+
+constexpr std::array<std::string_view, 7> kStopWords{"goal", "stop point", "answer", "limit", "request", "CPU", "oldest"};
+
+/// {"stopped": "limit"}: why a run has come to its end.
+Json stopped_json(const Stop& stop) { return {{"stopped", kStopWords[static_cast<std::size_t>(stop.reason)]}}; }
 
 std::uint64_t errors_of_all(const Session& session) {
   std::uint64_t errors = 0;
@@ -83,7 +90,7 @@ Reply go(Session& session, const RunTo& run) {
   if (!stop) return {};
   session.look_at(stop->station);
   report(session, *stop, run, errors_of_all(session) - errors_before);
-  return {};
+  return {.json = stopped_json(*stop)};
 }
 
 Reply go_back(Session& session, const Stepper::Goal& goal, std::uint64_t count, bool stop_at_answer) {
