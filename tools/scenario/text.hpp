@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/bytes.hpp"
 #include "interpreter/base/serial_format.hpp"
 #include "tools/yaml/values.hpp"
 
