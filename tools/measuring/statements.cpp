@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 
+#include "interpreter/analysis/check.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/named_times.hpp"
