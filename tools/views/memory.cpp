@@ -51,40 +51,6 @@ std::string object_text(const Cpu& cpu, const MemoryRange& range, std::uint32_t 
   return text;
 }
 
-std::string_view type_of(const MemoryRange& range) {
-  switch (range.width) {
-    case Width::Bit:
-      return "bit";
-    case Width::Byte:
-      return "byte";
-    case Width::Word:
-      return "word";
-    case Width::Double:
-      return range.real ? "real" : "dword";
-  }
-  return {};
-}
-
-/// The value as instructions of its width take it: bytes without a sign, words and double words with one.
-nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, std::uint32_t i) {
-  switch (range.width) {
-    case Width::Bit:
-      return state.image[range.at] >> range.bit & 1;
-    case Width::Byte:
-      return state.image[range.at + i];
-    case Width::Word:
-      return static_cast<std::int16_t>(load16(place_of(state, range, i)));
-    case Width::Double:
-      if (range.real) return real_json(real_at(place_of(state, range, i)));
-      return static_cast<std::int32_t>(load32(place_of(state, range, i)));
-  }
-  return nullptr;
-}
-
-}  // namespace
-
-namespace {
-
 template <class Parsed>
 std::optional<std::vector<Parsed>> parse_all(const std::vector<std::string>& texts, const AddressSpace& space,
                                              std::optional<Parsed> (*parse)(std::string_view, const AddressSpace&,
@@ -100,6 +66,35 @@ std::optional<std::vector<Parsed>> parse_all(const std::vector<std::string>& tex
 }
 
 }  // namespace
+
+std::string_view type_of(const MemoryRange& range) {
+  switch (range.width) {
+    case Width::Bit:
+      return "bit";
+    case Width::Byte:
+      return "byte";
+    case Width::Word:
+      return "word";
+    case Width::Double:
+      return range.real ? "real" : "dword";
+  }
+  return {};
+}
+
+nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, std::uint32_t i) {
+  switch (range.width) {
+    case Width::Bit:
+      return state.image[range.at] >> range.bit & 1;
+    case Width::Byte:
+      return state.image[range.at + i];
+    case Width::Word:
+      return static_cast<std::int16_t>(load16(place_of(state, range, i)));
+    case Width::Double:
+      if (range.real) return real_json(real_at(place_of(state, range, i)));
+      return static_cast<std::int32_t>(load32(place_of(state, range, i)));
+  }
+  return nullptr;
+}
 
 std::optional<std::vector<Assignment>> parse_assignments(const std::vector<std::string>& texts, const AddressSpace& space,
                                                          std::string& why) {
@@ -157,6 +152,20 @@ std::string dump_text(const Cpu& cpu, const MemoryRange& range) {
   for (std::uint32_t i = 0; i < range.count; ++i)
     text += fmt::format("{:<8} {}\n", range.name_of(i), object_text(cpu, range, i));
   return text;
+}
+
+std::uint32_t bits_at(const State& state, const MemoryRange& range, std::uint32_t i) {
+  const std::uint8_t* const from = place_of(state, range, i);
+  if (range.width == Width::Bit) return *from >> range.bit & 1;
+  if (range.width == Width::Byte) return *from;
+  return range.width == Width::Word ? load16(from) : load32(from);
+}
+
+double number_at(const State& state, const MemoryRange& range, std::uint32_t i) {
+  const std::uint32_t bits = bits_at(state, range, i);
+  if (range.real) return std::bit_cast<float>(bits);
+  if (range.width == Width::Word) return static_cast<std::int16_t>(bits);
+  return range.width == Width::Double ? static_cast<double>(static_cast<std::int32_t>(bits)) : bits;
 }
 
 nlohmann::ordered_json dump_json(const Cpu& cpu, const MemoryRange& range) {

@@ -61,6 +61,11 @@ Reply trace(Session& session, const Words& words);
 Reply layout(Session& session, const Words& words);
 Reply quit(Session& session, const Words& words);
 
+// commands_pages.cpp
+Reply listing(Session& session, const Words& words);
+Reply values(Session& session, const Words& words);
+Reply spans(Session& session, const Words& words);
+
 // commands_plc.cpp
 Reply set(Session& session, const Words& words);
 Reply input(Session& session, const Words& words);

@@ -20,6 +20,24 @@ constexpr std::size_t kListed = 15, kListedBefore = 6;
 
 /// Instructions, as `status` shows them.
 constexpr std::uint32_t kShown = 15, kBefore = 6;
+constexpr std::uint32_t kMostLines = 1000;  ///< of those that are named by their numbers
+
+Reply status_reply(Session& session, std::uint32_t first, std::uint32_t end) {
+  const LastExecutions last = last_executions_of(session, first, end);
+  Reply reply{.json = status_json(session, last), .interrupted = last.interrupted};
+  for (const std::string& line : status_lines(session, first, end, last)) reply.text += line + '\n';
+  return reply;
+}
+
+/// From one line to another.
+Reply status_of_lines(Session& session, const Words& numbers) {
+  const auto from = parse_decimal<std::uint32_t>(numbers[0]), to = parse_decimal<std::uint32_t>(numbers[1]);
+  if (!from || !to || *to < *from || *to - *from >= kMostLines)
+    return wrong(expects("status", fmt::format("the first and the last line, at most {}: status 1 100", kMostLines)));
+  const auto ops = static_cast<std::uint32_t>(session.program().ops.size());
+  const std::uint32_t first = session.listing().op_from_line(*from).value_or(ops);
+  return status_reply(session, first, session.listing().op_from_line(*to + 1).value_or(ops));
+}
 
 /// A peer or a bridge; null if there is none of that name.
 const LineStation* without_program(const Session& session, std::string_view name) {
@@ -75,6 +93,7 @@ Reply list(Session& session, const Words& arguments) {
 }
 
 Reply status(Session& session, const Words& arguments) {
+  if (arguments.size() == 2 && std::ranges::all_of(arguments, is_whole_number)) return status_of_lines(session, arguments);
   std::string why;
   const auto place = arguments.empty() ? session.current_op() : find_op(session, arguments, "status", why);
   if (!why.empty()) return wrong(why);
@@ -84,10 +103,7 @@ Reply status(Session& session, const Words& arguments) {
   const bool network = !arguments.empty() && stl::upper_case(arguments[0]).starts_with("NETWORK");
   std::uint32_t end = first;
   while (end < std::min(ops, first + kShown) && (end == first || !network || !session.listing().begins_network(end))) ++end;
-  const LastExecutions last = last_executions_of(session, first, end);
-  Reply reply{.json = status_json(session, last), .interrupted = last.interrupted};
-  for (const std::string& line : status_lines(session, first, end, last)) reply.text += line + '\n';
-  return reply;
+  return status_reply(session, first, end);
 }
 
 Reply registers(Session& session, const Words&) {

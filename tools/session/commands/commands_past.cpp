@@ -6,6 +6,7 @@
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/session/commands/commands.hpp"
+#include "tools/session/commands/moments_json.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/past/past_words.hpp"
@@ -114,7 +115,7 @@ Reply past(Session& session, const Words&) {
       moment_text(session.history.now().time), counted(usage.checkpoints, "checkpoint"), format_duration(usage.interval),
       static_cast<double>(usage.bytes) / kMegabyte, static_cast<double>(session.setup.bound) / kMegabyte,
       counted(session.history.actions().size(), "action"));
-  return {};
+  return {.json = moments_json(session)};
 }
 
 Reply restart(Session& session, const Words&) {

@@ -18,14 +18,6 @@
 namespace s7200::tools::commands {
 namespace {
 
-std::uint32_t value_at(const State& state, const MemoryRange& range, std::uint32_t i) {
-  const std::uint32_t step = range.area == Area::AC ? 4 : s7200::bytes_of(range.width);
-  const std::uint8_t* const from = &state.image[range.at + i * step];
-  if (range.width == Width::Bit) return *from >> range.bit & 1;
-  if (range.width == Width::Byte) return *from;
-  return range.width == Width::Word ? load16(from) : load32(from);
-}
-
 /// Bytes as one text, in rows.
 std::string characters_text(const Cpu& cpu, const MemoryRange& range) {
   constexpr std::uint32_t kInRow = 64;
@@ -45,7 +37,7 @@ std::string range_text(const Cpu& cpu, const MemoryRange& range, const PrintForm
   std::string text;
   for (std::uint32_t i = 0; i < range.count; ++i)
     text +=
-        fmt::format("{:<8} {}\n", range.name_of(i), form->text(value_at(cpu.state(), range, i), range.width, range.real));
+        fmt::format("{:<8} {}\n", range.name_of(i), form->text(bits_at(cpu.state(), range, i), range.width, range.real));
   return text;
 }
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "interpreter/stl/printer.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/views/execution_text.hpp"
+#include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -24,6 +26,25 @@ std::vector<Bits> operands_of(const Session& session, std::uint32_t number) {
     all.push_back({at * 8 + (bit ? op[i].bit : 0), bit ? 1 : std::uint64_t{8} * s7200::bytes_of(rules[i].width)});
   }
   return all;
+}
+
+/// The values of an instruction's operands as it found or left them, in the types that it takes them for.
+Json values_json(const InstructionRecord& record, const Op& op) {
+  Json values = Json::array();
+  const auto rules = op.instruction->rules();
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    if (!record.value[i])
+      values.push_back(nullptr);
+    else if (rules[i].real)
+      values.push_back(real_json(std::bit_cast<float>(*record.value[i])));
+    else if (rules[i].width == Width::Word)
+      values.push_back(static_cast<std::int16_t>(*record.value[i]));
+    else if (rules[i].width == Width::Double)
+      values.push_back(static_cast<std::int32_t>(*record.value[i]));
+    else
+      values.push_back(*record.value[i]);
+  }
+  return values;
 }
 
 }  // namespace
@@ -56,10 +77,14 @@ Json status_json(const Session& session, const LastExecutions& last) {
     const std::string text = describe(execution, session.program());
     const std::size_t values = text.find("S0=");
     lines.push_back({{"op", op},
+                     {"line", session.listing().line_of(op)},
+                     {"at_ns", execution.record.at},
                      {"powerFlow", execution.record.powered},
+                     {"top", execution.record.top},
+                     {"values", values_json(execution.record, session.program().ops[op])},
                      {"text", values == std::string::npos ? text : text.substr(values)}});
   }
-  return {{"lines", lines}};
+  return {{"lines", lines}, {"since_ns", last.since}};
 }
 
 std::string mark_of(const Session& session, std::uint32_t op) {

@@ -17,7 +17,8 @@ LastExecutions last_executions_of(Session& session, std::uint32_t first, std::ui
 std::vector<std::string> status_lines(const Session& session, std::uint32_t first, std::uint32_t end,
                                       const LastExecutions& last);
 
-/// {"lines": [{"op": 40, "powerFlow": true, "text": "S0=1 …"}]}: of those that were executed.
+/// {"lines": [{"op": 40, "line": 52, "at_ns": …, "powerFlow": true, "top": true, "values": [1], "text": "S0=1 …"}],
+/// "since_ns": …}: of those that were executed since then.
 Json status_json(const Session& session, const LastExecutions& last);
 
 /// `*>`: it has a breakpoint, and it is the next one.

@@ -1,0 +1,274 @@
+// What pages and editors ask a session: the program, memory, moments and what happened, as JSON.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/unit/debugger/session.hpp"
+#include "tools/session/commands/command_table.hpp"
+#include "tools/session/observers/track.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct Silent final : Onlooker {
+  void tell(std::string_view) override {}
+};
+
+struct Asked : OnePlc {
+  explicit Asked(std::string_view text) : OnePlc(program_of(text)) {}
+
+  Reply operator()(std::string_view command) { return execute(session, command_words(command)); }
+  Json json(std::string_view command) {
+    const Reply reply = (*this)(command);
+    EXPECT_FALSE(reply.error.has_value()) << command << ": " << reply.error.value_or("");
+    return reply.json;
+  }
+  std::string error_of(std::string_view command) { return (*this)(command).error.value_or("no error"); }
+
+  History history{simulation, {}};
+  Silent silent{};
+  Session session{history, {}, silent};
+};
+
+/// The track of a kind and name; an empty object without one.
+Json track(const Json& spans, std::string_view kind, std::string_view name) {
+  for (const Json& one : spans["tracks"])
+    if (one["kind"] == kind && one["name"] == name) return one;
+  return Json::object();
+}
+
+constexpr std::string_view kTitled =
+    "NETWORK 1 // the pump\n"  // 1
+    "LD      I0.0\n"           // 2
+    "AN      M0.1\n"           // 3
+    "=       Q0.0  // runs\n"  // 4
+    "\n"                       // 5
+    "NETWORK 2\n"              // 6
+    "LD      SM0.0\n"          // 7
+    "MOVW    VW10, VW12\n"     // 8
+    "MOVB    *VD20, VB30\n"    // 9
+    "MEND\n";                  // 10
+
+TEST(Pages, GetTheOutlineOfTheProgram) {
+  Asked session(kNested);
+  const Json outline = session.json("listing");
+  EXPECT_EQ(outline["program"], "test.stl");
+  EXPECT_EQ(outline["cpu"], "214");
+  EXPECT_EQ(outline["lines"], 22);
+  ASSERT_EQ(outline["routines"].size(), 4U);
+  EXPECT_EQ(outline["routines"][0]["name"], "main");
+  EXPECT_EQ(outline["routines"][1]["name"], "SBR 1");
+  EXPECT_EQ(outline["routines"][1]["line"], 8);
+  EXPECT_EQ(outline["routines"][3]["end"], outline["ops"]);
+}
+
+TEST(Pages, GetNetworksWithTheirTitles) {
+  Asked session(kTitled);
+  const Json networks = session.json("listing")["routines"][0]["networks"];
+  ASSERT_EQ(networks.size(), 2U);
+  EXPECT_EQ(networks[0]["number"], 1);
+  EXPECT_EQ(networks[0]["title"], "the pump");
+  EXPECT_EQ(networks[0]["line"], 1);
+  EXPECT_EQ(networks[0]["end"], networks[1]["first"]);
+}
+
+TEST(Pages, GetLinesAsTheyAreWrittenWithTheirInstructions) {
+  Asked session(kTitled);
+  const Json lines = session.json("listing 3 9")["text"];
+  ASSERT_EQ(lines.size(), 7U);
+  EXPECT_EQ(lines[0]["kind"], "contact");
+  EXPECT_EQ(lines[1]["text"], "=       Q0.0  // runs");
+  EXPECT_EQ(lines[1]["kind"], "coil");
+  EXPECT_EQ(lines[1]["operands"][0]["address"], "Q0.0");
+  EXPECT_TRUE(lines[2]["op"].is_null());
+  EXPECT_EQ(lines[5]["kind"], "box");
+  EXPECT_EQ(lines[5]["operands"][1]["address"], "VW12");
+  EXPECT_EQ(lines[6]["operands"][0]["address"], "VD20");
+  EXPECT_EQ(lines[6]["operands"][0]["pointer"], true);
+}
+
+TEST(Pages, GetNoMoreThanAThousandLinesAtOnce) {
+  Asked session(kTitled);
+  EXPECT_TRUE(has(session.error_of("listing 1 1001"), "at most 1000"));
+  EXPECT_TRUE(has(session.error_of("listing 5 4"), "the first and the last line"));
+  EXPECT_TRUE(has(session.error_of("listing 5"), "the first and the last line"));
+  EXPECT_EQ(session.json("listing 500 600")["text"].size(), 0U);
+}
+
+TEST(Pages, GetTheStatusOfLinesWithTheTypesOfTheirOperands) {
+  Asked session(kTitled);
+  session("set VW10=-5");
+  session("scan 2");
+  const Json lines = session.json("status 2 8")["lines"];
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[0]["line"], 2);
+  EXPECT_EQ(lines[0]["top"], false);
+  EXPECT_EQ(lines[4]["values"], Json::array({-5, -5}));
+  EXPECT_EQ(lines[4]["powerFlow"], true);
+  EXPECT_GT(lines[4]["at_ns"], 0);
+  EXPECT_TRUE(has(session.error_of("status 1 2000"), "at most 1000"));
+}
+
+TEST(Pages, GetManyValuesEachInItsForm) {
+  Asked session(kTitled);
+  session("set VW10=-5 VD40=1.5");
+  session("force M0.1=1");
+  const Json values = session.json("values VW10 M0.1 /x VB10:2 nonsense /d VD40:real")["values"];
+  ASSERT_EQ(values.size(), 6U);
+  EXPECT_EQ(values[0]["text"], "-5");
+  EXPECT_EQ(values[0]["number"], -5);
+  EXPECT_EQ(values[0]["type"], "word");
+  EXPECT_EQ(values[1]["forced"], false) << "M has no points that are forced one by one";
+  EXPECT_EQ(values[2]["text"], "16#FF");
+  EXPECT_EQ(values[3]["address"], "VB11");
+  EXPECT_EQ(values[4]["name"], "nonsense");
+  EXPECT_TRUE(values[4].contains("error"));
+  EXPECT_EQ(values[5]["number"], 1.5);
+}
+
+TEST(Pages, SeeWhatIsForced) {
+  Asked session(kTitled);
+  session("force VW10=7 I0.0=1");
+  const Json values = session.json("values VB10:3 I0.0 I0.1")["values"];
+  EXPECT_EQ(values[0]["forced"], true);
+  EXPECT_EQ(values[1]["forced"], true);
+  EXPECT_EQ(values[2]["forced"], false);
+  EXPECT_EQ(values[3]["forced"], true);
+  EXPECT_EQ(values[4]["forced"], false);
+}
+
+TEST(Pages, AskForValuesWithoutMakingThemPartOfARecordedTest) {
+  Asked session(kTitled);
+  session.json("values VW10");
+  EXPECT_TRUE(session.session.looked_at.empty());
+  session.json("print VW10");
+  EXPECT_EQ(session.session.looked_at.size(), 1U);
+}
+
+TEST(Pages, KnowWhereTheSessionStands) {
+  Asked session(kNested);
+  session("scan 3");
+  session("at start");
+  const Json past = session.json("past");
+  EXPECT_EQ(past["now_ns"], 0);
+  EXPECT_GT(past["newest_ns"], 0);
+  EXPECT_EQ(past["in_the_past"], true);
+  EXPECT_EQ(past["mode"], "RUN");
+  session("mode stop");
+  EXPECT_EQ(session.json("past")["mode"], "STOP");
+}
+
+TEST(Pages, SeeInterruptsFromOccurrenceToService) {
+  Asked session(kNested);
+  session("continue 22ms");
+  const Reply reply = session("spans start end");
+  EXPECT_FALSE(reply.moved);
+  const Json interrupts = track(reply.json, "interrupts", "INT 0")["spans"];
+  ASSERT_EQ(interrupts.size(), 4U);
+  for (const Json& one : interrupts) {
+    EXPECT_LE(one["occurred_ns"], one["at_ns"]);
+    EXPECT_LT(one["at_ns"], one["end_ns"]);
+  }
+  EXPECT_TRUE(has(reply.text, "INT 0"));
+}
+
+TEST(Pages, SeeScansRoutinesAndNetworksAndWatchedValues) {
+  Asked session(kNested);
+  session("continue 12ms");
+  const Json spans = session.json("spans start end VW10");
+  const Json scans = track(spans, "scans", "scans");
+  EXPECT_EQ(scans["exact"], true);
+  const Json values = track(spans, "value", "VW10")["spans"];
+  ASSERT_GT(values.size(), 2U);
+  EXPECT_EQ(values[0]["value"], 0);
+  EXPECT_EQ(values[1]["value"], 1);
+  EXPECT_EQ(values[1]["at_ns"], values[0]["end_ns"]);
+  const Json routines = track(spans, "routines", "routines")["spans"];
+  EXPECT_TRUE(std::ranges::any_of(routines, [](const Json& one) { return one["text"] == "SBR 2"; }));
+  EXPECT_FALSE(track(spans, "networks", "networks").empty());
+}
+
+TEST(Pages, SeeCharactersAndFramesInWords) {
+  Asked session(kEcho);
+  session("send 41");
+  session("continue 20ms");
+  const Json spans = session.json("spans start end");
+  ASSERT_EQ(track(spans, "characters", "port 0 received")["spans"].size(), 1U);
+  EXPECT_EQ(track(spans, "characters", "port 0 sent")["spans"][0]["text"], "41");
+  const Json frames = track(spans, "frames", "port 0 frames")["spans"];
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0]["text"], "received 41");
+  EXPECT_EQ(frames[1]["text"], "sent 41");
+}
+
+TEST(Pages, SeeThatACharacterHasAWrongParity) {
+  Asked session("LD SM0.1\nMOVB 16#49, SMB30\nATCH 1, 8\nENI\nMEND\nINT 1\nRETI\n");
+  session("send 41 42p 43");
+  session("continue 20ms");
+  const Json frames = track(session.json("spans start end 1"), "frames", "port 0 frames")["spans"];
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0]["error"], "parity error");
+}
+
+TEST(Pages, SeeALongPartWithoutRoutinesAndLoseNoScan) {
+  Asked session(kNested);
+  session("continue 30s");
+  const Json spans = session.json("spans start end 100");
+  EXPECT_EQ(spans["left_out"], Json::array({"routines", "networks"}));
+  const Json scans = track(spans, "scans", "scans");
+  EXPECT_LE(scans["spans"].size(), 100U);
+  std::uint64_t count = 0;
+  for (const Json& one : scans["spans"]) count += one.value("count", std::uint64_t{1});
+  EXPECT_EQ(count, session.state().scans + 1) << "with the one that it is in";
+}
+
+TEST(Pages, AskForSpansThatThereAre) {
+  Asked session(kNested);
+  session("continue 5ms");
+  EXPECT_EQ(session.json("spans 0ms 1h")["to_ns"], session.json("past")["newest_ns"]);
+  EXPECT_TRUE(has(session.error_of("spans end start"), "the first before the second"));
+  EXPECT_TRUE(has(session.error_of("spans start"), "the first before the second"));
+  EXPECT_TRUE(has(session.error_of("spans start end 0"), "from 1 to 20000"));
+  EXPECT_TRUE(has(session.error_of("spans start end 10 VB0:4"), "several values"));
+  EXPECT_TRUE(has(session.error_of("spans start end 10 QX99"), "QX99"));
+}
+
+TrackSpan span_at(Time at, std::string error = {}) {
+  return {.at = at, .end = at + 5, .text = "x", .error = std::move(error)};
+}
+
+TEST(Tracks, HaveEachElementAsLongAsThereIsRoom) {
+  Track track(0, 1000, 4);
+  for (const Time at : {0, 10, 500, 999}) track.add(span_at(at));
+  EXPECT_TRUE(track.is_exact());
+  EXPECT_EQ(track.spans().size(), 4U);
+}
+
+TEST(Tracks, JoinWhatBeginsInTheSamePartOfTheTimeAndLoseNoError) {
+  Track track(0, 1000, 4);
+  for (Time at = 0; at < 1000; at += 10) track.add(span_at(at, at == 730 ? "lost" : ""));
+  EXPECT_FALSE(track.is_exact());
+  ASSERT_EQ(track.spans().size(), 4U);
+  EXPECT_EQ(track.spans()[0].count, 25U);
+  EXPECT_EQ(track.spans()[0].busy, 125);
+  EXPECT_EQ(track.spans()[1].errors, 0U);
+  EXPECT_EQ(track.spans()[2].errors, 1U);
+  EXPECT_EQ(track.spans()[2].error, "lost");
+}
+
+TEST(Tracks, KeepTheLeastAndTheMostOfValues) {
+  Track track(0, 100, 1);
+  for (const double value : {3.0, -7.0, 5.0}) {
+    TrackSpan span = span_at(static_cast<Time>(value) + 10);
+    span.value = value;
+    track.add(std::move(span));
+  }
+  ASSERT_EQ(track.spans().size(), 1U);
+  EXPECT_EQ(track.spans()[0].value, 5.0);
+  EXPECT_EQ(track.spans()[0].least, -7.0);
+  EXPECT_EQ(track.spans()[0].most, 5.0);
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,398 @@
+#include "tools/session/observers/tracks_of_past.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "interpreter/base/bytes.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/networks.hpp"
+#include "interpreter/trace/event_lines.hpp"
+#include "interpreter/trace/trace_reasons.hpp"
+#include "serial_sim/modbus/answer.hpp"
+#include "serial_sim/modbus/functions.hpp"
+#include "tools/session/observers/trace_of_past.hpp"
+#include "tools/session/past/reader.hpp"
+#include "tools/views/listing.hpp"
+#include "tools/views/memory.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::array<std::string_view, 9> kWords{"characters", "frames", "interrupts", "scans", "routines",
+                                                 "networks",   "events", "errors",     "value"};
+
+/// All tracks of all stations.
+class Tracks {
+ public:
+  explicit Tracks(const TracksWanted& wanted) : wanted_(wanted) {}
+
+  void add(TrackKind kind, std::string name, std::size_t station, TrackSpan span) {
+    track(kind, std::move(name), station).add(std::move(span));
+  }
+
+  Track& track(TrackKind kind, std::string name, std::size_t station) {
+    const auto [place, is_new] = places_.try_emplace({station, kind, name}, all_.size());
+    if (is_new) all_.push_back({kind, std::move(name), station, Track(wanted_.from, wanted_.to, wanted_.most)});
+    return all_[place->second].track;
+  }
+
+  /// By station, kind and name.
+  std::vector<NamedTrack> take() {
+    std::vector<NamedTrack> sorted;
+    for (const auto& [key, place] : places_) sorted.push_back(std::move(all_[place]));
+    return sorted;
+  }
+
+ private:
+  using Key = std::tuple<std::size_t, TrackKind, std::string>;
+  const TracksWanted& wanted_;
+  std::map<Key, std::size_t> places_{};
+  std::deque<NamedTrack> all_{};
+};
+
+/// Characters of a port that follow each other without a pause, in one direction.
+class FrameTrack {
+ public:
+  FrameTrack(Tracks& tracks, std::size_t station, std::uint8_t port) : tracks_(tracks), station_(station), port_(port) {}
+
+  void add(const TrackSpan& character, std::uint8_t byte, bool sent, Time silence) {
+    if (!bytes_.empty() && (sent != sent_ || character.at - frame_.end > silence)) finish();
+    if (bytes_.empty()) frame_ = {.at = character.at};
+    sent_ = sent;
+    frame_.end = character.end;
+    if (frame_.error.empty()) frame_.error = character.error;
+    bytes_.push_back(byte);
+  }
+
+  void finish() {
+    if (bytes_.empty()) return;
+    frame_.text = fmt::format("{} {}", sent_ ? "sent" : "received", serial::to_hex(bytes_));
+    if (const std::string words = in_words(); !words.empty()) frame_.text += ": " + words;
+    tracks_.add(TrackKind::Frames, fmt::format("port {} frames", port_), station_, std::exchange(frame_, {}));
+    last_ = std::exchange(bytes_, {});
+    last_was_sent_ = sent_;
+  }
+
+ private:
+  /// An answer is read as that to the frame before it in the other direction. Nothing of what is not Modbus RTU.
+  std::string in_words() const {
+    if (!modbus::crc_ok(bytes_)) return {};
+    if (last_was_sent_ != sent_ && modbus::crc_ok(last_) && bytes_[0] == last_[0] &&
+        (bytes_[1] & ~modbus::kExceptionFlag) == last_[1])
+      return modbus::describe(last_, bytes_);
+    const modbus::FunctionRow* const row = modbus::find_function(bytes_[1]);
+    return row ? fmt::format("station {}: {}", bytes_[0], row->name) : std::string();
+  }
+
+  Tracks& tracks_;
+  std::size_t station_;
+  std::uint8_t port_;
+  TrackSpan frame_{};
+  Bytes bytes_{}, last_{};
+  bool sent_ = false, last_was_sent_ = false;
+};
+
+/// What runs without anything else between: a routine, or a network of it.
+class RunningTrack {
+ public:
+  RunningTrack(Tracks& tracks, TrackKind kind, std::size_t station) : tracks_(tracks), kind_(kind), station_(station) {}
+
+  /// `op` is the first instruction of what `record` belongs to.
+  void note(const InstructionRecord& record, std::uint32_t op, const std::string& text, bool acts) {
+    if (span_.op && (*span_.op != op || record.at != span_.end)) finish();
+    if (!span_.op)
+      span_ = {.at = record.at,
+               .text = text,
+               .value = kind_ == TrackKind::Networks ? std::optional(0.0) : std::nullopt,
+               .op = op};
+    span_.end = record.end;
+    if (acts && span_.value) span_.value = 1;
+  }
+
+  void finish() {
+    if (span_.op) tracks_.add(kind_, std::string(word_of(kind_)), station_, std::exchange(span_, {}));
+  }
+
+ private:
+  Tracks& tracks_;
+  TrackKind kind_;
+  std::size_t station_;
+  TrackSpan span_{};
+};
+
+/// The tracks of one station.
+class StationTracks {
+ public:
+  StationTracks(Tracks& tracks, const serial::Simulation& simulation, std::size_t station,
+                const TraceReasons::Disabled& interrupts)
+      : tracks_(tracks),
+        simulation_(simulation),
+        program_(simulation.cpu().program()),
+        station_(station),
+        networks_(program_),
+        listing_(program_),
+        event_text_(program_),
+        reasons_(program_),
+        routine_track_(tracks, TrackKind::Routines, station),
+        network_track_(tracks, TrackKind::Networks, station) {
+    reasons_.forget(interrupts);
+    for (std::uint32_t op = 0; op < program_.ops.size(); ++op) {
+      const bool begins = op == 0 || networks_.routine_of(op) != networks_.routine_of(op - 1);
+      routine_begin_.push_back(begins ? op : routine_begin_.back());
+    }
+    if (simulation.plc().executes()) begin_scan(simulation.cpu().state().scan_begin, scan_now());
+    for (std::uint8_t port = 0; port < kPorts.size(); ++port) frames_.emplace_back(tracks, station, port);
+  }
+
+  void record(const TraceRecord& record) {
+    switch (record.kind) {
+      case TraceKind::ScanBegin:
+        begin_scan(record.at, record.count);
+        break;
+      case TraceKind::ServiceEnd:
+        end_service(record);
+        break;
+      case TraceKind::ServiceBegin:
+        waited_ = reasons_.held_up_by(record);
+        occurred_ = record.since;
+        break;
+      case TraceKind::CharacterReceived:
+      case TraceKind::CharacterIgnored:
+      case TraceKind::CharacterDropped:
+        add_character(record, false);
+        break;
+      case TraceKind::CharacterSent:
+        add_character(record, true);
+        break;
+      case TraceKind::EventLost:
+      case TraceKind::EventDropped:
+      case TraceKind::RuntimeError:
+      case TraceKind::FatalError:
+        add_instant(TrackKind::Errors, record);
+        break;
+      case TraceKind::ModeChange:
+        finish_scan(record.at, scan_number_ + 1);
+        [[fallthrough]];
+      case TraceKind::Transmit:
+      case TraceKind::Receive:
+      case TraceKind::ReceiveEnd:
+      case TraceKind::PortControl:
+      case TraceKind::Enable:
+      case TraceKind::Attach:
+      case TraceKind::Detach:
+      case TraceKind::NetworkJob:
+      case TraceKind::PpiService:
+      case TraceKind::PpiAccess:
+      case TraceKind::PpiIgnored:
+      case TraceKind::PpiNotModelled:
+        add_instant(TrackKind::Events, record);
+        break;
+      case TraceKind::EventOccurred:
+      case TraceKind::TransmitEnd:
+      case TraceKind::OutputChanged:
+      case TraceKind::AnalogChanged:
+        break;
+    }
+    reasons_.note(record);
+  }
+
+  void instruction(const InstructionRecord& record, bool with_networks) {
+    reasons_.note(record);
+    if (!with_networks) return;
+    const Op& op = program_.ops[record.op];
+    const bool acts = is_box_or_coil(op) && (op.power_mask != 0 ? record.powered : record.top);
+    routine_track_.note(record, routine_begin_[record.op], networks_.routine_of(record.op), acts);
+    network_track_.note(record, networks_.first_of(record.op), listing_.network_of(record.op), acts);
+  }
+
+  void finish(Time at) {
+    finish_scan(at, scan_now() + 1);
+    routine_track_.finish();
+    network_track_.finish();
+    for (FrameTrack& frames : frames_) frames.finish();
+  }
+
+ private:
+  void begin_scan(Time at, std::uint64_t number) {
+    finish_scan(at, number);
+    scan_number_ = number;
+    scan_ = {.at = at, .text = fmt::format("scan {}", number)};
+    in_scan_ = true;
+  }
+
+  /// With those that were passed over after it.
+  void finish_scan(Time at, std::uint64_t next) {
+    if (!std::exchange(in_scan_, false)) return;
+    scan_.end = at;
+    scan_.count = next - scan_number_;
+    tracks_.add(TrackKind::Scans, std::string(word_of(TrackKind::Scans)), station_, std::move(scan_));
+  }
+
+  /// The number of the scan that the CPU is in.
+  std::uint64_t scan_now() const { return simulation_.cpu().state().scans + 1; }
+
+  void end_service(const TraceRecord& record) {
+    TrackSpan span{.at = record.since,
+                   .end = record.at,
+                   .text = fmt::format("INT {}: {}", record.routine, event_text_.event(record.event)),
+                   .occurred = occurred_};
+    span.why = std::exchange(waited_, {});
+    const std::uint32_t op = program_.interrupt[record.routine];
+    if (op != kNoRoutine) span.op = op;
+    tracks_.add(TrackKind::Interrupts, fmt::format("INT {}", record.routine), station_, std::move(span));
+    occurred_.reset();
+  }
+
+  void add_character(const TraceRecord& record, bool sent) {
+    const SerialFormat format = simulation_.plc().port_format(record.port);
+    const bool dropped = record.kind == TraceKind::CharacterIgnored || record.kind == TraceKind::CharacterDropped;
+    TrackSpan span{.at = sent ? record.at - format.character_time() : record.since,
+                   .end = record.at,
+                   .text = fmt::format("{:02x}", record.byte)};
+    if (record.parity_error) span.error = "parity error";
+    if (record.framing_error) span.error += span.error.empty() ? "framing error" : ", framing error";
+    if (dropped) span.why = ignored_because(record);
+    if (!dropped || Ignored{record.code} == Ignored::NotAttached)
+      frames_[record.port].add(span, record.byte, sent, format.silence());
+    tracks_.add(TrackKind::Characters, fmt::format("port {} {}", record.port, sent ? "sent" : "received"), station_,
+                std::move(span));
+  }
+
+  void add_instant(TrackKind kind, const TraceRecord& record) {
+    fmt::memory_buffer text;
+    event_text_.append_to(text, record);
+    TrackSpan span{.at = record.at, .end = record.at, .text = fmt::to_string(text)};
+    if (kind == TrackKind::Errors) span.error = span.text;
+    span.why = std::string(stl::trim(reasons_.of(record)));
+    const bool names_op = record.kind == TraceKind::Transmit || record.kind == TraceKind::Receive ||
+                          record.kind == TraceKind::RuntimeError || record.kind == TraceKind::FatalError;
+    if (names_op && record.op < program_.ops.size()) span.op = record.op;
+    tracks_.add(kind, std::string(word_of(kind)), station_, std::move(span));
+  }
+
+  Tracks& tracks_;
+  const serial::Simulation& simulation_;
+  const Program& program_;
+  std::size_t station_;
+  Networks networks_;
+  std::vector<std::uint32_t> routine_begin_{};  ///< by op, the first one of its routine
+  Listing listing_;
+  EventText event_text_;
+  TraceReasons reasons_;
+  RunningTrack routine_track_, network_track_;
+  std::vector<FrameTrack> frames_{};
+  TrackSpan scan_{};
+  bool in_scan_ = false;
+  std::uint64_t scan_number_ = 0;
+  std::string waited_{};
+  std::optional<Time> occurred_{};
+};
+
+/// A watched address, from one change to the next.
+class ValueTrack {
+ public:
+  ValueTrack(Tracks& tracks, std::size_t station, const MemoryRange& range, const State& state, Time from)
+      : tracks_(tracks), station_(station), range_(range), now_(number_at(state, range, 0)), since_(from) {}
+
+  void look(const State& state, Time at) {
+    const double value = number_at(state, range_, 0);
+    if (value == now_) return;
+    finish(at);
+    now_ = value;
+    since_ = at;
+  }
+
+  void finish(Time at) {
+    TrackSpan span{.at = since_, .end = at, .text = fmt::format("{}", now_)};
+    span.value = now_;
+    tracks_.add(TrackKind::Value, range_.name_of(0), station_, std::move(span));
+  }
+
+ private:
+  Tracks& tracks_;
+  std::size_t station_;
+  MemoryRange range_;
+  double now_;
+  Time since_;
+};
+
+class TracksReader final : public Reader {
+ public:
+  TracksReader(History& history, const TracksWanted& wanted, bool with_networks, StopToken stop_request)
+      : Reader(stop_request), history_(history), wanted_(wanted), with_networks_(with_networks), tracks_(wanted) {
+    for (std::size_t station = 0; station < history.stations(); ++station)
+      stations_.emplace_back(tracks_, history.station(station), station,
+                             interrupts_disabled(history, station, stop_request));
+    for (const MemoryRange& range : wanted.watched)
+      values_.emplace_back(tracks_, wanted.watched_at, range, watched_state(), wanted.from);
+  }
+
+  bool wants_scans() const override { return with_networks_; }
+  void record(const TraceRecord& record) override { stations_[history_.told_of()].record(record); }
+
+  /// What the system changes between two instructions is seen in front of the next one.
+  bool before(std::uint32_t op) override {
+    if (history_.told_of() == wanted_.watched_at) look(watched_state().time);
+    return Reader::before(op);
+  }
+
+  void instruction(const InstructionRecord& record) override {
+    stations_[history_.told_of()].instruction(record, with_networks_);
+    if (history_.told_of() == wanted_.watched_at) look(record.end);
+  }
+
+  std::vector<NamedTrack> finish(Time at) {
+    for (StationTracks& station : stations_) station.finish(at);
+    look(at);
+    for (ValueTrack& value : values_) value.finish(at);
+    return tracks_.take();
+  }
+
+ private:
+  const State& watched_state() const { return std::as_const(history_).station(wanted_.watched_at).cpu().state(); }
+
+  void look(Time at) {
+    for (ValueTrack& value : values_) value.look(watched_state(), at);
+  }
+
+  History& history_;
+  const TracksWanted& wanted_;
+  bool with_networks_;
+  Tracks tracks_;
+  std::deque<StationTracks> stations_{};
+  std::deque<ValueTrack> values_{};
+};
+
+/// The end of a part by its time: all that was done to the simulation up to then has been done.
+Moment end_at(const History& history, Time time) {
+  const std::vector<Moment>& done = history.action_moments();
+  const auto later = std::ranges::upper_bound(done, time, {}, &Moment::time);
+  return {.actions = history.usage().forgotten + static_cast<std::size_t>(later - done.begin()), .time = time};
+}
+
+}  // namespace
+
+std::string_view word_of(TrackKind kind) { return kWords[static_cast<std::size_t>(kind)]; }
+
+TracksOfPast tracks_of_past(History& history, const TracksWanted& wanted, StopToken stop_request) {
+  const Moment now = history.now(), oldest = history.usage().oldest;
+  TracksOfPast past{.to = wanted.to, .with_networks = wanted.to - wanted.from <= kLongestWithNetworks};
+  if (wanted.from <= oldest.time)
+    history.go_to(oldest);
+  else
+    past.interrupted = !history.go_to(wanted.from);
+  TracksReader reader(history, wanted, past.with_networks, stop_request);
+  past.interrupted = past.interrupted || !history.play(reader, end_at(history, wanted.to));
+  if (past.interrupted) past.to = std::min(wanted.to, history.now().time);
+  past.tracks = reader.finish(past.to);
+  history.go_to(now);
+  return past;
+}
+
+}  // namespace s7200::tools

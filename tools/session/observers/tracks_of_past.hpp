@@ -1,0 +1,49 @@
+// What happened in a part of the past, as the tracks of a timeline, put together by playing it again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/stop_token.hpp"
+#include "interpreter/program/address.hpp"
+#include "tools/session/observers/track.hpp"
+#include "tools/session/past/history.hpp"
+
+namespace s7200::tools {
+
+/// The kinds of tracks, in the order in which they are shown.
+enum class TrackKind : std::uint8_t { Characters, Frames, Interrupts, Scans, Routines, Networks, Events, Errors, Value };
+std::string_view word_of(TrackKind kind);
+
+struct TracksWanted {
+  Time from = 0, to = 0;       ///< a part of the past, `from` before `to`
+  std::size_t most = 2000;     ///< elements of a track
+  std::size_t watched_at = 0;  ///< the station of `watched`
+  std::vector<MemoryRange> watched{};
+};
+
+struct NamedTrack {
+  TrackKind kind{};
+  std::string name;  ///< `port 0 received`, `INT 123`, `VW20`
+  std::size_t station = 0;
+  Track track;
+};
+
+struct TracksOfPast {
+  Time to = 0;  ///< the end of what was looked at: earlier than it was wanted after a stop request
+  bool interrupted = false;
+  bool with_networks = true;  ///< networks and routines were followed
+  std::vector<NamedTrack> tracks{};
+};
+
+/// Up to this length of a part networks and routines are followed, and every scan is seen; in a longer one scans that are
+/// all alike are passed over, and count in the element of the last one before them.
+inline constexpr Time kLongestWithNetworks = 10 * kSecond;
+
+/// The simulation stands where it stood.
+TracksOfPast tracks_of_past(History& history, const TracksWanted& wanted, StopToken stop_request);
+
+}  // namespace s7200::tools
