@@ -58,6 +58,8 @@ ROOMS = {
     "tools/faces/files": ["interpreter/base", "tools/host", "tools/session/commands"],
     "tools/faces/console": CORE + ["tools/host", "tools/views", "tools/rig"] + COMMANDS,
     "tools/faces/dap": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig"] + COMMANDS,
+    "tools/faces/page": CORE + ["tools/views", "tools/json", "tools/rig"] + COMMANDS,
+    "tools/faces/page/server": CORE + ["tools/host", "tools/views", "tools/json", "tools/rig", "tools/faces/page"] + COMMANDS,
 }
 ROOMS["tools/command"] = list(ROOMS)
 ROOMS["tests"] = list(ROOMS)
@@ -65,8 +67,8 @@ ROOMS["tests"] = list(ROOMS)
 # What only some rooms may include, by the beginning of its name.
 LIBRARIES = {
     "CLI/": ["tools/command", "tests"],
-    "boost/asio": ["tools/bridge"],
-    "boost/": ["interpreter/stl/parser.cpp", "tools/bridge"],
+    "boost/asio": ["tools/bridge", "tools/host/web_server.cpp"],
+    "boost/": ["interpreter/stl/parser.cpp", "tools/bridge", "tools/host/web_server.cpp"],
     "nlohmann/": ["tools", "tests"],
     "yaml-cpp/": ["tools/yaml"],
     "pcap/": ["tools/recordings"],

@@ -8,6 +8,7 @@ needed_to_build=(
   c++:g++
   make:make  # GCC itself calls it, to optimise at link time with all cores
   python3:python3
+  esbuild:esbuild  # makes the page of `s7200 view` of its TypeScript
   /usr/include/boost/spirit/home/x3.hpp:libboost-dev
   /usr/include/fmt/format.h:libfmt-dev
   /usr/include/histedit.h:libedit-dev

@@ -3,6 +3,7 @@
 
 Whatever takes [ADDRESS:]PORT is a server. Nothing here depends on how fast the computer is: what has to come is waited for.
 """
+import contextlib
 import json
 import pathlib
 import re
@@ -313,6 +314,258 @@ class Dap(Case):
             status = pathlib.Path(f"/proc/{server.process.pid}/status").read_text(encoding="utf-8")
             self.assertLess(int(re.search(r"VmHWM:\s+(\d+)", status)[1]), 150_000)
         server.end()
+
+
+class Page:
+    """`s7200 view`, and what a browser of this computer sends it."""
+
+    def __init__(self, *more):
+        self.process = subprocess.Popen([S7200, "view", SLAVE, *map(str, more)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.windows = []
+        self.address = self.process.stdout.readline().decode().strip()
+        self.host, self.token = re.fullmatch(r"http://([\d.]+:\d+)/(\w+)/", self.address).groups()
+
+    def connect(self):
+        return socket.create_connection(self.host.split(":"), timeout=LONG)
+
+    def asks(self, path, method="GET", **headers):
+        """(status, headers, body)"""
+        lines = {"Host": self.host} | {name.replace("_", "-"): value for name, value in headers.items()}
+        client = self.connect()
+        client.sendall((f"{method} {path} HTTP/1.1\r\n" + "".join(f"{name}: {value}\r\n" for name, value in lines.items()) + "\r\n").encode())
+        head, _, body = heard(client).partition(b"\r\n\r\n")
+        return int(head.split()[1]), head.decode().lower(), body
+
+    def opens(self, path=None, **headers):
+        """A WebSocket, or the status that refuses it."""
+        client = self.connect()
+        lines = {"Host": self.host, "Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13",
+                 "Sec-WebSocket-Key": "AQIDBAUGBwgJCgsMDQ4PEA=="} | headers
+        client.sendall((f"GET {path or '/' + self.token + '/socket'} HTTP/1.1\r\n"
+                        + "".join(f"{name}: {value}\r\n" for name, value in lines.items()) + "\r\n").encode())
+        head = b""
+        while not head.endswith(b"\r\n\r\n"):
+            byte = client.recv(1)
+            if not byte:
+                break
+            head += byte
+        status = int(head.split()[1])
+        if status != 101:
+            client.close()
+            return status
+        self.windows.append(client)
+        return Window(client)
+
+    def end(self):
+        for client in self.windows:
+            client.close()
+        return Server.end(self)
+
+    said = Server.said
+
+
+class Window:
+    """A WebSocket of the page."""
+
+    def __init__(self, client):
+        self.client = client
+
+    def send(self, text, opcode=1):
+        data = text if isinstance(text, bytes) else text.encode()
+        size = bytes([0x80 | len(data)]) if len(data) < 126 else b"\xfe" + len(data).to_bytes(2, "big") if len(data) < 65536 else \
+            b"\xff" + len(data).to_bytes(8, "big")
+        self.client.sendall(bytes([0x80 | opcode]) + size + b"\0\0\0\0" + data)  # a mask of zeros
+
+    def take(self, count):
+        data = b""
+        while len(data) < count:
+            more = self.client.recv(count - len(data))
+            if not more:
+                raise ConnectionResetError
+            data += more
+        return data
+
+    def message(self):
+        while True:
+            opcode, size = self.take(2)
+            size = int.from_bytes(self.take(2 if size == 126 else 8), "big") if size > 125 else size
+            data = self.take(size)
+            if opcode & 15 == 1:
+                return json.loads(data)
+
+    def until(self, wanted):
+        while True:
+            message = self.message()
+            if wanted(message):
+                return message
+
+    def asks(self, number, command):
+        self.send(json.dumps({"id": number, "command": command}))
+        return self.until(lambda message: message.get("id") == number)
+
+    def is_closed(self):
+        try:
+            while self.client.recv(65536):
+                pass
+        except ConnectionResetError:
+            pass
+        self.client.close()
+        return True
+
+
+class View(Case):
+    def page(self, *more):
+        page = Page(*more)
+        self.addCleanup(lambda: page.process.poll() is None and (page.process.kill(), page.process.communicate()))
+        return page
+
+    def test_the_page_comes_with_the_token_and_allows_nothing_from_elsewhere(self):
+        page = self.page()
+        status, head, body = page.asks(f"/{page.token}/")
+        self.assertEqual(status, 200)
+        self.assertIn(b"<html", body)
+        self.assertIn("content-security-policy: default-src 'none'", head)
+        for word in ("http:", "https:", "*", "unsafe-inline", "'unsafe-eval'"):
+            self.assertNotIn(word, head.split("content-security-policy: ")[1].split("\r\n")[0])
+        self.assertEqual(page.asks(f"/{page.token}/", method="HEAD")[2], b"")
+        page.end()
+
+    def test_without_the_token_there_is_nothing(self):
+        page = self.page()
+        for path in ("/", "/socket", "/page.js", f"/{page.token[:-1]}/", f"/{page.token}0/", f"/x/{page.token}/", "/../etc/passwd",
+                     f"/{page.token}"):
+            with self.subTest(path):
+                status, _, body = page.asks(path)
+                self.assertEqual(status, 404)
+                self.assertNotIn(page.token.encode(), body)
+        for path in ("/socket", f"/{'0' * 32}/socket"):
+            self.assertEqual(page.opens(path), 404)
+        for path in ("missing.js", "../page.js", "%2e%2e/passwd", "socket"):
+            self.assertEqual(page.asks(f"/{page.token}/{path}")[0], 404)
+        page.end()
+
+    def test_another_origin_and_another_host_are_refused(self):
+        page = self.page()
+        good = f"http://{page.host}"
+        for headers in ({"Origin": "http://example.org"}, {"Origin": "null"}, {"Origin": good + ".example.org"}, {"Origin": good.replace("http", "https")},
+                        {"Host": "example.org"}, {"Host": "127.0.0.1"}, {"Host": page.host + "0"}, {"Origin": ""}):
+            with self.subTest(headers):
+                self.assertEqual(page.opens(**headers), 403)
+                self.assertEqual(page.asks(f"/{page.token}/", **headers)[0], 403)
+                self.assertIn("disconnected", page.said("disconnected"))
+        self.assertEqual(page.opens(Origin=good).message()["event"], "hello")
+        page.end()
+
+    def test_what_is_no_request_ends_the_connection(self):
+        page = self.page()
+        for stream in (b"hello\r\n\r\n", b"\x16\x03\x01\x02\x00\x01" * 10 + b"\r\n", b"Content-Length: 2\r\n\r\n{}", b"GET / HTTP/1.1\r\nA: " + b"b" * 20000):
+            with self.subTest(stream[:20]):
+                client = page.connect()
+                client.sendall(stream)
+                self.assertEqual(heard(client), b"")
+                self.assertIn("HTTP", page.said("disconnected"))
+        for method in ("POST", "PUT", "OPTIONS"):
+            self.assertEqual(page.asks(f"/{page.token}/", method=method, Content_Length="0")[0], 405)
+        page.end()
+
+    def test_several_windows_see_the_same_and_one_that_leaves_changes_nothing(self):
+        page = self.page()
+        one, other = page.opens(), page.opens()
+        for window in (one, other):
+            hello = window.message()
+            self.assertEqual((hello["event"], hello["protocol"], hello["cpu"]), ("hello", 1, "214"))
+        reply = one.asks(7, "scan 3")
+        self.assertTrue(reply["moved"])
+        moved = other.until(lambda message: message.get("event") == "moved" and message["by"] == "scan 3")
+        one.send(json.dumps({"id": 8, "command": "continue 1s"}))
+        one.client.close()
+        now = other.asks(1, "past")["json"]
+        self.assertGreater(now["now_ns"], moved["now"]["now_ns"])
+        page.end()
+
+    def test_what_is_no_message_is_said_to_be_none(self):
+        page = self.page()
+        window = page.opens()
+        for text in ("no json", "[1]", "{}", '{"id": 1}', '{"id": 1, "command": 5}', "[" * 1000 + "]" * 1000):
+            window.send(text)
+            reply = window.until(lambda message: "error" in message)
+            self.assertIsNone(reply["id"])
+        self.assertEqual(window.asks(3, "nonsense")["error"], "unknown command 'nonsense'; 'help' lists them")
+        page.end()
+
+    def test_messages_are_bounded(self):
+        page = self.page()
+        for text, opcode, why in (("x" * (1 << 20) + "x", 1, "more than 1048576 bytes"), (b"\1\2", 2, "not text")):
+            window = page.opens()
+            window.message()
+            with contextlib.suppress(ConnectionError):
+                window.send(text, opcode)
+            self.assertTrue(window.is_closed())
+            self.assertIn(why, page.said("disconnected"))
+        page.end()
+
+    def test_a_flood_and_a_client_that_does_not_read_have_to_go_and_slow_nothing(self):
+        page = self.page()
+        flood, other = page.opens(), page.opens()
+        flood.client.settimeout(5)
+        try:
+            for number in range(200_000):
+                flood.send(json.dumps({"id": number, "command": "help"}))
+        except (TimeoutError, ConnectionError):
+            pass
+        self.assertIn("waiting", page.said("disconnected"))
+        self.assertEqual(other.asks(1, "expect VB0 = VB0").get("error"), None)
+        status = pathlib.Path(f"/proc/{page.process.pid}/status").read_text(encoding="utf-8")
+        self.assertLess(int(re.search(r"VmHWM:\s+(\d+)", status)[1]), 200_000)
+        page.end()
+
+    def test_a_run_is_stopped_by_any_window(self):
+        page = self.page("--realtime")
+        one, other = page.opens(), page.opens()
+        one.send(json.dumps({"id": 1, "command": "continue 1h"}))
+        other.until(lambda message: message.get("event") == "running")
+        self.assertIsNone(other.asks(2, "set VW1000=7").get("error"))  # while it goes on
+        other.send(json.dumps({"stop": True}))
+        self.assertTrue(one.until(lambda message: message.get("id") == 1)["interrupted"])
+        self.assertEqual(one.asks(3, "values VW1000")["json"]["values"][0]["number"], 7)
+        page.end()
+
+    def test_commands_read_and_write_files_only_if_the_command_line_allows_it(self):
+        page = self.page()
+        self.assertIn("s7200 view --files does", page.opens().asks(1, f"save {self.folder}/owned.json")["error"])
+        self.assertEqual(list(self.folder.iterdir()), [])
+        page.end()
+        page = self.page("--files")
+        window = page.opens()
+        self.assertEqual(window.message()["may"], ["files"])
+        self.assertIsNone(window.asks(1, f"save {self.folder}/kept.json").get("error"))
+        self.assertTrue((self.folder / "kept.json").exists())
+        page.end()
+
+    def test_it_serves_this_computer_only_and_tokens_fit_an_address(self):
+        for more, why in ((["--listen", "0.0.0.0:0"], b"only this computer itself is served"), (["--listen", "x"], b"--listen x")):
+            done = subprocess.run([S7200, "view", SLAVE, *more], capture_output=True, check=False, timeout=LONG)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(why, done.stderr)
+        path = self.folder / "token"
+        path.write_text("correct horse battery\n", encoding="utf-8")
+        done = subprocess.run([S7200, "view", SLAVE, "--token-file", path], capture_output=True, check=False, timeout=LONG)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(b"a part of an address", done.stderr)
+
+    def test_it_ends_with_a_farewell(self):
+        page = self.page()
+        window = page.opens()
+        window.message()
+        page.process.terminate()
+        self.assertEqual(window.until(lambda message: message.get("event") == "ended")["why"], "the server ends")
+        page.end()
+        self.assertEqual(page.process.returncode, 0)
+        page = self.page()
+        page.opens().asks(1, "quit")
+        page.process.wait(timeout=LONG)
+        page.end()
+        self.assertEqual(page.process.returncode, 0)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ void add_master(CLI::App& app, int& exit_code);
 void add_decode(CLI::App& app, int& exit_code);
 void add_import_capture(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
+void add_view(CLI::App& app, int& exit_code);
 void add_dap(CLI::App& app, int& exit_code);
 void add_instructions(CLI::App& app, int& exit_code);
 void add_times(CLI::App& app, int& exit_code);

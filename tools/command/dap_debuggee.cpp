@@ -62,6 +62,8 @@ class RigDebuggee final : public dap::Debuggee {
     return setup;
   }
 
+  bool follows_clock() const override { return live_.follows_clock(); }
+
   void when_saying(std::function<void(const std::string&)> say) override {
     say_ = std::move(say);
     for (const std::string& text : std::exchange(unsaid_, {})) say_(text);

@@ -3,38 +3,17 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "interpreter/base/text.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/server_token.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/faces/dap/serve.hpp"
-#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/host/server_rules.hpp"
 #include "tools/host/tcp_listener.hpp"
 
 namespace s7200::tools {
-namespace {
-
-constexpr std::size_t kShortestToken = 16;
-
-/// The token that clients give; empty and an error if the file with it is of no use.
-std::string token_of(const DapServer& server) {
-  if (server.token_file.empty()) return new_token();
-  std::string why;
-  const auto text = read_text(server.token_file, why);
-  const std::string token(stl::trim(std::string_view(text.value_or("")).substr(0, text.value_or("").find('\n'))));
-  if (token.size() >= kShortestToken) return token;
-  print_error(
-      fmt::format("--token-file {}: {}", server.token_file,
-                  text ? fmt::format("its first line is not a token of {} characters or more", kShortestToken) : why));
-  return {};
-}
-
-}  // namespace
-
 int serve_clients(const DapServer& server, const dap::SessionSettings& settings, std::atomic<bool>& stop_request) {
   std::string why;
-  const std::string token = token_of(server);
+  const std::string token = server_token(server.token_file);
   if (token.empty()) return kUnusable;
   const auto address = parse_listen_address(server.listen, why);
   const auto listener = address ? TcpListener::open(*address, why) : nullptr;

@@ -28,6 +28,9 @@ class DebuggeeRun {
   /// Why the last run has ended, if a bridge has failed in it; said once.
   std::string take_failure() { return live_->take_failure(); }
 
+  /// Whether a run is no faster than the clock.
+  bool follows_clock() const { return realtime_; }
+
   bool has_bridges() const { return has_bridges_; }
 
   /// What a history of the rig drives, records and hears. It must not live longer than this.

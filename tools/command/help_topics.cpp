@@ -120,7 +120,7 @@ std::string programs() {
          "Routines of Micro/WIN's Modbus library are in no export: stand-ins of ours take their place, unless "
          "--no-stand-ins refuses that.\n"
          "--repair R1,R2 or all repairs the slips of a published listing that 's7200 check' names.\n"
-         "run, send, master, test, debug and dap take a system file (.yaml) too: s7200 help systems.\n";
+         "run, send, master, test, debug, view and dap take a system file (.yaml) too: s7200 help systems.\n";
 }
 
 std::string recordings() {

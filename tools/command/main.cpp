@@ -39,6 +39,7 @@ constexpr std::array kVerbs{
     Verb{"decode", add_decode},
     Verb{"import-capture", add_import_capture},
     Verb{"debug", add_debug},
+    Verb{"view", add_view},
     Verb{"dap", add_dap},
     Verb{"instructions", add_instructions},
     Verb{"times", add_times},

@@ -20,6 +20,9 @@ class TcpListener {
   /// The address with the actual port.
   const ListenAddress& address() const { return address_; }
 
+  /// The descriptor of the port, which stays this one's.
+  int descriptor() const { return fd_; }
+
   /// The descriptor of the next client, to be closed by the caller. -1 after an interruption, or for `why`.
   int accept(std::string& why);
 

@@ -251,7 +251,7 @@ std::string form_of_recording(std::string_view bytes, const std::optional<Source
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document) {
   if (is_system_file(path)) {
     print_error(fmt::format(
-        "{} is a system file, which 's7200 run', 'send', 'master', 'test', 'debug' and 'dap' take; name one PROGRAM here",
+        "{} is a system file, which 's7200 run', 'send', 'master', 'test', 'debug', 'view' and 'dap' take; name one PROGRAM here",
         path));
     return {};
   }

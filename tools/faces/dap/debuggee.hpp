@@ -24,6 +24,9 @@ class Debuggee {
   /// How a session with it is begun: its PLCs, how masters talk, what commands may read and write.
   virtual SessionSetup setup() = 0;
 
+  /// Whether a run follows the clock, because of a bridge or an option.
+  virtual bool follows_clock() const { return false; }
+
   /// What there is to say while it runs, a line each.
   virtual void when_saying(std::function<void(const std::string& text)> say) = 0;
 

@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+"""embed.py OUTPUT.cpp NAME=FILE...: the files of the page as C++, for page_files()."""
+import pathlib
+import sys
+
+TYPES = {"html": "text/html; charset=utf-8", "css": "text/css; charset=utf-8", "js": "text/javascript; charset=utf-8",
+         "wasm": "application/wasm", "svg": "image/svg+xml"}
+LINE = 120  # bytes
+
+
+def literal(data):
+    """Octal escapes of three digits, which no character after them can make longer."""
+    text = "".join(chr(byte) if 32 <= byte < 127 and byte not in b'"\\?' else f"\\{byte:03o}" for byte in data)
+    return f'"{text}"'
+
+
+def lines_of(data):
+    return "\n    ".join(literal(data[at:at + LINE]) for at in range(0, len(data), LINE)) or '""'
+
+
+def main():
+    output = pathlib.Path(sys.argv[1])
+    files = [argument.split("=", 1) for argument in sys.argv[2:]]
+    arrays, rows = [], []
+    for number, (name, path) in enumerate(files):
+        data = pathlib.Path(path).read_bytes()
+        arrays.append(f"const char kFile{number}[] =\n    {lines_of(data)};\n")
+        served = "" if name == "index.html" else name
+        rows.append(f'      {{"{served}", "{TYPES[name.rsplit(".", 1)[-1]]}", {{kFile{number}, {len(data)}}}}}')
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text("// Made by embed.py.\n#include \"tools/faces/page/server/assets.hpp\"\n\nnamespace s7200::tools::page {\nnamespace {\n\n"
+                      + "\n".join(arrays)
+                      + "\n}  // namespace\n\nconst std::vector<WebFile>& page_files() {\n  static const std::vector<WebFile> kFiles{\n"
+                      + ",\n".join(rows) + "};\n  return kFiles;\n}\n\n}  // namespace s7200::tools::page\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
