@@ -21,12 +21,14 @@ auto order_of(const Bits& bits) { return std::ranges::find(kOrder, area_of(bits)
 
 bool is_local(const Bits& bits) { return Bits{image::kL * 8u, 64 * 8}.overlaps(bits); }
 
-/// What the cross reference has nothing to say about: memory bits of EU and ED, flags, the local memory that a CALL clears.
+/// What the cross reference has nothing to say about: memory bits of EU and ED, flags, the local memory that a CALL
+/// clears, the accumulators that RETI restores.
 bool is_left_out(const MemoryAccess& access) {
   const Bits edges{image::kEdges * 8u, 512 * 8}, flags{sm::kFlags * 8u, 8}, errors{sm::kInterruptStatus * 8u + 3, 1};
-  const bool everything = access.bits.count > image::kConstants * 7u, cleared = access.bits == Bits{image::kL * 8u, 64 * 8};
+  const bool everything = access.bits.count > image::kConstants * 7u, cleared = access.bits == Bits{image::kL * 8u, 64 * 8},
+             restored = access.bits == Bits{image::kAC * 8u, 4 * 32};
   if (everything || edges.contains(access.bits)) return true;
-  return access.operand == kNoOperand && (cleared || flags.contains(access.bits) || errors == access.bits);
+  return access.operand == kNoOperand && (cleared || restored || flags.contains(access.bits) || errors == access.bits);
 }
 
 bool is_call_or_return(const Instruction& instruction) {
@@ -214,7 +216,7 @@ class Collector {
 
 CrossReference cross_reference(const Facts& facts) { return Collector(facts).all(); }
 
-Usage usage_of(const ReferenceEntry& entry) {
+Usage usage_of(const Program& program, const ReferenceEntry& entry) {
   const Area area = area_of(entry.bits);
   const bool own = area == Area::V || area == Area::M || area == Area::S || area == Area::T || area == Area::C;
   if (!own) return Usage::Both;
@@ -225,7 +227,10 @@ Usage usage_of(const ReferenceEntry& entry) {
       changed |= use.access.role == Role::InOut;
       written |= use.access.writes();
     }
-  if (looked_at) return written ? Usage::Both : Usage::NeverWritten;
+  const bool by_data = std::ranges::any_of(program.data, [&](const InitialData& data) {
+    return entry.bits.overlaps({(image::kV + data.offset) * 8u, data.bytes.size() * 8});
+  });
+  if (looked_at) return written ? Usage::Both : by_data ? Usage::SetByData : Usage::NeverWritten;
   return changed ? Usage::OnlyChanged : Usage::NeverRead;
 }
 

@@ -64,10 +64,11 @@ enum class Usage : std::uint8_t {
   Both,
   NeverRead,
   NeverWritten,
+  SetByData,   ///< by the data block, and by no instruction
   OnlyChanged  ///< counted, shifted or set in place, but nothing else looks at it
 };
 /// Only for memory that nothing but the program writes: V, M, S, T and C, bits for which no pointer is in question.
-Usage usage_of(const ReferenceEntry& entry);
+Usage usage_of(const Program& program, const ReferenceEntry& entry);
 
 /// Whether an access through a pointer may be anywhere in an area.
 bool is_anywhere(const Program& program, const MemoryAccess& access);

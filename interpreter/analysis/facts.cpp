@@ -13,7 +13,8 @@ std::vector<std::uint32_t> network_numbers(const Program& program, const Control
     for (std::uint32_t op = routine.first; op < routine.end; ++op) numbered |= networks.number_of(op) != 0;
     std::uint32_t count = 0;
     for (std::uint32_t op = routine.first; op < routine.end; ++op) {
-      if (networks.begins(op)) ++count;
+      const bool after_head = routine.kind != Routine::Kind::Main && op == routine.first + 1;  // the head is no rung
+      if (networks.begins(op) && !after_head) ++count;
       numbers[op] = numbered ? networks.number_of(networks.first_of(op)) : count;
     }
   }

@@ -566,6 +566,7 @@ class Checker {
   std::shared_ptr<Program> program_of(const ProgramStructure& structure) const {
     auto program = std::make_shared<Program>();
     program->model = &model_;
+    program->source = source_;
     program->subroutine = structure.subroutine;
     program->interrupt = structure.interrupt;
     for (const CheckedStatement& s : statements_) {
@@ -581,7 +582,6 @@ class Checker {
   std::shared_ptr<Program> decode(const ProgramStructure& structure, const TimeTable& times) {
     auto program = program_of(structure);
     program->times = times;
-    program->source = source_;
     for (std::uint32_t i = 0; i < statements_.size(); ++i) {
       program->ops.push_back(decode(i, structure));
       set_cost(program->ops.back(), operands_of(i, structure), times);

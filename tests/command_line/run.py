@@ -2458,7 +2458,8 @@ class JsonPage(Case):
         self.addCleanup(os.close, secondary)
         plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
         yield from (["check", echo, wrong], ["check", SOURCE / "tests/programs/libraries/slave.awl", "--cpu", "224"], ["import", self.program(Files.DOCUMENT, "page.txt")],
-                    ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"],
+                    ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
+                    ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
                     ["import", "--compare", self.program(Files.DRAWING.replace("LD", "LDN"), "drawn.txt")], ["run", faulty, *plant],
                     ["check", EXPORTS / "broken.awl", EXPORTS / "pump_symbols.txt"], ["convert", SLAVE, "--to", "microdos"],
                     ["run", faulty, "--for", "20ms", "--realtime"], ["send", faulty, "01", "--timeout", "10ms", *plant],
@@ -2506,7 +2507,7 @@ class Inspect(Case):
     PUMP = [EXPORTS / "pump.awl", EXPORTS / "pump_symbols.txt", EXPORTS / "pump_data.txt"]
 
     def test_views_keep_to_100_columns_and_need_no_colour(self):
-        for view in ("xref",):
+        for view in ("xref", "calls"):
             for program in ([SLAVE], self.PUMP):
                 with self.subTest(view=view, program=program):
                     shown = self.ends(FINE, "inspect", *program, view).stdout
@@ -2518,6 +2519,7 @@ class Inspect(Case):
         self.assertIn("name a view of it: xref", self.ends(UNUSABLE, "inspect", SLAVE).stderr)
         self.assertIn("SBR_63", self.ends(UNUSABLE, "inspect", SLAVE, "xref", "SBR_99").stderr)
         self.assertIn("near it the program uses", self.ends(FINE, "inspect", SLAVE, "xref", "VW3").stdout)
+        self.assertIn("calls keeps to routines and networks", self.ends(UNUSABLE, "inspect", SLAVE, "calls", "VW0").stderr)
         self.assertIn("cannot read", self.ends(UNUSABLE, "inspect", "missing.stl", "xref").stderr)
 
     def test_a_program_with_errors_is_inspected_as_far_as_it_goes(self):

@@ -65,7 +65,7 @@ int run_inspect(const InspectOptions& options) {
   auto programs = read_programs(request.paths, exit_code);
   for (ProgramFiles& file : programs) {
     if (interrupted()) break;
-    const auto inspection = inspected(options.cpu, file, request.about, tables, exit_code);
+    const auto inspection = inspected(options.cpu, file, {*request.view, request.about}, tables, exit_code);
     if (!inspection) continue;
     if (options.json) {
       files.push_back({{"file", file.path}, {"cpu", inspection->program->model->name}});

@@ -37,7 +37,7 @@ std::shared_ptr<const Program> decoded(const CpuOptions& options, const SourceTe
 
 }  // namespace
 
-std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const std::vector<std::string>& about,
+std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const Question& question,
                                     TablesByCpu& tables, int& exit_code) {
   if (!repair(file.text, options.repairs)) return exit_code = kUnusable, std::nullopt;
   const CpuModel* model = options.model_for(file.text, file.path);
@@ -47,7 +47,12 @@ std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& fil
   if (!program) return {};
   std::optional<Inspection> inspection(std::in_place, std::move(program));
   std::string why;
-  auto selection = parse_selection(about, inspection->facts, why);
+  auto selection = parse_selection(question.about, inspection->facts, why);
+  if (selection && !question.view.of_memory && !selection->memory.empty()) {
+    why = fmt::format("'{}': {} keeps to routines and networks, not to addresses", selection->memory.front().text,
+                      question.view.name);
+    selection.reset();
+  }
   if (!selection) {
     print_error(fmt::format("{}: {}", file.path, why));
     return exit_code = kUnusable, std::nullopt;

@@ -6,13 +6,19 @@
 #include <vector>
 
 #include "tools/command/options/tables_by_cpu.hpp"
-#include "tools/views/inspection.hpp"
+#include "tools/views/inspect_views.hpp"
 
 namespace s7200::tools {
 
-/// `about`: addresses, symbols, routines and networks to keep to. Errors of the program are printed, and what they are in is
+/// A view of a program, and what it is to keep to: addresses, symbols, routines and networks.
+struct Question {
+  const InspectView& view;
+  const std::vector<std::string>& about;
+};
+
+/// Errors of the program are printed, and what they are in is
 /// left out. Nothing after messages, if the program or what is asked for is unknown: `exit_code` says how to end.
-std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const std::vector<std::string>& about,
+std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const Question& question,
                                     TablesByCpu& tables, int& exit_code);
 
 }  // namespace s7200::tools

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/views/calls_view.hpp"
 #include "tools/views/xref_view.hpp"
 
 namespace s7200::tools {
 
 std::span<const InspectView> inspect_views() {
   static constexpr std::array kTable{
-      InspectView{"xref", "each address and constant: which instructions read and write it, also through pointers",
+      InspectView{"xref", "each address and constant: which instructions read and write it, also through pointers", true,
                   xref_text, xref_json},
+      InspectView{"calls", "who calls whom, interrupt routines by event, routines that nothing starts", false, calls_text,
+                  calls_json},
   };
   return kTable;
 }

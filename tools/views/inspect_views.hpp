@@ -13,6 +13,7 @@ namespace s7200::tools {
 struct InspectView {
   std::string_view name;     ///< as it is asked for; the key of its JSON
   std::string_view meaning;  ///< one line
+  bool of_memory;            ///< it can keep to addresses; to routines and networks each can
   std::string (*text)(const Inspection& inspection);
   nlohmann::ordered_json (*json)(const Inspection& inspection);
 };

@@ -21,13 +21,13 @@ std::string network_text(const Inspection& inspection, std::uint32_t op) {
   return number == 0 ? "-" : std::to_string(number);
 }
 
+}  // namespace
+
 std::string line_text(const Inspection& inspection, std::uint32_t op) {
   const auto [file, line] = place_of(inspection, op);
   const std::size_t slash = file.find_last_of('/');
   return fmt::format("{}:{}", stl::printable(slash == std::string::npos ? file : file.substr(slash + 1)), line);
 }
-
-}  // namespace
 
 std::string column(std::string text, std::size_t width) {
   const std::size_t characters = stl::count_characters(text);
@@ -35,22 +35,28 @@ std::string column(std::string text, std::size_t width) {
   return text;
 }
 
-std::string wrapped_at(std::string_view text, std::size_t indent) {
+std::string wrapped_at(std::string_view text, std::size_t indent, std::size_t used) {
   std::string all;
-  std::size_t used = 0;
+  bool begins = true;  // a line, so that a word stands in it however long it is
   for (const std::string& word : stl::split_words(text)) {
     const std::size_t size = stl::count_characters(word);
-    if (used != 0 && used + 1 + size > kColumns) {
+    if (!begins && used + 1 + size > kColumns) {
       all += "\n" + std::string(indent, ' ');
       used = indent;
-    } else if (!all.empty()) {
-      all += ' ';
-      ++used;
+      begins = true;
     }
+    if (!begins) all += ' ';
+    used += size + (begins ? 0 : 1);
     all += word;
-    used += size;
+    begins = false;
   }
   return all;
+}
+
+std::string row_text(const Inspection& inspection, const std::string& before, std::uint32_t op) {
+  const std::string head = before + place_text(inspection, op);
+  const std::size_t width = stl::count_characters(head);
+  return head + wrapped_at(instruction_text(inspection, op), width, width) + "\n";
 }
 
 std::string routine_at(const Inspection& inspection, std::uint32_t op) {

@@ -29,6 +29,9 @@ std::string place_in_words(const Inspection& inspection, std::uint32_t op);
 /// {"routine", "network", "file", "line", "instruction"}: the network is null in front of the first.
 nlohmann::ordered_json place_json(const Inspection& inspection, std::uint32_t op);
 
+/// File and line of an instruction, without the folder: `slave.stl:120`
+std::string line_text(const Inspection& inspection, std::uint32_t op);
+
 /// The routine that an instruction is in: `SBR_3`
 std::string routine_at(const Inspection& inspection, std::uint32_t op);
 /// A routine with the name of its block and its title: `SBR_3 "Pump control"`
@@ -40,7 +43,11 @@ std::string instruction_text(const Inspection& inspection, std::uint32_t op);
 /// Text for a column: padded to `width` characters, with at least one blank after it.
 std::string column(std::string text, std::size_t width);
 
-/// `text` in lines of up to 100 columns, each but the first after `indent` blanks.
-std::string wrapped_at(std::string_view text, std::size_t indent);
+/// `text` in lines of up to 100 columns, each but the first after `indent` blanks. `used`: columns of the first line that
+/// are taken.
+std::string wrapped_at(std::string_view text, std::size_t indent, std::size_t used = 0);
+
+/// A line of a table: what is before it, the place of an instruction, the instruction.
+std::string row_text(const Inspection& inspection, const std::string& before, std::uint32_t op);
 
 }  // namespace s7200::tools

@@ -43,6 +43,8 @@ std::string_view name_of(Usage usage) {
       return "never read";
     case Usage::NeverWritten:
       return "never written";
+    case Usage::SetByData:
+      return "set by the data block only";
     case Usage::OnlyChanged:
       return "changed, but never looked at";
     case Usage::Both:
@@ -118,8 +120,8 @@ std::vector<std::string> anywhere_through(const Inspection& inspection, const Re
 std::string use_text(const Inspection& inspection, const Use& use, bool surely) {
   const std::string pointer = through(inspection, use);
   const std::string what = pointer.empty() ? memory_text(use.access.bits) : pointer;
-  return fmt::format("  {}{}{}{}\n", column(std::string(surely ? verb_of(use.access) : possible_verb_of(use.access)), 11),
-                     column(what, 17), place_text(inspection, use.op), instruction_text(inspection, use.op));
+  const std::string_view verb = surely ? verb_of(use.access) : possible_verb_of(use.access);
+  return row_text(inspection, "  " + column(std::string(verb), 11) + column(what, 17), use.op);
 }
 
 std::string head_text(const Inspection& inspection, const ReferenceEntry& entry) {
@@ -128,7 +130,7 @@ std::string head_text(const Inspection& inspection, const ReferenceEntry& entry)
   for (const std::string& symbol : entry.symbols) text += fmt::format(" \"{}\"", stl::printable(symbol));
   const std::string meaning = meaning_text(*inspection.program->model, entry.bits);
   if (!meaning.empty()) text += fmt::format(" ({})", meaning);
-  const std::string_view usage = name_of(usage_of(entry));
+  const std::string_view usage = name_of(usage_of(*inspection.program, entry));
   if (!usage.empty()) text += fmt::format("; {}", usage);
   return wrapped_at(text, 2) + "\n";
 }
@@ -155,7 +157,7 @@ std::string pointers_text(const Inspection& inspection, const Wanted& wanted, co
     if (pointer.unknown) head += "; " + reason_text(inspection, *pointer.unknown);
     text += wrapped_at(head, 2) + "\n";
     for (const std::uint32_t op : pointer.ops)
-      if (wanted.op(op)) text += fmt::format("  {}{}\n", place_text(inspection, op), instruction_text(inspection, op));
+      if (wanted.op(op)) text += row_text(inspection, "  ", op);
   }
   return text.empty() ? text : "\nPointers\n" + text;
 }
@@ -164,9 +166,7 @@ std::string constants_text(const Inspection& inspection, const Wanted& wanted, c
   std::string text;
   for (const ConstantEntry& constant : reference.constants)
     for (const ConstantEntry::Place& place : constant.places)
-      if (wanted.op(place.op))
-        text += fmt::format("  {}{}{}\n", column(stl::printable(constant.text), 28), place_text(inspection, place.op),
-                            instruction_text(inspection, place.op));
+      if (wanted.op(place.op)) text += row_text(inspection, "  " + column(stl::printable(constant.text), 28), place.op);
   return text.empty() ? text : "\nConstants\n" + text;
 }
 
@@ -218,7 +218,7 @@ ordered_json entry_json(const Inspection& inspection, const Wanted& wanted, cons
   json["routine"] =
       entry.routine ? ordered_json(routine_text(inspection.facts.flow.routines[*entry.routine])) : ordered_json();
   json["meaning"] = meaning_text(*inspection.program->model, entry.bits);
-  json["usage"] = name_of(usage_of(entry));
+  json["usage"] = name_of(usage_of(*inspection.program, entry));
   json["uses"] = ordered_json::array();
   for (const Use& use : wanted.uses(entry)) json["uses"].push_back(use_json(inspection, use, true));
   for (const Use& use : wanted.reached(*inspection.program, entry)) json["uses"].push_back(use_json(inspection, use, false));

@@ -60,7 +60,7 @@ TEST(CrossReference, FlagsThatEveryInstructionSetsAreLeftOut) {
 
 Usage usage(std::string_view stl, std::size_t entry) {
   const auto program = program_of(stl, *find_cpu("224"));
-  return usage_of(cross_reference(facts_of(*program)).entries.at(entry));
+  return usage_of(*program, cross_reference(facts_of(*program)).entries.at(entry));
 }
 
 TEST(CrossReference, TellsWhatIsNeverReadOrNeverWritten) {
