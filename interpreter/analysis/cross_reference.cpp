@@ -71,9 +71,9 @@ struct Key {
   auto operator<=>(const Key&) const = default;
 };
 
-class Collector {
+class UseCollector {
  public:
-  explicit Collector(const Facts& facts) : facts_(facts) {}
+  explicit UseCollector(const Facts& facts) : facts_(facts) {}
 
   CrossReference all() {
     for (std::uint32_t op = 0; op < facts_.effects.size(); ++op) add(op);
@@ -214,7 +214,7 @@ class Collector {
 
 }  // namespace
 
-CrossReference cross_reference(const Facts& facts) { return Collector(facts).all(); }
+CrossReference cross_reference(const Facts& facts) { return UseCollector(facts).all(); }
 
 Usage usage_of(const Program& program, const ReferenceEntry& entry) {
   const Area area = area_of(entry.bits);

@@ -11,7 +11,7 @@
 namespace s7200 {
 namespace {
 
-std::uint64_t bit_at(std::uint32_t place) { return std::uint64_t{place} * 8; }
+std::uint64_t first_bit_of(std::uint32_t place) { return std::uint64_t{place} * 8; }
 
 /// The part of the image whose bits stand for memory elsewhere: each of them for `unit` bits of what begins at `named`.
 struct Alias {
@@ -25,14 +25,14 @@ constexpr Alias kAliases[]{{image::kTBits, image::kTimers / 8, image::kT, 16},
 
 std::string element_text(const AreaInfo& area, const Bits& bits) {
   const std::uint64_t size = std::uint64_t{area.element} * 8;
-  const auto first = static_cast<std::uint32_t>((bits.first - bit_at(area.base)) / size);
-  const auto last = static_cast<std::uint32_t>((bits.end() - 1 - bit_at(area.base)) / size);
+  const auto first = static_cast<std::uint32_t>((bits.first - first_bit_of(area.base)) / size);
+  const auto last = static_cast<std::uint32_t>((bits.end() - 1 - first_bit_of(area.base)) / size);
   const std::string text = address_text(area.area, Width::Word, first, 0);
   return first == last ? text : fmt::format("{} to {}", text, address_text(area.area, Width::Word, last, 0));
 }
 
 std::string bit_text(const AreaInfo& area, std::uint64_t bit) {
-  const std::uint64_t number = bit - bit_at(area.base);
+  const std::uint64_t number = bit - first_bit_of(area.base);
   return address_text(area.area, Width::Bit, static_cast<std::uint32_t>(number / 8), static_cast<std::uint8_t>(number % 8));
 }
 
@@ -40,9 +40,9 @@ std::string bit_text(const AreaInfo& area, std::uint64_t bit) {
 
 Bits as_named(const Bits& bits) {
   for (const Alias& alias : kAliases)
-    if (Bits{bit_at(alias.from), std::uint64_t{alias.bytes} * 8}.contains(bits))
-      return {bit_at(alias.named) + (bits.first - bit_at(alias.from)) * alias.unit, bits.count * alias.unit};
-  const Bits accumulators{bit_at(image::kAC), 4 * 32};
+    if (Bits{first_bit_of(alias.from), std::uint64_t{alias.bytes} * 8}.contains(bits))
+      return {first_bit_of(alias.named) + (bits.first - first_bit_of(alias.from)) * alias.unit, bits.count * alias.unit};
+  const Bits accumulators{first_bit_of(image::kAC), 4 * 32};
   if (!accumulators.contains(bits)) return bits;
   const std::uint64_t first = bits.first / 32 * 32, end = (bits.end() + 31) / 32 * 32;
   return {first, end - first};
@@ -65,7 +65,7 @@ std::string memory_text(const Bits& bits) {
 }
 
 Bits bits_of_area(const CpuModel& model, Area area) {
-  return {bit_at(info(area).base), std::uint64_t{model.size_of(area)} * info(area).step() * 8};
+  return {first_bit_of(info(area).base), std::uint64_t{model.size_of(area)} * info(area).step() * 8};
 }
 
 std::optional<Bits> bits_of(const Program& program, const stl::Symbol& symbol) {
@@ -73,8 +73,8 @@ std::optional<Bits> bits_of(const Program& program, const stl::Symbol& symbol) {
   std::string why;
   const auto range = parse_range(stl::to_text(stl::Operand{*symbol.value}), AddressSpace(*program.model), why);
   if (!range) return {};
-  if (range->width == Width::Bit) return Bits{bit_at(range->at) + range->bit, 1};
-  return as_named({bit_at(range->at), std::uint64_t{range->bytes()} * 8});
+  if (range->width == Width::Bit) return Bits{first_bit_of(range->at) + range->bit, 1};
+  return as_named({first_bit_of(range->at), std::uint64_t{range->bytes()} * 8});
 }
 
 }  // namespace s7200
