@@ -4,6 +4,7 @@
 #include <array>
 
 #include "tools/views/calls_view.hpp"
+#include "tools/views/map_view.hpp"
 #include "tools/views/xref_view.hpp"
 
 namespace s7200::tools {
@@ -14,6 +15,8 @@ std::span<const InspectView> inspect_views() {
                   xref_text, xref_json},
       InspectView{"calls", "who calls whom, interrupt routines by event, routines that nothing starts", false, calls_text,
                   calls_json},
+      InspectView{"map", "each memory area: used, free, retentive; timers, counters, data block, EEPROM", true, map_text,
+                  map_json},
   };
   return kTable;
 }

@@ -92,9 +92,9 @@ std::string why_not(std::string_view word) {
 TEST(Selection, NamesRoutinesAndNetworksInTheWaysPeopleWriteThem) {
   const auto program = program_of("NETWORK 1\nLD I0.0\nCALL 3\nMEND\nNETWORK 2\nSBR 3\nLD I0.1\n= Q0.0\nNETWORK 3\nRET\n");
   const Facts facts = facts_of(*program);
-  for (const std::vector<std::string> words : {std::vector<std::string>{"SBR_3"}, {"sbr 3"}, {"SBR3"}}) {
+  for (const std::string word : {"SBR_3", "sbr 3", "SBR3"}) {
     std::string why;
-    const auto selection = parse_selection(words, facts, why);
+    const auto selection = parse_selection(std::vector<std::string>{word}, facts, why);
     ASSERT_TRUE(selection) << why;
     EXPECT_TRUE(selection->has_op(3) && selection->has_op(6) && !selection->has_op(2));
   }

@@ -1,0 +1,68 @@
+// What `s7200 inspect PROGRAM map` shows.
+#include "tools/views/map_view.hpp"
+
+#include "tests/support/inspected.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using nlohmann::ordered_json;
+using test::inspected;
+
+ordered_json area(std::string_view stl, std::string_view name, const CpuModel& model = cpu214()) {
+  const ordered_json map = map_json(inspected(stl, {}, model));
+  for (const ordered_json& each : map["areas"])
+    if (each["area"] == name) return each;
+  return {};
+}
+
+TEST(MapView, NeighboursAreOneRangeAndTheRestIsFree) {
+  const ordered_json v = area("LD SM0.0\nMOVB 1, VB0\nMOVW 1, VW1\nMOVB 1, VB9\nMEND\n", "V");
+  EXPECT_EQ(v["memory"], "VB0 to VB4095");
+  EXPECT_EQ(v["used"][0]["memory"], "VB0 to VB2");
+  EXPECT_EQ(v["used"][1]["memory"], "VB9");
+  EXPECT_EQ(v["free"], ordered_json::parse(R"(["VB3 to VB8", "VB10 to VB4095"])"));
+}
+
+TEST(MapView, BitsOfOutputsAreFreeOneByOne) {
+  const ordered_json q = area("LD SM0.0\n= Q0.0\n= Q0.2\nMEND\n", "Q");
+  EXPECT_EQ(q["free"][0], "Q0.1");
+}
+
+TEST(MapView, TellsWhichRoutinesUseWhat) {
+  const ordered_json m = area("LD SM0.0\nCALL 1\n= M0.0\nMEND\nSBR 1\nLD M0.0\n= M0.1\nRET\n", "M");
+  EXPECT_EQ(m["used"][0]["routines"], ordered_json::parse(R"(["MAIN", "SBR_1"])"));
+  EXPECT_EQ(m["retentive"], ordered_json::parse(R"(["MB14 to MB31"])"));
+}
+
+TEST(MapView, BlocksAreUsedAsFarAsTheyReach) {
+  EXPECT_EQ(area("LD SM0.0\nFILL 0, VW10, 5\nMEND\n", "V")["used"][0]["memory"], "VB10 to VB19");
+}
+
+TEST(MapView, PointersAreNamedWhereTheyMayLead) {
+  const ordered_json v = area("LD SM0.0\nMOVD &VB100, AC1\nMOVB 1, *AC1\nMOVB 2, VB0\nMEND\n", "V");
+  EXPECT_EQ(v["pointers"], ordered_json::parse(R"(["*AC1"])"));
+  EXPECT_EQ(v["used"].size(), 1U);
+}
+
+TEST(MapView, TimersHaveTheirResolutionAndTheirPresetAsATime) {
+  const std::string text = map_text(inspected("LD I0.0\nTON T33, 25\nTON T37, VW0\nLD I0.0\nLD I0.1\nCTU C5, 12\nMEND\n"));
+  EXPECT_NE(text.find("  T33   TON, 10 ms, 25 = 0.25 s"), std::string::npos) << text;
+  EXPECT_NE(text.find("  T37   TON, 100 ms, VW0 "), std::string::npos) << text;
+  EXPECT_NE(text.find("  C5    12 "), std::string::npos) << text;
+}
+
+TEST(MapView, NamesWhatSavesToEeprom) {
+  const auto json = map_json(inspected("LD I0.0\nMOVB 16#81, SMB31\nMEND\n"));
+  ASSERT_EQ(json["eeprom_savers"].size(), 1U);
+  EXPECT_EQ(json["eeprom_savers"][0]["line"], 2);
+}
+
+TEST(MapView, KeepsToTheAreaOfAnAddress) {
+  const std::string text = map_text(inspected("LD I0.0\n= Q0.0\nMOVB 1, VB0\nMEND\n", {"QB0"}));
+  EXPECT_EQ(text.find("V: variable memory"), std::string::npos) << text;
+  EXPECT_EQ(text.find("Q: outputs"), 0U) << text;
+}
+
+}  // namespace
+}  // namespace s7200::tools
