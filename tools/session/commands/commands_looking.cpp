@@ -20,7 +20,7 @@ constexpr std::size_t kListed = 15, kListedBefore = 6;
 
 /// Instructions, as `status` shows them.
 constexpr std::uint32_t kShown = 15, kBefore = 6;
-constexpr std::uint32_t kMostLines = 1000;  ///< of those that are named by their numbers
+constexpr std::uint32_t kMostShown = 1000;  ///< of those that are named by their numbers
 
 Reply status_reply(Session& session, std::uint32_t first, std::uint32_t end) {
   const LastExecutions last = last_executions_of(session, first, end);
@@ -32,8 +32,8 @@ Reply status_reply(Session& session, std::uint32_t first, std::uint32_t end) {
 /// From one line to another.
 Reply status_of_lines(Session& session, const Words& numbers) {
   const auto from = parse_decimal<std::uint32_t>(numbers[0]), to = parse_decimal<std::uint32_t>(numbers[1]);
-  if (!from || !to || *to < *from || *to - *from >= kMostLines)
-    return wrong(expects("status", fmt::format("the first and the last line, at most {}: status 1 100", kMostLines)));
+  if (!from || !to || *to < *from || *to - *from >= kMostShown)
+    return wrong(expects("status", fmt::format("the first and the last line, at most {}: status 1 100", kMostShown)));
   const auto ops = static_cast<std::uint32_t>(session.program().ops.size());
   const std::uint32_t first = session.listing().op_from_line(*from).value_or(ops);
   return status_reply(session, first, session.listing().op_from_line(*to + 1).value_or(ops));

@@ -21,8 +21,8 @@
 namespace s7200::tools::commands {
 namespace {
 
-constexpr std::uint32_t kMostLines = 1000;
-constexpr std::size_t kMostValues = 1000;
+constexpr std::uint32_t kMostListed = 1000;
+constexpr std::size_t kMostAsked = 1000;
 constexpr Between<std::size_t> kElements{1, 20'000};
 constexpr std::size_t kUsualElements = 2000;
 
@@ -60,7 +60,7 @@ struct ValuesReply {
     const auto place = parse_place(name, cpu.program(), why);
     const auto range = place ? range_now(*place, cpu) : std::nullopt;
     if (place && !range) why = "the pointer points nowhere now";
-    if (range && count() + range->count > kMostValues) why = fmt::format("more than {} values are asked for", kMostValues);
+    if (range && count() + range->count > kMostAsked) why = fmt::format("more than {} values are asked for", kMostAsked);
     if (!why.empty()) return add_wrong(name, why);
     for (std::uint32_t i = 0; i < range->count; ++i) add(name, *range, i, form);
   }
@@ -143,8 +143,8 @@ Reply listing(Session& session, const Words& arguments) {
   }
   const auto from = parse_decimal<std::uint32_t>(arguments[0]);
   const auto to = arguments.size() == 2 ? parse_decimal<std::uint32_t>(arguments[1]) : std::nullopt;
-  if (!from || !to || *from < 1 || *to < *from || *to - *from >= kMostLines)
-    return wrong(expects("listing", fmt::format("the first and the last line, at most {}: listing 1 100", kMostLines)));
+  if (!from || !to || *from < 1 || *to < *from || *to - *from >= kMostListed)
+    return wrong(expects("listing", fmt::format("the first and the last line, at most {}: listing 1 100", kMostListed)));
   Reply reply{.json = {{"program", program.source.name}, {"text", lines_json(program, *from, *to)}}};
   for (const Json& line : reply.json["text"])
     reply.text +=
