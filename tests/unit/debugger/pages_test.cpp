@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <string>
 
+#include "tests/support/source_path.hpp"
 #include "tests/unit/debugger/session.hpp"
 #include "tools/session/commands/command_table.hpp"
 #include "tools/session/observers/track.hpp"
@@ -14,6 +17,12 @@ namespace {
 struct Silent final : Onlooker {
   void tell(std::string_view) override {}
 };
+
+std::string our_slave() {
+  std::ostringstream text;
+  text << std::ifstream(test::source_path("stl_programs/modbus_slave.stl")).rdbuf();
+  return text.str();
+}
 
 struct Asked : OnePlc {
   explicit Asked(std::string_view text) : OnePlc(program_of(text)) {}
@@ -196,10 +205,25 @@ TEST(Pages, SeeCharactersAndFramesInWords) {
   const Json spans = session.json("spans start end");
   ASSERT_EQ(track(spans, "characters", "port 0 received")["spans"].size(), 1U);
   EXPECT_EQ(track(spans, "characters", "port 0 sent")["spans"][0]["text"], "41");
+  const Json format = track(spans, "characters", "port 0 sent")["format"];
+  EXPECT_EQ(format, Json({{"baud", 9600}, {"data_bits", 8}, {"parity", "none"}, {"stop_bits", 1}}));
   const Json frames = track(spans, "frames", "port 0 frames")["spans"];
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0]["text"], "received 41");
   EXPECT_EQ(frames[1]["text"], "sent 41");
+}
+
+TEST(Pages, SeeThatARequestAfterAnAnswerIsNoAnswer) {
+  Asked session(our_slave());
+  session("continue 100ms");
+  for (int time = 0; time < 2; ++time) {
+    session("send 01 06 00 00 00 01 crc");
+    session("continue 100ms");
+    session("continue 100ms");
+  }
+  const Json frames = track(session.json("spans start end"), "frames", "port 0 frames")["spans"];
+  ASSERT_EQ(frames.size(), 4U);
+  for (const std::size_t request : {0U, 2U}) EXPECT_TRUE(has(frames[request]["text"].get<std::string>(), ": station 1: "));
 }
 
 TEST(Pages, SeeThatACharacterHasAWrongParity) {

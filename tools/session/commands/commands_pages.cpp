@@ -105,12 +105,20 @@ Json span_json(const TrackSpan& span, TrackKind kind) {
   return json;
 }
 
+Json format_json(const SerialFormat& format) {
+  return {{"baud", format.baud},
+          {"data_bits", format.data_bits},
+          {"parity", word_of(format.parity)},
+          {"stop_bits", format.stop_bits}};
+}
+
 Json track_json(const Session& session, const NamedTrack& one) {
   Json spans = Json::array();
   for (const TrackSpan& span : one.track.spans()) spans.push_back(span_json(span, one.kind));
   Json json{{"kind", word_of(one.kind)}, {"name", one.name}};
   if (session.is_system()) json["station"] = session.name_of(one.station);
   json["exact"] = one.track.is_exact();
+  if (one.format) json["format"] = format_json(*one.format);
   json["spans"] = std::move(spans);
   return json;
 }

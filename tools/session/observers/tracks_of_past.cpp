@@ -33,13 +33,13 @@ class Tracks {
   explicit Tracks(const TracksWanted& wanted) : wanted_(wanted) {}
 
   void add(TrackKind kind, std::string name, std::size_t station, TrackSpan span) {
-    track(kind, std::move(name), station).add(std::move(span));
+    named(kind, std::move(name), station).track.add(std::move(span));
   }
 
-  Track& track(TrackKind kind, std::string name, std::size_t station) {
+  NamedTrack& named(TrackKind kind, std::string name, std::size_t station) {
     const auto [place, is_new] = places_.try_emplace({station, kind, name}, all_.size());
-    if (is_new) all_.push_back({kind, std::move(name), station, Track(wanted_.from, wanted_.to, wanted_.most)});
-    return all_[place->second].track;
+    if (is_new) all_.push_back({kind, std::move(name), station, {}, Track(wanted_.from, wanted_.to, wanted_.most)});
+    return all_[place->second];
   }
 
   /// By station, kind and name.
@@ -72,20 +72,26 @@ class FrameTrack {
 
   void finish() {
     if (bytes_.empty()) return;
+    const bool answers = is_answer();
     frame_.text = fmt::format("{} {}", sent_ ? "sent" : "received", serial::to_hex(bytes_));
-    if (const std::string words = in_words(); !words.empty()) frame_.text += ": " + words;
+    if (const std::string words = in_words(answers); !words.empty()) frame_.text += ": " + words;
     tracks_.add(TrackKind::Frames, fmt::format("port {} frames", port_), station_, std::exchange(frame_, {}));
-    last_ = std::exchange(bytes_, {});
-    last_was_sent_ = sent_;
+    request_ = answers ? Bytes{} : bytes_;
+    request_was_sent_ = sent_;
+    bytes_.clear();
   }
 
  private:
-  /// An answer is read as that to the frame before it in the other direction. Nothing of what is not Modbus RTU.
-  std::string in_words() const {
+  /// To the frame before it in the other direction, unless that was itself an answer.
+  bool is_answer() const {
+    return request_was_sent_ != sent_ && modbus::crc_ok(bytes_) && modbus::crc_ok(request_) && bytes_[0] == request_[0] &&
+           (bytes_[1] & ~modbus::kExceptionFlag) == request_[1];
+  }
+
+  /// Nothing of what is not Modbus RTU.
+  std::string in_words(bool answers) const {
     if (!modbus::crc_ok(bytes_)) return {};
-    if (last_was_sent_ != sent_ && modbus::crc_ok(last_) && bytes_[0] == last_[0] &&
-        (bytes_[1] & ~modbus::kExceptionFlag) == last_[1])
-      return modbus::describe(last_, bytes_);
+    if (answers) return modbus::describe(request_, bytes_);
     const modbus::FunctionRow* const row = modbus::find_function(bytes_[1]);
     return row ? fmt::format("station {}: {}", bytes_[0], row->name) : std::string();
   }
@@ -94,8 +100,9 @@ class FrameTrack {
   std::size_t station_;
   std::uint8_t port_;
   TrackSpan frame_{};
-  Bytes bytes_{}, last_{};
-  bool sent_ = false, last_was_sent_ = false;
+  Bytes bytes_{};
+  Bytes request_{};  ///< the frame before, unless it was an answer
+  bool sent_ = false, request_was_sent_ = false;
 };
 
 /// What runs without anything else between: a routine, or a network of it.
@@ -260,8 +267,10 @@ class StationTracks {
     if (dropped) span.why = ignored_because(record);
     if (!dropped || Ignored{record.code} == Ignored::NotAttached)
       frames_[record.port].add(span, record.byte, sent, format.silence());
-    tracks_.add(TrackKind::Characters, fmt::format("port {} {}", record.port, sent ? "sent" : "received"), station_,
-                std::move(span));
+    NamedTrack& characters =
+        tracks_.named(TrackKind::Characters, fmt::format("port {} {}", record.port, sent ? "sent" : "received"), station_);
+    characters.format = format;
+    characters.track.add(std::move(span));
   }
 
   void add_instant(TrackKind kind, const TraceRecord& record) {

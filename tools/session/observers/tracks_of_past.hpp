@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/serial_format.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/program/address.hpp"
 #include "tools/session/observers/track.hpp"
@@ -29,6 +30,7 @@ struct NamedTrack {
   TrackKind kind{};
   std::string name;  ///< `port 0 received`, `INT 123`, `VW20`
   std::size_t station = 0;
+  std::optional<SerialFormat> format{};  ///< of characters: the one that the port had last
   Track track;
 };
 
