@@ -1,0 +1,191 @@
+// Everything that one can do, once: buttons, keys and the help read this table.
+import { changed, notice, show_pane, state } from './state';
+import { command, go_to, move } from './session';
+import { pause, run } from './running';
+import { ask_why } from './causes';
+import { address_of } from './files';
+import { can_open } from './playground';
+import { remember, remembered } from './memory';
+import { link_of, moment_from } from './words';
+import * as search from './timeline/search';
+import * as timeline from './timeline/view';
+import { find_in_program, toggle_breakpoint } from './panes/program';
+
+export interface Action {
+  id: string;
+  group: 'Run' | 'Steps' | 'Go to' | 'Program' | 'Timeline' | 'Page';
+  title: string;
+  keys: string[];
+  does: () => void;
+}
+
+function toggle_run(): void {
+  if (state.running) pause();
+  else void run();
+}
+
+/** A step ends a run that goes on. */
+function step(words: string): () => void {
+  return () => {
+    if (state.own_run) pause();
+    void move(words);
+  };
+}
+
+export function ask_for_moment(): void {
+  const field = document.querySelector<HTMLInputElement>('#moment');
+  field?.focus();
+  field?.select();
+}
+
+export function go_to_typed(text: string): void {
+  const ns = moment_from(text);
+  if (ns === undefined) notice(`'${text}' is not a time; write for example 15.193ms, 2s or 1h`, 'error');
+  else void go_to(ns);
+}
+
+/** This moment in the address; of the playground its program too, if it is small. */
+async function copy_link(): Promise<void> {
+  const moment = link_of(state.past?.now_ns ?? 0);
+  const program = can_open() ? await address_of(state.sources) : undefined;
+  history.replaceState(null, '', program ? `${moment}&${program}` : moment);
+  const what = program ? 'Link to this program and moment' : 'Link to this moment';
+  navigator.clipboard?.writeText(location.href).then(
+    () => notice(`${what} copied: ${moment}`), () => notice(`${what}, in the address bar now: ${moment}`));
+}
+
+const kPrefersDark = matchMedia('(prefers-color-scheme: dark)');
+
+export function apply_theme(): void {
+  const system = kPrefersDark.matches ? 'dark' : 'light';
+  document.documentElement.dataset['theme'] = state.theme === 'system' ? system : state.theme;
+  changed();
+}
+
+export function begin_theme(): void {
+  const kept = remembered('theme');
+  if (kept === 'light' || kept === 'dark') state.theme = kept;
+  kPrefersDark.addEventListener('change', apply_theme);
+  apply_theme();
+}
+
+function next_theme(): void {
+  const themes = ['system', 'light', 'dark'] as const;
+  state.theme = themes[(themes.indexOf(state.theme) + 1) % themes.length]!;
+  remember('theme', state.theme);
+  apply_theme();
+}
+
+export function toggle_dialog(which: 'help' | 'about'): () => void {
+  return () => {
+    state.dialog = state.dialog === which ? null : which;
+    changed();
+  };
+}
+
+export const kActions: Action[] = [
+  { id: 'run', group: 'Run', title: 'Run or pause', keys: [' ', 'F5'], does: toggle_run },
+  { id: 'mode-run', group: 'Run', title: 'Switch the CPU to RUN', keys: ['Shift+R'], does: () => void command('mode run') },
+  { id: 'mode-stop', group: 'Run', title: 'Switch the CPU to STOP', keys: ['Shift+P'], does: () => void command('mode stop') },
+  { id: 'restart', group: 'Run', title: 'Power up again', keys: ['Shift+U'], does: () => void move('restart') },
+
+  { id: 'step', group: 'Steps', title: 'Instruction', keys: ['.', 'F11'], does: step('step') },
+  { id: 'rstep', group: 'Steps', title: 'Back by an instruction', keys: [',', 'Shift+F11'], does: step('rstep') },
+  { id: 'over', group: 'Steps', title: 'Instruction, over a CALL', keys: ['o', 'F10'], does: step('over') },
+  { id: 'rover', group: 'Steps', title: 'Back over a CALL', keys: ['Shift+O', 'Shift+F10'], does: step('rover') },
+  { id: 'network', group: 'Steps', title: 'Network', keys: ['n'], does: step('network') },
+  { id: 'rnetwork', group: 'Steps', title: 'Back by a network', keys: ['Shift+N'], does: step('rnetwork') },
+  { id: 'scan', group: 'Steps', title: 'Scan', keys: ['s'], does: step('scan') },
+  { id: 'rscan', group: 'Steps', title: 'Back by a scan', keys: ['Shift+S'], does: step('rscan') },
+  { id: 'interrupt', group: 'Steps', title: 'Interrupt', keys: ['i'], does: step('interrupt') },
+  { id: 'rinterrupt', group: 'Steps', title: 'Back to the last interrupt', keys: ['Shift+I'], does: step('rinterrupt') },
+
+  { id: 'start', group: 'Go to', title: 'Start of the past', keys: ['Home'], does: () => void move('at start') },
+  { id: 'end', group: 'Go to', title: 'Newest moment', keys: ['End'], does: () => void move('at end') },
+  { id: 'moment', group: 'Go to', title: 'A moment', keys: ['g'], does: ask_for_moment },
+  { id: 'rcontinue', group: 'Go to', title: 'Back to the last breakpoint or answer', keys: ['Shift+B'], does: step('rcontinue') },
+  { id: 'why', group: 'Go to', title: 'Why has it come here?', keys: ['w'], does: () => void ask_why() },
+  { id: 'link', group: 'Go to', title: 'Copy a link to this moment', keys: ['l'], does: () => void copy_link() },
+
+  { id: 'breakpoint', group: 'Program', title: 'Breakpoint in the selected line', keys: ['b', 'F9'],
+    does: () => void toggle_breakpoint(state.selected_line ?? state.past?.line ?? null) },
+  { id: 'find', group: 'Program', title: 'Find in the program', keys: ['/'], does: find_in_program },
+  { id: 'view', group: 'Program', title: 'STL or ladder', keys: ['v'],
+    does: () => { state.view = state.view === 'stl' ? 'ladder' : 'stl'; changed(); } },
+  { id: 'follow', group: 'Program', title: 'Show where the CPU stands', keys: ['f'],
+    does: () => { state.follow = !state.follow; changed(); } },
+
+  { id: 'zoom-in', group: 'Timeline', title: 'Zoom in', keys: ['+', '='], does: () => timeline.zoom_by(0.5) },
+  { id: 'zoom-out', group: 'Timeline', title: 'Zoom out', keys: ['-'], does: () => timeline.zoom_by(2) },
+  { id: 'zoom-all', group: 'Timeline', title: 'The whole past', keys: ['0'], does: timeline.show_all },
+  { id: 'left', group: 'Timeline', title: 'Earlier', keys: ['ArrowLeft'], does: () => timeline.move_by(-0.2) },
+  { id: 'right', group: 'Timeline', title: 'Later', keys: ['ArrowRight'], does: () => timeline.move_by(0.2) },
+  { id: 'cursor-a', group: 'Timeline', title: 'Cursor A here', keys: ['['], does: () => timeline.set_cursor('a') },
+  { id: 'cursor-b', group: 'Timeline', title: 'Cursor B here', keys: [']'], does: () => timeline.set_cursor('b') },
+  { id: 'next-error', group: 'Timeline', title: 'Next lost character or error', keys: ['e'], does: () => void search.find_error(1) },
+  { id: 'previous-error', group: 'Timeline', title: 'Previous one', keys: ['Shift+E'], does: () => void search.find_error(-1) },
+  { id: 'next-unanswered', group: 'Timeline', title: 'Next unanswered request', keys: ['u'], does: () => void search.find_unanswered() },
+  { id: 'longest', group: 'Timeline', title: 'Longest answer', keys: ['Shift+L'], does: () => void search.find_longest() },
+
+  { id: 'pane-program', group: 'Page', title: 'Program status', keys: ['1'], does: () => focus_pane('program') },
+  { id: 'pane-chart', group: 'Page', title: 'Status chart', keys: ['2'], does: () => focus_pane('chart') },
+  { id: 'pane-line', group: 'Page', title: 'Line', keys: ['3'], does: () => focus_pane('line') },
+  { id: 'pane-causes', group: 'Page', title: 'Why', keys: ['4'], does: () => focus_pane('causes') },
+  { id: 'pane-timeline', group: 'Page', title: 'Timeline', keys: ['5'], does: () => focus_pane('timeline') },
+  { id: 'theme', group: 'Page', title: 'Light, dark or as the system', keys: ['t'], does: next_theme },
+  { id: 'help', group: 'Page', title: 'Keys', keys: ['?', 'F1'], does: toggle_dialog('help') },
+  { id: 'about', group: 'Page', title: 'About', keys: [], does: toggle_dialog('about') },
+];
+
+const by_id = new Map(kActions.map((one) => [one.id, one]));
+export function action(id: string): Action {
+  return by_id.get(id)!;
+}
+
+function focus_pane(pane: Parameters<typeof show_pane>[0]): void {
+  show_pane(pane);
+  requestAnimationFrame(() => document.querySelector<HTMLElement>(`#pane-${pane}`)?.focus());
+}
+
+/** `Shift+F10`, as the table writes keys; a shifted character is the character that it makes. */
+function key_of(event: KeyboardEvent): string {
+  const letter = /^[a-z]$/i.test(event.key);
+  const shifted = event.shiftKey && (letter || event.key.length > 1);
+  return (shifted ? 'Shift+' : '') + (letter ? (shifted ? event.key.toUpperCase() : event.key.toLowerCase()) : event.key);
+}
+
+function is_typing(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.matches('input, select, textarea');
+}
+
+/** A control under the focus takes these keys itself. */
+function is_taken(event: KeyboardEvent): boolean {
+  const control = event.target instanceof HTMLElement && event.target.matches('button, [role=switch], a');
+  return control && (event.key === ' ' || event.key === 'Enter');
+}
+
+export function on_key(event: KeyboardEvent): void {
+  if (event.ctrlKey || event.altKey || event.metaKey) return;
+  if (event.key === 'Escape') {
+    state.dialog = null;
+    state.menu = null;
+    if (is_typing(event.target)) (event.target as HTMLElement).blur();
+    changed();
+    return;
+  }
+  const function_key = /^F\d+$/.test(event.key);
+  if ((is_typing(event.target) && !function_key) || is_taken(event)) return;
+  const found = kActions.find((one) => one.keys.includes(key_of(event)));
+  if (!found) return;
+  event.preventDefault();
+  found.does();
+}
+
+const kKeyNames: Record<string, string> = { ' ': 'Space', ArrowLeft: '←', ArrowRight: '→' };
+export function key_text(key: string): string {
+  return kKeyNames[key] ?? key;
+}
+/** `Scan (S)`: for tooltips. */
+export function title_with_key(one: Action): string {
+  return one.keys.length === 0 ? one.title : `${one.title} (${key_text(one.keys[0]!)})`;
+}

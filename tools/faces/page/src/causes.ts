@@ -1,0 +1,25 @@
+// Why and who: each answer is a step of a trail that one walks back to the cause.
+import { changed, show_pane, state } from './state';
+import { command } from './session';
+import type { Cause } from './protocol';
+
+async function ask(question: string, line: string): Promise<void> {
+  const at_ns = state.past?.now_ns ?? 0;
+  const reply = await command<Cause>(line);
+  if (reply.error !== undefined) return;
+  state.trail.push({ question, at_ns, text: reply.text.trimEnd(), cause: reply.json });
+  show_pane('causes');
+}
+
+export function ask_why(address = ''): Promise<void> {
+  return ask(address ? `Why is ${address} so?` : 'Why has it come here?', `why ${address}`.trim());
+}
+
+export function ask_who(address: string): Promise<void> {
+  return ask(`Who wrote ${address} last?`, `who ${address}`);
+}
+
+export function forget_trail(): void {
+  state.trail = [];
+  changed();
+}

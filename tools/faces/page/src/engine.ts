@@ -1,0 +1,131 @@
+// What runs the session: s7200 at the other end of a WebSocket, or the same in a worker of the browser. Both take the same messages.
+import type { Notification, Opened, Reply, Source } from './protocol';
+
+export type Connection = 'connecting' | 'connected' | 'lost' | 'ended';
+
+export interface Onlooker {
+  notified(notification: Notification): void;
+  connection(state: Connection, why: string): void;
+}
+
+export interface Engine {
+  /** A line as at the prompt of `s7200 debug`. */
+  command<Json>(line: string): Promise<Reply<Json>>;
+  /** Ends the run that is under way. */
+  stop(): void;
+  /** Another program; only of the engine in the browser. */
+  open?(sources: Source[], options: Record<string, string>): Promise<Reply<Opened>>;
+}
+
+/** Replies find the question they belong to by its number. */
+export class Conversation {
+  private next = 1;
+  private readonly waiting = new Map<number, (reply: Reply<any>) => void>();
+
+  constructor(private readonly onlooker: Onlooker, private readonly send: (message: object) => void) {}
+
+  ask<Json>(message: object): Promise<Reply<Json>> {
+    const id = this.next++;
+    return new Promise((done) => {
+      this.waiting.set(id, done);
+      this.send({ id, ...message });
+    });
+  }
+
+  tell(message: object): void {
+    this.send(message);
+  }
+
+  received(message: any): void {
+    if (message.event !== undefined) {
+      this.onlooker.notified(message as Notification);
+      return;
+    }
+    const done = this.waiting.get(message.id);
+    this.waiting.delete(message.id);
+    done?.(message as Reply<any>);
+  }
+
+  /** No reply will come any more. */
+  abandon(why: string): void {
+    const all = [...this.waiting];
+    this.waiting.clear();
+    for (const [id, done] of all) done({ id, text: '', json: null, moved: false, error: why });
+  }
+}
+
+const kFirstPause = 250, kLongestPause = 5000;  // ms between two attempts to connect
+
+export class SocketEngine implements Engine {
+  private socket: WebSocket | undefined;
+  private readonly conversation: Conversation;
+  private pause = kFirstPause;
+  private over = false;
+
+  constructor(private readonly address: string, private readonly onlooker: Onlooker) {
+    this.conversation = new Conversation(onlooker, (message) => {
+      if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+      else this.conversation.abandon('there is no connection to s7200');
+    });
+    this.connect();
+  }
+
+  command<Json>(line: string): Promise<Reply<Json>> {
+    return this.conversation.ask<Json>({ command: line });
+  }
+
+  stop(): void {
+    this.conversation.tell({ stop: true });
+  }
+
+  private connect(): void {
+    this.onlooker.connection('connecting', '');
+    const socket = new WebSocket(this.address);
+    this.socket = socket;
+    socket.onopen = () => {
+      this.pause = kFirstPause;
+      this.onlooker.connection('connected', '');
+    };
+    socket.onmessage = ({ data }) => {
+      const message = JSON.parse(String(data));
+      if (message.event === 'ended') this.over = true;
+      this.conversation.received(message);
+    };
+    socket.onclose = () => {
+      if (this.over) return;
+      this.conversation.abandon('the connection to s7200 is lost');
+      this.onlooker.connection('lost', '');
+      setTimeout(() => this.connect(), this.pause);
+      this.pause = Math.min(2 * this.pause, kLongestPause);
+    };
+  }
+}
+
+/** The session in the browser: a worker that holds s7200 as WebAssembly. */
+export class WorkerEngine implements Engine {
+  private readonly worker: Worker;
+  private readonly conversation: Conversation;
+
+  constructor(address: string | URL, onlooker: Onlooker) {
+    this.worker = new Worker(address, { type: 'module' });
+    this.conversation = new Conversation(onlooker, (message) => this.worker.postMessage(message));
+    this.worker.onmessage = ({ data }) => this.conversation.received(data);
+    this.worker.onerror = (event) => {
+      this.conversation.abandon(`the engine in the browser failed: ${event.message}`);
+      onlooker.connection('ended', event.message);
+    };
+    onlooker.connection('connected', '');
+  }
+
+  command<Json>(line: string): Promise<Reply<Json>> {
+    return this.conversation.ask<Json>({ command: line });
+  }
+
+  stop(): void {
+    this.conversation.tell({ stop: true });
+  }
+
+  open(sources: Source[], options: Record<string, string>): Promise<Reply<Opened>> {
+    return this.conversation.ask<Opened>({ open: { sources, options } });
+  }
+}

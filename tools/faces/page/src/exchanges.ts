@@ -1,0 +1,50 @@
+// Requests and answers, put together from the frames of the timeline.
+import type { Span, Spans } from './protocol';
+
+export interface Exchange {
+  at_ns: number;
+  end_ns: number;
+  station: string;
+  request: string;
+  answer?: string;
+  error?: string;
+  latency_ns?: number;
+  pending?: boolean;
+}
+
+const kAwaited = 1e9;  // ns for which a request without an answer may still get one
+
+export function is_sent(frame: Span): boolean {
+  return frame.text.startsWith('sent');
+}
+
+function words_of(frame: Span): string {
+  return frame.text.replace(/^(sent|received) /, '');
+}
+
+/** A frame that the PLC receives is a request; the next one that it sends, before another request, is the answer. */
+export function exchanges_of(spans: Spans | null, now_ns: number): Exchange[] {
+  const all: Exchange[] = [];
+  for (const track of spans?.tracks ?? []) {
+    if (track.kind !== 'frames') continue;
+    let open: Exchange | undefined;
+    for (const frame of track.spans) {
+      if (!is_sent(frame)) {
+        open = { at_ns: frame.at_ns, end_ns: frame.end_ns, station: track.station ?? '', request: words_of(frame) };
+        if (frame.error !== undefined) open.error = frame.error;
+        all.push(open);
+      } else if (open) {
+        open.answer = words_of(frame);
+        open.latency_ns = frame.at_ns - open.end_ns;
+        if (frame.error !== undefined) open.error = frame.error;
+        open = undefined;
+      }
+    }
+    if (open && now_ns - open.end_ns < kAwaited) open.pending = true;
+  }
+  return all.sort((a, b) => a.at_ns - b.at_ns);
+}
+
+export function is_unanswered(one: Exchange): boolean {
+  return one.answer === undefined && one.pending !== true;
+}

@@ -1,0 +1,66 @@
+// The page: connects to what runs the session, and renders what is known of it.
+import { h, render, type Part } from './dom';
+import { SocketEngine, WorkerEngine, type Engine, type Onlooker } from './engine';
+import { notified } from './session';
+import { changed, on_change, state, use_engine } from './state';
+import { begin_theme, on_key } from './actions';
+import { toolbar } from './panes/toolbar';
+import { notice_bar, status_bar } from './panes/status_bar';
+import { program_pane } from './panes/program';
+import { side_pane } from './panes/side';
+import { timeline_pane } from './panes/timeline';
+import { pane_tabs } from './panes/tabs';
+import { load_chart } from './panes/chart';
+import { dialogs } from './panes/dialogs';
+import { menu } from './panes/menu';
+import { start_timeline } from './timeline/view';
+import { accept_drops, open_from_address } from './playground';
+import { moment_of_link } from './words';
+import { go_to } from './session';
+
+const onlooker: Onlooker = {
+  notified,
+  connection: (connection) => {
+    if (state.connection === 'ended' && connection !== 'connected') return;
+    state.connection = connection;
+    if (connection === 'lost') state.running = false;
+    changed();
+  },
+};
+
+function page(): (Part | null)[] {
+  return [
+    toolbar(), notice_bar(),
+    h('main', { class: 'panes', 'data-pane': state.pane }, program_pane(), side_pane(), timeline_pane()),
+    pane_tabs(), status_bar(), menu(), dialogs(),
+  ];
+}
+
+/** The playground has its worker in the page itself; the page of `s7200 view` has a socket beside it. */
+function engine(): Engine {
+  const worker = document.querySelector('#worker');
+  if (worker) return new WorkerEngine(URL.createObjectURL(new Blob([worker.textContent ?? ''], { type: 'text/javascript' })), onlooker);
+  const address = new URL('socket', location.href);
+  address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:';
+  address.hash = '';
+  return new SocketEngine(address.href, onlooker);
+}
+
+function start(): void {
+  begin_theme();
+  load_chart();
+  start_timeline();
+  on_change(() => render(document.body, page()));
+  addEventListener('keydown', on_key);
+  addEventListener('resize', changed);
+  addEventListener('hashchange', () => {
+    const ns = moment_of_link(location.hash);
+    if (ns !== undefined && ns !== state.past?.now_ns) void go_to(ns);
+  });
+  use_engine(engine());
+  accept_drops();
+  void open_from_address();
+  changed();
+}
+
+start();

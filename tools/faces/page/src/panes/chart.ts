@@ -1,0 +1,193 @@
+// The status chart, with switches of the inputs and lamps of the outputs above it.
+import { h, type Child, type Part } from '../dom';
+import { command, see_values } from '../session';
+import { is_one_word, kFormats, query_of, text_in } from '../formats';
+import { changed, notice, state, type ChartRow, type Format, type PointRow } from '../state';
+import { remember, remembered } from '../memory';
+import { open_menu } from './menu';
+import { icon } from '../icons';
+
+const kKept = 'chart';
+
+export function load_chart(): void {
+  try {
+    const rows = JSON.parse(remembered(kKept) ?? '[]') as ChartRow[];
+    state.chart = rows.filter((row) => typeof row.address === 'string').map((row) => ({ ...row, new_value: '' }));
+  } catch {
+    state.chart = [];
+  }
+}
+
+function keep(): void {
+  remember(kKept, JSON.stringify(state.chart.map(({ address, format }) => ({ address, format }))));
+  see_values();
+  changed();
+}
+
+export function add_to_chart(address: string): void {
+  if (!state.chart.some((row) => row.address === address)) state.chart.push({ address, format: 'signed', new_value: '' });
+  state.side = 'chart';
+  state.pane = 'chart';
+  keep();
+}
+
+function value_of(row: ChartRow): ReturnType<typeof state.values.get> {
+  return state.values.get(query_of(row.address, row.format));
+}
+
+/** Micro/WIN's Write All: the new values that were typed take effect at the next scan. */
+async function write_all(): Promise<void> {
+  const rows = state.chart.filter((row) => row.new_value.trim() !== '');
+  if (rows.length === 0) {
+    notice('Type a new value first');
+    return;
+  }
+  for (const row of rows) await write(row, 'set');
+}
+
+async function write(row: ChartRow, how: 'set' | 'force'): Promise<void> {
+  const value = row.new_value.trim();
+  if (value === '') {
+    notice(`Type a new value for ${row.address} first`);
+    return;
+  }
+  const reply = await command(`${how} ${row.address}=${value.replace(/\s/g, '')}`);
+  if (reply.error === undefined) row.new_value = '';
+  changed();
+}
+
+async function toggle_force(row: ChartRow): Promise<void> {
+  const value = value_of(row);
+  if (value?.forced) await command(`unforce ${row.address}`);
+  else if (row.new_value.trim() !== '') await write(row, 'force');
+  else if (value && value.error === undefined) await command(`force ${row.address}=${value.number}`);
+}
+
+const kSparkWidth = 90, kSparkHeight = 18;
+
+/** The last values over simulated time, as steps. */
+function sparkline(name: string): Part {
+  const samples = state.samples.get(name) ?? [];
+  let path = '';
+  if (samples.length > 1) {
+    const from = samples[0]!.at_ns, length = samples[samples.length - 1]!.at_ns - from || 1;
+    const numbers = samples.map((one) => one.number);
+    const least = Math.min(...numbers), most = Math.max(...numbers);
+    const x = (ns: number): string => ((ns - from) / length * kSparkWidth).toFixed(1);
+    const y = (number: number): string => (kSparkHeight - 2 - (most === least ? 0.5 : (number - least) / (most - least)) * (kSparkHeight - 4)).toFixed(1);
+    path = samples.map((one, i) => (i === 0 ? `M0,${y(one.number)}` : `H${x(one.at_ns)}V${y(one.number)}`)).join('');
+  }
+  return h('svg', { class: 'spark', viewBox: `0 0 ${kSparkWidth} ${kSparkHeight}`, 'aria-hidden': 'true' }, h('path', { d: path || 'M0,0' }));
+}
+
+function format_choice(row: ChartRow): Part {
+  return h('select', { 'aria-label': `Format of ${row.address}`, onchange: (event: Event) => {
+    row.format = (event.target as HTMLSelectElement).value as Format;
+    keep();
+  } }, kFormats.map(({ format, name }) => h('option', { value: format, selected: row.format === format }, name)));
+}
+
+function chart_row(row: ChartRow, i: number): Part {
+  const value = value_of(row);
+  const bit = value?.type === 'bit';
+  const forced = value?.forced === true;
+  const wrong = value?.error ?? (row.address.trim() !== '' && !is_one_word(row.address) ? 'an address or a symbol, one a row' : undefined);
+  return h('tr', { class: forced ? 'forced' : '', key: i },
+    h('td', {}, h('input', { class: 'address', 'aria-label': 'Address', value: row.address, spellcheck: 'false', autocomplete: 'off', placeholder: 'Address or symbol',
+      title: value?.symbol ? `${value.symbol} (${value.address})` : '',
+      onchange: (event: Event) => { row.address = (event.target as HTMLInputElement).value.trim(); keep(); } })),
+    h('td', { class: 'format' }, bit ? 'Bit' : format_choice(row)),
+    h('td', { class: `current${bit && Number(value.number) === 1 ? ' on' : ''}`, title: wrong ?? '' },
+      wrong !== undefined ? h('span', { class: 'wrong' }, 'not known here') : [forced ? icon('lock') : null, value ? text_in(value, row.format) : '']),
+    h('td', {}, h('input', { class: 'new-value', 'aria-label': `New value of ${row.address}`, value: row.new_value, autocomplete: 'off', spellcheck: 'false',
+      oninput: (event: Event) => { row.new_value = (event.target as HTMLInputElement).value; changed(); },
+      onkeydown: (event: KeyboardEvent) => { if (event.key === 'Enter') void write(row, event.shiftKey ? 'force' : 'set'); } })),
+    h('td', { class: 'tools' },
+      h('button', { class: forced ? 'forced' : '', 'aria-pressed': String(forced), 'aria-label': `Force ${row.address}`, title: forced ? 'Unforce' : 'Force the new value, or the current one',
+        onclick: () => void toggle_force(row) }, icon('lock')),
+      h('button', { class: 'plain', 'aria-label': `Menu of ${row.address}`, title: 'Chart, who, why', onclick: (event: MouseEvent) => open_menu(event, row.address, null) }, '⋯'),
+      h('button', { class: 'plain', 'aria-label': `Remove ${row.address}`, title: 'Remove', onclick: () => { state.chart.splice(i, 1); keep(); } }, icon('close'))),
+    h('td', {}, sparkline(query_of(row.address, row.format))));
+}
+
+function add_row(): Part {
+  return h('tr', { class: 'new', key: 'new' }, h('td', { colspan: 6 }, h('form', { onsubmit: (event: Event) => {
+    event.preventDefault();
+    const field = (event.target as HTMLElement).querySelector('input')!;
+    if (field.value.trim() === '') return;
+    add_to_chart(field.value.trim());
+    field.value = '';
+  } }, h('input', { id: 'add-address', class: 'address', placeholder: 'Add an address or symbol', 'aria-label': 'Add an address or symbol', list: 'symbols', autocomplete: 'off', spellcheck: 'false' }),
+  h('button', { 'aria-label': 'Add' }, icon('plus')))));
+}
+
+function symbols(): Part {
+  return h('datalist', { id: 'symbols' }, (state.outline?.symbols ?? []).slice(0, 500).map((one) => h('option', { value: one.name }, `${one.address}  ${one.comment}`)));
+}
+
+function level_of(address: string): number {
+  return Number(state.values.get(address)?.number ?? 0);
+}
+
+/** The terminal's level: what was put there until the scan has read it, then what the input register has. */
+function terminal_level(address: string): number {
+  const put = state.switched.get(address), past = state.past;
+  const unread = put && past && past.now_ns >= put.at_ns && past.scan <= put.scan + 1;
+  return unread && !state.values.get(address)?.forced ? put.level : level_of(address);
+}
+
+async function switch_to(address: string, level: number): Promise<void> {
+  if (state.past) state.switched.set(address, { level, at_ns: state.past.now_ns, scan: state.past.scan });
+  changed();
+  await command(state.values.get(address)?.forced ? `force ${address}=${level}` : `input ${address}=${level}`);
+}
+
+function symbol_of(address: string): string {
+  return state.values.get(address)?.symbol ?? '';
+}
+
+/** A switch stays where it is put; a push button returns when it is let go. */
+function input_switch(row: PointRow): Part {
+  const on = terminal_level(row.address) === 1;
+  const forced = state.values.get(row.address)?.forced === true;
+  const press = (level: number) => () => { if (row.push) void switch_to(row.address, level); };
+  return h('div', { class: 'point', key: row.address },
+    h('button', { class: `switch${row.push ? ' push' : ''}${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'switch', 'aria-checked': String(on),
+      'aria-label': `Input ${row.address} ${symbol_of(row.address)}`.trim(), title: `${symbol_of(row.address)} ${row.push ? 'push button' : 'switch'}; right click: ${row.push ? 'switch' : 'push button'}`.trim(),
+      onclick: () => { if (!row.push) void switch_to(row.address, on ? 0 : 1); },
+      onpointerdown: press(1), onpointerup: press(0), onpointerleave: () => { if (row.push && on) void switch_to(row.address, 0); },
+      onkeydown: (event: KeyboardEvent) => { if (event.key === ' ' && !event.repeat) press(1)(); },
+      onkeyup: (event: KeyboardEvent) => { if (event.key === ' ') press(0)(); },
+      oncontextmenu: (event: Event) => { event.preventDefault(); row.push = !row.push; changed(); } },
+    h('i', {})), point_name(row.address));
+}
+
+function point_name(address: string): Part {
+  return h('button', { class: 'plain point-name', title: symbol_of(address) || address, onclick: (event: MouseEvent) => open_menu(event, address, null) }, address);
+}
+
+function output_lamp(address: string): Part {
+  const on = level_of(address) === 1;
+  const forced = state.values.get(address)?.forced === true;
+  return h('div', { class: 'point', key: address },
+    h('span', { class: `bulb${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'img', 'aria-label': `Output ${address} ${on ? 'on' : 'off'}${forced ? ', forced' : ''}`, title: symbol_of(address) }),
+    point_name(address));
+}
+
+function points(name: string, content: Child[]): Part {
+  return h('div', { class: 'points', role: 'group', 'aria-label': name }, h('span', { class: 'points-name' }, name), ...content);
+}
+
+export function chart_pane(): Part {
+  const forced = [...state.values.values()].some((value) => value.forced);
+  return h('div', { class: 'chart-pane' },
+    points('Inputs', state.inputs.map(input_switch)),
+    points('Outputs', state.outputs.map(output_lamp)),
+    h('div', { class: 'chart-tools' },
+      h('button', { onclick: () => void write_all(), title: 'Write all new values' }, 'Write all'),
+      h('button', { onclick: () => void command('unforce all'), disabled: !forced, title: 'Release everything that is forced' }, 'Unforce all')),
+    h('table', { class: 'chart' },
+      h('thead', {}, h('tr', {}, ['Address', 'Format', 'Current value', 'New value', '', 'Trend'].map((name) => h('th', {}, name)))),
+      h('tbody', {}, state.chart.map(chart_row), add_row())),
+    symbols());
+}

@@ -1,0 +1,43 @@
+// The overlays: keys, and about.
+import { h, type Child, type Part } from '../dom';
+import { icon } from '../icons';
+import { kActions, key_text } from '../actions';
+import { changed, state } from '../state';
+
+function close(): void {
+  state.dialog = null;
+  changed();
+}
+
+function dialog(title: string, ...content: Child[]): Part {
+  return h('div', { class: 'shade', onclick: (event: Event) => { if (event.target === event.currentTarget) close(); } },
+    h('div', { class: 'dialog', role: 'dialog', 'aria-modal': 'true', 'aria-label': title, tabindex: '-1',
+      ref: (node: HTMLElement) => { if (!node.contains(document.activeElement)) node.focus(); } },
+    h('header', {}, h('h2', {}, title), h('button', { class: 'plain', 'aria-label': 'Close', onclick: close }, icon('close'))),
+    ...content));
+}
+
+function help(): Part {
+  const groups = [...new Set(kActions.map((one) => one.group))];
+  return dialog('Keys',
+    h('div', { class: 'key-groups' }, groups.map((group) => h('section', {}, h('h3', {}, group),
+      h('dl', {}, kActions.filter((one) => one.group === group && one.keys.length > 0).map((one) => [
+        h('dt', {}, one.keys.map((key) => h('kbd', {}, key_text(key)))), h('dd', {}, one.title)]))))),
+    h('p', {}, 'Click an address for its menu, the margin of a line for a breakpoint, the timeline to go to a moment. ',
+      'Esc closes menus and leaves fields.'));
+}
+
+function about(): Part {
+  const hello = state.hello;
+  return dialog('About',
+    h('p', {}, `s7200 ${hello?.version ?? ''}: runs SIMATIC S7-200 STL programs, instruction by instruction in simulated time.`),
+    hello ? h('p', {}, `Program ${hello.program} on a CPU ${hello.cpu}.`) : null,
+    h('p', {}, 'Execution times are estimates until you measure a real CPU.'),
+    h('h3', {}, 'Licences'),
+    h('p', {}, 'MIT licence. Copyright (c) 2026 the s7200 authors. The page is TypeScript of this project and contains no code of others.'),
+    h('p', {}, 'SIMATIC and S7-200 are names of Siemens products; this project has no connection with Siemens.'));
+}
+
+export function dialogs(): Part | null {
+  return state.dialog === 'help' ? help() : state.dialog === 'about' ? about() : null;
+}

@@ -1,0 +1,74 @@
+// The line: a request to send, and what was asked and answered.
+import { h, type Part } from '../dom';
+import { command, go_to } from '../session';
+import { changed, state } from '../state';
+import { see_exchanges } from '../timeline/view';
+import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
+import { action, title_with_key } from '../actions';
+import { duration_text, moment_text } from '../words';
+
+let filter = '';
+
+async function send(text: string): Promise<void> {
+  const line = text.trim();
+  if (line === '') return;
+  const reply = await command(`send ${line}`);
+  if (reply.error === undefined) changed();
+}
+
+const kExamples = ['01 03 00 0a 00 02 crc', 'read 40011:2', 'write 40011=1234', "'HELLO\\r'"];
+
+function row(one: Exchange, i: number): Part {
+  const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : 'no answer');
+  return h('tr', { key: i, class: one.error !== undefined || is_unanswered(one) ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
+    h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
+    h('td', { class: 'frame' }, one.request), h('td', { class: 'frame' }, result),
+    h('td', { class: 'number' }, one.latency_ns === undefined ? '' : duration_text(one.latency_ns)));
+}
+
+const kShown = 200;  // rows of the table
+const kBars = 24, kBarsWidth = 120, kBarsHeight = 20;
+
+/** How the latencies are spread, from the shortest to the longest. */
+function histogram(latencies: number[]): Part | null {
+  if (latencies.length < 2) return null;
+  const least = Math.min(...latencies), width = (Math.max(...latencies) - least) / kBars || 1;
+  const counts = new Array<number>(kBars).fill(0);
+  for (const one of latencies) counts[Math.min(kBars - 1, Math.floor((one - least) / width))]! += 1;
+  const most = Math.max(...counts), bar = kBarsWidth / kBars;
+  const path = counts.map((count, i) => `M${i * bar},${kBarsHeight}v${-count / most * kBarsHeight}h${bar - 1}V${kBarsHeight}z`).join('');
+  return h('svg', { class: 'histogram', viewBox: `0 0 ${kBarsWidth} ${kBarsHeight}`, role: 'img', 'aria-label': 'Spread of the latencies' }, h('path', { d: path }));
+}
+
+function latencies_of(all: Exchange[]): number[] {
+  return all.flatMap((one) => (one.latency_ns === undefined ? [] : [one.latency_ns]));
+}
+
+function summary(all: Exchange[]): string {
+  const latencies = latencies_of(all);
+  if (all.length === 0) return '';
+  const unanswered = all.filter(is_unanswered).length;
+  const spread = latencies.length === 0 ? ''
+    : `, latency ${duration_text(Math.min(...latencies))} … ${duration_text(Math.max(...latencies))}`;
+  return `${all.length} requests, ${unanswered} without an answer${spread}`;
+}
+
+export function line_pane(): Part {
+  see_exchanges();
+  const all = exchanges_of(state.exchanges, state.past?.now_ns ?? 0);
+  const shown = filter === '' ? all : all.filter((one) => `${one.request} ${one.answer ?? 'no answer'} ${one.error ?? ''}`.toLowerCase().includes(filter.toLowerCase()));
+  return h('div', { class: 'line-pane' },
+    h('form', { class: 'send', onsubmit: (event: Event) => { event.preventDefault(); void send(state.send_text); } },
+      h('input', { id: 'send-text', 'aria-label': 'Frame, text or request', value: state.send_text, placeholder: kExamples[0]!, list: 'requests', autocomplete: 'off', spellcheck: 'false',
+        oninput: (event: Event) => { state.send_text = (event.target as HTMLInputElement).value; } }),
+      h('button', { id: 'do-send' }, 'Send')),
+    h('datalist', { id: 'requests' }, kExamples.map((one) => h('option', { value: one }))),
+    h('p', { class: 'hint' }, 'Hex, crc for the check, text in quotation marks; or a Modbus request: read 40011:2, write 40011=5'),
+    h('div', { class: 'chart-tools' },
+      h('input', { type: 'search', placeholder: 'Filter', 'aria-label': 'Filter', oninput: (event: Event) => { filter = (event.target as HTMLInputElement).value; changed(); } }),
+      h('button', { title: title_with_key(action('longest')), onclick: action('longest').does }, 'Longest answer'),
+      histogram(latencies_of(all)), h('span', { class: 'hint' }, summary(all))),
+    h('table', { class: 'exchanges' },
+      h('thead', {}, h('tr', {}, ['Request at', 'Request', 'Answer', 'Latency'].map((name) => h('th', {}, name)))),
+      h('tbody', {}, shown.slice(-kShown).reverse().map(row))));
+}

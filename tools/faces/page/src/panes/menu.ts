@@ -1,0 +1,53 @@
+// The menu of an address: what one can ask and do about it.
+import { h, type Part } from '../dom';
+import { add_to_chart } from './chart';
+import { ask_who, ask_why } from '../causes';
+import { command } from '../session';
+import { watch_address } from '../timeline/view';
+import { changed, state } from '../state';
+
+export function open_menu(event: MouseEvent, address: string, op: number | null): void {
+  state.menu = { x: event.clientX, y: event.clientY, address, op };
+  changed();
+}
+
+function close(): void {
+  state.menu = null;
+  changed();
+}
+
+const kItems: { title: (address: string) => string; does: (address: string) => void }[] = [
+  { title: () => 'Add to status chart', does: add_to_chart },
+  { title: () => 'Show on the timeline', does: watch_address },
+  { title: () => 'Why has it this value?', does: (address) => void ask_why(address) },
+  { title: () => 'Who wrote it last?', does: (address) => void ask_who(address) },
+  { title: () => 'Stop when it changes', does: (address) => void command(`watch ${address}`) },
+];
+
+export function menu(): Part | null {
+  const open = state.menu;
+  if (!open) return null;
+  return h('div', { class: 'menu-shade', onclick: close, oncontextmenu: (event: Event) => { event.preventDefault(); close(); } },
+    h('div', { class: 'menu', role: 'menu', 'aria-label': open.address, ref: (node: HTMLElement) => keep_inside(node, open.x, open.y) },
+      h('div', { class: 'menu-title' }, name_of(open.address)),
+      kItems.map((item) => h('button', { role: 'menuitem', onclick: () => { close(); item.does(open.address); } }, item.title(open.address)))));
+}
+
+function name_of(address: string): string {
+  const symbol = state.outline?.symbols.find((one) => one.address.toUpperCase() === address.toUpperCase());
+  return symbol ? `${symbol.name}  ${address}` : address;
+}
+
+function keep_inside(node: HTMLElement, x: number, y: number): void {
+  node.style.left = `${Math.max(4, Math.min(x, innerWidth - node.offsetWidth - 4))}px`;
+  node.style.top = `${Math.max(4, Math.min(y, innerHeight - node.offsetHeight - 4))}px`;
+  if (!node.contains(document.activeElement)) node.querySelector<HTMLElement>('button')?.focus();
+  node.onkeydown = (event) => {
+    const all = Array.from(node.querySelectorAll<HTMLElement>('button'));
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (step === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    all[(all.indexOf(document.activeElement as HTMLElement) + step + all.length) % all.length]?.focus();
+  };
+}

@@ -1,0 +1,56 @@
+// What the playground shows before there is a program, or while it has mistakes: files, text, and what check says.
+import { h, type Part } from '../dom';
+import { icon } from '../icons';
+import { open_program, use_sources } from '../playground';
+import { sources_of } from '../files';
+import { changed, state } from '../state';
+
+const kTyped = 'program.awl';
+const kCpus = ['212', '214', '215', '216', '221', '222', '224', '224XP', '226'];
+const kExample = `NETWORK 1 // the pump runs from start to stop
+LD     I0.0
+O      Q0.0
+AN     I0.1
+=      Q0.0
+MEND
+`;
+
+function program_text(): string {
+  return state.sources[0]?.text ?? '';
+}
+
+function type_program(text: string): void {
+  const [first, ...others] = state.sources;
+  state.sources = [{ name: first?.name ?? kTyped, text }, ...others];
+}
+
+function file(name: string): Part {
+  return h('span', { class: 'file', key: name }, name, h('button', { class: 'plain', 'aria-label': `Leave out ${name}`, onclick: () => {
+    state.sources = state.sources.filter((one) => one.name !== name);
+    changed();
+  } }, icon('close')));
+}
+
+function said(): Part | null {
+  if (state.check_text === '') return null;
+  return h('pre', { class: 'diagnostics', role: 'status', 'aria-label': 'What check says' }, state.check_text.split('\n').map((line) =>
+    h('div', { class: /: error: /.test(line) ? 'error' : /: warning: /.test(line) ? 'warning' : '' }, line === '' ? ' ' : line)));
+}
+
+export function opener(): Part {
+  return h('div', { class: 'opener' },
+    h('div', { class: 'files' },
+      h('label', {}, h('input', { type: 'file', multiple: true, hidden: true, id: 'choose-files', onchange: (event: Event) => {
+        const chosen = (event.target as HTMLInputElement).files;
+        if (chosen) void sources_of(chosen).then(use_sources);
+      } })),
+      h('button', { onclick: () => document.querySelector<HTMLInputElement>('#choose-files')?.click() }, 'Choose files …'),
+      state.sources.length === 0 ? h('button', { onclick: () => { type_program(kExample); changed(); } }, 'Example') : null,
+      state.sources.map((one) => file(one.name)),
+      h('select', { 'aria-label': 'PLC type', onchange: (event: Event) => { state.cpu = (event.target as HTMLSelectElement).value; } },
+        h('option', { value: '', selected: state.cpu === '' }, 'PLC type: found'), kCpus.map((cpu) => h('option', { value: cpu, selected: state.cpu === cpu }, `CPU ${cpu}`))),
+      h('button', { id: 'check-and-run', onclick: () => void open_program() }, icon('run'), 'Check and run')),
+    h('p', { class: 'hint' }, 'Drop an .awl or STL listing here, with its symbol table and data block; or type a program. Nothing leaves this PC.'),
+    said(),
+    h('textarea', { 'aria-label': 'Program', spellcheck: 'false', value: program_text(), oninput: (event: Event) => type_program((event.target as HTMLTextAreaElement).value) }));
+}

@@ -1,0 +1,199 @@
+// Program status: the listing with power flow and values at the moment where the session stands. Only the lines in view are made.
+import { h, type Child, type Part } from '../dom';
+import { command, fetch_chunk_of, go_to, see_lines } from '../session';
+import { changed, state } from '../state';
+import { duration_text, moment_text } from '../words';
+import type { Execution, Line, Operand } from '../protocol';
+import { open_menu } from './menu';
+import { ladder_view } from './ladder';
+import { opener } from './opener';
+import { can_open } from '../playground';
+
+export const kRow = 20;  // pixels, as page.css has it
+const kMore = 8;         // rows above and below those in view
+
+let scroller: HTMLElement | null = null;
+let followed: number | null = null;
+let found_at = 0;
+
+function line_at_top(): number {
+  return scroller ? Math.floor(scroller.scrollTop / kRow) + 1 : 1;
+}
+
+export function scroll_to(line: number): void {
+  if (!scroller) return;
+  scroller.scrollTop = Math.max(0, (line - 1) * kRow - scroller.clientHeight / 3);
+  changed();
+}
+
+/** The line where the CPU stands comes into view when it has gone elsewhere. */
+function follow(): void {
+  const line = state.past?.line ?? null;
+  if (!scroller || !state.follow || line === null || line === followed) return;
+  followed = line;
+  const top = (line - 1) * kRow;
+  if (top < scroller.scrollTop || top > scroller.scrollTop + scroller.clientHeight - 2 * kRow) scroll_to(line);
+}
+
+export async function toggle_breakpoint(line: number | null): Promise<void> {
+  if (line === null) return;
+  const number = state.breakpoints.get(line);
+  await command(number === undefined ? `break ${line} always` : `delete ${number}`);
+}
+
+export function find_in_program(): void {
+  const field = document.querySelector<HTMLInputElement>('#find');
+  field?.focus();
+  field?.select();
+}
+
+/** Shows the next line with that text, symbol or number; lines that are not here yet are asked for by the way. */
+async function find(text: string): Promise<void> {
+  const outline = state.outline;
+  if (!outline || text === '') return;
+  const wanted = text.toLowerCase();
+  const start = found_at === 0 ? line_at_top() : found_at + 1;
+  for (let i = 0; i < outline.lines; ++i) {
+    const number = ((start - 1 + i) % outline.lines) + 1;
+    await fetch_chunk_of(number);
+    const line = state.lines.get(number);
+    const symbols = line?.operands?.map((one) => `${one.symbol} ${one.address}`).join(' ') ?? '';
+    if (line && `${line.text} ${symbols}`.toLowerCase().includes(wanted)) {
+      found_at = number;
+      state.selected_line = number;
+      scroll_to(number);
+      return;
+    }
+  }
+  found_at = 0;
+}
+
+function value_text(value: number | boolean | null): string {
+  return value === null ? '' : value === true ? '1' : value === false ? '0' : String(value);
+}
+
+function operand(one: Operand, value: number | boolean | null | undefined, op: number | null): Part {
+  const on = value === true || value === 1;
+  return h('span', {
+    class: `operand${on ? ' on' : ''}`, role: 'button', tabindex: '-1',
+    title: one.symbol ? `${one.symbol} (${one.address})` : one.address,
+    onclick: (event: MouseEvent) => { event.stopPropagation(); open_menu(event, one.address, op); },
+  }, one.text);
+}
+
+/** The text of a line with its addresses to click at, and its comment. */
+function text_of(line: Line, execution: Execution | undefined): Child[] {
+  const parts: Child[] = [];
+  let rest = line.text;
+  (line.operands ?? []).forEach((one, i) => {
+    const place = rest.indexOf(one.text, parts.length === 0 ? (line.mnemonic?.length ?? 0) : 0);
+    if (place < 0 || one.text === '') return;
+    if (place > 0) parts.push(rest.slice(0, place));
+    parts.push(one.address === '' ? one.text : operand(one, execution?.values[i], line.op));
+    rest = rest.slice(place + one.text.length);
+  });
+  const comment = rest.indexOf('//');
+  if (comment < 0) parts.push(rest);
+  else parts.push(rest.slice(0, comment), h('span', { class: 'comment' }, rest.slice(comment)));
+  return parts;
+}
+
+function values_of(line: Line, execution: Execution): Part[] {
+  return (line.operands ?? []).flatMap((one, i) => {
+    const value = execution.values[i];
+    if (one.address === '' || value === null || value === undefined) return [];
+    return [h('span', { class: 'value' }, h('span', { class: 'name' }, `${one.symbol || one.text}=`), value_text(value))];
+  });
+}
+
+function row(number: number, headings: Set<number>): Part {
+  const line = state.lines.get(number);
+  const op = line?.op ?? null;
+  const execution = op === null ? undefined : state.executions.get(op);
+  const here = state.past?.line === number;
+  const stop = state.breakpoints.has(number);
+  const flow = execution ? (execution.powerFlow ? 'flows' : 'dead') : 'never';
+  const classes = ['row', here ? 'here' : '', headings.has(number) ? 'heading' : '', op !== null ? `op ${flow}` : '',
+    state.selected_line === number ? 'selected' : ''].filter(Boolean).join(' ');
+  const age = execution && state.past ? state.past.now_ns - execution.at_ns : 0;
+  return h('div', { class: classes, key: number, style: { top: `${(number - 1) * kRow}px` }, role: 'row',
+    onclick: () => { state.selected_line = number; changed(); },
+    ondblclick: () => { if (execution) void go_to(execution.at_ns); } },
+  h('span', { class: `margin${stop ? ' stop' : ''}`, role: 'button', 'aria-label': `${stop ? 'Remove' : 'Set'} breakpoint in line ${number}`,
+    title: op === null ? '' : 'Click: breakpoint', onclick: (event: Event) => { event.stopPropagation(); void toggle_breakpoint(number); } },
+  stop ? '●' : '', here ? h('span', { class: 'arrow' }, '➤') : null),
+  h('span', { class: 'number' }, String(number)),
+  h('span', { class: 'flow', title: execution ? `power flow ${execution.powerFlow ? 1 : 0}; executed ${duration_text(age)} ago, at ${moment_text(execution.at_ns)}` : '' },
+    execution ? (execution.top ? '1' : '0') : ''),
+  h('span', { class: 'text' }, line ? text_of(line, execution) : '…'),
+  execution && line ? h('span', { class: 'values' }, values_of(line, execution)) : null);
+}
+
+function heading_lines(): Set<number> {
+  const all = new Set<number>();
+  for (const routine of state.outline?.routines ?? []) {
+    all.add(routine.line);
+    for (const network of routine.networks) if (network.number !== null) all.add(network.line);
+  }
+  return all;
+}
+
+function listing(): Part {
+  const lines = state.outline?.lines ?? 0;
+  const height = scroller?.clientHeight ?? 600;
+  const first = Math.max(1, line_at_top() - kMore);
+  const last = Math.min(lines, line_at_top() + Math.ceil(height / kRow) + kMore);
+  if (last >= first) queueMicrotask(() => see_lines(first, last));
+  const headings = heading_lines();
+  const rows: Part[] = [];
+  for (let number = first; number <= last; ++number) rows.push(row(number, headings));
+  return h('div', { class: 'listing', role: 'grid', 'aria-label': 'Listing', 'aria-rowcount': lines, tabindex: '0', onscroll: changed, onkeydown: on_key,
+    ref: (node: HTMLElement) => { const first_time = scroller !== node; scroller = node; if (first_time) requestAnimationFrame(changed); follow(); } },
+  h('div', { class: 'rows', style: { height: `${lines * kRow}px` } }, rows));
+}
+
+function on_key(event: KeyboardEvent): void {
+  const step = { ArrowUp: -1, ArrowDown: 1, PageUp: -20, PageDown: 20 }[event.key];
+  if (step === undefined || !state.outline) return;
+  event.preventDefault();
+  event.stopPropagation();
+  const line = Math.min(state.outline.lines, Math.max(1, (state.selected_line ?? state.past?.line ?? 1) + step));
+  state.selected_line = line;
+  const top = (line - 1) * kRow;
+  if (scroller && (top < scroller.scrollTop || top > scroller.scrollTop + scroller.clientHeight - kRow)) scroll_to(line);
+  changed();
+}
+
+/** Blocks and networks to jump to. */
+function block_choice(): Part {
+  return h('select', { class: 'navigator', 'aria-label': 'Go to block or network', value: '', onchange: (event: Event) => {
+    const field = event.target as HTMLSelectElement;
+    if (field.value !== '') scroll_to(Number(field.value));
+    field.value = '';
+  } }, h('option', { value: '' }, 'Block, network …'),
+  (state.outline?.routines ?? []).map((routine) => h('optgroup', { label: routine.name }, [
+    h('option', { value: String(routine.line) }, routine.name),
+    ...routine.networks.filter((one) => one.number !== null).map((one) =>
+      h('option', { value: String(one.line) }, `Network ${one.number}${one.title ? `  ${one.title}` : ''}`))])));
+}
+
+function view_button(view: 'stl' | 'ladder', name: string): Part {
+  return h('button', { 'aria-pressed': String(state.view === view), onclick: () => { state.view = view; changed(); } }, name);
+}
+
+function content(): Part {
+  if (can_open() && (state.opening || state.outline === null)) return opener();
+  if (state.outline === null) return h('p', { class: 'empty' }, 'Waiting for the program …');
+  return state.view === 'stl' ? listing() : ladder_view();
+}
+
+export function program_pane(): Part {
+  return h('section', { id: 'pane-program', class: 'pane program', 'aria-label': 'Program status', tabindex: '-1' },
+    h('header', {}, h('h2', {}, 'Program status'), block_choice(),
+      h('form', { class: 'find', onsubmit: (event: Event) => { event.preventDefault(); void find((event.target as HTMLElement).querySelector('input')!.value); } },
+        h('input', { id: 'find', type: 'search', placeholder: 'Find (/)', 'aria-label': 'Find in the program', oninput: () => { found_at = 0; } })),
+      h('button', { class: 'toggle', 'aria-pressed': String(state.follow), title: 'Show where the CPU stands (f)', onclick: () => { state.follow = !state.follow; followed = null; changed(); } }, 'Follow'),
+      can_open() && !state.opening && state.outline ? h('button', { id: 'open-program', title: 'Another program, or this one changed', onclick: () => { state.opening = true; changed(); } }, 'Edit') : null,
+      h('div', { class: 'choice', role: 'group', 'aria-label': 'View' }, view_button('stl', 'STL'), view_button('ladder', 'LAD'))),
+    content());
+}

@@ -1,0 +1,41 @@
+// What connects the page, where the CPU stands, and what was said last.
+import { h, type Part } from '../dom';
+import { changed, state } from '../state';
+import { icon } from '../icons';
+import { toggle_dialog } from '../actions';
+
+const kConnections = {
+  connecting: 'connecting …',
+  connected: 'connected',
+  lost: 'connection lost; trying again …',
+  ended: 'the session has ended',
+};
+
+function place(): string {
+  const past = state.past;
+  if (!past) return '';
+  if (past.mode === 'off') return 'the PLC has no power';
+  if (past.line === null) return past.fatal ? `STOP, fatal error ${past.fatal}` : 'STOP';
+  return `${past.routine ?? ''}, line ${past.line}`;
+}
+
+export function status_bar(): Part {
+  return h('footer', { class: 'status-bar' },
+    h('span', { class: `connection ${state.connection}`, role: 'status', 'aria-live': 'polite' },
+      kConnections[state.connection] + (state.connection === 'ended' && state.why_ended ? `: ${state.why_ended}` : '')),
+    h('span', { class: 'place' }, place()),
+    h('span', { class: 'printed' }, state.printed[state.printed.length - 1] ?? ''),
+    h('button', { class: 'plain program-name', title: state.hello?.program ?? 'About this page', onclick: toggle_dialog('about') },
+      state.hello ? `${state.hello.program.replace(/^.*[\\/]/, '')} · CPU ${state.hello.cpu}` : 's7200'));
+}
+
+/** What is wrong, or was done: above the panes until it is put away or something else is done. */
+export function notice_bar(): Part | null {
+  if (state.connection === 'lost')
+    return h('div', { class: 'notice error', role: 'alert', key: 'lost' },
+      'The connection to s7200 is lost. What you see is the last that was known; the page connects again by itself.');
+  if (!state.notice) return null;
+  return h('div', { class: `notice ${state.notice.kind}`, role: state.notice.kind === 'error' ? 'alert' : 'status', key: 'notice' },
+    h('span', {}, state.notice.text),
+    h('button', { class: 'plain', 'aria-label': 'Put away', onclick: () => { state.notice = null; changed(); } }, icon('close')));
+}

@@ -1,0 +1,144 @@
+// The timeline: what happened, as tracks. Wheel and keys zoom, dragging moves, the ruler measures, a click goes to that moment.
+import { h, type Part } from '../dom';
+import { draw, height_of, kRuler, rows_of, span_at, span_text, type Theme, type View } from '../timeline/draw';
+import { ns_at, type Scale } from '../timeline/scale';
+import * as search from '../timeline/search';
+import * as timeline from '../timeline/view';
+import { go_to } from '../session';
+import { icon } from '../icons';
+import { changed, state } from '../state';
+import { duration_text } from '../words';
+
+const kLabels = 118;
+
+let canvas: HTMLCanvasElement | null = null;
+let shown: View | null = null;
+let drag: { x: number; from_ns: number; measures: boolean; moved: boolean } | null = null;
+let told = '';
+
+function theme_of(node: HTMLElement): Theme {
+  const style = getComputedStyle(node);
+  const names = ['pane', 'text', 'line', 'grid', 'ruler', 'received', 'sent', 'interrupts', 'scans', 'networks', 'routines', 'events', 'errors', 'value',
+    'trouble', 'wait', 'future', 'measure', 'now', 'cursor', 'on-colour'];
+  return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+}
+
+function scale_of(width: number): Scale {
+  return { ...timeline.window_of(), left: 0, right: width };
+}
+
+function paint(node: HTMLCanvasElement): void {
+  canvas = node;
+  const tracks = node.parentElement!.parentElement!;
+  const rows = rows_of(state.spans, tracks.scrollTop);
+  const width = Math.max(100, tracks.clientWidth - kLabels), height = tracks.clientHeight;
+  const ratio = devicePixelRatio || 1;
+  if (node.width !== Math.round(width * ratio) || node.height !== Math.round(height * ratio)) {
+    node.width = Math.round(width * ratio);
+    node.height = Math.round(height * ratio);
+    node.style.width = `${width}px`;
+    node.style.height = `${height}px`;
+  }
+  const context = node.getContext('2d', { alpha: false })!;
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  shown = { scale: scale_of(width), rows, width, height, now_ns: state.past?.now_ns ?? 0, newest_ns: state.past?.newest_ns ?? 0,
+    cursors: state.cursors, selected: state.selected_span };
+  draw(context, shown, theme_of(node));
+}
+
+function point(event: MouseEvent): { x: number; y: number } {
+  const box = canvas!.getBoundingClientRect();
+  return { x: event.clientX - box.left, y: event.clientY - box.top };
+}
+
+function on_wheel(event: WheelEvent): void {
+  if (!shown) return;
+  event.preventDefault();
+  const { x } = point(event);
+  if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) timeline.move_by((event.deltaX || event.deltaY) / 1000);
+  else timeline.zoom_by(1.0018 ** event.deltaY, ns_at(shown.scale, x));
+}
+
+function on_down(event: PointerEvent): void {
+  if (!shown || event.button !== 0) return;
+  const { x, y } = point(event);
+  drag = { x, from_ns: shown.scale.from_ns, measures: y < kRuler || event.shiftKey, moved: false };
+  canvas!.setPointerCapture(event.pointerId);
+}
+
+function on_move(event: PointerEvent): void {
+  if (!shown) return;
+  const { x, y } = point(event);
+  if (!drag) {
+    const under = span_at(shown, x, y);
+    const text = under ? span_text(under.track, under.span) : '';
+    if (text !== told) { told = text; changed(); }
+    return;
+  }
+  if (Math.abs(x - drag.x) < 3 && !drag.moved) return;
+  drag.moved = true;
+  if (drag.measures) {
+    state.cursors = { a_ns: ns_at(shown.scale, drag.x), b_ns: ns_at(shown.scale, x) };
+    changed();
+  } else {
+    const per_pixel = (shown.scale.to_ns - shown.scale.from_ns) / shown.width;
+    timeline.move_to(drag.from_ns - (x - drag.x) * per_pixel);
+  }
+}
+
+function on_up(event: PointerEvent): void {
+  const was = drag;
+  drag = null;
+  if (!was || was.moved || !shown) return;
+  const { x, y } = point(event);
+  const under = span_at(shown, x, y);
+  state.selected_span = under?.span ?? null;
+  void go_to(under && (under.span.count ?? 1) <= 1 ? under.span.at_ns : Math.max(0, ns_at(shown.scale, x)));
+}
+
+function measured(): string {
+  const { a_ns, b_ns } = state.cursors;
+  if (a_ns === null || b_ns === null) return '';
+  const [from, to] = [Math.min(a_ns, b_ns), Math.max(a_ns, b_ns)];
+  const counts = (state.spans?.tracks ?? []).filter((track) => track.kind !== 'value').map((track) => {
+    const inside = track.spans.filter((one) => one.at_ns >= from && one.at_ns < to);
+    const count = inside.reduce((sum, one) => sum + (one.count ?? 1), 0);
+    return count > 0 ? `${track.name} ${count}` : '';
+  }).filter((text) => text !== '');
+  return [`B − A = ${duration_text(to - from)}`, ...counts].join(' · ');
+}
+
+function labels(): Part[] {
+  return rows_of(state.spans, 0).map((row, i) => h('div', { class: 'track-name', key: i, style: { top: `${row.top}px`, height: `${row.height}px` }, title: row.track.name },
+    h('span', {}, row.track.station ? `${row.track.station} ${row.track.name}` : row.track.name),
+    row.track.kind === 'value' ? h('button', { class: 'plain', 'aria-label': `Remove ${row.track.name}`, onclick: () => timeline.unwatch(watched_as(row.track.name)) }, icon('close')) : null));
+}
+
+function watched_as(name: string): string {
+  return state.watched.find((one) => one.toUpperCase() === name.toUpperCase()) ?? name;
+}
+
+function tool(name: string, title: string, does: () => void, ...content: (Part | string)[]): Part {
+  return h('button', { id: `timeline-${name}`, title, 'aria-label': title, onclick: does }, ...content);
+}
+
+export function timeline_pane(): Part {
+  const { from_ns, to_ns } = timeline.window_of();
+  return h('section', { id: 'pane-timeline', class: 'pane timeline', 'aria-label': 'Timeline', tabindex: '-1' },
+    h('header', {}, h('h2', {}, 'Timeline'),
+      tool('in', 'Zoom in (+)', () => timeline.zoom_by(0.5), icon('plus')), tool('out', 'Zoom out (-)', () => timeline.zoom_by(2), icon('minus')),
+      tool('all', 'The whole past (0)', timeline.show_all, 'All'),
+      tool('previous-error', 'Previous lost character or error (Shift+E)', () => void search.find_error(-1), icon('back')),
+      h('span', { class: 'small' }, 'trouble'),
+      tool('next-error', 'Next lost character or error (e)', () => void search.find_error(1), icon('forward')),
+      tool('next-unanswered', 'Next unanswered request (u)', () => void search.find_unanswered(), 'unanswered'),
+      tool('a', 'Cursor A here ([)', () => timeline.set_cursor('a'), 'A'), tool('b', 'Cursor B here (])', () => timeline.set_cursor('b'), 'B'),
+      h('span', { class: 'readout', role: 'status' }, measured() || told || `${duration_text(to_ns - from_ns)} in view`),
+      state.cursors.a_ns !== null ? h('button', { class: 'plain', 'aria-label': 'Remove cursors', onclick: timeline.clear_cursors }, icon('close')) : null,
+      state.spans?.left_out?.length ? h('span', { class: 'small', title: 'Zoom in to 10 s or less' }, `zoom in for ${state.spans.left_out.join(', ')}`) : null),
+    h('div', { class: 'tracks', onscroll: changed },
+      h('div', { class: 'track-names', style: { height: `${height_of(rows_of(state.spans, 0))}px` } }, labels()),
+      h('div', { class: 'track-canvas' }, h('canvas', { id: 'timeline', tabindex: '0', role: 'img', 'aria-label': 'Timeline: plus and minus zoom, arrows move, e finds the next error', ref: paint,
+        onwheel: on_wheel, onpointerdown: on_down, onpointermove: on_move, onpointerup: on_up, onpointercancel: () => { drag = null; },
+        onpointerleave: () => { if (told !== '') { told = ''; changed(); } } }))));
+}

@@ -1,0 +1,60 @@
+// A program that is dropped on the page, checked, and run in the browser.
+import { sources_in, sources_of } from './files';
+import { changed, notice, state, the_engine } from './state';
+import type { Source } from './protocol';
+
+export function can_open(): boolean {
+  return the_engine().open !== undefined;
+}
+
+/** Checks the program; if it is fine there is a session, which says hello by itself. */
+export async function open_program(): Promise<void> {
+  const engine = the_engine();
+  if (!engine.open) return;
+  if (state.sources.every((one) => one.text.trim() === '')) {
+    notice('There is no program yet: drop one on the page, or type it');
+    return;
+  }
+  const reply = await engine.open(state.sources, state.cpu === '' ? {} : { cpu: state.cpu });
+  if (reply.error !== undefined || !reply.json) {
+    notice(reply.error ?? 'the program could not be opened', 'error');
+    return;
+  }
+  state.diagnostics = reply.json.diagnostics;
+  state.check_text = reply.json.text;
+  state.opening = !reply.json.opened;
+  changed();
+}
+
+export function use_sources(sources: Source[]): void {
+  const names = new Set(sources.map((one) => one.name));
+  const is_program = (one: Source): boolean => /\.(awl|stl)$/i.test(one.name);
+  const replaces_program = sources.some(is_program);
+  const kept = state.sources.filter((one) => !names.has(one.name) && one.text.trim() !== '' && !(replaces_program && is_program(one)));
+  state.sources = replaces_program ? [...sources, ...kept] : [...kept, ...sources];
+  state.opening = true;
+  changed();
+  void open_program();
+}
+
+export function accept_drops(): void {
+  addEventListener('dragover', (event) => {
+    if (!can_open()) return;
+    event.preventDefault();
+    document.documentElement.classList.add('dropping');
+  });
+  addEventListener('dragleave', (event) => {
+    if (event.relatedTarget === null) document.documentElement.classList.remove('dropping');
+  });
+  addEventListener('drop', (event) => {
+    document.documentElement.classList.remove('dropping');
+    if (!can_open() || !event.dataTransfer) return;
+    event.preventDefault();
+    void sources_of(event.dataTransfer.files).then(use_sources);
+  });
+}
+
+export async function open_from_address(): Promise<void> {
+  const sources = await sources_in(location.hash);
+  if (sources.length > 0) use_sources(sources);
+}

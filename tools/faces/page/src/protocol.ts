@@ -1,0 +1,203 @@
+// The messages of docs/page_protocol.md, as types. Nothing else of the page knows what is sent.
+
+export const kProtocol = 1;
+
+/** Where the session stands; times in ns of simulated time. */
+export interface Past {
+  now_ns: number;
+  oldest_ns: number;
+  newest_ns: number;
+  in_the_past: boolean;
+  station: string;
+  scan: number;
+  mode: 'RUN' | 'STOP' | 'off';
+  op: number | null;
+  line: number | null;
+  routine: string | null;
+  fatal: number;
+}
+
+export interface Reply<Json = unknown> {
+  id: number | null;
+  text: string;
+  json: Json | null;
+  moved: boolean;
+  interrupted?: boolean;
+  error?: string;
+}
+
+export interface Hello {
+  event: 'hello';
+  protocol: number;
+  version: string;
+  program: string;
+  cpu: string;
+  stations: string[];
+  may: string[];
+  live: boolean;
+  now: Past;
+}
+
+export type Notification =
+  | Hello
+  | { event: 'moved'; now: Past; by: string }
+  | { event: 'changed'; by: string }
+  | { event: 'running'; command: string }
+  | { event: 'printed'; text: string }
+  | { event: 'ended'; why: string };
+
+export interface Network {
+  number: number | null;
+  title: string;
+  line: number;
+  first: number;
+  end: number;
+}
+
+export interface Routine {
+  name: string;
+  line: number;
+  first: number;
+  end: number;
+  networks: Network[];
+}
+
+export interface ProgramSymbol {
+  name: string;
+  address: string;
+  comment: string;
+}
+
+export interface Outline {
+  program: string;
+  cpu: string;
+  lines: number;
+  ops: number;
+  routines: Routine[];
+  symbols: ProgramSymbol[];
+}
+
+export interface Operand {
+  text: string;
+  address: string;
+  symbol: string;
+  pointer: boolean;
+}
+
+export interface Line {
+  line: number;
+  text: string;
+  op: number | null;
+  mnemonic?: string;
+  operands?: Operand[];
+  kind?: 'contact' | 'coil' | 'box' | 'stack' | 'structure';
+}
+
+export interface Execution {
+  op: number;
+  line: number;
+  at_ns: number;
+  powerFlow: boolean;
+  top: boolean;
+  values: (number | boolean | null)[];
+  text: string;
+}
+
+export interface Status {
+  lines: Execution[];
+  since_ns: number;
+}
+
+export interface Value {
+  name: string;
+  address: string;
+  symbol: string;
+  type: 'bit' | 'byte' | 'word' | 'dword' | 'real';
+  text: string;
+  number: number;
+  forced: boolean;
+  error?: string;
+}
+
+export interface Span {
+  at_ns: number;
+  end_ns: number;
+  text: string;
+  error?: string;
+  value?: number;
+  least?: number;
+  most?: number;
+  occurred_ns?: number;
+  why?: string;
+  op?: number;
+  count?: number;
+  busy_ns?: number;
+  errors?: number;
+}
+
+export type TrackKind =
+  | 'characters' | 'frames' | 'interrupts' | 'scans' | 'networks' | 'routines' | 'events' | 'errors' | 'value';
+
+export interface SerialFormat {
+  baud: number;
+  data_bits: number;
+  parity: 'none' | 'even' | 'odd';
+  stop_bits: number;
+}
+
+export interface SpanTrack {
+  kind: TrackKind;
+  name: string;
+  station?: string;
+  exact: boolean;
+  /** Of characters: the format that they have. */
+  format?: SerialFormat;
+  spans: Span[];
+}
+
+export interface Spans {
+  from_ns: number;
+  to_ns: number;
+  interrupted?: boolean;
+  left_out?: string[];
+  tracks: SpanTrack[];
+}
+
+/** `who`, `why`: in words, and the instruction if it was one. */
+export interface Cause {
+  text?: string;
+  routine?: string;
+  op?: number;
+  name?: string;
+  value?: number | boolean;
+  causes?: unknown[];
+}
+
+/** Why a run came to its end. */
+export interface Stopped {
+  stopped: 'goal' | 'stop point' | 'answer' | 'limit' | 'request' | 'CPU' | 'oldest';
+}
+
+/** A mistake or warning as `check` says it. */
+export interface Diagnostic {
+  severity: 'error' | 'warning';
+  file?: string;
+  section?: string;
+  line: number;
+  column: number;
+  length: number;
+  message: string;
+  hint: string;
+  name: string;
+}
+
+export interface Source {
+  name: string;
+  text: string;
+}
+
+export interface Opened {
+  diagnostics: Diagnostic[];
+  text: string;
+  opened: boolean;
+}

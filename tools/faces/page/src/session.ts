@@ -1,0 +1,256 @@
+// What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
+import { changed, notice, state, the_engine } from './state';
+import type { Line, Notification, Outline, Past, Reply, Status, Value } from './protocol';
+import { is_one_word, query_of } from './formats';
+import { moment_of_link, moment_word } from './words';
+
+/** Something that is seen: asked for again as soon as it may differ, one question at a time. */
+export class Seen {
+  private asking = false;
+  private stale = false;
+
+  constructor(private readonly ask: () => Promise<void>) {}
+
+  refresh(): void {
+    this.stale = true;
+    if (!this.asking) void this.go();
+  }
+
+  private async go(): Promise<void> {
+    this.asking = true;
+    try {
+      while (this.stale) {
+        this.stale = false;
+        await this.ask();
+      }
+    } finally {
+      this.asking = false;
+    }
+    changed();
+  }
+}
+
+/** Carries out a command, and says what is wrong with it. */
+export async function command<Json = unknown>(line: string): Promise<Reply<Json>> {
+  const reply = await the_engine().command<Json>(line);
+  if (reply.error !== undefined) notice(reply.error, 'error');
+  return reply;
+}
+
+/** The same without a word: queries of what may not be there. */
+export function query<Json>(line: string): Promise<Reply<Json>> {
+  return the_engine().command<Json>(line);
+}
+
+const kChunk = 200;  // lines of the program that are asked for at once
+const chunks = new Set<number>();
+let seen_lines: [number, number] = [1, 60];
+
+/** The lines of the program around that one, unless they are here. */
+export async function fetch_chunk_of(line: number): Promise<void> {
+  const chunk = Math.floor(line / kChunk);
+  if (!state.outline || chunks.has(chunk)) return;
+  chunks.add(chunk);
+  const from = Math.max(1, chunk * kChunk);
+  const to = Math.min(state.outline.lines, (chunk + 1) * kChunk - 1);
+  if (from > to) return;
+  const reply = await query<{ text: Line[] }>(`listing ${from} ${to}`);
+  if (reply.json) for (const one of reply.json.text) state.lines.set(one.line, one);
+  else chunks.delete(chunk);
+}
+
+async function fetch_lines(): Promise<void> {
+  for (let line = seen_lines[0]; line < seen_lines[1] + kChunk; line += kChunk) await fetch_chunk_of(Math.min(line, seen_lines[1]));
+}
+
+async function fetch_status(): Promise<void> {
+  if (!state.outline) return;
+  const reply = await query<Status>(`status ${seen_lines[0]} ${Math.min(seen_lines[1], state.outline.lines)}`);
+  if (reply.json) state.executions = new Map(reply.json.lines.map((one) => [one.op, one]));
+}
+
+const lines = new Seen(fetch_lines);
+const status = new Seen(fetch_status);
+
+/** The program pane shows these lines of the program. */
+export function see_lines(first: number, last: number): void {
+  if (first === seen_lines[0] && last === seen_lines[1]) return;
+  seen_lines = [first, last];
+  lines.refresh();
+  status.refresh();
+}
+
+/** All addresses that are shown somewhere, each once, as they are asked for. */
+function asked_addresses(): string[] {
+  const all = state.chart.map((row) => query_of(row.address, row.format))
+    .concat(state.inputs.map((row) => row.address), state.outputs);
+  return [...new Set(all.filter(is_one_word))];
+}
+
+const kSamples = 300;
+
+function keep_sample(name: string, at_ns: number, number: number): void {
+  let samples = state.samples.get(name);
+  if (!samples) state.samples.set(name, (samples = []));
+  while (samples.length > 0 && samples[samples.length - 1]!.at_ns >= at_ns) samples.pop();
+  samples.push({ at_ns, number });
+  if (samples.length > kSamples) samples.shift();
+}
+
+async function fetch_values(): Promise<void> {
+  const asked = asked_addresses();
+  if (asked.length === 0) return;
+  const reply = await query<{ at_ns: number; values: Value[] }>(`values ${asked.join(' ')}`);
+  if (!reply.json) return;
+  const { at_ns, values } = reply.json;
+  state.values = new Map();
+  values.forEach((value, i) => {
+    const name = asked[i]!;
+    state.values.set(name, value);
+    if (value.error === undefined) keep_sample(name, at_ns, Number(value.number));
+  });
+}
+
+const values = new Seen(fetch_values);
+export function see_values(): void {
+  values.refresh();
+}
+
+/** The breakpoints and watches as the session has them. */
+interface Stops {
+  stops: { number: number; kind: 'break' | 'watch'; text: string; hits: number; line?: number; op?: number }[];
+}
+const stops = new Seen(async () => {
+  const reply = await query<Stops>('break');
+  if (!reply.json) return;
+  state.breakpoints = new Map();
+  for (const stop of reply.json.stops) if (stop.line !== undefined) state.breakpoints.set(stop.line, stop.number);
+});
+
+/** Mode and errors, which commands change without going elsewhere. */
+const past = new Seen(async () => {
+  const reply = await query<Past>('past');
+  if (reply.json) state.past = reply.json;
+});
+
+/** What else is asked for when the session has moved: panes add themselves. */
+const others: Seen[] = [];
+export function also_seen(seen: Seen): void {
+  others.push(seen);
+}
+
+function refresh_all(): void {
+  status.refresh();
+  values.refresh();
+  others.forEach((one) => one.refresh());
+}
+
+/** The program's outline: first of all, and whenever another PLC is looked at. */
+async function get_acquainted(): Promise<void> {
+  chunks.clear();
+  state.lines.clear();
+  state.executions.clear();
+  const reply = await query<Outline>('listing');
+  if (reply.json) {
+    state.outline = reply.json;
+    propose_points(reply.json);
+  }
+  lines.refresh();
+  stops.refresh();
+  refresh_all();
+}
+
+/** The moment that the address of the page names, once there is a session. */
+async function follow_link(): Promise<void> {
+  const asked = moment_of_link(location.hash);
+  if (asked !== undefined && asked !== state.past?.now_ns) await go_to(asked);
+}
+
+/** The inputs and outputs that the program's symbols or the first bytes of the CPU have, as switches and lamps. */
+function propose_points(outline: Outline): void {
+  if (state.inputs.length > 0 || state.outputs.length > 0) return;
+  const first_byte = (area: string): string[] => Array.from({ length: 8 }, (_, bit) => `${area}0.${bit}`);
+  const named = (area: string): string[] =>
+    outline.symbols.map((one) => one.address.toUpperCase()).filter((address) => new RegExp(`^${area}\\d+\\.\\d$`).test(address));
+  const points = (area: string): string[] => [...new Set([...first_byte(area), ...named(area)])];
+  state.inputs = points('I').map((address) => ({ address, push: false }));
+  state.outputs = points('Q');
+}
+
+export function notified(note: Notification): void {
+  switch (note.event) {
+    case 'hello':
+      state.hello = note;
+      state.past = note.now;
+      void get_acquainted().then(follow_link);
+      break;
+    case 'moved':
+      if (note.by !== '' && !state.own_run) state.running = false;
+      came_to(note.now);
+      break;
+    case 'changed':
+      past.refresh();
+      stops.refresh();
+      refresh_all();
+      break;
+    case 'running':
+      state.running = true;
+      break;
+    case 'printed':
+      print(note.text);
+      break;
+    case 'ended':
+      state.why_ended = note.why;
+      state.connection = 'ended';
+      break;
+  }
+  changed();
+}
+
+const kPrinted = 500;
+/** Where it stands and the next instruction are shown elsewhere. */
+const kShownElsewhere = /^\s*$|^ *> |^\d+\.\d+ ms  scan \d+/;
+
+export function print(text: string): void {
+  state.printed.push(...text.split('\n').filter((line) => !kShownElsewhere.test(line)));
+  if (state.printed.length > kPrinted) state.printed.splice(0, state.printed.length - kPrinted);
+  changed();
+}
+
+function came_to(now: Past): void {
+  const other_program = state.past?.station !== now.station;
+  state.past = now;
+  if (other_program) void get_acquainted();
+  else refresh_all();
+  changed();
+}
+
+/** Looks at another PLC of a system. */
+export async function look_at(station: string): Promise<void> {
+  await command(`station ${station}`);
+  const reply = await query<Past>('past');
+  if (reply.json) came_to(reply.json);
+}
+
+/** Carries out something that moves the session; what it says is shown where it stops. */
+export async function move(line: string): Promise<Reply> {
+  state.running = true;
+  state.notice = null;
+  changed();
+  const reply = await command(line);
+  state.running = false;
+  changed();
+  return reply;
+}
+
+/** A moment that has not been yet is run to. */
+export async function go_to(ns: number): Promise<void> {
+  const newest = state.past?.newest_ns ?? 0;
+  const wanted = Math.max(0, Math.round(ns));
+  if (wanted <= newest) {
+    await move(`at ${moment_word(wanted)}`);
+    return;
+  }
+  if (state.past?.in_the_past) await move('at end');
+  await move(`continue ${moment_word(wanted - newest)}`);
+}

@@ -1,0 +1,167 @@
+// All that the page shows, as plain data. Who changes it says changed(), and the page is rendered with the next frame.
+import type { Connection, Engine } from './engine';
+import type { Cause, Diagnostic, Execution, Hello, Line, Outline, Past, Source, Span, Spans, Value } from './protocol';
+
+export type PaneName = 'program' | 'chart' | 'timeline' | 'causes' | 'line';
+export type Theme = 'system' | 'light' | 'dark';
+
+/** A row of the status chart. */
+export interface ChartRow {
+  address: string;
+  format: Format;
+  new_value: string;
+}
+export type Format = 'signed' | 'unsigned' | 'hex' | 'binary' | 'ascii' | 'real';
+
+/** How a switch works: it stays where it is put, or returns when it is let go. */
+export interface PointRow {
+  address: string;
+  push: boolean;
+}
+
+/** A step of the trail that leads to a cause. */
+export interface TrailStep {
+  question: string;
+  at_ns: number;
+  text: string;
+  cause: Cause | null;
+}
+
+/** A menu about an address, at a place of the window. */
+export interface Menu {
+  x: number;
+  y: number;
+  address: string;
+  op: number | null;
+}
+
+export interface State {
+  connection: Connection;
+  why_ended: string;
+  hello: Hello | null;
+  past: Past | null;
+  running: boolean;
+  /** It is this page that runs it, piece by piece. */
+  own_run: boolean;
+  /** Simulated seconds a second; 0: as fast as it goes. */
+  pace: number;
+  notice: { text: string; kind: 'info' | 'error' } | null;
+  dialog: 'help' | 'about' | null;
+  menu: Menu | null;
+  theme: Theme;
+  /** Which pane a narrow window shows. */
+  pane: PaneName;
+  /** Which of those that share the right side is in front. */
+  side: 'chart' | 'causes' | 'line';
+
+  outline: Outline | null;
+  lines: Map<number, Line>;
+  executions: Map<number, Execution>;
+  view: 'stl' | 'ladder';
+  selected_line: number | null;
+  follow: boolean;
+  breakpoints: Map<number, number>;
+
+  chart: ChartRow[];
+  inputs: PointRow[];
+  outputs: string[];
+  /** Where this page has put switches: the program finds that when it next reads its inputs. */
+  switched: Map<string, { level: number; at_ns: number; scan: number }>;
+  values: Map<string, Value>;
+  samples: Map<string, { at_ns: number; number: number }[]>;
+
+  window: { from_ns: number; to_ns: number } | null;
+  spans: Spans | null;
+  cursors: { a_ns: number | null; b_ns: number | null };
+  watched: string[];
+  selected_span: Span | null;
+
+  trail: TrailStep[];
+  printed: string[];
+  exchanges: Spans | null;
+  send_text: string;
+
+  /** Of the playground: the files, the PLC type that was chosen, and what check said. */
+  sources: Source[];
+  cpu: string;
+  opening: boolean;
+  diagnostics: Diagnostic[];
+  check_text: string;
+}
+
+export const state: State = {
+  connection: 'connecting',
+  why_ended: '',
+  hello: null,
+  past: null,
+  running: false,
+  own_run: false,
+  pace: 1,
+  notice: null,
+  dialog: null,
+  menu: null,
+  theme: 'system',
+  pane: 'program',
+  side: 'chart',
+  outline: null,
+  lines: new Map(),
+  executions: new Map(),
+  view: 'stl',
+  selected_line: null,
+  follow: true,
+  breakpoints: new Map(),
+  chart: [],
+  inputs: [],
+  outputs: [],
+  switched: new Map(),
+  values: new Map(),
+  samples: new Map(),
+  window: null,
+  spans: null,
+  cursors: { a_ns: null, b_ns: null },
+  watched: [],
+  selected_span: null,
+  trail: [],
+  printed: [],
+  exchanges: null,
+  send_text: '',
+  sources: [],
+  cpu: '',
+  opening: false,
+  diagnostics: [],
+  check_text: '',
+};
+
+let engine: Engine | undefined;
+export function use_engine(one: Engine): void {
+  engine = one;
+}
+export function the_engine(): Engine {
+  return engine!;
+}
+
+let render_page: () => void = () => {};
+let asked = false;
+export function on_change(render: () => void): void {
+  render_page = render;
+}
+export function changed(): void {
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(() => {
+    asked = false;
+    render_page();
+  });
+}
+
+/** Brings a pane to the front. */
+export function show_pane(pane: PaneName): void {
+  state.pane = pane;
+  if (pane === 'chart' || pane === 'causes' || pane === 'line') state.side = pane;
+  changed();
+}
+
+export function notice(text: string, kind: 'info' | 'error' = 'info'): void {
+  state.notice = text === '' ? null : { text, kind };
+  changed();
+}

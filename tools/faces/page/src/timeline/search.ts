@@ -1,0 +1,86 @@
+// Searches through the past: the nearest trouble, the next request without an answer, the longest answer.
+import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
+import { notice, state } from '../state';
+import { duration_text } from '../words';
+import { show_found, spans_between } from './view';
+import type { Span } from '../protocol';
+
+function has_trouble(span: Span): boolean {
+  return span.error !== undefined || (span.errors ?? 0) > 0;
+}
+
+/** The nearest element with trouble; where several are one, it looks into them. */
+async function find(from_ns: number, to_ns: number, direction: 1 | -1): Promise<Span | null> {
+  const spans = await spans_between(from_ns, to_ns);
+  const found = (spans?.tracks ?? []).flatMap((track) => track.spans.filter(has_trouble))
+    .filter((span) => span.at_ns >= from_ns && span.at_ns < to_ns || (span.count ?? 1) > 1)
+    .sort((a, b) => direction * (a.at_ns - b.at_ns));
+  for (const one of found) {
+    if ((one.count ?? 1) <= 1) return one;
+    const first = Math.max(from_ns, one.at_ns), last = Math.min(to_ns, one.end_ns + 1);
+    if (last - first >= to_ns - from_ns) continue;
+    const inside = await find(first, last, direction);
+    if (inside) return inside;
+  }
+  return null;
+}
+
+export async function find_error(direction: 1 | -1): Promise<void> {
+  const past = state.past;
+  if (!past) return;
+  const [from, to] = direction > 0 ? [past.now_ns + 1, past.newest_ns + 1] : [past.oldest_ns, past.now_ns];
+  const found = to > from ? await find(from, to, direction) : null;
+  if (!found) {
+    notice(direction > 0 ? 'No lost character or error after this moment' : 'No lost character or error before this moment');
+    return;
+  }
+  state.selected_span = found;
+  await show_found(found);
+}
+
+const kFirstPart = 2e9, kLongestPart = 600e9;  // ns that are looked through at once
+const kMostElements = 20000;
+
+/** All exchanges after `from`, part by part: shorter parts where there are more frames than a reply can have. */
+async function* exchanges_after(from: number): AsyncGenerator<Exchange[]> {
+  const newest = state.past?.newest_ns ?? 0;
+  for (let length = kFirstPart; from < newest;) {
+    const to = Math.min(newest, from + length);
+    const spans = await spans_between(from, to, kMostElements);
+    if (!spans) return;
+    if (spans.tracks.some((track) => track.kind === 'frames' && !track.exact)) {
+      length /= 4;
+      continue;
+    }
+    const all = exchanges_of(spans, to);
+    const cut = to < newest ? all.findIndex((one) => one.pending) : -1;
+    yield cut < 0 ? all : all.slice(0, cut);
+    from = cut < 0 ? to : Math.max(from + 1, all[cut]!.at_ns - 1);
+    length = Math.min(2 * length, kLongestPart);
+  }
+}
+
+export async function find_unanswered(): Promise<void> {
+  for await (const part of exchanges_after((state.past?.now_ns ?? 0) + 1)) {
+    const found = part.find(is_unanswered);
+    if (found) return show_found(found);
+  }
+  notice('No unanswered request after this moment');
+}
+
+export async function find_longest(): Promise<void> {
+  let longest: Exchange | undefined, count = 0;
+  for await (const part of exchanges_after(state.past?.oldest_ns ?? 0)) {
+    for (const one of part) {
+      if (one.latency_ns === undefined) continue;
+      ++count;
+      if (one.latency_ns > (longest?.latency_ns ?? 0)) longest = one;
+    }
+  }
+  if (!longest) {
+    notice('There is no answer yet');
+    return;
+  }
+  await show_found(longest);
+  notice(`The longest of ${count} answers: after ${duration_text(longest.latency_ns!)}, to ${longest.request}`);
+}

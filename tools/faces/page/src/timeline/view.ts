@@ -1,0 +1,141 @@
+// Which part of the past the timeline shows, and what it asks for: a little more than the window, so that moving it is smooth.
+import { also_seen, go_to, query, Seen } from '../session';
+import { changed, show_pane, state } from '../state';
+import { is_one_word } from '../formats';
+import { moment_word } from '../words';
+import type { Spans } from '../protocol';
+
+const kElements = 3000;
+const kLeastWindow = 2000;  // ns
+const kFirstWindow = 200e6;
+
+/** Whether the window goes along with the present. */
+let goes_along = true;
+
+export function window_of(): { from_ns: number; to_ns: number } {
+  if (state.window) return state.window;
+  const newest = state.past?.newest_ns ?? 0;
+  return { from_ns: Math.max(state.past?.oldest_ns ?? 0, newest - kFirstWindow), to_ns: Math.max(newest, 1e6) };
+}
+
+export async function spans_between(from_ns: number, to_ns: number, elements = kElements, watched: string[] = []): Promise<Spans | null> {
+  const words = [moment_word(from_ns), moment_word(to_ns), String(elements), ...watched.filter(is_one_word)];
+  return (await query<Spans>(`spans ${words.join(' ')}`)).json;
+}
+
+const kRest = 150;  // ms between two questions while it runs, so that the run goes on meanwhile
+
+const seen = new Seen(async () => {
+  if (state.running) await new Promise((done) => setTimeout(done, kRest));
+  const past = state.past;
+  if (!past || !state.outline) return;
+  const { from_ns, to_ns } = window_of();
+  const length = to_ns - from_ns;
+  const first = Math.max(past.oldest_ns, from_ns - length / 4), last = Math.min(past.newest_ns, to_ns + length / 4);
+  if (last <= first) return;
+  const spans = await spans_between(first, last, kElements, state.watched);
+  if (spans) state.spans = spans;
+});
+
+const kExchanges = 60e9;  // ns before the present whose exchanges are listed
+
+const exchanges = new Seen(async () => {
+  if (state.running) await new Promise((done) => setTimeout(done, 3 * kRest));
+  const past = state.past;
+  if (!past || past.newest_ns === 0) return;
+  const spans = await spans_between(Math.max(past.oldest_ns, past.now_ns - kExchanges), past.newest_ns, 20000);
+  if (spans) state.exchanges = spans;
+});
+let exchanges_of_ns = -1;
+
+/** The line pane shows the exchanges before this moment; it asks again when that is another one. */
+export function see_exchanges(): void {
+  const now = state.past?.now_ns ?? 0;
+  if (now === exchanges_of_ns) return;
+  exchanges_of_ns = now;
+  exchanges.refresh();
+}
+
+export function start_timeline(): void {
+  also_seen(new Seen(async () => {
+    if (goes_along) follow_present();
+    seen.refresh();
+  }));
+}
+
+/** The present stays in view: at the right end while it is new, in the middle after a jump. */
+function follow_present(): void {
+  const past = state.past;
+  if (!past) return;
+  const { from_ns, to_ns } = window_of();
+  const length = to_ns - from_ns, now = past.now_ns;
+  if (now > to_ns || now < from_ns) {
+    const from = Math.max(0, past.in_the_past ? now - length / 2 : now - length * 0.9);
+    state.window = { from_ns: from, to_ns: from + length };
+  }
+}
+
+function show(from_ns: number, to_ns: number): void {
+  const newest = Math.max(state.past?.newest_ns ?? 0, 1e6);
+  const length = Math.min(Math.max(kLeastWindow, to_ns - from_ns), newest * 1.2);
+  const from = Math.min(Math.max(-length * 0.05, from_ns), newest - length * 0.1);
+  state.window = { from_ns: from, to_ns: from + length };
+  const now = state.past?.now_ns ?? 0;
+  goes_along = now >= from && now <= from + length;
+  seen.refresh();
+  changed();
+}
+
+/** Around the present, or around `ns`, which keeps its place. */
+export function zoom_by(factor: number, ns?: number): void {
+  const { from_ns, to_ns } = window_of();
+  const now = state.past?.now_ns ?? 0;
+  const fixed = ns ?? (now >= from_ns && now <= to_ns ? now : (from_ns + to_ns) / 2);
+  show(fixed - (fixed - from_ns) * factor, fixed + (to_ns - fixed) * factor);
+}
+
+export function move_by(part: number): void {
+  const { from_ns, to_ns } = window_of();
+  const length = to_ns - from_ns;
+  show(from_ns + part * length, to_ns + part * length);
+}
+
+export function move_to(from_ns: number): void {
+  const window = window_of();
+  show(from_ns, from_ns + window.to_ns - window.from_ns);
+}
+
+export function show_all(): void {
+  show(state.past?.oldest_ns ?? 0, state.past?.newest_ns ?? 0);
+}
+
+export function set_cursor(which: 'a' | 'b', ns = state.past?.now_ns ?? 0): void {
+  if (which === 'a') state.cursors.a_ns = ns;
+  else state.cursors.b_ns = ns;
+  changed();
+}
+
+export function clear_cursors(): void {
+  state.cursors = { a_ns: null, b_ns: null };
+  changed();
+}
+
+export function watch_address(address: string): void {
+  if (!state.watched.includes(address)) state.watched.push(address);
+  show_pane('timeline');
+  seen.refresh();
+}
+
+export function unwatch(address: string): void {
+  state.watched = state.watched.filter((one) => one !== address);
+  seen.refresh();
+  changed();
+}
+
+/** Goes to what was found; it comes into view. */
+export async function show_found(found: { at_ns: number; end_ns: number }): Promise<void> {
+  goes_along = true;
+  await go_to(found.at_ns);
+  const { from_ns, to_ns } = window_of();
+  if (found.at_ns < from_ns || found.end_ns > to_ns) move_to(found.at_ns - (to_ns - from_ns) / 2);
+}

@@ -1,0 +1,51 @@
+// Times and numbers as people read and type them.
+
+const kMs = 1e6;
+const kSecond = 1e9;
+
+function fraction(value: number, digits: number): string {
+  return value.toFixed(digits);
+}
+
+/** `102.605583 ms`, from 100 s on `123.456789 s`: down to the nanosecond or microsecond. */
+export function moment_text(ns: number): string {
+  return ns < 100 * kSecond ? `${fraction(ns / kMs, 6)} ms` : `${fraction(ns / kSecond, 6)} s`;
+}
+
+/** A moment as a command takes it, without rounding. */
+export function moment_word(ns: number): string {
+  return `${Math.round(ns)}ns`;
+}
+
+/** `1.234 ms`: three or four digits that say something, in the unit that fits. */
+export function duration_text(ns: number): string {
+  const size = Math.abs(ns);
+  const [unit, name] = size < 1e3 ? [1, 'ns'] : size < 1e6 ? [1e3, 'µs'] : size < kSecond ? [kMs, 'ms']
+    : size < 60 * kSecond ? [kSecond, 's'] : size < 3600 * kSecond ? [60 * kSecond, 'min'] : [3600 * kSecond, 'h'];
+  return `${trimmed(ns / unit)} ${name}`;
+}
+
+function trimmed(value: number): string {
+  const text = value.toPrecision(6);
+  return text.includes('.') && !text.includes('e') ? text.replace(/\.?0+$/, '') : String(Number(text));
+}
+
+const kUnits: Record<string, number> = { ns: 1, us: 1e3, µs: 1e3, ms: kMs, s: kSecond, min: 60 * kSecond, h: 3600 * kSecond };
+
+/** The nanoseconds of `15.193ms`, `2 s`, `1h`; undefined if it is not a time. */
+export function moment_from(text: string): number | undefined {
+  const parts = /^\s*(\d+(?:[.,]\d+)?)\s*(ns|us|µs|ms|s|min|h)\s*$/i.exec(text);
+  if (!parts) return undefined;
+  return Math.round(Number(parts[1]!.replace(',', '.')) * kUnits[parts[2]!.toLowerCase()]!);
+}
+
+/** The moment of `#t=15.193ms`. */
+export function moment_of_link(hash: string): number | undefined {
+  const parts = /[#&]t=([^&]+)/.exec(hash);
+  return parts ? moment_from(decodeURIComponent(parts[1]!)) : undefined;
+}
+
+export function link_of(ns: number): string {
+  const text = ns % kMs === 0 ? `${ns / kMs}ms` : ns % 1e3 === 0 ? `${(ns / kMs).toFixed(3)}ms` : `${(ns / kMs).toFixed(6)}ms`;
+  return `#t=${text}`;
+}
