@@ -51,6 +51,7 @@ needed_to_test=(
   zsh:zsh
   pytest-3:python3-pytest
   /usr/lib/python3/dist-packages/yaml:python3-yaml
+  chromium:chromium
   node:nodejs
   npm:npm
   clang++-19:clang-19

@@ -1,0 +1,100 @@
+// The status chart: values in formats, new values, force, switches and lamps.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { browser, end, open, picture, view } from './support.mjs';
+
+const kPump = ['tests/exports/pump.awl', 'tests/exports/pump_symbols.txt', 'tests/exports/pump_data.txt'];
+let chrome, plc, page;
+before(async () => {
+  [chrome, plc] = await Promise.all([browser(), view(...kPump)]);
+  page = await open(chrome, plc.address);
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+});
+after(async () => {
+  await chrome?.close();
+  await end(plc.server);
+});
+
+const current = (n) => page.locator('.chart tbody tr:not(.new)').nth(n).locator('.current');
+async function add(address) {
+  await page.fill('#add-address', address);
+  await page.press('#add-address', 'Enter');
+}
+async function shows(n, text) {
+  await page.waitForFunction(([n, text]) => document.querySelectorAll('.chart tbody tr:not(.new)')[n]?.querySelector('.current')?.textContent.trim() === text, [n, text]);
+}
+
+test('addresses and symbols have their values, in the format that is chosen', async () => {
+  await add('Longest_Run');
+  await shows(0, '300');
+  const formats = { hex: '16#012C', binary: '2#0000_0001_0010_1100', unsigned: '300', ascii: "'.,'" };
+  for (const [format, text] of Object.entries(formats)) {
+    await page.locator('.chart .format select').first().selectOption(format);
+    await shows(0, text);
+  }
+  await page.locator('.chart .format select').first().selectOption('signed');
+  await add('Pump');
+  await shows(1, '2#0');
+  await add('VD210');
+  await page.locator('.chart .format select').nth(1).selectOption('real');
+  await shows(2, '3.14');
+  await add('NoSuchThing');
+  await page.waitForFunction(() => document.querySelectorAll('.chart .wrong').length === 1);
+});
+
+test('a new value is written with Enter', async () => {
+  await page.locator('.new-value').first().fill('-5');
+  await page.locator('.new-value').first().press('Enter');
+  await shows(0, '-5');
+});
+
+test('Write all writes every new value', async () => {
+  await page.locator('.new-value').first().fill('16#0010');
+  await page.locator('.new-value').nth(2).fill('2.5');
+  await page.click('text=Write all');
+  await shows(0, '16');
+  await shows(2, '2.5');
+});
+
+test('a switch is an input: the pump runs while the lamp says so', async () => {
+  await page.click('[aria-label^="Input I0.1"]');
+  await page.click('[aria-label^="Input I0.0"]');
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+  await page.waitForSelector('[aria-label="Input I0.0 Level_High"][aria-checked=true]');
+  await page.click('[aria-label^="Input I0.1"]');
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+  await page.waitForSelector('[aria-label="Output Q0.0 on"]');
+  await picture(page, 'chart_running');
+});
+
+test('a push button is on as long as it is pressed', async () => {
+  await page.click('[aria-label^="Input I0.7"]', { button: 'right' });
+  const button = page.locator('[aria-label^="Input I0.7"]');
+  await button.hover();
+  await page.mouse.down();
+  await page.waitForSelector('[aria-label^="Input I0.7"][aria-checked=true]');
+  await page.mouse.up();
+  await page.waitForSelector('[aria-label^="Input I0.7"][aria-checked=false]');
+});
+
+test('what is forced has its mark and colour until it is released', async () => {
+  await page.locator('.new-value').nth(1).fill('0');
+  await page.click('[aria-label="Force Pump"]');
+  await page.waitForSelector('tr.forced');
+  await page.click('#do-scan');
+  await page.waitForSelector('[aria-label="Output Q0.0 off, forced"]');
+  await picture(page, 'chart_forced');
+  await page.click('text=Unforce all');
+  await page.waitForSelector('tr.forced', { state: 'detached' });
+});
+
+test('the chart is there again after the page was loaded anew', async () => {
+  await page.reload();
+  await page.waitForSelector('.connection.connected');
+  await shows(0, '16');
+  assert.equal(await page.locator('.chart tbody tr:not(.new)').count(), 4);
+  assert.deepEqual(page.troubles, []);
+});

@@ -1,0 +1,146 @@
+// The frame: toolbar, keys, help, lamps, and what is said when the connection is lost.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { browser, end, kPhone, moment, open, picture, view } from './support.mjs';
+
+const kPump = ['tests/exports/pump.awl', 'tests/exports/pump_symbols.txt', 'tests/exports/pump_data.txt'];
+let chrome, plc;
+before(async () => { [chrome, plc] = await Promise.all([browser(), view(...kPump)]); });
+after(async () => { await chrome?.close(); await end(plc.server); });
+
+test('the page shows the program, the mode of the CPU and the moment', async () => {
+  const page = await open(chrome, plc.address);
+  assert.match(await page.textContent('.status-bar'), /pump\.awl · CPU 2/);
+  assert.equal(await page.getAttribute('.lamp.run', 'aria-label'), 'RUN lamp on');
+  assert.equal(await moment(page), 0);
+  await picture(page, 'frame_light');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('steps go forwards and backwards, by buttons and by keys', async () => {
+  const page = await open(chrome, plc.address);
+  await page.keyboard.press('Home');
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+  await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 2');
+  const later = await moment(page);
+  assert.ok(later > 0);
+  await page.keyboard.press('Shift+S');
+  await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 1');
+  assert.ok(await moment(page) < later);
+  assert.equal(await page.textContent('.tag'), 'past');
+  await page.keyboard.press('End');
+  await page.waitForSelector('.tag.now');
+  await page.keyboard.press('.');
+  await page.waitForFunction((before) => parseFloat(document.querySelector('#moment').value) > before, later);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('Run follows the clock at the pace that is chosen, and Space pauses it', async () => {
+  const page = await open(chrome, plc.address);
+  await page.keyboard.press('End');
+  const began = await moment(page);
+  await page.selectOption('#pace', '10');
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Pause');
+  await page.waitForFunction((before) => parseFloat(document.querySelector('#moment').value) > before + 500, began);
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  const paused = await moment(page);
+  await page.waitForTimeout(200);
+  assert.equal(await moment(page), paused);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('a moment that is typed is gone to, and what is not a time is said', async () => {
+  const page = await open(chrome, plc.address);
+  await page.keyboard.press('g');
+  await page.keyboard.type('5 ms');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => Math.abs(parseFloat(document.querySelector('#moment').value) - 5) < 0.2);
+  await page.keyboard.press('g');
+  await page.keyboard.type('soon');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('.notice.error');
+  assert.match(await page.textContent('.notice.error'), /'soon' is not a time/);
+  await page.close();
+});
+
+test('an address with a moment opens at that moment', async () => {
+  const page = await open(chrome, `${plc.address}#t=7ms`);
+  await page.waitForFunction(() => Math.abs(parseFloat(document.querySelector('#moment').value) - 7) < 1);
+  await page.keyboard.press('l');
+  await page.waitForSelector('.notice.info');
+  assert.match(page.url(), /#t=\d+\.\d+ms$/);
+  await page.close();
+});
+
+test('the help lists each key once, and Escape closes it', async () => {
+  const page = await open(chrome, plc.address);
+  await page.keyboard.press('?');
+  await page.waitForSelector('[role=dialog]');
+  const keys = await page.$$eval('.dialog kbd', (all) => all.map((one) => one.textContent));
+  assert.equal(new Set(keys).size, keys.length);
+  await picture(page, 'frame_help');
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('[role=dialog]', { state: 'detached' });
+  await page.close();
+});
+
+test('controls have names for screen readers', async () => {
+  const page = await open(chrome, plc.address);
+  const nameless = await page.$$eval('button, input, select', (all) => all
+    .filter((one) => !one.hidden && !(one.getAttribute('aria-label') || one.textContent.trim() || one.title))
+    .map((one) => one.outerHTML));
+  assert.deepEqual(nameless, []);
+  await page.close();
+});
+
+test('the mode switch stops the CPU and starts it', async () => {
+  const page = await open(chrome, plc.address);
+  await page.click('#do-mode-stop');
+  await page.waitForSelector('.lamp.stop.on');
+  await page.click('#do-mode-run');
+  await page.waitForSelector('.lamp.run.on');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('dark, and a phone shows one pane at a time', async () => {
+  const dark = await open(chrome, plc.address, { colorScheme: 'dark' });
+  await picture(dark, 'frame_dark');
+  await dark.close();
+  const phone = await open(chrome, plc.address, { viewport: kPhone });
+  assert.equal(await phone.isVisible('.timeline'), false);
+  await phone.click('.pane-tabs >> text=Timeline');
+  await phone.waitForSelector('.timeline', { state: 'visible' });
+  assert.equal(await phone.isVisible('.program'), false);
+  const wider = await phone.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+  assert.equal(wider, false);
+  await picture(phone, 'frame_phone');
+  await phone.close();
+});
+
+test('a lost connection is said, and so is its return', async () => {
+  let allowed = true, socket;
+  const prepare = (page) => page.routeWebSocket(/socket/, (one) => {
+    if (!allowed) return one.close();
+    socket = one;
+    one.connectToServer();
+  });
+  const page = await open(chrome, plc.address, { prepare });
+  allowed = false;
+  await socket.close();
+  await page.waitForSelector('.notice.error');
+  assert.match(await page.textContent('.notice.error'), /connection to s7200 is lost/);
+  await picture(page, 'frame_lost');
+  allowed = true;
+  await page.waitForSelector('.connection.connected');
+  await page.waitForSelector('.notice.error', { state: 'detached' });
+  await page.close();
+});

@@ -1,0 +1,97 @@
+// The page's own reckoning, without a browser: moments, formats, exchanges, scales, addresses with a program in them.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { test } from 'node:test';
+
+const kParts = ['words', 'formats', 'exchanges', 'files', 'timeline/scale'];
+const source = kParts.map((one) => `export * from './${one}';`).join('\n');
+const bundle = execFileSync('esbuild', ['--bundle', '--format=esm', '--platform=neutral'],
+  { input: source, cwd: path.join(process.env.SOURCE, 'tools/faces/page/src'), encoding: 'utf8' });
+const folder = mkdtempSync(path.join(os.tmpdir(), 'page-'));
+writeFileSync(path.join(folder, 'parts.mjs'), bundle);
+const parts = await import(path.join(folder, 'parts.mjs'));
+rmSync(folder, { recursive: true });
+
+test('moments are read in every unit that a command takes, and written so that none is rounded', () => {
+  const read = { '15.193ms': 15193000, '2 s': 2e9, '1h': 3600e9, '20 min': 1200e9, '7,5ms': 7500000, '250us': 250000, '5ns': 5 };
+  for (const [text, ns] of Object.entries(read)) assert.equal(parts.moment_from(text), ns, text);
+  for (const text of ['', '5', 'ms', '-1ms', '1 day']) assert.equal(parts.moment_from(text), undefined, text);
+  assert.equal(parts.moment_text(102605583), '102.605583 ms');
+  assert.equal(parts.moment_text(123456789000), '123.456789 s');
+  assert.equal(parts.moment_word(102605583), '102605583ns');
+  for (const ns of [0, 1, 15193000, 102605583, 86400e9]) assert.equal(parts.moment_of_link(parts.link_of(ns)), ns);
+  assert.equal(parts.moment_of_link('#p=abc&t=5ms'), 5000000);
+  assert.equal(parts.moment_of_link('#other'), undefined);
+});
+
+test('durations are said in the unit that fits', () => {
+  const said = { 0: '0 ns', 3200: '3.2 µs', 20830000: '20.83 ms', 1500000000: '1.5 s', 90000000000: '1.5 min' };
+  for (const [ns, text] of Object.entries(said)) assert.equal(parts.duration_text(Number(ns)), text);
+});
+
+test('a value is the same bits in every format', () => {
+  const word = { type: 'word', number: -2, text: '-2' };
+  const said = { signed: '-2', unsigned: '65534', hex: '16#FFFE', binary: '2#1111_1111_1111_1110', ascii: "'..'" };
+  for (const [format, text] of Object.entries(said)) assert.equal(parts.text_in(word, format), text);
+  assert.equal(parts.text_in({ type: 'byte', number: 200, text: '200' }, 'signed'), '200', 'a byte has no sign');
+  assert.equal(parts.text_in({ type: 'bit', number: 1, text: '1' }, 'hex'), '2#1');
+  assert.equal(parts.text_in({ type: 'real', number: 1.5, text: '1.5' }, 'hex'), '16#3FC00000');
+  assert.equal(parts.text_in({ type: 'dword', number: -1, text: '-1' }, 'hex'), '16#FFFFFFFF');
+  assert.equal(parts.query_of('VD20', 'real'), 'VD20:real');
+  assert.equal(parts.query_of('VD20', 'hex'), 'VD20');
+});
+
+test('only one word or a quoted symbol is asked for', () => {
+  for (const good of ['VW100', 'Pump', '"Level low"', '*VD4']) assert.ok(parts.is_one_word(good), good);
+  for (const bad of ['', 'VW1 VW2', 'VW1; quit', '"open', 'a"b', '//', '/x']) assert.ok(!parts.is_one_word(bad), bad);
+});
+
+const frame = (text, at_ns, end_ns, more) => ({ text, at_ns, end_ns, ...more });
+const frames = (...spans) => ({ tracks: [{ kind: 'frames', name: 'port 0 frames', exact: true, spans }] });
+
+test('an answer belongs to the request before it, and its latency counts from the end of that', () => {
+  const [one] = parts.exchanges_of(frames(frame('received 01 03', 10, 20), frame('sent 01 83', 50, 60)), 100);
+  assert.deepEqual([one.request, one.answer, one.latency_ns], ['01 03', '01 83', 30]);
+});
+
+test('a request without an answer is unanswered, unless the answer may still come', () => {
+  const spans = frames(frame('received 01', 10, 20), frame('received 02', 5e9, 5e9 + 10));
+  const early = parts.exchanges_of(spans, 5e9 + 20);
+  assert.deepEqual(early.map(parts.is_unanswered), [true, false]);
+  assert.deepEqual(parts.exchanges_of(spans, 8e9).map(parts.is_unanswered), [true, true]);
+});
+
+test('what is sent unasked is no answer', () => {
+  assert.deepEqual(parts.exchanges_of(frames(frame('sent 48 49', 10, 20)), 100), []);
+});
+
+test('the scale finds the first element that is in view', () => {
+  const all = [0, 10, 20, 30].map((at_ns) => ({ at_ns, end_ns: at_ns + 5 }));
+  assert.equal(parts.first_after(all, -1), 0);
+  assert.equal(parts.first_after(all, 12), 1);
+  assert.equal(parts.first_after(all, 15), 2);
+  assert.equal(parts.first_after(all, 99), 4);
+  const scale = { from_ns: 100, to_ns: 1100, left: 0, right: 500 };
+  assert.equal(parts.x_of(scale, 600), 250);
+  assert.equal(parts.ns_at(scale, 250), 600);
+  assert.equal(parts.step_of(scale, 100), 200);
+});
+
+test('files are read as they are encoded', () => {
+  const bytes = (...all) => Uint8Array.from(all);
+  assert.equal(parts.decoded(bytes(0xff, 0xfe, 0x4c, 0, 0x44, 0)), 'LD');
+  assert.equal(parts.decoded(bytes(0x50, 0xc3, 0xbc)), 'Pü');
+  assert.equal(parts.decoded(bytes(0x50, 0xfc)), 'Pü', 'Windows-1252, as Micro/WIN exports');
+});
+
+test('a small program fits into an address and comes back, a damaged address brings nothing', async () => {
+  const sources = [{ name: 'a.awl', text: 'LD I0.0\n= Q0.0 // ä\n' }];
+  const address = await parts.address_of(sources);
+  assert.deepEqual(await parts.sources_in(`#t=1ms&${address}`), sources);
+  assert.deepEqual(await parts.sources_in('#p=AAAA'), []);
+  const noise = Array.from({ length: 30000 }, (_, i) => (i * 2654435761 % 4294967296).toString(36)).join('');
+  assert.equal(await parts.address_of([{ name: 'a.awl', text: noise }]), undefined);
+});

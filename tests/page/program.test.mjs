@@ -1,0 +1,117 @@
+// Program status: the listing, power flow and values, breakpoints, the menu of an address.
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { browser, end, moment, open, picture, view } from './support.mjs';
+
+const kPump = ['tests/exports/pump.awl', 'tests/exports/pump_symbols.txt', 'tests/exports/pump_data.txt'];
+const kFolder = mkdtempSync(path.join(os.tmpdir(), 'page-'));
+let chrome;
+const servers = [];
+async function start(...words) {
+  const plc = await view(...words);
+  servers.push(plc.server);
+  return plc.address;
+}
+before(async () => { chrome = await browser(); });
+after(async () => {
+  await chrome?.close();
+  await Promise.all(servers.map(end));
+  rmSync(kFolder, { recursive: true });
+});
+
+const row = (page, text) => page.locator('.row', { hasText: text }).first();
+
+test('networks and comments are there, and power flow with values once it has run', async () => {
+  const page = await open(chrome, await start(...kPump));
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+  await row(page, 'Level_High').waitFor();
+  await page.waitForSelector('.row.op .flow:text-matches("[01]")');
+  assert.match(await row(page, 'Network 2').textContent(), /Pump/);
+  assert.match(await row(page, 'LD     Level_High').locator('.values').textContent(), /Level_High=0/);
+  await page.click('[aria-label^="Input I0.0"]');
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+  await page.waitForFunction(() => [...document.querySelectorAll('.row')].some((one) => /LD\s+Level_High/.test(one.textContent) && /Level_High=1/.test(one.textContent)));
+  assert.ok(await row(page, 'LD     Level_High').locator('.operand.on').count() > 0);
+  await picture(page, 'program_flow');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('a click in the margin sets a breakpoint, and the run stops there', async () => {
+  const page = await open(chrome, await start(...kPump));
+  const wanted = row(page, 'INCD');
+  await page.fill('#find', 'INCD');
+  await page.press('#find', 'Enter');
+  await wanted.waitFor();
+  await wanted.locator('.margin').click();
+  await wanted.locator('.margin.stop').waitFor();
+  await page.selectOption('#pace', '0');
+  await page.click('#do-run');
+  await page.waitForSelector('.row.here:has-text("INCD")', { timeout: 10000 });
+  assert.equal(await page.textContent('#do-run'), 'Run');
+  assert.ok(Math.abs(await moment(page) - 50) < 2, 'the timed interrupt comes each 50 ms');
+  await wanted.locator('.margin').click();
+  await page.waitForFunction(() => !document.querySelector('.margin.stop'));
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('a click on an address opens its menu, which leads to chart, who and why', async () => {
+  const page = await open(chrome, await start(...kPump));
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+  await row(page, '=      Pump').locator('.operand').click();
+  await page.click('[role=menuitem]:has-text("Add to status chart")');
+  await page.waitForSelector('.chart input.address[value], .chart tr:not(.new)');
+  await row(page, '=      Pump').locator('.operand').click();
+  await page.click('[role=menuitem]:has-text("Who wrote it last")');
+  await page.waitForSelector('.trail li');
+  assert.match(await page.textContent('.trail'), /Q0\.0/);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('texts of a program and its symbols are text, never markup', async () => {
+  const program = path.join(kFolder, 'hostile.awl');
+  const symbols = path.join(kFolder, 'symbols.txt');
+  writeFileSync(program, 'NETWORK 1 // <img src=x onerror=window.hacked=1>\nLD     "<b>bold</b>"\n=      Q0.0\nMEND\n');
+  writeFileSync(symbols, 'Symbol\tAddress\tComment\n<b>bold</b>\tI0.0\t<script>window.hacked=1</script>\n');
+  const page = await open(chrome, await start(program, symbols));
+  await row(page, 'onerror').waitFor();
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
+  assert.equal(await page.locator('.listing img, .listing b').count(), 0);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('a program of 4000 instructions scrolls, and only what is seen is made', async () => {
+  const program = path.join(kFolder, 'long.awl');
+  writeFileSync(program, Array.from({ length: 1000 }, (_, i) => `NETWORK ${i + 1} // number ${i + 1}\nLD     I0.0\nA      M${i % 30}.0\nON     SM0.0\n=      M${i % 30}.1\n`).join('') + 'MEND\n');
+  const page = await open(chrome, await start(program, '--cpu', '226'));
+  const made = await page.locator('.row').count();
+  assert.ok(made < 80, `${made} rows`);
+  const frames = await page.evaluate(() => new Promise((done) => {
+    const list = document.querySelector('.listing');
+    const gaps = [];
+    let last = performance.now(), i = 0;
+    const step = () => {
+      const now = performance.now();
+      gaps.push(now - last);
+      last = now;
+      list.scrollTop += 400;
+      if (++i < 60) requestAnimationFrame(step);
+      else done(gaps.sort((a, b) => a - b)[30]);
+    };
+    requestAnimationFrame(step);
+  }));
+  console.log(`scrolling: ${frames.toFixed(1)} ms a frame (median)`);
+  await page.evaluate(() => { document.querySelector('.listing').scrollTop = 1e6; });
+  await row(page, 'MEND').waitFor();
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});

@@ -1,0 +1,128 @@
+// The timeline and the line: tracks, zoom, cursors, searches, a request and its answer.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { browser, end, moment, open, picture, view } from './support.mjs';
+
+let chrome, plc, page;
+before(async () => {
+  [chrome, plc] = await Promise.all([browser(), view('stl_programs/modbus_slave.stl')]);
+  page = await open(chrome, plc.address);
+  await page.selectOption('#pace', '0');
+});
+after(async () => {
+  await chrome?.close();
+  await end(plc.server);
+});
+
+async function go(text) {
+  await page.fill('#moment', text);
+  await page.press('#moment', 'Enter');
+}
+async function run_for(ms) {
+  await page.evaluate(() => document.activeElement?.blur());
+  const began = await moment(page);
+  await page.selectOption('#pace', '1');
+  await page.click('#do-run');
+  await page.waitForFunction((goal) => parseFloat(document.querySelector('#moment').value) > goal, began + ms);
+  await page.click('#do-run');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+}
+async function send(text) {
+  await page.fill('#send-text', text);
+  await page.press('#send-text', 'Enter');
+}
+const names = () => page.$$eval('.track-name', (all) => all.map((one) => one.textContent));
+
+test('a request that is sent is answered: the table has both and the latency', async () => {
+  await run_for(200);
+  await page.click('#tab-line');
+  await send('01 03 00 0a 00 02 crc');
+  await run_for(150);
+  await page.waitForFunction(() => document.querySelectorAll('.exchanges tbody tr').length === 1);
+  const text = await page.textContent('.exchanges tbody');
+  assert.match(text, /01 03 00 0a 00 02/);
+  assert.match(text, /01 03 04/);
+  assert.match(text, /ms/);
+  await picture(page, 'line_answered');
+});
+
+test('a request of Modbus in words, and one with a wrong CRC, which has no answer', async () => {
+  await send('read 40011:2');
+  await run_for(150);
+  await send('01 03 00 0a 00 02 00 00');
+  await run_for(1600);
+  await page.waitForFunction(() => document.querySelectorAll('.exchanges tbody tr').length === 3);
+  await page.waitForSelector('.exchanges tr.trouble');
+  assert.match(await page.textContent('.exchanges tr.trouble'), /no answer/);
+});
+
+test('characters, frames and interrupts are tracks of the timeline', async () => {
+  await page.click('#timeline-all');
+  await page.waitForSelector('.track-name:has-text("INT 123")');
+  const all = await names();
+  for (const name of ['port 0 received', 'port 0 sent', 'port 0 frames', 'INT 123', 'scans']) assert.ok(all.includes(name), `${name} in ${all}`);
+});
+
+test('the search goes to the request without an answer', async () => {
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+  await page.keyboard.press('u');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 300);
+  await page.click('#tab-causes');
+  await page.keyboard.press('Escape');
+  assert.ok(await moment(page) > 300);
+});
+
+test('the wheel zooms at the pointer, a click goes to the moment there', async () => {
+  await page.click('#timeline-all');
+  await page.waitForTimeout(300);
+  const readout = async () => page.textContent('.readout');
+  const before_zoom = await readout();
+  const box = await page.locator('#timeline').boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + 8);
+  await page.mouse.wheel(0, -600);
+  await page.waitForFunction((text) => document.querySelector('.readout').textContent !== text, before_zoom);
+  const was = await moment(page);
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height - 4);
+  await page.waitForFunction((text) => parseFloat(document.querySelector('#moment').value) !== text, was);
+  await picture(page, 'timeline_zoomed');
+});
+
+test('dragging in the ruler measures between two cursors', async () => {
+  const box = await page.locator('#timeline').boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 8);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 500, box.y + 8, { steps: 4 });
+  await page.mouse.up();
+  assert.match(await page.textContent('.readout'), /^B − A = [\d.]+ (ms|s|µs)/);
+  await picture(page, 'timeline_measured');
+});
+
+test('an address that is watched is a wave', async () => {
+  await page.click('#tab-causes');
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.click('#tab-chart');
+  await page.click('.point-name:has-text("Q0.0")');
+  await page.click('[role=menuitem]:has-text("Show on the timeline")');
+  await page.waitForSelector('.track-name:has-text("Q0.0")');
+  await page.click('[aria-label="Remove Q0.0"]');
+  await page.waitForSelector('.track-name:has-text("Q0.0")', { state: 'detached' });
+});
+
+test('a damaged character is found from far away', async () => {
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('End');
+  await page.click('#tab-line');
+  await send('01 03p 00 0a 00 01 crc');
+  await run_for(150);
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+  await page.keyboard.press('0');
+  await page.keyboard.press('e');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 1000);
+  await picture(page, 'timeline_damaged');
+  assert.deepEqual(page.troubles, []);
+});
