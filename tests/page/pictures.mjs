@@ -51,6 +51,10 @@ test('a request and its answer', () => drawn(['stl_programs/modbus_slave.stl'], 
   await page.evaluate(() => document.activeElement?.blur());
   await zoom(page, 1);
   for (let i = 0; i < 2; ++i) await page.keyboard.press('ArrowRight');
+  for (const key of ['i', 'i', 'i', '.', '.', '.', '.', '.', '.']) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(150);
+  }
   await page.waitForTimeout(500);
   await page.screenshot({ path: docs('page_program.png') });
   await page.setViewportSize({ width: 1100, height: 640 });

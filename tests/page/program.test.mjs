@@ -67,7 +67,7 @@ test('a click on an address opens its menu, which leads to chart, who and why', 
   await page.click('#do-scan');
   await row(page, '=      Pump').locator('.operand').click();
   await page.click('[role=menuitem]:has-text("Add to status chart")');
-  await page.waitForSelector('.chart input.address[value], .chart tr:not(.new)');
+  await page.waitForSelector('.chart tbody tr');
   await row(page, '=      Pump').locator('.operand').click();
   await page.click('[role=menuitem]:has-text("Who wrote it last")');
   await page.waitForSelector('.trail li');

@@ -11,12 +11,17 @@ async function ask(question: string, line: string): Promise<void> {
   show_pane('causes');
 }
 
+function named(address: string): string {
+  const symbol = state.outline?.symbols.find((one) => one.address.toUpperCase() === address.toUpperCase());
+  return symbol ? `${symbol.name} (${address})` : address;
+}
+
 export function ask_why(address = ''): Promise<void> {
-  return ask(address ? `Why is ${address} so?` : 'Why has it come here?', `why ${address}`.trim());
+  return ask(address ? `Why is ${named(address)} so?` : 'Why has it come here?', `why ${address}`.trim());
 }
 
 export function ask_who(address: string): Promise<void> {
-  return ask(`Who wrote ${address} last?`, `who ${address}`);
+  return ask(`Who wrote ${named(address)} last?`, `who ${address}`);
 }
 
 export function forget_trail(): void {

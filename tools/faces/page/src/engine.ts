@@ -11,8 +11,10 @@ export interface Onlooker {
 export interface Engine {
   /** A line as at the prompt of `s7200 debug`. */
   command<Json>(line: string): Promise<Reply<Json>>;
-  /** Ends the run that is under way. */
+  /** Ends the run that is under way, if it can be stopped. */
   stop(): void;
+  /** Whether a run hears of a stop before it is over. */
+  readonly can_be_stopped: boolean;
   /** Another program; only of the engine in the browser. */
   open?(sources: Source[], options: Record<string, string>): Promise<Reply<Opened>>;
 }
@@ -57,6 +59,7 @@ export class Conversation {
 const kFirstPause = 250, kLongestPause = 5000;  // ms between two attempts to connect
 
 export class SocketEngine implements Engine {
+  readonly can_be_stopped = true;
   private socket: WebSocket | undefined;
   private readonly conversation: Conversation;
   private pause = kFirstPause;
@@ -103,6 +106,7 @@ export class SocketEngine implements Engine {
 
 /** The session in the browser: a worker that holds s7200 as WebAssembly. */
 export class WorkerEngine implements Engine {
+  readonly can_be_stopped = false;
   private readonly worker: Worker;
   private readonly conversation: Conversation;
 

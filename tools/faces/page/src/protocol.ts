@@ -201,3 +201,51 @@ export interface Opened {
   text: string;
   opened: boolean;
 }
+
+/** A network as ladder: places are columns of characters and rows of lines; the power rail is column 0 and point 0. */
+export interface LadderNetwork {
+  routine: string;
+  network: number;
+  title: string;
+  line: number;
+  first_op: number;
+  ops: number;
+  comments: string[];
+  head: string | null;
+  why_not: string | null;
+  elements?: LadderElement[];
+  grid?: LadderGrid;
+  /** Whether each point has power. */
+  power?: boolean[];
+}
+
+export interface GridText {
+  text: string;
+  column: number;
+  row: number;
+}
+
+export interface LadderElement {
+  kind: 'contact' | 'coil' | 'box';
+  symbol: string;
+  op: number | null;
+  line: number;
+  column: number;
+  row: number;
+  width: number;
+  height: number;
+  from: number;
+  to: number | null;
+  operands: GridText[];
+  pins: { name: string; operand: string; row: number; name_column: number; operand_column: number; right: boolean; power: boolean }[];
+  value?: string;
+}
+
+export interface LadderGrid {
+  columns: number;
+  rows: number;
+  first_rung: number;
+  points: number;
+  wires: { column: number; row: number; to_column: number; to_row: number; point: number }[];
+  connectors: (GridText & { begins: boolean; point: number })[];
+}

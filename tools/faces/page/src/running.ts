@@ -11,14 +11,24 @@ const kGoesOn = new Set(['limit', 'answer']);
 
 const pause_of = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 
-async function run_piece(length_ns: number): Promise<boolean> {
+/** Runs that long. Returns how long that took, in ms of the reader's time, or nothing if the run is over. */
+async function run_piece(length_ns: number): Promise<number | undefined> {
   const began = performance.now();
-  const reply = await command<Stopped>(`continue ${length_ns}ns`);
-  if (reply.error !== undefined || reply.interrupted) return false;
+  const reply = await command<Stopped>(`continue ${Math.max(1, Math.round(length_ns))}ns`);
+  if (reply.error !== undefined || reply.interrupted) return undefined;
   if (reply.json?.stopped !== 'limit') print(reply.text);
-  if (!kGoesOn.has(reply.json?.stopped ?? '')) return false;
-  await pause_of(began + kPiece - performance.now());
-  return true;
+  return kGoesOn.has(reply.json?.stopped ?? '') ? performance.now() - began : undefined;
+}
+
+/** At the pace that is chosen, which may change meanwhile. */
+async function run_paced(): Promise<void> {
+  let fastest = kPiece * 1e6;
+  while (state.own_run) {
+    const took = await run_piece(state.pace === 0 ? fastest : state.pace * kPiece * 1e6);
+    if (took === undefined) return;
+    if (state.pace === 0) fastest *= Math.min(4, Math.max(0.25, kPiece / Math.max(1, took)));
+    else await pause_of(kPiece - took);
+  }
 }
 
 async function run_without_end(): Promise<void> {
@@ -36,8 +46,8 @@ export async function run(): Promise<void> {
   state.running = true;
   state.notice = null;
   changed();
-  if (state.hello?.live || state.pace === 0) await run_without_end();
-  else while (state.own_run && await run_piece(Math.max(1, Math.round(state.pace * kPiece * 1e6)))) {}
+  if (state.hello?.live || (state.pace === 0 && the_engine().can_be_stopped)) await run_without_end();
+  else await run_paced();
   state.own_run = false;
   state.running = false;
   changed();

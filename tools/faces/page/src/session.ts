@@ -155,6 +155,7 @@ async function get_acquainted(): Promise<void> {
     state.outline = reply.json;
     propose_points(reply.json);
   }
+  state.has_ladder = (await query('help ladder')).error === undefined;
   lines.refresh();
   stops.refresh();
   refresh_all();

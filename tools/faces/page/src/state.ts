@@ -58,6 +58,8 @@ export interface State {
   lines: Map<number, Line>;
   executions: Map<number, Execution>;
   view: 'stl' | 'ladder';
+  /** The session can draw networks. */
+  has_ladder: boolean;
   selected_line: number | null;
   follow: boolean;
   breakpoints: Map<number, number>;
@@ -70,6 +72,8 @@ export interface State {
   values: Map<string, Value>;
   samples: Map<string, { at_ns: number; number: number }[]>;
 
+  /** What the timeline shows is being computed. */
+  computing: boolean;
   window: { from_ns: number; to_ns: number } | null;
   spans: Spans | null;
   cursors: { a_ns: number | null; b_ns: number | null };
@@ -107,6 +111,7 @@ export const state: State = {
   lines: new Map(),
   executions: new Map(),
   view: 'stl',
+  has_ladder: false,
   selected_line: null,
   follow: true,
   breakpoints: new Map(),
@@ -116,6 +121,7 @@ export const state: State = {
   switched: new Map(),
   values: new Map(),
   samples: new Map(),
+  computing: false,
   window: null,
   spans: null,
   cursors: { a_ns: null, b_ns: null },

@@ -111,14 +111,14 @@ function chart_row(row: ChartRow, i: number): Part {
 }
 
 function add_row(): Part {
-  return h('tr', { class: 'new', key: 'new' }, h('td', { colspan: 6 }, h('form', { onsubmit: (event: Event) => {
+  return h('form', { class: 'add', onsubmit: (event: Event) => {
     event.preventDefault();
     const field = (event.target as HTMLElement).querySelector('input')!;
     if (field.value.trim() === '') return;
     add_to_chart(field.value.trim());
     field.value = '';
-  } }, h('input', { id: 'add-address', class: 'address', placeholder: 'Add an address or symbol', 'aria-label': 'Add an address or symbol', list: 'symbols', autocomplete: 'off', spellcheck: 'false' }),
-  h('button', { 'aria-label': 'Add' }, icon('plus')))));
+  } }, h('input', { id: 'add-address', placeholder: 'Add an address or symbol', 'aria-label': 'Add an address or symbol', list: 'symbols', autocomplete: 'off', spellcheck: 'false' }),
+  h('button', { 'aria-label': 'Add' }, icon('plus')));
 }
 
 function symbols(): Part {
@@ -188,6 +188,6 @@ export function chart_pane(): Part {
       h('button', { onclick: () => void command('unforce all'), disabled: !forced, title: 'Release everything that is forced' }, 'Unforce all')),
     h('table', { class: 'chart' },
       h('thead', {}, h('tr', {}, ['Address', 'Format', 'Current value', 'New value', '', 'Trend'].map((name) => h('th', {}, name)))),
-      h('tbody', {}, state.chart.map(chart_row), add_row())),
-    symbols());
+      h('tbody', {}, state.chart.map(chart_row))),
+    add_row(), symbols());
 }

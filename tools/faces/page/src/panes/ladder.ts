@@ -1,6 +1,166 @@
-// The ladder of the networks in view.
-import { h, type Part } from '../dom';
+// The ladder: networks as the session draws them, on a grid of characters, with power flow at the moment where it stands. Only the
+// networks in view are asked for and made.
+import { h, type Child, type Part } from '../dom';
+import { also_seen, query, Seen } from '../session';
+import { changed, state } from '../state';
+import type { LadderElement, LadderNetwork } from '../protocol';
+import { open_menu } from './menu';
+
+const kCellWidth = 8, kCellHeight = 18;  // pixels of a character and a line
+const kRail = 40;                        // from the left edge to the power rail
+const kUnknownHeight = 140;
+
+interface Place {
+  line: number;
+  name: string;
+  first: number;
+  end: number;
+}
+
+/** What `ladder` has said, by the line of the network. */
+const networks = new Map<number, LadderNetwork[]>();
+let scroller: HTMLElement | null = null;
+let in_view: Place[] = [];
+let followed: number | null = null;
+let wrong = '';
+
+function places(): Place[] {
+  return (state.outline?.routines ?? []).flatMap((routine) =>
+    routine.networks.filter((one) => one.end > one.first).map((one) => ({
+      line: one.line, first: one.first, end: one.end,
+      name: one.number === null ? routine.name : `${routine.name}, network ${one.number}${one.title ? `: ${one.title}` : ''}`,
+    })));
+}
+
+const seen = new Seen(async () => {
+  if (state.view !== 'ladder') return;
+  for (const place of [...in_view]) {
+    const reply = await query<{ networks: LadderNetwork[] }>(`ladder ${place.line}`);
+    if (reply.json) networks.set(place.line, reply.json.networks);
+    else wrong = reply.error ?? '';
+  }
+});
+also_seen(seen);
+
+export function forget_ladder(): void {
+  networks.clear();
+}
+
+function height_of(place: Place): number {
+  const known = networks.get(place.line);
+  if (!known) return kUnknownHeight;
+  return 34 + known.reduce((sum, one) => sum + 18 * one.comments.length + (one.grid ? one.grid.rows * kCellHeight + 16 : 18 * (one.ops + 2)), 0);
+}
+
+const middle_x = (column: number): number => kRail + column * kCellWidth;
+const middle_y = (row: number): number => row * kCellHeight + kCellHeight / 2;
+
+function cell_text(text: string, column: number, row: number, style: string): Part {
+  return h('text', { x: middle_x(column) - kCellWidth / 2, y: middle_y(row) + 4, class: style, textLength: [...text].length * kCellWidth, lengthAdjust: 'spacingAndGlyphs' }, text);
+}
+
+function address_text(text: string, column: number, row: number, op: number | null): Child {
+  if (text === '') return null;
+  const address = text.includes(':') ? text.slice(text.lastIndexOf(':') + 1) : text;
+  const part = cell_text(text, column, row, 'address');
+  part.attributes['onclick'] = (event: MouseEvent) => open_menu(event, address, op);
+  return part;
+}
+
+/** Two bars, and what stands between them: nothing, a slash, or letters. */
+function contact_path(one: LadderElement): string {
+  const narrow = one.symbol === '' || one.symbol === '/';
+  const left = middle_x(one.column), right = middle_x(one.column + one.width - 1), y = middle_y(one.row), inset = narrow ? kCellWidth : 0;
+  const bars = `M${left + inset} ${y - 8}V${y + 8}M${right - inset} ${y - 8}V${y + 8}`;
+  const wires = narrow ? `M${left} ${y}H${left + inset}M${right - inset} ${y}H${right}` : '';
+  return bars + wires + (one.symbol === '/' ? `M${left + inset + 2} ${y + 8}L${right - inset - 2} ${y - 8}` : '');
+}
+
+function coil_path(one: LadderElement): string {
+  const left = middle_x(one.column), right = middle_x(one.column + one.width - 1), y = middle_y(one.row);
+  return `M${left + 6} ${y - 8}Q${left - 6} ${y} ${left + 6} ${y + 8}M${right - 6} ${y - 8}Q${right + 6} ${y} ${right - 6} ${y + 8}`;
+}
+
+function symbol_text(one: LadderElement): Child {
+  if (one.symbol === '' || (one.kind === 'contact' && one.symbol === '/')) return null;
+  return cell_text(one.symbol, one.column + (one.width - [...one.symbol].length) / 2, one.row, '');
+}
+
+function box(one: LadderElement): Child[] {
+  const left = middle_x(one.column), right = middle_x(one.column + one.width - 1);
+  const top = one.row * kCellHeight + 1, bottom = middle_y(one.row + one.height - 1);
+  return [h('rect', { class: 'box', x: left, y: top, width: right - left, height: bottom - top }),
+    ...one.pins.flatMap((pin) => [
+      pin.name === '' ? null : cell_text(pin.name, pin.name_column, pin.row, ''),
+      address_text(pin.operand, pin.operand_column, pin.row, one.op)])];
+}
+
+/** What the element's power flow is: from where it takes it, and where it lets it through. */
+function element(one: LadderElement, power: boolean[]): Part {
+  const on = one.to === null ? power[one.from] === true : power[one.to] === true;
+  const value = one.value ?? '';
+  const here = one.op !== null && one.op === state.past?.op;
+  return h('g', { class: `${on ? 'on' : ''}${here ? ' here' : ''}`, onclick: () => { state.selected_line = one.line; changed(); } },
+    h('title', {}, `line ${one.line}${value ? `: ${value}` : ''}`),
+    one.kind === 'box' ? box(one) : h('path', { class: 'wire', d: one.kind === 'contact' ? contact_path(one) : coil_path(one) }),
+    symbol_text(one), one.operands.map((text) => address_text(text.text, text.column, text.row, one.op)));
+}
+
+/** Values stand below the elements, where the grid leaves room, and in their hints. */
+function values(one: LadderElement): Child {
+  if (!one.value || one.kind === 'box') return null;
+  return h('text', { class: 'ladder-value', x: (middle_x(one.column) + middle_x(one.column + one.width - 1)) / 2, y: middle_y(one.row) + 17, 'text-anchor': 'middle' }, one.value);
+}
+
+function drawing(network: LadderNetwork): Part {
+  const grid = network.grid!, power = network.power ?? [];
+  const width = kRail + (grid.columns + 2) * kCellWidth, height = grid.rows * kCellHeight + 10;
+  return h('svg', { class: 'ladder', width, height, viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `Network ${network.network} as ladder` },
+    h('path', { class: `rail${power[0] ? ' on' : ''}`, d: `M${kRail} 0V${grid.rows * kCellHeight}` }),
+    grid.wires.map((wire) => h('path', { class: `wire${power[wire.point] ? ' on' : ''}`,
+      d: `M${middle_x(wire.column)} ${middle_y(wire.row)}L${middle_x(wire.to_column)} ${middle_y(wire.to_row)}` })),
+    (network.elements ?? []).map((one) => element(one, power)),
+    (network.elements ?? []).map(values),
+    grid.connectors.map((one) => cell_text(one.text, one.column, one.row, 'address')));
+}
+
+function stl_of(network: LadderNetwork): Part {
+  const lines = [...state.lines.values()].filter((line) => line.op !== null && line.op >= network.first_op && line.op < network.first_op + network.ops);
+  return h('div', { class: 'ladder-stl' }, network.why_not ? h('div', { class: 'hint' }, `No form in ladder: ${network.why_not}`) : null,
+    h('pre', {}, lines.sort((a, b) => a.line - b.line).map((line) => `${line.text}\n`)));
+}
+
+function network_part(one: LadderNetwork): Child[] {
+  return [one.comments.map((comment) => h('div', { class: 'comment' }, comment)),
+    one.head !== null ? h('div', { class: 'ladder-stl' }, one.head) : one.grid ? drawing(one) : stl_of(one)];
+}
+
+function follow(all: { place: Place; top: number }[]): void {
+  const op = state.past?.op ?? null;
+  if (!scroller || !state.follow || op === null || op === followed) return;
+  followed = op;
+  const found = all.find(({ place }) => op >= place.first && op < place.end);
+  if (found && (found.top < scroller.scrollTop || found.top > scroller.scrollTop + scroller.clientHeight - 60)) scroller.scrollTop = Math.max(0, found.top - 20);
+}
 
 export function ladder_view(): Part {
-  return h('p', { class: 'empty' }, 'Not drawn yet.');
+  let top = 0;
+  const all = places().map((place) => {
+    const placed = { place, top, height: height_of(place) };
+    top += placed.height;
+    return placed;
+  });
+  const from = scroller?.scrollTop ?? 0, to = from + (scroller?.clientHeight ?? 600);
+  const shown = all.filter((one) => one.top + one.height > from - 100 && one.top < to + 100);
+  const lines = shown.map((one) => one.place.line).join(' ');
+  if (lines !== in_view.map((one) => one.line).join(' ')) {
+    in_view = shown.map((one) => one.place);
+    seen.refresh();
+  }
+  return h('div', { class: 'listing ladders', tabindex: '0', 'aria-label': 'Ladder', onscroll: changed,
+    ref: (node: HTMLElement) => { const first = scroller !== node; scroller = node; if (first) requestAnimationFrame(changed); follow(all); } },
+  h('div', { class: 'rows', style: { height: `${top}px` } }, shown.map(({ place, top: y }) =>
+    h('section', { class: `ladder-network${state.past?.op !== null && state.past && state.past.op! >= place.first && state.past.op! < place.end ? ' here' : ''}`, key: place.line, style: { top: `${y}px` } },
+      h('h3', {}, place.name), (networks.get(place.line) ?? []).map(network_part),
+      networks.has(place.line) ? null : h('div', { class: 'hint' }, wrong || '…')))));
 }

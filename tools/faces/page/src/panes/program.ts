@@ -184,7 +184,7 @@ function view_button(view: 'stl' | 'ladder', name: string): Part {
 function content(): Part {
   if (can_open() && (state.opening || state.outline === null)) return opener();
   if (state.outline === null) return h('p', { class: 'empty' }, 'Waiting for the program …');
-  return state.view === 'stl' ? listing() : ladder_view();
+  return state.view === 'ladder' && state.has_ladder ? ladder_view() : listing();
 }
 
 export function program_pane(): Part {
@@ -194,6 +194,6 @@ export function program_pane(): Part {
         h('input', { id: 'find', type: 'search', placeholder: 'Find (/)', 'aria-label': 'Find in the program', oninput: () => { found_at = 0; } })),
       h('button', { class: 'toggle', 'aria-pressed': String(state.follow), title: 'Show where the CPU stands (f)', onclick: () => { state.follow = !state.follow; followed = null; changed(); } }, 'Follow'),
       can_open() && !state.opening && state.outline ? h('button', { id: 'open-program', title: 'Another program, or this one changed', onclick: () => { state.opening = true; changed(); } }, 'Edit') : null,
-      h('div', { class: 'choice', role: 'group', 'aria-label': 'View' }, view_button('stl', 'STL'), view_button('ladder', 'LAD'))),
+      !state.has_ladder ? null : h('div', { class: 'choice', role: 'group', 'aria-label': 'View' }, view_button('stl', 'STL'), view_button('ladder', 'LAD'))),
     content());
 }

@@ -133,7 +133,7 @@ export function timeline_pane(): Part {
       tool('next-error', 'Next lost character or error (e)', () => void search.find_error(1), icon('forward')),
       tool('next-unanswered', 'Next unanswered request (u)', () => void search.find_unanswered(), 'unanswered'),
       tool('a', 'Cursor A here ([)', () => timeline.set_cursor('a'), 'A'), tool('b', 'Cursor B here (])', () => timeline.set_cursor('b'), 'B'),
-      h('span', { class: 'readout', role: 'status' }, measured() || told || `${duration_text(to_ns - from_ns)} in view`),
+      h('span', { class: 'readout', role: 'status' }, state.computing ? 'computing …' : measured() || told || `${duration_text(to_ns - from_ns)} in view`),
       state.cursors.a_ns !== null ? h('button', { class: 'plain', 'aria-label': 'Remove cursors', onclick: timeline.clear_cursors }, icon('close')) : null,
       state.spans?.left_out?.length ? h('span', { class: 'small', title: 'Zoom in to 10 s or less' }, `zoom in for ${state.spans.left_out.join(', ')}`) : null),
     h('div', { class: 'tracks', onscroll: changed },

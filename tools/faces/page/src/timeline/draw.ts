@@ -70,10 +70,12 @@ function label_of(track: SpanTrack, one: Span): string {
   return words < 0 ? one.text.replace(/^(sent|received) /, '') : one.text.slice(words + 2);
 }
 
+const kFewest = 6;  // letters of a text below which it says nothing
+
 function label(c: CanvasRenderingContext2D, text: string, x: number, y: number, width: number, colour: string): void {
   c.fillStyle = colour;
   const letters = Math.floor((width - 6) / 6.2);
-  if (letters < 1) return;
+  if (letters < Math.min(text.length, kFewest)) return;
   c.fillText(text.length > letters ? (letters > 3 ? text.slice(0, letters - 1) + '…' : text.slice(0, letters)) : text, x + 3, y);
 }
 

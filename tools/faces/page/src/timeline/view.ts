@@ -23,6 +23,7 @@ export async function spans_between(from_ns: number, to_ns: number, elements = k
   return (await query<Spans>(`spans ${words.join(' ')}`)).json;
 }
 
+const kLate = 300;   // ms after which it is said that something is being computed
 const kRest = 150;  // ms between two questions while it runs, so that the run goes on meanwhile
 
 const seen = new Seen(async () => {
@@ -33,7 +34,10 @@ const seen = new Seen(async () => {
   const length = to_ns - from_ns;
   const first = Math.max(past.oldest_ns, from_ns - length / 4), last = Math.min(past.newest_ns, to_ns + length / 4);
   if (last <= first) return;
+  const late = setTimeout(() => { state.computing = true; changed(); }, kLate);
   const spans = await spans_between(first, last, kElements, state.watched);
+  clearTimeout(late);
+  state.computing = false;
   if (spans) state.spans = spans;
 });
 
