@@ -76,6 +76,29 @@ test('a click on an address opens its menu, which leads to chart, who and why', 
   await page.close();
 });
 
+test('the keyboard reaches lines, breakpoints and the menus of addresses', async () => {
+  const page = await open(chrome, await start(...kPump));
+  await page.keyboard.press('1');
+  await page.focus('.listing');
+  await row(page, 'LD     First_Scan').click();
+  await page.focus('.listing');
+  await page.keyboard.press('ArrowDown');
+  await page.waitForSelector('.row.selected:has-text("CALL")');
+  await page.keyboard.press('b');
+  await page.waitForSelector('.row.selected .margin.stop');
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('ArrowDown');
+  await page.waitForSelector('.row.selected:has-text("Level_High")');
+  await page.focus('.row.selected .operand');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('[role=menu]');
+  await page.keyboard.press('ArrowDown');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Show on the timeline');
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('[role=menu]', { state: 'detached' });
+  assert.ok(await page.evaluate(() => document.activeElement.classList.contains('operand')));
+  await page.close();
+});
+
 test('texts of a program and its symbols are text, never markup', async () => {
   const program = path.join(kFolder, 'hostile.awl');
   const symbols = path.join(kFolder, 'symbols.txt');

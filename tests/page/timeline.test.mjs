@@ -111,6 +111,25 @@ test('an address that is watched is a wave', async () => {
   await page.waitForSelector('.track-name:has-text("Q0.0")', { state: 'detached' });
 });
 
+test('a condition is searched for through the past, and by running on', async () => {
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+  await page.keyboard.press('x');
+  await page.keyboard.type('SM4.5 = 0');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 200);
+  assert.equal(await page.textContent('.tag'), 'past');
+  await page.fill('#condition', 'VB0 = 77');
+  await page.press('#condition', 'Enter');
+  await page.waitForSelector('.notice.info');
+  assert.match(await page.textContent('.notice.info'), /VB0 = 77 does not come to hold within/);
+  await page.fill('#condition', 'VW0 >');
+  await page.press('#condition', 'Enter');
+  await page.waitForSelector('.notice.error');
+  assert.equal(await page.locator('.margin.stop').count(), 0);
+});
+
 test('a damaged character is found from far away', async () => {
   await page.keyboard.press('Escape');
   await page.keyboard.press('End');

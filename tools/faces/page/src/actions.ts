@@ -9,7 +9,8 @@ import { remember, remembered } from './memory';
 import { link_of, moment_from } from './words';
 import * as search from './timeline/search';
 import * as timeline from './timeline/view';
-import { find_in_program, toggle_breakpoint } from './panes/program';
+import { close_menu } from './panes/menu';
+import { toggle_breakpoint } from './panes/program';
 
 export interface Action {
   id: string;
@@ -32,8 +33,8 @@ function step(words: string): () => void {
   };
 }
 
-export function ask_for_moment(): void {
-  const field = document.querySelector<HTMLInputElement>('#moment');
+function focus_field(which: string): void {
+  const field = document.querySelector<HTMLInputElement>(which);
   field?.focus();
   field?.select();
 }
@@ -102,14 +103,14 @@ export const kActions: Action[] = [
 
   { id: 'start', group: 'Go to', title: 'Start of the past', keys: ['Home'], does: () => void move('at start') },
   { id: 'end', group: 'Go to', title: 'Newest moment', keys: ['End'], does: () => void move('at end') },
-  { id: 'moment', group: 'Go to', title: 'A moment', keys: ['g'], does: ask_for_moment },
+  { id: 'moment', group: 'Go to', title: 'A moment', keys: ['g'], does: () => focus_field('#moment') },
   { id: 'rcontinue', group: 'Go to', title: 'Back to the last breakpoint or answer', keys: ['Shift+B'], does: step('rcontinue') },
   { id: 'why', group: 'Go to', title: 'Why has it come here?', keys: ['w'], does: () => void ask_why() },
   { id: 'link', group: 'Go to', title: 'Copy a link to this moment', keys: ['l'], does: () => void copy_link() },
 
   { id: 'breakpoint', group: 'Program', title: 'Breakpoint in the selected line', keys: ['b', 'F9'],
     does: () => void toggle_breakpoint(state.selected_line ?? state.past?.line ?? null) },
-  { id: 'find', group: 'Program', title: 'Find in the program', keys: ['/'], does: find_in_program },
+  { id: 'find', group: 'Program', title: 'Find in the program', keys: ['/'], does: () => focus_field('#find') },
   { id: 'view', group: 'Program', title: 'STL or ladder', keys: ['v'],
     does: () => { state.view = state.view === 'stl' ? 'ladder' : 'stl'; changed(); } },
   { id: 'follow', group: 'Program', title: 'Show where the CPU stands', keys: ['f'],
@@ -125,6 +126,7 @@ export const kActions: Action[] = [
   { id: 'next-error', group: 'Timeline', title: 'Next lost character or error', keys: ['e'], does: () => void search.find_error(1) },
   { id: 'previous-error', group: 'Timeline', title: 'Previous one', keys: ['Shift+E'], does: () => void search.find_error(-1) },
   { id: 'next-unanswered', group: 'Timeline', title: 'Next unanswered request', keys: ['u'], does: () => void search.find_unanswered() },
+  { id: 'condition', group: 'Timeline', title: 'Next time that a condition holds', keys: ['x'], does: () => focus_field('#condition') },
   { id: 'longest', group: 'Timeline', title: 'Longest answer', keys: ['Shift+L'], does: () => void search.find_longest() },
 
   { id: 'pane-program', group: 'Page', title: 'Program status', keys: ['1'], does: () => focus_pane('program') },
@@ -168,7 +170,7 @@ export function on_key(event: KeyboardEvent): void {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   if (event.key === 'Escape') {
     state.dialog = null;
-    state.menu = null;
+    close_menu();
     if (is_typing(event.target)) (event.target as HTMLElement).blur();
     changed();
     return;

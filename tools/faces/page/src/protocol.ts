@@ -173,6 +173,11 @@ export interface Cause {
   causes?: unknown[];
 }
 
+/** Breakpoints and watches. */
+export interface Stops {
+  stops: { number: number; kind: 'break' | 'watch'; text: string; hits: number; line?: number; op?: number }[];
+}
+
 /** Why a run came to its end. */
 export interface Stopped {
   stopped: 'goal' | 'stop point' | 'answer' | 'limit' | 'request' | 'CPU' | 'oldest';

@@ -1,6 +1,6 @@
 // What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
 import { changed, notice, state, the_engine } from './state';
-import type { Line, Notification, Outline, Past, Reply, Status, Value } from './protocol';
+import type { Line, Notification, Outline, Past, Reply, Status, Stops, Value } from './protocol';
 import { is_one_word, query_of } from './formats';
 import { moment_of_link, moment_word } from './words';
 
@@ -117,9 +117,6 @@ export function see_values(): void {
 }
 
 /** The breakpoints and watches as the session has them. */
-interface Stops {
-  stops: { number: number; kind: 'break' | 'watch'; text: string; hits: number; line?: number; op?: number }[];
-}
 const stops = new Seen(async () => {
   const reply = await query<Stops>('break');
   if (!reply.json) return;
@@ -234,11 +231,11 @@ export async function look_at(station: string): Promise<void> {
 }
 
 /** Carries out something that moves the session; what it says is shown where it stops. */
-export async function move(line: string): Promise<Reply> {
+export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
   state.running = true;
   state.notice = null;
   changed();
-  const reply = await command(line);
+  const reply = await command<Json>(line);
   state.running = false;
   changed();
   return reply;

@@ -6,13 +6,29 @@ import { command } from '../session';
 import { watch_address } from '../timeline/view';
 import { changed, state } from '../state';
 
-export function open_menu(event: MouseEvent, address: string, op: number | null): void {
-  state.menu = { x: event.clientX, y: event.clientY, address, op };
+/** Where the keyboard was before the menu, and is again after it. */
+let before: HTMLElement | null = null;
+
+function open_at(x: number, y: number, address: string, op: number | null): void {
+  before = document.activeElement as HTMLElement | null;
+  state.menu = { x, y, address, op };
   changed();
 }
 
-function close(): void {
+export function open_menu(event: MouseEvent, address: string, op: number | null): void {
+  open_at(event.clientX, event.clientY, address, op);
+}
+
+/** Below an element that was chosen with the keyboard. */
+export function open_menu_at(element: HTMLElement, address: string, op: number | null): void {
+  const box = element.getBoundingClientRect();
+  open_at(box.left, box.bottom, address, op);
+}
+
+export function close_menu(): void {
+  if (!state.menu) return;
   state.menu = null;
+  before?.focus();
   changed();
 }
 
@@ -27,10 +43,10 @@ const kItems: { title: (address: string) => string; does: (address: string) => v
 export function menu(): Part | null {
   const open = state.menu;
   if (!open) return null;
-  return h('div', { class: 'menu-shade', onclick: close, oncontextmenu: (event: Event) => { event.preventDefault(); close(); } },
+  return h('div', { class: 'menu-shade', onclick: close_menu, oncontextmenu: (event: Event) => { event.preventDefault(); close_menu(); } },
     h('div', { class: 'menu', role: 'menu', 'aria-label': open.address, ref: (node: HTMLElement) => keep_inside(node, open.x, open.y) },
       h('div', { class: 'menu-title' }, name_of(open.address)),
-      kItems.map((item) => h('button', { role: 'menuitem', onclick: () => { close(); item.does(open.address); } }, item.title(open.address)))));
+      kItems.map((item) => h('button', { role: 'menuitem', onclick: () => { close_menu(); item.does(open.address); } }, item.title(open.address)))));
 }
 
 function name_of(address: string): string {

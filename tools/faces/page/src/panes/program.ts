@@ -4,7 +4,7 @@ import { command, fetch_chunk_of, go_to, see_lines } from '../session';
 import { changed, state } from '../state';
 import { duration_text, moment_text } from '../words';
 import type { Execution, Line, Operand } from '../protocol';
-import { open_menu } from './menu';
+import { open_menu, open_menu_at } from './menu';
 import { ladder_view } from './ladder';
 import { opener } from './opener';
 import { can_open } from '../playground';
@@ -41,12 +41,6 @@ export async function toggle_breakpoint(line: number | null): Promise<void> {
   await command(number === undefined ? `break ${line} always` : `delete ${number}`);
 }
 
-export function find_in_program(): void {
-  const field = document.querySelector<HTMLInputElement>('#find');
-  field?.focus();
-  field?.select();
-}
-
 /** Shows the next line with that text, symbol or number; lines that are not here yet are asked for by the way. */
 async function find(text: string): Promise<void> {
   const outline = state.outline;
@@ -72,12 +66,14 @@ function value_text(value: number | boolean | null): string {
   return value === null ? '' : value === true ? '1' : value === false ? '0' : String(value);
 }
 
-function operand(one: Operand, value: number | boolean | null | undefined, op: number | null): Part {
+/** Those of the selected line can be reached with the tab key. */
+function operand(one: Operand, value: number | boolean | null | undefined, line: Line): Part {
   const on = value === true || value === 1;
   return h('span', {
-    class: `operand${on ? ' on' : ''}`, role: 'button', tabindex: '-1',
+    class: `operand${on ? ' on' : ''}`, role: 'button', tabindex: line.line === state.selected_line ? '0' : '-1',
     title: one.symbol ? `${one.symbol} (${one.address})` : one.address,
-    onclick: (event: MouseEvent) => { event.stopPropagation(); open_menu(event, one.address, op); },
+    onclick: (event: MouseEvent) => { event.stopPropagation(); open_menu(event, one.address, line.op); },
+    onkeydown: (event: KeyboardEvent) => { if (event.key === 'Enter') open_menu_at(event.target as HTMLElement, one.address, line.op); },
   }, one.text);
 }
 
@@ -89,7 +85,7 @@ function text_of(line: Line, execution: Execution | undefined): Child[] {
     const place = rest.indexOf(one.text, parts.length === 0 ? (line.mnemonic?.length ?? 0) : 0);
     if (place < 0 || one.text === '') return;
     if (place > 0) parts.push(rest.slice(0, place));
-    parts.push(one.address === '' ? one.text : operand(one, execution?.values[i], line.op));
+    parts.push(one.address === '' ? one.text : operand(one, execution?.values[i], line));
     rest = rest.slice(place + one.text.length);
   });
   const comment = rest.indexOf('//');

@@ -132,6 +132,8 @@ export function timeline_pane(): Part {
       h('span', { class: 'small' }, 'trouble'),
       tool('next-error', 'Next lost character or error (e)', () => void search.find_error(1), icon('forward')),
       tool('next-unanswered', 'Next unanswered request (u)', () => void search.find_unanswered(), 'unanswered'),
+      h('form', { class: 'condition', onsubmit: (event: Event) => { event.preventDefault(); void search.find_condition((event.target as HTMLElement).querySelector('input')!.value); } },
+        h('input', { id: 'condition', placeholder: 'next time VW20 > 5', 'aria-label': 'Go to the next time that this comes to hold', title: 'A condition in STL terms (x)', autocomplete: 'off', spellcheck: 'false' })),
       tool('a', 'Cursor A here ([)', () => timeline.set_cursor('a'), 'A'), tool('b', 'Cursor B here (])', () => timeline.set_cursor('b'), 'B'),
       h('span', { class: 'readout', role: 'status' }, state.computing ? 'computing …' : measured() || told || `${duration_text(to_ns - from_ns)} in view`),
       state.cursors.a_ns !== null ? h('button', { class: 'plain', 'aria-label': 'Remove cursors', onclick: timeline.clear_cursors }, icon('close')) : null,

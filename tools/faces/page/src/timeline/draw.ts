@@ -84,6 +84,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
   const columns = new Float64Array(Math.ceil(view.width) + 1);
   const per_pixel = (scale.to_ns - scale.from_ns) / (scale.right - scale.left);
   const trouble: [number, number][] = [];
+  const waited: Span[] = [];
   for (let i = first_after(track.spans, scale.from_ns); i < track.spans.length; ++i) {
     const one = track.spans[i]!;
     if (one.at_ns >= scale.to_ns) break;
@@ -91,7 +92,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
     const width = end - x, several = (one.count ?? 1) > 1;
     const wrong = one.error !== undefined || (one.errors ?? 0) > 0;
     if (wrong) trouble.push([x, Math.max(2, several ? 2 : width)]);
-    if (one.occurred_ns !== undefined && !several && one.at_ns > one.occurred_ns) draw_wait(c, view, row, one, theme);
+    if (one.occurred_ns !== undefined && !several && one.at_ns > one.occurred_ns) waited.push(one);
     if (one.end_ns === one.at_ns) {
       c.fillStyle = colour_of(track, one, theme);
       c.fillRect(x, top, 2, height);
@@ -119,6 +120,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
     const share = Math.min(1, Math.max(0.2, busy / per_pixel));
     c.fillRect(x, top + height * (1 - share), 1, height * share);
   });
+  for (const one of waited) draw_wait(c, view, row, one, theme);
   c.fillStyle = theme['trouble']!;
   for (const [x, width] of trouble) c.fillRect(Math.min(x, scale.right - 2), top, width <= 2 ? 2 : width, width <= 2 ? height : 3);
 }
@@ -158,13 +160,13 @@ function draw_levels(c: CanvasRenderingContext2D, view: View, row: Row, one: Spa
 function draw_wait(c: CanvasRenderingContext2D, view: View, row: Row, one: Span, theme: Theme): void {
   const x = Math.max(view.scale.left, x_of(view.scale, one.occurred_ns!)), end = x_of(view.scale, one.at_ns);
   if (end - x < 2) return;
-  const y = row.top + row.height / 2;
+  const y = row.top + 3;
   c.strokeStyle = theme['wait']!;
   c.lineWidth = 1.5;
   c.beginPath();
-  c.moveTo(x, row.top + 3); c.lineTo(x, row.top + row.height - 3);
+  c.moveTo(x, row.top); c.lineTo(x, row.top + row.height);
   c.moveTo(x, y); c.lineTo(end, y);
-  if (end - x > 8) { c.moveTo(end - 5, y - 4); c.lineTo(end, y); c.lineTo(end - 5, y + 4); }
+  if (end - x > 8) { c.moveTo(end - 4, y - 3); c.lineTo(end, y); c.lineTo(end - 4, y + 3); }
   c.stroke();
 }
 

@@ -1,9 +1,10 @@
 // Searches through the past: the nearest trouble, the next request without an answer, the longest answer.
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
+import { command, move } from '../session';
 import { notice, state } from '../state';
-import { duration_text } from '../words';
+import { duration_text, moment_word } from '../words';
 import { show_found, spans_between } from './view';
-import type { Span } from '../protocol';
+import type { Span, Stopped, Stops } from '../protocol';
 
 function has_trouble(span: Span): boolean {
   return span.error !== undefined || (span.errors ?? 0) > 0;
@@ -83,4 +84,21 @@ export async function find_longest(): Promise<void> {
   }
   await show_found(longest);
   notice(`The longest of ${count} answers: after ${duration_text(longest.latency_ns!)}, to ${longest.request}`);
+}
+
+const kLongestRun = 10e9;  // ns that are run for a condition when there is no past after this moment
+
+/** Goes to the next moment at which a condition comes to hold: through the past, or by running on. */
+export async function find_condition(condition: string): Promise<void> {
+  const past = state.past;
+  if (!past || condition.trim() === '') return;
+  const set = await command<Stops>(`break ${condition}; break`);
+  if (set.error !== undefined || !set.json) return;
+  const number = Math.max(...set.json.stops.map((one) => one.number));
+  const length = past.in_the_past ? past.newest_ns - past.now_ns : kLongestRun;
+  const run = await move<Stopped>(`continue ${moment_word(length)}`);
+  await command(`delete ${number}`);
+  if (run.json?.stopped === 'stop point') return;
+  if (past.in_the_past) await move(`at ${moment_word(past.now_ns)}`);
+  notice(`${condition} does not come to hold within ${duration_text(length)}`);
 }
