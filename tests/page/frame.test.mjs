@@ -126,6 +126,38 @@ test('dark, and a phone shows one pane at a time', async () => {
   await phone.close();
 });
 
+test('several windows show the same session', async () => {
+  const [one, other] = [await open(chrome, plc.address), await open(chrome, plc.address)];
+  await one.keyboard.press('End');
+  await one.click('#do-scan');
+  await one.click('[aria-label^="Input I0.5"]');
+  await one.click('#do-scan');
+  await one.click('#do-scan');
+  await other.waitForSelector('[aria-label^="Input I0.5"][aria-checked=true]');
+  await other.waitForFunction((text) => document.querySelector('#moment').value === text, await one.inputValue('#moment'));
+  await one.close();
+  await other.close();
+});
+
+test('a run that follows the clock takes switches meanwhile, and is paused from any window', async () => {
+  const live = await view(...kPump, '--realtime');
+  const [page, other] = [await open(chrome, live.address), await open(chrome, live.address)];
+  assert.equal(await page.textContent('.live'), 'live');
+  await page.click('#do-run');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 100);
+  await page.click('[aria-label^="Input I0.1"]');
+  await page.click('[aria-label^="Input I0.0"]');
+  await page.waitForSelector('[aria-label="Output Q0.0 on"]');
+  await other.waitForSelector('[aria-label="Output Q0.0 on"]');
+  await other.waitForFunction(() => document.querySelector('#do-run').textContent === 'Pause');
+  await other.click('#do-run');
+  for (const one of [page, other]) await one.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  assert.deepEqual(page.troubles.concat(other.troubles), []);
+  await page.close();
+  await other.close();
+  await end(live.server);
+});
+
 test('a lost connection is said, and so is its return', async () => {
   let allowed = true, socket;
   const prepare = (page) => page.routeWebSocket(/socket/, (one) => {
