@@ -1,0 +1,41 @@
+// Races: memory that the main program and an interrupt routine share, and that the main program does not read or write in
+// one instruction.
+//
+// An interrupt may come between any two instructions of the main program and its subroutines, unless DISI keeps it away. An
+// interrupt routine runs to its end before another one starts (facts 3.2), so two of them do not disturb each other.
+// Accumulators, the logic stack and SMB1 are saved around it, and local memory is its own.
+//
+// Looked at are bytes, words and double words of V, M, S, Q, T and C memory, also through pointers as far as it is known
+// where these lead: in a rung that sets its pointer, and otherwise as in pointers.hpp. An access that may be anywhere in an
+// area is none of a certain word. Bits that one side sets and the other one resets are a handshake and no race, and so are
+// the buffers of XMT and RCV.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpreter/analysis/calls.hpp"
+#include "interpreter/analysis/facts.hpp"
+
+namespace s7200 {
+
+struct Race {
+  enum class Kind : std::uint8_t {
+    LostUpdate,  ///< the main program reads, and writes later what depends on it: what the interrupt wrote between is lost
+    TornRead,    ///< the main program reads parts of what the interrupt writes as a whole
+    TornWrite    ///< the interrupt reads as a whole what the main program writes in parts
+  };
+
+  Kind kind = Kind::LostUpdate;
+  Bits bits;                          ///< what is shared, as programs name it
+  std::uint32_t first = 0, last = 0;  ///< ops of the main program; the interrupt does harm between them
+  std::uint32_t interrupt = 0;        ///< the op of the interrupt routine, or of a subroutine of it
+  std::uint32_t routine = 0;          ///< the interrupt routine, in ControlFlow::routines
+  std::uint8_t event = 0;             ///< that starts it
+};
+
+/// By the ops of the main program, each pair of them once for each interrupt routine. Empty without an ENI.
+std::vector<Race> find_races(const Facts& facts, const Calls& calls);
+
+}  // namespace s7200
