@@ -10,6 +10,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/measuring/worst_instant.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -46,6 +47,7 @@ std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& fil
   auto program = decoded(options, file.text, *model, *times, exit_code);
   if (!program) return {};
   std::optional<Inspection> inspection(std::in_place, std::move(program));
+  inspection->lose_word = worst_instant;
   std::string why;
   auto selection = parse_selection(question.about, inspection->facts, why);
   if (selection && !question.view.of_memory && !selection->memory.empty()) {

@@ -5,6 +5,7 @@
 
 #include "tools/views/calls_view.hpp"
 #include "tools/views/map_view.hpp"
+#include "tools/views/races_view.hpp"
 #include "tools/views/xref_view.hpp"
 
 namespace s7200::tools {
@@ -17,6 +18,8 @@ std::span<const InspectView> inspect_views() {
                   calls_json},
       InspectView{"map", "each memory area: used, free, retentive; timers, counters, data block, EEPROM", true, map_text,
                   map_json},
+      InspectView{"races", "words that the main program and an interrupt share and do not access in one instruction", true,
+                  races_text, races_json},
   };
   return kTable;
 }

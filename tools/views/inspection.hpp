@@ -2,15 +2,27 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/races.hpp"
 #include "interpreter/analysis/selection.hpp"
 
 namespace s7200::tools {
+
+/// An instant at which a race loses a word: a run that ends otherwise than with the interrupt before both accesses of the
+/// main program, and than with it after both.
+struct LostWord {
+  std::string situation;                ///< the memory and the inputs that it begins with
+  std::uint32_t after = 0;              ///< the op of the main program after which the interrupt comes
+  std::string place;                    ///< memory that is different in the end: `VW10`
+  std::string between, before, behind;  ///< its value, in hex: of that run and of the two others
+};
 
 /// A program with what is known of it, and what was asked about. The program may have errors; then what they are in is
 /// unread (interpreter/program/unread.hpp).
@@ -18,6 +30,8 @@ struct Inspection {
   std::shared_ptr<const Program> program;
   Facts facts;
   Selection selection{};
+  /// Looks for a run in which a race loses a word. Empty: none is looked for; whoever can run programs sets it.
+  std::function<std::optional<LostWord>(const Inspection&, const Race&)> lose_word{};
 
   explicit Inspection(std::shared_ptr<const Program> inspected) : program(std::move(inspected)), facts(facts_of(*program)) {}
 };
