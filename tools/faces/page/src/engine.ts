@@ -111,12 +111,12 @@ export class WorkerEngine implements Engine {
   private readonly conversation: Conversation;
 
   constructor(address: string | URL, onlooker: Onlooker) {
-    this.worker = new Worker(address, { type: 'module' });
+    this.worker = new Worker(address);  // a page that is a file may have no worker that is a module
     this.conversation = new Conversation(onlooker, (message) => this.worker.postMessage(message));
     this.worker.onmessage = ({ data }) => this.conversation.received(data);
     this.worker.onerror = (event) => {
-      this.conversation.abandon(`the engine in the browser failed: ${event.message}`);
-      onlooker.connection('ended', event.message);
+      this.conversation.abandon(`the engine in the browser has failed: ${event.message ?? 'it cannot be loaded'}`);
+      onlooker.connection('ended', event.message ?? 'the engine cannot be loaded');
     };
     onlooker.connection('connected', '');
   }

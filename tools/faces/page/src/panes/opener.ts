@@ -31,19 +31,36 @@ function file(name: string): Part {
   } }, icon('close')));
 }
 
+/** Selects a line of the program where it is edited. */
+function show_line(number: number): void {
+  const field = document.querySelector<HTMLTextAreaElement>('.opener textarea');
+  if (!field) return;
+  const lines = field.value.split('\n');
+  const start = lines.slice(0, number - 1).reduce((sum, line) => sum + line.length + 1, 0);
+  field.focus();
+  field.setSelectionRange(start, start + (lines[number - 1]?.length ?? 0));
+  field.scrollTop = (number - 3) * parseFloat(getComputedStyle(field).lineHeight);
+}
+
+const kPlace = /^(.*):(\d+):\d+: (error|warning): /;
+
 function said(): Part | null {
   if (state.check_text === '') return null;
-  return h('pre', { class: 'diagnostics', role: 'status', 'aria-label': 'What check says' }, state.check_text.split('\n').map((line) =>
-    h('div', { class: /: error: /.test(line) ? 'error' : /: warning: /.test(line) ? 'warning' : '' }, line === '' ? ' ' : line)));
+  return h('pre', { class: 'diagnostics', role: 'status', 'aria-label': 'What check says' }, state.check_text.trimEnd().split('\n').map((line) => {
+    const place = kPlace.exec(line);
+    if (!place) return h('div', {}, line === '' ? ' ' : line);
+    const shows = place[1] === state.sources[0]?.name ? () => show_line(Number(place[2])) : undefined;
+    return h('div', { class: `${place[3]}${shows ? ' leads' : ''}`, title: shows ? 'Show the line' : '', onclick: shows }, line);
+  }));
 }
 
 export function opener(): Part {
   return h('div', { class: 'opener' },
     h('div', { class: 'files' },
-      h('label', {}, h('input', { type: 'file', multiple: true, hidden: true, id: 'choose-files', onchange: (event: Event) => {
+      h('input', { type: 'file', multiple: true, hidden: true, id: 'choose-files', onchange: (event: Event) => {
         const chosen = (event.target as HTMLInputElement).files;
         if (chosen) void sources_of(chosen).then(use_sources);
-      } })),
+      } }),
       h('button', { onclick: () => document.querySelector<HTMLInputElement>('#choose-files')?.click() }, 'Choose files …'),
       state.sources.length === 0 ? h('button', { onclick: () => { type_program(kExample); changed(); } }, 'Example') : null,
       state.sources.map((one) => file(one.name)),

@@ -1,0 +1,109 @@
+// The playground: one file, with the engine as WebAssembly in a worker; programs are dropped on it.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { browser, kDesktop, moment, picture } from './support.mjs';
+
+const kFile = `file://${process.env.PLAYGROUND}`;
+const exported = (name) => ({ name, text: readFileSync(path.join(process.env.SOURCE, 'tests/exports', name), 'utf8') });
+let chrome;
+before(async () => { chrome = await browser(); });
+after(() => chrome?.close());
+
+async function open(address = kFile) {
+  const page = await chrome.newPage({ viewport: kDesktop });
+  page.setDefaultTimeout(20000);
+  page.troubles = [];
+  page.on('pageerror', (error) => page.troubles.push(error.message));
+  page.on('console', (message) => { if (message.type() === 'error') page.troubles.push(message.text()); });
+  await page.goto(address);
+  await page.waitForSelector('.connection.connected');
+  return page;
+}
+
+function drop(page, ...files) {
+  return page.evaluate((files) => {
+    const dataTransfer = new DataTransfer();
+    for (const { name, text } of files) dataTransfer.items.add(new File([text], name));
+    dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+  }, files);
+}
+
+const scans = (page) => page.waitForFunction(() => parseInt(document.querySelector('.scan-number').textContent.slice(5)) > 3);
+
+test('a program with its symbol table and data block is dropped, and runs', async () => {
+  const page = await open();
+  await drop(page, ...['pump_symbols.txt', 'pump.awl', 'pump_data.txt'].map(exported));
+  await page.waitForSelector('.row:has-text("Level_High")');
+  await page.fill('#add-address', 'Longest_Run');
+  await page.press('#add-address', 'Enter');
+  await page.waitForFunction(() => document.querySelector('.chart .current')?.textContent === '300');
+  await page.click('[aria-label^="Input I0.1"]');
+  await page.click('[aria-label^="Input I0.0"]');
+  await page.click('#do-run');
+  await page.waitForSelector('[aria-label="Output Q0.0 on"]');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 200);
+  await page.click('#do-run');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  await page.keyboard.press('Shift+S');
+  await page.waitForSelector('.tag.past');
+  await picture(page, 'playground_running');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('the mistakes of a program are shown as check shows them, and lead to their lines', async () => {
+  const page = await open();
+  await drop(page, { name: 'wrong.awl', text: 'LD     I0.0\nMOVB   VW100, VB2\n=      Q0.0\nMEND\n' });
+  await page.waitForSelector('.diagnostics .error');
+  const said = await page.textContent('.diagnostics');
+  assert.match(said, /wrong\.awl:2:\d+: error: /);
+  assert.match(said, /\^/, 'the source line with a caret');
+  assert.match(said, /hint: /);
+  await picture(page, 'playground_mistakes');
+  await page.click('.diagnostics .error');
+  const chosen = await page.$eval('.opener textarea', (field) => field.value.slice(field.selectionStart, field.selectionEnd));
+  assert.equal(chosen, 'MOVB   VW100, VB2');
+  await page.fill('.opener textarea', 'LD     I0.0\nMOVB   VB100, VB2\n=      Q0.0\nMEND\n');
+  await page.click('#check-and-run');
+  await page.waitForSelector('.row:has-text("VB100")');
+  await page.click('#do-scan');
+  await page.waitForSelector('.row.op .flow:text-matches("[01]")');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('a program is typed, run as fast as it goes, and paused', async () => {
+  const page = await open();
+  await page.click('text=Example');
+  await page.click('#check-and-run');
+  await page.waitForSelector('.row');
+  await page.selectOption('#pace', '0');
+  await page.click('#do-run');
+  await page.waitForFunction(() => document.querySelector('#moment').value.endsWith(' s') || parseFloat(document.querySelector('#moment').value) > 5000);
+  await page.click('#do-run');
+  await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  await page.click('#open-program');
+  await page.waitForSelector('.opener textarea');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('an address carries a small program and a moment', async () => {
+  const page = await open();
+  await page.click('text=Example');
+  await page.click('#check-and-run');
+  await page.waitForSelector('.row');
+  for (let i = 0; i < 5; ++i) await page.click('#do-scan');
+  await scans(page);
+  const there = await moment(page);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('l');
+  await page.waitForFunction(() => location.hash.includes('&p='));
+  const other = await open(page.url());
+  await other.waitForSelector('.row:has-text("the pump runs")');
+  await other.waitForFunction((there) => Math.abs(parseFloat(document.querySelector('#moment').value) - there) < 1, there);
+  await other.close();
+  await page.close();
+});
