@@ -77,6 +77,14 @@ test('a push button is on as long as it is pressed', async () => {
   await page.waitForSelector('[aria-label^="Input I0.7"][aria-checked=false]');
 });
 
+test('an analog input is turned with a slider', async () => {
+  await add('AIW4');
+  const slider = page.locator('[aria-label="Analog input AIW4"]');
+  await slider.fill('16000');
+  await shows(4, '16000');
+  await page.click('[aria-label="Remove AIW4"]');
+});
+
 test('what is forced has its mark and colour until it is released', async () => {
   await page.locator('.new-value').nth(1).fill('0');
   await page.click('[aria-label="Force Pump"]');

@@ -4,6 +4,7 @@ import { command, see_values } from '../session';
 import { is_one_word, kFormats, query_of, text_in } from '../formats';
 import { changed, notice, state, type ChartRow, type Format, type PointRow } from '../state';
 import { remember, remembered } from '../memory';
+import type { Value } from '../protocol';
 import { open_menu } from './menu';
 import { icon } from '../icons';
 
@@ -80,6 +81,32 @@ function sparkline(name: string): Part {
   return h('svg', { class: 'spark', viewBox: `0 0 ${kSparkWidth} ${kSparkHeight}`, 'aria-hidden': 'true' }, h('path', { d: path || 'M0,0' }));
 }
 
+function is_analog_input(value: Value | undefined): boolean {
+  return value?.error === undefined && /^AIW\d+$/.test(value?.address ?? '');
+}
+
+const kMostAnalog = 32000;  // what a converter of the S7-200 gives at the end of its range
+
+/** An analog input is turned; only the last of the values that come while one is being set is set. */
+let turned: { address: string; number: number } | null = null;
+let turning = false;
+async function turn(address: string, number: number): Promise<void> {
+  turned = { address, number };
+  if (turning) return;
+  turning = true;
+  while (turned) {
+    const next: { address: string; number: number } = turned;
+    turned = null;
+    await command(`set ${next.address}=${next.number}`);
+  }
+  turning = false;
+}
+
+function slider(address: string, number: number): Part {
+  return h('input', { type: 'range', class: 'slider', min: 0, max: kMostAnalog, step: 8, value: String(number), 'aria-label': `Analog input ${address}`,
+    oninput: (event: Event) => void turn(address, Number((event.target as HTMLInputElement).value)) });
+}
+
 function format_choice(row: ChartRow): Part {
   return h('select', { 'aria-label': `Format of ${row.address}`, onchange: (event: Event) => {
     row.format = (event.target as HTMLSelectElement).value as Format;
@@ -107,7 +134,7 @@ function chart_row(row: ChartRow, i: number): Part {
         onclick: () => void toggle_force(row) }, icon('lock')),
       h('button', { class: 'plain', 'aria-label': `Menu of ${row.address}`, title: 'Chart, who, why', onclick: (event: MouseEvent) => open_menu(event, row.address, null) }, '⋯'),
       h('button', { class: 'plain', 'aria-label': `Remove ${row.address}`, title: 'Remove', onclick: () => { state.chart.splice(i, 1); keep(); } }, icon('close'))),
-    h('td', {}, sparkline(query_of(row.address, row.format))));
+    h('td', {}, is_analog_input(value) ? slider(value!.address, Number(value!.number)) : sparkline(query_of(row.address, row.format))));
 }
 
 function add_row(): Part {

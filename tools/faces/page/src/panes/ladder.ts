@@ -102,14 +102,21 @@ function element(one: LadderElement, power: boolean[]): Part {
   const here = one.op !== null && one.op === state.past?.op;
   return h('g', { class: `${on ? 'on' : ''}${here ? ' here' : ''}`, onclick: () => { state.selected_line = one.line; changed(); } },
     h('title', {}, `line ${one.line}${value ? `: ${value}` : ''}`),
-    one.kind === 'box' ? box(one) : h('path', { class: 'wire', d: one.kind === 'contact' ? contact_path(one) : coil_path(one) }),
+    filling(one), one.kind === 'box' ? box(one) : h('path', { class: 'wire', d: one.kind === 'contact' ? contact_path(one) : coil_path(one) }),
     symbol_text(one), one.operands.map((text) => address_text(text.text, text.column, text.row, one.op)));
 }
 
-/** Values stand below the elements, where the grid leaves room, and in their hints. */
-function values(one: LadderElement): Child {
-  if (!one.value || one.kind === 'box') return null;
-  return h('text', { class: 'ladder-value', x: (middle_x(one.column) + middle_x(one.column + one.width - 1)) / 2, y: middle_y(one.row) + 17, 'text-anchor': 'middle' }, one.value);
+/** A contact that is closed is filled, as in Micro/WIN. */
+function filling(one: LadderElement): Child {
+  if (one.kind !== 'contact' || !is_closed(one)) return null;
+  const narrow = one.symbol === '' || one.symbol === '/', inset = narrow ? kCellWidth : 0;
+  const left = middle_x(one.column) + inset + 2, right = middle_x(one.column + one.width - 1) - inset - 2;
+  return h('rect', { class: 'closed', x: left, y: middle_y(one.row) - 6, width: Math.max(1, right - left), height: 12 });
+}
+
+function is_closed(one: LadderElement): boolean {
+  const normally_closed = one.symbol === '/' || one.symbol === '/I';
+  return normally_closed ? one.value === '0' : one.value === '1';
 }
 
 function drawing(network: LadderNetwork): Part {
@@ -120,7 +127,6 @@ function drawing(network: LadderNetwork): Part {
     grid.wires.map((wire) => h('path', { class: `wire${power[wire.point] ? ' on' : ''}`,
       d: `M${middle_x(wire.column)} ${middle_y(wire.row)}L${middle_x(wire.to_column)} ${middle_y(wire.to_row)}` })),
     (network.elements ?? []).map((one) => element(one, power)),
-    (network.elements ?? []).map(values),
     grid.connectors.map((one) => cell_text(one.text, one.column, one.row, 'address')));
 }
 
