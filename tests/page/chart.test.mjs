@@ -85,6 +85,17 @@ test('an analog input is turned with a slider', async () => {
   await page.click('[aria-label="Remove AIW4"]');
 });
 
+test('the rows of a pasted status chart are added', async () => {
+  await page.evaluate(() => {
+    const clipboardData = new DataTransfer();
+    clipboardData.setData('text', 'Address\tFormat\nVB200\tASCII\nVW100\tHexadecimal\n');
+    document.querySelector('#add-address').dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
+  });
+  await shows(4, "'P'");
+  await shows(5, '16#0010');
+  for (const address of ['VB200', 'VW100']) await page.click(`[aria-label="Remove ${address}"]`);
+});
+
 test('what is forced has its mark and colour until it is released', async () => {
   await page.locator('.new-value').nth(1).fill('0');
   await page.click('[aria-label="Force Pump"]');

@@ -1,12 +1,12 @@
 // The page's own reckoning, without a browser: moments, formats, exchanges, scales, addresses with a program in them.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 
-const kParts = ['words', 'formats', 'exchanges', 'files', 'timeline/scale'];
+const kParts = ['words', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/scale'];
 const source = kParts.map((one) => `export * from './${one}';`).join('\n');
 const bundle = execFileSync('esbuild', ['--bundle', '--format=esm', '--platform=neutral'],
   { input: source, cwd: path.join(process.env.SOURCE, 'tools/faces/page/src'), encoding: 'utf8' });
@@ -94,4 +94,13 @@ test('a small program fits into an address and comes back, a damaged address bri
   assert.deepEqual(await parts.sources_in('#p=AAAA'), []);
   const noise = Array.from({ length: 30000 }, (_, i) => (i * 2654435761 % 4294967296).toString(36)).join('');
   assert.equal(await parts.address_of([{ name: 'a.awl', text: noise }]), undefined);
+});
+
+test('a status chart of Micro/WIN is read, and written as it is', () => {
+  const text = readFileSync(path.join(process.env.SOURCE, 'tests/exports/pump_chart.txt'), 'utf8');
+  const rows = parts.chart_from(text);
+  assert.deepEqual(rows.map((row) => [row.address, row.format]), [['Q0.0', 'signed'], ['VW100', 'signed'], ['VD104', 'unsigned']]);
+  const written = parts.chart_text(rows.map((row, i) => ({ row, current: '0', bit: i === 0 })));
+  assert.deepEqual(parts.chart_from(written), rows);
+  assert.deepEqual(parts.chart_from('"Level low":I0.1\tBit\r\n\t\t\nVD20:real\t\t\t5\n').map((row) => row.address), ['I0.1', 'VD20:real']);
 });

@@ -4,6 +4,7 @@ import { command, see_values } from '../session';
 import { is_one_word, kFormats, query_of, text_in } from '../formats';
 import { changed, notice, state, type ChartRow, type Format, type PointRow } from '../state';
 import { remember, remembered } from '../memory';
+import { chart_from, chart_text } from '../status_charts';
 import type { Value } from '../protocol';
 import { open_menu } from './menu';
 import { icon } from '../icons';
@@ -137,6 +138,23 @@ function chart_row(row: ChartRow, i: number): Part {
     h('td', {}, is_analog_input(value) ? slider(value!.address, Number(value!.number)) : sparkline(query_of(row.address, row.format))));
 }
 
+/** Pasted rows of a status chart, from Micro/WIN or from here. */
+function paste(event: ClipboardEvent): void {
+  const text = event.clipboardData?.getData('text') ?? '';
+  if (!/[\n\t]/.test(text.trim())) return;
+  event.preventDefault();
+  for (const row of chart_from(text)) if (!state.chart.some((one) => one.address === row.address)) state.chart.push(row);
+  keep();
+}
+
+function copy_chart(): void {
+  const rows = state.chart.map((row) => {
+    const value = value_of(row);
+    return { row, current: value ? text_in(value, row.format) : '', bit: value?.type === 'bit' };
+  });
+  navigator.clipboard?.writeText(chart_text(rows)).then(() => notice('The chart is copied: paste it into Micro/WIN or a table'), () => notice('This browser does not let the page copy', 'error'));
+}
+
 function add_row(): Part {
   return h('form', { class: 'add', onsubmit: (event: Event) => {
     event.preventDefault();
@@ -144,7 +162,7 @@ function add_row(): Part {
     if (field.value.trim() === '') return;
     add_to_chart(field.value.trim());
     field.value = '';
-  } }, h('input', { id: 'add-address', placeholder: 'Add an address or symbol', 'aria-label': 'Add an address or symbol', list: 'symbols', autocomplete: 'off', spellcheck: 'false' }),
+  } }, h('input', { id: 'add-address', placeholder: 'Add an address or symbol', title: 'Paste a status chart here for all its rows', onpaste: paste, 'aria-label': 'Add an address or symbol', list: 'symbols', autocomplete: 'off', spellcheck: 'false' }),
   h('button', { 'aria-label': 'Add' }, icon('plus')));
 }
 
@@ -212,7 +230,8 @@ export function chart_pane(): Part {
     points('Outputs', state.outputs.map(output_lamp)),
     h('div', { class: 'chart-tools' },
       h('button', { onclick: () => void write_all(), title: 'Write all new values' }, 'Write all'),
-      h('button', { onclick: () => void command('unforce all'), disabled: !forced, title: 'Release everything that is forced' }, 'Unforce all')),
+      h('button', { onclick: () => void command('unforce all'), disabled: !forced, title: 'Release everything that is forced' }, 'Unforce all'),
+      h('button', { onclick: copy_chart, disabled: state.chart.length === 0, title: 'Copy the chart as Micro/WIN has it' }, 'Copy')),
     h('table', { class: 'chart' },
       h('thead', {}, h('tr', {}, ['Address', 'Format', 'Current value', 'New value', '', 'Trend'].map((name) => h('th', {}, name)))),
       h('tbody', {}, state.chart.map(chart_row))),
