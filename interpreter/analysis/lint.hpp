@@ -17,6 +17,22 @@ namespace s7200 {
 /// keep them apart. Memory may have two coils if it is read in between; an output may not, because the last coil decides.
 void find_double_coils(const Facts& facts, stl::Diagnostics& diagnostics);
 
+/// A bit that S, R or a coil writes and that an instruction which is always executed later in the routine writes again,
+/// alone or with the rest of its byte or word, before anything uses it. Two coils are find_double_coils'.
+void find_overwritten(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// An instruction after a JMP, END or CRET with sure power flow that no label lets in. The first of each stretch.
+void find_unreachable(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// EU and ED have one memory bit each: executed twice in a scan, the second time sees no edge.
+void find_repeated_edges(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// 100 ms timers count when they are executed (facts 6.4).
+void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// SM0.0 is always 1. LDN SM0.0 is left alone: it is how programs write a constant 0, or switch a rung off.
+void find_constant_contacts(const Facts& facts, stl::Diagnostics& diagnostics);
+
 /// A timer or counter has one current value: executed twice in a scan, it counts twice or is reset by the other rung.
 void find_double_timers(const Facts& facts, stl::Diagnostics& diagnostics);
 void find_double_counters(const Facts& facts, stl::Diagnostics& diagnostics);

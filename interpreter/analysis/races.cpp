@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include "interpreter/analysis/first_scan.hpp"
@@ -115,7 +116,9 @@ class Protection {
     if (facts_.flow.nodes[disi].powered) return !leads_past(disi, op);
     for (std::uint32_t i = disi + 1; i < op; ++i) {
       const Op& between = facts_.program.ops[i];
-      if (between.is_contact && between.instruction->effect == Effect::LoadsBit) return false;
+      const std::string_view mnemonic = between.instruction->mnemonic;
+      const bool only_takes_power = mnemonic.starts_with('A') && mnemonic != "ALD";
+      if (between.is_contact && !only_takes_power) return false;
       if (between.instruction->structure != Structure::None) return false;
     }
     return true;

@@ -7,6 +7,7 @@ namespace s7200 {
 
 std::span<const WarningInfo> all_warnings() {
   static constexpr std::array kTable{
+      WarningInfo{Warning::ConstantContact, "constant-contact", "a contact of SM0.0 that never opens or never closes"},
       WarningInfo{Warning::DoubleCoil, "double-coil", "a coil that another one always overwrites"},
       WarningInfo{Warning::DoubleCounter, "double-counter", "a counter that counts twice in a scan"},
       WarningInfo{Warning::DoubleLoop, "double-loop", "two PIDs of the same loop"},
@@ -18,10 +19,15 @@ std::span<const WarningInfo> all_warnings() {
       WarningInfo{Warning::NoReceiveEvent, "no-receive-event",
                   "SMB2 or SM3.0 in a program that attaches nothing to event 8 or 25"},
       WarningInfo{Warning::OtherSign, "other-sign", "a constant whose bits the instruction reads with the other sign"},
+      WarningInfo{Warning::Overwritten, "overwritten",
+                  "a bit that is set, reset or written, and always overwritten before it is used"},
       WarningInfo{Warning::PortBusy, "port-busy", "XMT or RCV while the port is surely sending or receiving"},
       WarningInfo{Warning::Preset, "preset", "a constant preset of 0 or below: the timer or counter has nothing to count"},
       WarningInfo{Warning::ReceiveOnce, "receive-once", "RCV in the first scan, and nothing that executes one again"},
       WarningInfo{Warning::Recursion, "recursion", "a subroutine that calls itself, directly or through others"},
+      WarningInfo{Warning::RepeatedEdge, "repeated-edge", "EU or ED in a loop, or in a subroutine that a scan calls twice"},
+      WarningInfo{Warning::SkippedTimer, "skipped-timer", "a 100 ms timer that a jump leaves out in some scans"},
+      WarningInfo{Warning::Unreachable, "unreachable", "an instruction that nothing leads to"},
       WarningInfo{Warning::UnusedLabel, "unused-label", "a label that no JMP goes to"},
       WarningInfo{Warning::UnusedRoutine, "unused-routine", "a routine that is never called or attached"},
       WarningInfo{Warning::UnusedSpecialMemory, "unused-sm",

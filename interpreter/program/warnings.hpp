@@ -11,6 +11,7 @@
 namespace s7200 {
 
 enum class Warning : std::uint8_t {
+  ConstantContact,
   DoubleCoil,
   DoubleTimer,
   DoubleCounter,
@@ -20,10 +21,14 @@ enum class Warning : std::uint8_t {
   NoFreeport,
   NoReceiveEvent,
   OtherSign,
+  Overwritten,
   PortBusy,
   Preset,
   ReceiveOnce,
   Recursion,
+  RepeatedEdge,
+  SkippedTimer,
+  Unreachable,
   UnusedLabel,
   UnusedRoutine,
   UnusedSpecialMemory,

@@ -47,6 +47,8 @@ TEST(Races, DisiKeepsTheInterruptAway) {
   EXPECT_EQ(races("LD I0.0\nDISI\nLD I0.1\nMOVW VW10, AC0\n+I 5, AC0\nMOVW AC0, VW10\nLD SM0.0\nENI\n", kCounts),
             "lost VW10 3-5")
       << "DISI has no power flow without I0.0";
+  EXPECT_EQ(races("LD I0.0\nDISI\nLDN I0.1\nMOVW VW10, AC0\n+I 5, AC0\nMOVW AC0, VW10\nLD SM0.0\nENI\n", kCounts),
+            "lost VW10 3-5");
   EXPECT_EQ(
       races("LD SM0.0\nDISI\nCALL 1\nENI\n", kCounts, "SBR 1\nLD I0.0\nMOVW VW10, AC0\nINCW AC0\nMOVW AC0, VW10\nRET\n"),
       "");

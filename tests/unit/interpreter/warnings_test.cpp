@@ -113,6 +113,53 @@ TEST(DoubleCoil, IsTheSameOutputInTwoSegments) {
             "8 double-coil\n");
 }
 
+// --- overwritten ---
+
+TEST(Overwritten, IsABitThatIsSetAndAlwaysWrittenAgainBeforeItIsUsed) {
+  EXPECT_EQ(warnings_of("LD I0.0\nS Q0.0, 1\nLD I0.1\n= Q0.0\nMEND\n"), "2 overwritten\n");
+  EXPECT_EQ(warnings_of("LD I0.0\nR M0.0, 1\nLD I0.1\n= M0.0\nLD M0.0\n= Q0.0\nMEND\n"), "2 overwritten\n");
+  EXPECT_EQ(warnings_of("LD I0.0\n= M0.3\nLD SM0.0\nMOVB 5, MB0\nMEND\n"), "2 overwritten\n") << "with the whole byte";
+}
+
+TEST(Overwritten, IsNotOneThatAnythingUsesOrThatIsWrittenAtTimesOnly) {
+  EXPECT_EQ(warnings_of("LD I0.0\nS Q0.0, 1\nLD Q0.0\nA I0.1\n= Q0.0\nMEND\n"), "") << "it holds itself";
+  EXPECT_EQ(warnings_of("LD I0.0\n= M0.3\nLD I0.1\nMOVB 5, MB0\nMEND\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nS M0.0, 1\nLD I0.1\nR M0.0, 1\nMEND\n"), "") << "set and reset";
+  EXPECT_EQ(warnings_of("LD I0.0\nS M0.0, 1\nCALL 0\nLD I0.1\n= M0.0\nMEND\nSBR 0\nLD M0.0\n= Q0.0\nRET\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nS M0.0, 1\nLD I0.2\nEND\nLD I0.1\n= M0.0\nMEND\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nS M0.0, 1\nLD I0.1\nJMP 1\nLD I0.1\n= M0.0\nLBL 1\nMEND\n"), "");
+}
+
+// --- unreachable, skipped-timer, repeated-edge, constant-contact ---
+
+TEST(Unreachable, IsWhatStandsAfterASureJumpOrEndWithoutALabel) {
+  EXPECT_EQ(warnings_of("LD SM0.0\nJMP 1\nLD I0.0\n= Q0.0\nLBL 1\nMEND\n"), "3 unreachable\n");
+  EXPECT_EQ(warnings_of("LD SM0.0\nEND\nLD I0.0\n= Q0.0\nMEND\n"), "3 unreachable\n");
+  EXPECT_EQ(warnings_of("LD I0.7\nCALL 0\nMEND\nSBR 0\nCRET\nLD I0.0\n= Q0.0\nRET\n"), "6 unreachable\n");
+  EXPECT_EQ(warnings_of("LD I0.0\nJMP 1\nLD I0.0\n= Q0.0\nLBL 1\nMEND\n"), "");
+  EXPECT_EQ(warnings_of("LD SM0.0\nJMP 1\nLBL 1\nMEND\n"), "") << "nothing is left out";
+}
+
+TEST(SkippedTimer, IsA100MillisecondTimerThatAJumpLeavesOut) {
+  EXPECT_EQ(warnings_of("LD I0.0\nJMP 1\nLD I0.1\nTON T37, 10\nLBL 1\nMEND\n"), "4 skipped-timer\n");
+  EXPECT_EQ(warnings_of("LD I0.0\nJMP 1\nLD I0.1\nTON T33, 10\nLBL 1\nMEND\n"), "")
+      << "the CPU counts 10 ms timers by itself";
+  EXPECT_EQ(warnings_of("LD I0.0\nJMP 1\nLD I0.1\n= Q0.0\nLBL 1\nLD I0.1\nTON T37, 10\nMEND\n"), "");
+}
+
+TEST(RepeatedEdge, IsAnEdgeThatAScanExecutesMoreThanOnce) {
+  EXPECT_EQ(warnings_of("LD I0.0\nFOR VW0, 1, 3\nLD I0.1\nEU\nINCW VW2\nNEXT\nMEND\n"), "4 repeated-edge\n");
+  EXPECT_EQ(warnings_of("LD SM0.0\nCALL 0\nCALL 0\nMEND\nSBR 0\nLD I0.1\nED\nINCW VW2\nRET\n"), "7 repeated-edge\n");
+  EXPECT_EQ(warnings_of("LD SM0.0\nCALL 0\nMEND\nSBR 0\nLD I0.1\nED\nINCW VW2\nRET\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nFOR VW0, 1, 3\nINCW VW2\nNEXT\nLD I0.1\nEU\nINCW VW4\nMEND\n"), "");
+}
+
+TEST(ConstantContact, IsOneOfSm00ThatDoesNothingOrNeverCloses) {
+  EXPECT_EQ(warnings_of("LD I0.0\nAN SM0.0\n= Q0.0\nLD I0.1\nO SM0.0\n= Q0.1\nMEND\n"),
+            "2 constant-contact\n5 constant-contact\n");
+  EXPECT_EQ(warnings_of("LD I0.0\nA SM0.0\n= Q0.0\nLDN SM0.0\n= Q0.1\nMEND\n"), "");
+}
+
 // --- double-timer, double-counter ---
 
 TEST(DoubleTimer, IsATimerThatEveryScanExecutesTwice) {
