@@ -6,7 +6,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 
-const kParts = ['words', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/scale'];
+const kParts = ['words', 'formats', 'exchanges', 'files', 'status_charts', 'timeline/draw', 'timeline/scale'];
 const source = kParts.map((one) => `export * from './${one}';`).join('\n');
 const bundle = execFileSync('esbuild', ['--bundle', '--format=esm', '--platform=neutral'],
   { input: source, cwd: path.join(process.env.SOURCE, 'tools/faces/page/src'), encoding: 'utf8' });
@@ -78,6 +78,16 @@ test('the scale finds the first element that is in view', () => {
   assert.equal(parts.x_of(scale, 600), 250);
   assert.equal(parts.ns_at(scale, 250), 600);
   assert.equal(parts.step_of(scale, 100), 200);
+});
+
+test('the bits of a character are those of the line', () => {
+  const format = { baud: 9600, data_bits: 8, parity: 'even', stop_bits: 1 };
+  assert.equal(parts.levels_of(format, 0x01).join(''), '01000000011');
+  assert.equal(parts.levels_of(format, 0x03).join(''), '01100000001');
+  assert.equal(parts.levels_of({ ...format, parity: 'odd' }, 0x03).join(''), '01100000011');
+  assert.equal(parts.levels_of({ ...format, parity: 'none', data_bits: 7, stop_bits: 2 }, 0x41).join(''), '0100000111');
+  assert.equal(parts.levels_of(format, 0x03, 'parity error').join(''), '01100000011');
+  assert.equal(parts.levels_of(format, 0x03, 'framing error').join(''), '01100000000');
 });
 
 test('files are read as they are encoded', () => {

@@ -57,7 +57,7 @@ async function copy_link(): Promise<void> {
 
 const kPrefersDark = matchMedia('(prefers-color-scheme: dark)');
 
-export function apply_theme(): void {
+function apply_theme(): void {
   const system = kPrefersDark.matches ? 'dark' : 'light';
   document.documentElement.dataset['theme'] = state.theme === 'system' ? system : state.theme;
   changed();

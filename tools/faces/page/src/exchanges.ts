@@ -14,7 +14,7 @@ export interface Exchange {
 
 const kAwaited = 1e9;  // ns for which a request without an answer may still get one
 
-export function is_sent(frame: Span): boolean {
+function is_sent(frame: Span): boolean {
   return frame.text.startsWith('sent');
 }
 

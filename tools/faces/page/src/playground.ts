@@ -20,7 +20,6 @@ export async function open_program(): Promise<void> {
     notice(reply.error ?? 'the program could not be opened', 'error');
     return;
   }
-  state.diagnostics = reply.json.diagnostics;
   state.check_text = reply.json.text;
   state.opening = !reply.json.opened;
   changed();

@@ -1,5 +1,6 @@
 // What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
 import { changed, notice, state, the_engine } from './state';
+import { kProtocol } from './protocol';
 import type { Line, Notification, Outline, Past, Reply, Status, Stops, Value } from './protocol';
 import { is_one_word, query_of } from './formats';
 import { moment_of_link, moment_word } from './words';
@@ -147,6 +148,7 @@ async function get_acquainted(): Promise<void> {
   chunks.clear();
   state.lines.clear();
   state.executions.clear();
+  state.ladder.clear();
   const reply = await query<Outline>('listing');
   if (reply.json) {
     state.outline = reply.json;
@@ -156,6 +158,24 @@ async function get_acquainted(): Promise<void> {
   lines.refresh();
   stops.refresh();
   refresh_all();
+}
+
+/** A session begins, perhaps with another program: what was known of the one before says nothing of it. */
+function forget_run(): void {
+  state.running = false;
+  state.own_run = false;
+  state.spans = null;
+  state.exchanges = null;
+  state.selected_span = null;
+  state.samples.clear();
+  state.switched.clear();
+  if (!the_engine().open) return;
+  state.window = null;
+  state.cursors = { a_ns: null, b_ns: null };
+  state.trail = [];
+  state.inputs = [];
+  state.outputs = [];
+  state.selected_line = null;
 }
 
 /** The moment that the address of the page names, once there is a session. */
@@ -178,8 +198,10 @@ function propose_points(outline: Outline): void {
 export function notified(note: Notification): void {
   switch (note.event) {
     case 'hello':
+      if (note.protocol !== kProtocol) notice(`s7200 speaks protocol ${note.protocol}, this page protocol ${kProtocol}: load the page anew`, 'error');
       state.hello = note;
       state.past = note.now;
+      forget_run();
       void get_acquainted().then(follow_link);
       break;
     case 'moved':

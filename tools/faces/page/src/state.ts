@@ -1,6 +1,6 @@
 // All that the page shows, as plain data. Who changes it says changed(), and the page is rendered with the next frame.
 import type { Connection, Engine } from './engine';
-import type { Cause, Diagnostic, Execution, Hello, Line, Outline, Past, Source, Span, Spans, Value } from './protocol';
+import type { Cause, Execution, Hello, LadderNetwork, Line, Outline, Past, Source, Span, Spans, Value } from './protocol';
 
 export type PaneName = 'program' | 'chart' | 'timeline' | 'causes' | 'line';
 export type Theme = 'system' | 'light' | 'dark';
@@ -57,6 +57,8 @@ export interface State {
   outline: Outline | null;
   lines: Map<number, Line>;
   executions: Map<number, Execution>;
+  /** Networks as ladder, by the line of the network. */
+  ladder: Map<number, LadderNetwork[]>;
   view: 'stl' | 'ladder';
   /** The session can draw networks. */
   has_ladder: boolean;
@@ -89,7 +91,6 @@ export interface State {
   sources: Source[];
   cpu: string;
   opening: boolean;
-  diagnostics: Diagnostic[];
   check_text: string;
 }
 
@@ -110,6 +111,7 @@ export const state: State = {
   outline: null,
   lines: new Map(),
   executions: new Map(),
+  ladder: new Map(),
   view: 'stl',
   has_ladder: false,
   selected_line: null,
@@ -134,7 +136,6 @@ export const state: State = {
   sources: [],
   cpu: '',
   opening: false,
-  diagnostics: [],
   check_text: '',
 };
 

@@ -17,8 +17,6 @@ interface Place {
   end: number;
 }
 
-/** What `ladder` has said, by the line of the network. */
-const networks = new Map<number, LadderNetwork[]>();
 let scroller: HTMLElement | null = null;
 let in_view: Place[] = [];
 let followed: number | null = null;
@@ -36,18 +34,14 @@ const seen = new Seen(async () => {
   if (state.view !== 'ladder') return;
   for (const place of [...in_view]) {
     const reply = await query<{ networks: LadderNetwork[] }>(`ladder ${place.line}`);
-    if (reply.json) networks.set(place.line, reply.json.networks);
+    if (reply.json) state.ladder.set(place.line, reply.json.networks);
     else wrong = reply.error ?? '';
   }
 });
 also_seen(seen);
 
-export function forget_ladder(): void {
-  networks.clear();
-}
-
 function height_of(place: Place): number {
-  const known = networks.get(place.line);
+  const known = state.ladder.get(place.line);
   if (!known) return kUnknownHeight;
   return 34 + known.reduce((sum, one) => sum + 18 * one.comments.length + (one.grid ? one.grid.rows * kCellHeight + 16 : 18 * (one.ops + 2)), 0);
 }
@@ -167,6 +161,6 @@ export function ladder_view(): Part {
     ref: (node: HTMLElement) => { const first = scroller !== node; scroller = node; if (first) requestAnimationFrame(changed); follow(all); } },
   h('div', { class: 'rows', style: { height: `${top}px` } }, shown.map(({ place, top: y }) =>
     h('section', { class: `ladder-network${state.past?.op !== null && state.past && state.past.op! >= place.first && state.past.op! < place.end ? ' here' : ''}`, key: place.line, style: { top: `${y}px` } },
-      h('h3', {}, place.name), (networks.get(place.line) ?? []).map(network_part),
-      networks.has(place.line) ? null : h('div', { class: 'hint' }, wrong || '…')))));
+      h('h3', {}, place.name), (state.ladder.get(place.line) ?? []).map(network_part),
+      state.ladder.has(place.line) ? null : h('div', { class: 'hint' }, wrong || '…')))));
 }

@@ -9,7 +9,7 @@ import { ladder_view } from './ladder';
 import { opener } from './opener';
 import { can_open } from '../playground';
 
-export const kRow = 20;  // pixels, as page.css has it
+const kRow = 20;  // pixels, as page.css has it
 const kMore = 8;         // rows above and below those in view
 
 let scroller: HTMLElement | null = null;
@@ -20,7 +20,7 @@ function line_at_top(): number {
   return scroller ? Math.floor(scroller.scrollTop / kRow) + 1 : 1;
 }
 
-export function scroll_to(line: number): void {
+function scroll_to(line: number): void {
   if (!scroller) return;
   scroller.scrollTop = Math.max(0, (line - 1) * kRow - scroller.clientHeight / 3);
   changed();
