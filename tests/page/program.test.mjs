@@ -54,9 +54,26 @@ test('a click in the margin sets a breakpoint, and the run stops there', async (
   await page.click('#do-run');
   await page.waitForSelector('.row.here:has-text("INCD")', { timeout: 10000 });
   assert.equal(await page.textContent('#do-run'), 'Run');
+  assert.match(await page.textContent('.notice'), /^breakpoint 1, hit for the first time/);
   assert.ok(Math.abs(await moment(page) - 50) < 2, 'the timed interrupt comes each 50 ms');
   await wanted.locator('.margin').click();
   await page.waitForFunction(() => !document.querySelector('.margin.stop'));
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
+test('a fatal error is said, the SF lamp is on, and one can go back to before it', async () => {
+  const program = path.join(kFolder, 'loop.awl');
+  writeFileSync(program, 'NETWORK 1\nLBL    1\nLD     I0.1\nJMP    1\nMEND\n');
+  const page = await open(chrome, await start(program));
+  await page.click('#do-scan');
+  await page.click('[aria-label^="Input I0.1"]');
+  await page.click('#do-run');
+  await page.waitForSelector('.notice.error');
+  assert.match(await page.textContent('.notice.error'), /fatal error/);
+  await page.waitForSelector('.lamp.fault.on');
+  await page.keyboard.press('Shift+S');
+  await page.waitForSelector('.lamp.fault:not(.on)');
   assert.deepEqual(page.troubles, []);
   await page.close();
 });

@@ -1,7 +1,7 @@
 // Run and Pause. A session that follows the clock runs by itself; another one is run piece by piece, at the pace that was chosen.
 import type { Stopped } from './protocol';
 import { changed, state, the_engine } from './state';
-import { command, print } from './session';
+import { command, print, say_why_stopped } from './session';
 
 const kPiece = 50;        // ms of the reader's time that a piece takes
 const kWithoutEnd = '24h';
@@ -17,6 +17,7 @@ async function run_piece(length_ns: number): Promise<number | undefined> {
   const reply = await command<Stopped>(`continue ${Math.max(1, Math.round(length_ns))}ns`);
   if (reply.error !== undefined || reply.interrupted) return undefined;
   if (reply.json?.stopped !== 'limit') print(reply.text);
+  say_why_stopped(reply);
   return kGoesOn.has(reply.json?.stopped ?? '') ? performance.now() - began : undefined;
 }
 
@@ -36,6 +37,7 @@ async function run_without_end(): Promise<void> {
     const reply = await command<Stopped>(`continue ${kWithoutEnd}`);
     if (reply.interrupted || reply.error !== undefined) return;
     print(reply.text);
+    say_why_stopped(reply);
     if (!state.own_run || !kGoesOn.has(reply.json?.stopped ?? '')) return;
   }
 }

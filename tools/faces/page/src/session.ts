@@ -1,7 +1,7 @@
 // What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
 import { changed, notice, state, the_engine } from './state';
 import { kProtocol } from './protocol';
-import type { Line, Notification, Outline, Past, Reply, Status, Stops, Value } from './protocol';
+import type { Line, Notification, Outline, Past, Reply, Status, Stopped, Stops, Value } from './protocol';
 import { is_one_word, query_of } from './formats';
 import { moment_of_link, moment_word } from './words';
 
@@ -231,8 +231,21 @@ const kPrinted = 500;
 /** Where it stands and the next instruction are shown elsewhere. */
 const kShownElsewhere = /^\s*$|^ *> |^\d+\.\d+ ms  scan \d+/;
 
+function lines_to_say(text: string): string[] {
+  return text.split('\n').filter((line) => !kShownElsewhere.test(line));
+}
+
+const kLinesOfNotice = 3;
+
+/** A breakpoint, or the CPU gone to STOP: said above the panes. */
+export function say_why_stopped(reply: Reply<Stopped>): void {
+  const why = reply.json?.stopped;
+  if (why === 'stop point' || why === 'CPU')
+    notice(lines_to_say(reply.text).slice(0, kLinesOfNotice).join('\n').trim(), why === 'CPU' ? 'error' : 'info');
+}
+
 export function print(text: string): void {
-  state.printed.push(...text.split('\n').filter((line) => !kShownElsewhere.test(line)));
+  state.printed.push(...lines_to_say(text));
   if (state.printed.length > kPrinted) state.printed.splice(0, state.printed.length - kPrinted);
   changed();
 }
@@ -258,6 +271,7 @@ export async function move<Json = unknown>(line: string): Promise<Reply<Json>> {
   state.notice = null;
   changed();
   const reply = await command<Json>(line);
+  say_why_stopped(reply as Reply<any>);
   state.running = false;
   changed();
   return reply;
