@@ -56,9 +56,18 @@ test('a request of Modbus in words, and one with a wrong CRC, which has no answe
   assert.match(await page.textContent('.exchanges tr.trouble'), /no answer/);
 });
 
+test('a request without an answer says what kept the program from one', async () => {
+  await page.click('.exchanges .why');
+  await page.waitForSelector('.trail li');
+  const said = await page.textContent('.trail');
+  assert.match(said, /Why has 01 03 00 0a 00 02 00 00 no answer\?/);
+  assert.match(said, /JMP 255 in line 141/);
+  await picture(page, 'line_why');
+});
+
 test('characters, frames and interrupts are tracks of the timeline', async () => {
   await page.click('#timeline-all');
-  await page.waitForSelector('.track-name:has-text("INT 123")');
+  await page.waitForSelector('.track-name:has-text("port 0 sent")');
   const all = await names();
   for (const name of ['port 0 received', 'port 0 sent', 'port 0 frames', 'INT 123', 'scans']) assert.ok(all.includes(name), `${name} in ${all}`);
 });
@@ -122,8 +131,7 @@ test('a condition is searched for through the past, and by running on', async ()
   assert.equal(await page.textContent('.tag'), 'past');
   await page.fill('#condition', 'VB0 = 77');
   await page.press('#condition', 'Enter');
-  await page.waitForSelector('.notice.info');
-  assert.match(await page.textContent('.notice.info'), /VB0 = 77 does not come to hold within/);
+  await page.waitForSelector('.notice:has-text("VB0 = 77 does not come to hold within")');
   await page.fill('#condition', 'VW0 >');
   await page.press('#condition', 'Enter');
   await page.waitForSelector('.notice.error');

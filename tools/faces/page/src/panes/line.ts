@@ -2,6 +2,7 @@
 import { h, type Part } from '../dom';
 import { command, go_to } from '../session';
 import { changed, state } from '../state';
+import { ask_why_unanswered } from '../causes';
 import { see_exchanges } from '../timeline/view';
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
 import { action, title_with_key } from '../actions';
@@ -18,11 +19,12 @@ async function send(text: string): Promise<void> {
 
 const kExamples = ['01 03 00 0a 00 02 crc', 'read 40011:2', 'write 40011=1234', "'HELLO\\r'"];
 
-function row(one: Exchange, i: number): Part {
+function row(one: Exchange, i: number, next: Exchange | undefined): Part {
+  const unanswered = is_unanswered(one);
   const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : 'no answer');
-  return h('tr', { key: i, class: one.error !== undefined || is_unanswered(one) ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
+  return h('tr', { key: i, class: one.error !== undefined || unanswered ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
     h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
-    h('td', { class: 'frame' }, one.request), h('td', { class: 'frame' }, result),
+    h('td', { class: 'frame' }, one.request), h('td', { class: 'frame' }, result, unanswered ? h('button', { class: 'why', title: 'What kept the program from an answer', onclick: (event: Event) => { event.stopPropagation(); void ask_why_unanswered(one, next); } }, 'Why?') : null),
     h('td', { class: 'number' }, one.latency_ns === undefined ? '' : duration_text(one.latency_ns)));
 }
 
@@ -70,5 +72,5 @@ export function line_pane(): Part {
       histogram(latencies_of(all)), h('span', { class: 'hint' }, summary(all))),
     h('table', { class: 'exchanges' },
       h('thead', {}, h('tr', {}, ['Request at', 'Request', 'Answer', 'Latency'].map((name) => h('th', {}, name)))),
-      h('tbody', {}, shown.slice(-kShown).reverse().map(row))));
+      h('tbody', {}, shown.slice(-kShown).reverse().map((one, i) => row(one, i, all[all.indexOf(one) + 1])))));
 }
