@@ -10,6 +10,7 @@
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/program/ladder_boxes.hpp"
 #include "interpreter/program/operand_memory.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "interpreter/stl/parser.hpp"
@@ -18,104 +19,13 @@
 namespace s7200 {
 namespace {
 
+using Form = LadderBox::Form;
 using stl::LadderBranch;
 using stl::LadderElement;
 using stl::LadderNetwork;
 using stl::LadderPath;
 using stl::LadderPin;
 using stl::LadderText;
-
-// ---- The boxes whose names are not mnemonics, or whose pins are in another order than the operands -----------------------
-
-enum class Form : std::uint8_t {
-  Pins,        ///< the operands are pins
-  InPlace,     ///< IN, OUT: OUT = f(IN)
-  Shift,       ///< IN, N, OUT
-  Sum,         ///< IN1, IN2, OUT; the inputs may be swapped
-  Difference,  ///< IN1, IN2, OUT
-  Product      ///< IN1, IN2 words, OUT a double word whose low word is IN1 first
-};
-
-struct BoxRow {
-  std::string_view name, mnemonic;
-  Form form;
-  std::string_view move{};  ///< of IN to OUT
-  std::array<std::string_view, 3> pins{};
-};
-
-// clang-format off
-constexpr BoxRow kBoxes[] = {
-    {"MOV_B",    "MOVB",  Form::Pins,       {},     {"IN", "OUT"}},
-    {"MOV_W",    "MOVW",  Form::Pins,       {},     {"IN", "OUT"}},
-    {"MOV_DW",   "MOVD",  Form::Pins,       {},     {"IN", "OUT"}},
-    {"MOV_R",    "MOVR",  Form::Pins,       {},     {"IN", "OUT"}},
-    {"BLKMOV_B", "BMB",   Form::Pins,       {},     {"IN", "OUT", "N"}},
-    {"BLKMOV_W", "BMW",   Form::Pins,       {},     {"IN", "OUT", "N"}},
-    {"BLKMOV_D", "BMD",   Form::Pins,       {},     {"IN", "OUT", "N"}},
-    {"FILL_N",   "FILL",  Form::Pins,       {},     {"IN", "OUT", "N"}},
-    {"ATH",      "ATH",   Form::Pins,       {},     {"IN", "OUT", "LEN"}},
-    {"HTA",      "HTA",   Form::Pins,       {},     {"IN", "OUT", "LEN"}},
-    {"AD_T_TBL", "ATT",   Form::Pins,       {},     {"DATA", "TBL"}},
-    {"READ_RTC", "TODR",  Form::Pins,       {},     {"T"}},
-    {"SET_RTC",  "TODW",  Form::Pins,       {},     {"T"}},
-    {"DI_REAL",  "DTR",   Form::Pins,       {},     {"IN", "OUT"}},
-    {"B_I",      "BTI",   Form::Pins,       {},     {"IN", "OUT"}},
-    {"I_B",      "ITB",   Form::Pins,       {},     {"IN", "OUT"}},
-    {"I_DI",     "ITD",   Form::Pins,       {},     {"IN", "OUT"}},
-    {"DI_I",     "DTI",   Form::Pins,       {},     {"IN", "OUT"}},
-    {"ADD_I",    "+I",    Form::Sum,        "MOVW", {"IN1", "IN2", "OUT"}},
-    {"ADD_DI",   "+D",    Form::Sum,        "MOVD", {"IN1", "IN2", "OUT"}},
-    {"ADD_R",    "+R",    Form::Sum,        "MOVR", {"IN1", "IN2", "OUT"}},
-    {"MUL_I",    "*I",    Form::Sum,        "MOVW", {"IN1", "IN2", "OUT"}},
-    {"MUL_DI",   "*D",    Form::Sum,        "MOVD", {"IN1", "IN2", "OUT"}},
-    {"MUL_R",    "*R",    Form::Sum,        "MOVR", {"IN1", "IN2", "OUT"}},
-    {"SUB_I",    "-I",    Form::Difference, "MOVW", {"IN1", "IN2", "OUT"}},
-    {"SUB_DI",   "-D",    Form::Difference, "MOVD", {"IN1", "IN2", "OUT"}},
-    {"SUB_R",    "-R",    Form::Difference, "MOVR", {"IN1", "IN2", "OUT"}},
-    {"DIV_I",    "/I",    Form::Difference, "MOVW", {"IN1", "IN2", "OUT"}},
-    {"DIV_DI",   "/D",    Form::Difference, "MOVD", {"IN1", "IN2", "OUT"}},
-    {"DIV_R",    "/R",    Form::Difference, "MOVR", {"IN1", "IN2", "OUT"}},
-    {"MUL",      "MUL",   Form::Product,    "MOVW", {"IN1", "IN2", "OUT"}},
-    {"DIV",      "DIV",   Form::Product,    "MOVW", {"IN1", "IN2", "OUT"}},
-    {"WAND_B",   "ANDB",  Form::Sum,        "MOVB", {"IN1", "IN2", "OUT"}},
-    {"WAND_W",   "ANDW",  Form::Sum,        "MOVW", {"IN1", "IN2", "OUT"}},
-    {"WAND_DW",  "ANDD",  Form::Sum,        "MOVD", {"IN1", "IN2", "OUT"}},
-    {"WOR_B",    "ORB",   Form::Sum,        "MOVB", {"IN1", "IN2", "OUT"}},
-    {"WOR_W",    "ORW",   Form::Sum,        "MOVW", {"IN1", "IN2", "OUT"}},
-    {"WOR_DW",   "ORD",   Form::Sum,        "MOVD", {"IN1", "IN2", "OUT"}},
-    {"WXOR_B",   "XORB",  Form::Sum,        "MOVB", {"IN1", "IN2", "OUT"}},
-    {"WXOR_W",   "XORW",  Form::Sum,        "MOVW", {"IN1", "IN2", "OUT"}},
-    {"WXOR_DW",  "XORD",  Form::Sum,        "MOVD", {"IN1", "IN2", "OUT"}},
-    {"INC_B",    "INCB",  Form::InPlace,    "MOVB", {"IN", "OUT"}},
-    {"INC_W",    "INCW",  Form::InPlace,    "MOVW", {"IN", "OUT"}},
-    {"INC_DW",   "INCD",  Form::InPlace,    "MOVD", {"IN", "OUT"}},
-    {"DEC_B",    "DECB",  Form::InPlace,    "MOVB", {"IN", "OUT"}},
-    {"DEC_W",    "DECW",  Form::InPlace,    "MOVW", {"IN", "OUT"}},
-    {"DEC_DW",   "DECD",  Form::InPlace,    "MOVD", {"IN", "OUT"}},
-    {"INV_B",    "INVB",  Form::InPlace,    "MOVB", {"IN", "OUT"}},
-    {"INV_W",    "INVW",  Form::InPlace,    "MOVW", {"IN", "OUT"}},
-    {"INV_DW",   "INVD",  Form::InPlace,    "MOVD", {"IN", "OUT"}},
-    {"BCD_I",    "BCDI",  Form::InPlace,    "MOVW", {"IN", "OUT"}},
-    {"I_BCD",    "IBCD",  Form::InPlace,    "MOVW", {"IN", "OUT"}},
-    {"SHL_B",    "SLB",   Form::Shift,      "MOVB", {"IN", "N", "OUT"}},
-    {"SHL_W",    "SLW",   Form::Shift,      "MOVW", {"IN", "N", "OUT"}},
-    {"SHL_DW",   "SLD",   Form::Shift,      "MOVD", {"IN", "N", "OUT"}},
-    {"SHR_B",    "SRB",   Form::Shift,      "MOVB", {"IN", "N", "OUT"}},
-    {"SHR_W",    "SRW",   Form::Shift,      "MOVW", {"IN", "N", "OUT"}},
-    {"SHR_DW",   "SRD",   Form::Shift,      "MOVD", {"IN", "N", "OUT"}},
-    {"ROL_B",    "RLB",   Form::Shift,      "MOVB", {"IN", "N", "OUT"}},
-    {"ROL_W",    "RLW",   Form::Shift,      "MOVW", {"IN", "N", "OUT"}},
-    {"ROL_DW",   "RLD",   Form::Shift,      "MOVD", {"IN", "N", "OUT"}},
-    {"ROR_B",    "RRB",   Form::Shift,      "MOVB", {"IN", "N", "OUT"}},
-    {"ROR_W",    "RRW",   Form::Shift,      "MOVW", {"IN", "N", "OUT"}},
-    {"ROR_DW",   "RRD",   Form::Shift,      "MOVD", {"IN", "N", "OUT"}},
-};
-// clang-format on
-
-const BoxRow* find_box(std::string_view name) {
-  const auto* found = std::ranges::find(kBoxes, name, &BoxRow::name);
-  return found == std::end(kBoxes) ? nullptr : found;
-}
 
 // ---- Operands ------------------------------------------------------------------------------------------------------------
 
@@ -252,6 +162,7 @@ class NetworkWriter {
         loaded = false;
       }
       after_path(branch, wire);
+      loaded = loaded && keeps_power_flow(branch);
     }
   }
 
@@ -261,23 +172,25 @@ class NetworkWriter {
   }
 
   void after_path(const LadderBranch& branch, bool on_rail) {
-    if (branch.output)
-      output(*branch.output, branch.more_inputs, on_rail);
-    else
-      at_point(branch.branches);
+    if (branch.output) output(*branch.output, branch.more_inputs, on_rail);
+    if (branch.output && !branch.branches.empty()) put("AENO", branch.output->position);
+    at_point(branch.branches);
   }
+
+  /// Whether the top of the stack is the same after a branch: nothing but an output, after whose ENO nothing hangs.
+  static bool keeps_power_flow(const LadderBranch& branch) { return is_wire(branch.path) && branch.branches.empty(); }
 
   /// What hangs from a point whose power flow is on top of the stack.
   void at_point(const std::vector<LadderBranch>& branches) {
     std::size_t restores = 0;  // after each path that is not the last branch
-    for (const LadderBranch& branch : branches) restores += !is_wire(branch.path) && &branch != &branches.back();
+    for (const LadderBranch& branch : branches) restores += !keeps_power_flow(branch) && &branch != &branches.back();
     bool saved = false;
     for (const LadderBranch& branch : branches) {
-      if (is_wire(branch.path)) {
+      if (keeps_power_flow(branch)) {
         after_path(branch, false);
         continue;
       }
-      const stl::Position at = place_of(branch.path);
+      const stl::Position at = is_wire(branch.path) && branch.output ? branch.output->position : place_of(branch.path);
       if (restores > 0 && !saved) put("LPS", at);
       saved = true;
       extend(branch.path, true);
@@ -366,13 +279,14 @@ class NetworkWriter {
   void put_checked(std::string_view mnemonic, const LadderElement& element, std::vector<stl::Operand> operands,
                    std::string_view what) {
     const Instruction* instruction = find_instruction(mnemonic);
-    if (!instruction || !instruction->rung.writes_output)
+    if (!instruction || !(instruction->rung.writes_output || instruction->rung.stack == StackUse{}))
       return complain(
           element.position, fmt::format("there is no {} '{}'", what, stl::shortened(element.symbol)),
           element.kind == LadderElement::Kind::Coil
               ? "expected nothing, I, S, R, SI, RI, or an instruction such as CALL, JMP or RET between the brackets"
               : "expected a name such as MOV_W, ADD_I or ATCH in the upper edge");
-    if (instruction->modelled() && operands.size() != instruction->rules().size())
+    const bool parameters = instruction->structure == Structure::Call && !operands.empty();
+    if (instruction->modelled() && !parameters && operands.size() != instruction->rules().size())
       return complain(element.position,
                       fmt::format("this {} has {}, and {} takes {}", what, counted(operands.size(), "operand"),
                                   instruction->mnemonic, instruction->rules().size()),
@@ -381,8 +295,8 @@ class NetworkWriter {
   }
 
   void box(const LadderElement& box) {
-    const BoxRow* row = find_box(stl::upper_case(box.symbol));
-    if (!row) {
+    const LadderBox* row = find_ladder_box(stl::upper_case(box.symbol));
+    if (!row || has_pins_of_instruction(box, *row)) {
       std::vector<stl::Operand> operands = operands_above(box);
       for (const bool output : {false, true})
         for (const LadderPin& pin : box.pins)
@@ -403,14 +317,20 @@ class NetworkWriter {
     combine(*row, box, pins);
   }
 
-  static std::string pins_text(const BoxRow& row) {
+  /// MUL and DIV have the names of their boxes: IN1 and OUT are the operands of the instruction.
+  static bool has_pins_of_instruction(const LadderElement& box, const LadderBox& row) {
+    const Instruction* instruction = find_instruction(stl::upper_case(box.symbol));
+    return row.form == Form::Product && instruction && box.pins.size() == instruction->rules().size();
+  }
+
+  static std::string pins_text(const LadderBox& row) {
     std::string text = "EN";
     for (const std::string_view name : row.pins)
       if (!name.empty()) text.append(", ").append(name);
     return text;
   }
 
-  void combine(const BoxRow& row, const LadderElement& box, const std::vector<stl::Operand>& pins) {
+  void combine(const LadderBox& row, const LadderElement& box, const std::vector<stl::Operand>& pins) {
     const auto same = [](const stl::Operand& a, const stl::Operand& b) { return a.value == b.value; };
     const stl::Operand& in = pins.front();
     const stl::Operand& out = pins.back();
@@ -453,23 +373,36 @@ class NetworkWriter {
     return false;
   }
 
-  /// VW102 of VD100; an accumulator is its own low word.
-  static std::optional<stl::Operand> low_word(const stl::Operand& operand) {
-    const auto* address = std::get_if<stl::Address>(&operand.value);
-    if (!address) return {};
-    if (address->area == "AC") return operand;
-    if (address->size != stl::Size::Double) return {};
-    stl::Operand low = operand;
-    low.value = stl::Address{address->area, stl::Size::Word, address->number + 2, 0};
-    return low;
-  }
-
   const LadderNetwork& network_;
   const std::map<std::string, stl::OperandValue>& operands_;
   stl::Diagnostics& diagnostics_;
   std::vector<stl::Statement> statements_;
   bool failed_ = false;
 };
+
+}  // namespace
+
+namespace {
+
+/// The statements of a network that is not drawn, at their places in the page.
+void add_listing(const LadderNetwork& network, stl::ParseResult& result) {
+  if (network.listing.empty()) return;
+  std::string text;
+  for (const LadderText& line : network.listing) text += line.text + "\n";
+  const auto move = [&](stl::Position& at) { at.line = network.listing[at.line - 1].position.line; };
+  stl::ParseResult parsed = stl::parse(text, {});
+  for (stl::Line& line : parsed.source.lines) {
+    auto* statement = std::get_if<stl::Statement>(&line);
+    if (!statement) continue;
+    move(statement->position);
+    for (stl::Operand& operand : statement->operands) move(operand.position);
+    result.source.lines.emplace_back(std::move(*statement));
+  }
+  for (stl::Diagnostic& diagnostic : parsed.diagnostics) {
+    move(diagnostic.position);
+    result.diagnostics.push_back(std::move(diagnostic));
+  }
+}
 
 }  // namespace
 
@@ -483,6 +416,7 @@ stl::ParseResult ladder_to_stl(const stl::LadderPage& page) {
       result.source.lines.emplace_back(stl::CommentLine{comment, network.position.line});
     result.source.lines.emplace_back(stl::NetworkHead{network.number, network.position, {}});
     if (!network.readable) continue;
+    add_listing(network, result);
     for (stl::Statement& statement : NetworkWriter(network, operands, result.diagnostics).write())
       result.source.lines.emplace_back(std::move(statement));
   }

@@ -152,8 +152,10 @@ class PageReader {
 
   void read_line(std::string_view line, std::uint32_t number) {
     const std::string_view text = trim(line.substr(marker_at_start(line)));
-    if (text.empty()) return;
+    if (text.empty()) return void(listing_ = false);
     LadderRow row = row_of(line, number);
+    if (listing_) return page_.networks.back().listing.push_back({std::string(line), {number, 1, 1}});
+    if (begins_listing(row)) return begin_listing(row);
     const std::size_t start = first_cell(row);
     if (start == row.cells.size()) return;
     if (row.at(start) == U'/' && row.at(start + 1) == U'/') return add_comment(text);
@@ -163,6 +165,26 @@ class PageReader {
     if (is_rung(row) || is_rung(row = with_debris(std::move(row)))) return add_row(std::move(row));
     if (!is_rule(row) && (has_wire(row) || is_only_wires(row))) return damaged_row(row);
     comments_.clear();
+  }
+
+  /// `3   STL`: the statements of a network follow, as it has no drawing.
+  static bool begins_listing(const LadderRow& row) {
+    const std::size_t start = first_cell(row);
+    std::size_t column = start;
+    while (is_digit_cell(row.at(column))) ++column;
+    return column > start && is_blank_cell(row.at(column)) && text_of(row, column, row.cells.size()) == "STL";
+  }
+
+  void begin_listing(const LadderRow& row) {
+    if (!frame_.empty()) finish_frame();
+    finish_network();
+    LadderNetwork network;
+    network.number = number_of(row);
+    network.position = place_of(row, first_cell(row), row.cells.size() - first_cell(row));
+    check_number(network);
+    open(std::move(network));
+    open_ = false;
+    listing_ = true;
   }
 
   void add_comment(std::string_view text) {
@@ -198,11 +220,11 @@ class PageReader {
     rows_.push_back(std::move(row));
   }
 
-  /// The row above the number belongs to the network: operands, and upper edges of boxes.
+  /// The rows above the number belong to the network: operands, and upper edges of boxes.
   void begin_network(LadderRow row, std::size_t rail) {
     std::vector<LadderRow> first;
-    if (!rows_.empty() && can_be_operands(rows_.back(), rail)) {
-      first.push_back(std::move(rows_.back()));
+    while (!rows_.empty() && can_be_operands(rows_.back(), rail)) {
+      first.insert(first.begin(), std::move(rows_.back()));
       rows_.pop_back();
     }
     finish_network();
@@ -224,12 +246,18 @@ class PageReader {
     damaged_ = false;
   }
 
-  /// Numbers go up by one; a frame has a number too, which is not drawn. They begin again after a frame.
+  /// Numbers go up by one. A frame has a number too, which is not drawn, or it is part of the network before it or after it;
+  /// they begin again after a frame, which may be the first.
   void check_number(const LadderNetwork& network) {
     const std::uint32_t last = page_.networks.empty() ? 0 : page_.networks.back().number;
     const bool after_head = !page_.networks.empty() && page_.networks.back().head;
+    const auto drawn =
+        std::find_if(page_.networks.rbegin(), page_.networks.rend(), [](const auto& each) { return !each.head; });
+    const std::uint32_t before = drawn == page_.networks.rend() ? 0 : drawn->number;
     const std::uint32_t expected = last + 1;
-    if (network.number == expected || (after_head && (network.number == last || network.number == 1))) return;
+    if (network.number == expected || (after_head && (network.number == last || network.number <= 2)) ||
+        (after_head && (network.number == before || network.number == before + 1)))
+      return;
     if (page_.networks.empty() && network.number > 0) return;  // part of a document
     const bool forward = network.number > expected;
     complain(network.position,
@@ -320,6 +348,7 @@ class PageReader {
   std::size_t rail_ = 0;
   bool open_ = false;
   bool damaged_ = false;  // the open network has lost a line
+  bool listing_ = false;  // the last network goes on with lines of STL
 };
 
 }  // namespace

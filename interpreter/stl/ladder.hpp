@@ -9,6 +9,10 @@
 //       │                                K5┤IN   OUT├VW0
 //       │                                    └────────┘
 //
+// More than Micro/DOS could draw, read as `s7200 inspect … ladder` writes it: a box whose ENO leads on, `ENO├──`; a line
+// that goes on below, `──>A` and `A>──`; and in place of a drawing the STL of a network that has none, from a line `3   STL`
+// to the next blank one.
+//
 // No description of these drawings was found: the shapes are those of a published tip. A wire that the page lost is an error
 // and is not guessed at.
 #pragma once
@@ -41,6 +45,8 @@ struct LadderElement {
   Position position{};
   std::vector<LadderText> operands{};  ///< above it, from left to right
   std::vector<LadderPin> pins{};       ///< of a box, from top to bottom, without those for power flow
+  std::vector<std::string> power{};    ///< the names of a box's pins for power flow, from top to bottom: EN; CU, R
+  std::optional<std::uint32_t> op{};   ///< the instruction of a program that it was drawn from
 };
 
 /// Contacts between two points of a network. A series of nothing is a wire.
@@ -53,7 +59,7 @@ struct LadderPath {
 /// A way through a network: contacts up to a point, and what hangs from the point.
 struct LadderBranch {
   LadderPath path{};
-  std::vector<LadderBranch> branches{};   ///< from top to bottom; none if it ends in an output
+  std::vector<LadderBranch> branches{};   ///< from top to bottom; after an output, what hangs from its ENO
   std::optional<LadderElement> output{};  ///< a coil or a box
   std::vector<LadderPath>
       more_inputs{};  ///< of a box that takes power flow at several pins: from the rail to each but the first
@@ -65,6 +71,7 @@ struct LadderNetwork {
   std::vector<std::string> comments{};  ///< lines of comment above the drawing, without the `//`
   std::optional<LadderElement> head{};  ///< the frame that begins a routine or is a label: symbol SBR, operand 50
   LadderBranch rail{};                  ///< a wire, and what hangs from the power rail
+  std::vector<LadderText> listing{};    ///< lines of STL in place of a drawing
   bool readable = true;                 ///< false: the diagnostics say why, and nothing hangs from the rail
 };
 

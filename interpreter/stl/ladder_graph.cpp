@@ -112,6 +112,8 @@ class Reduction {
       ++in[edge.to];
       ++out[edge.from];
     }
+    for (const LadderGraph::Output& output : graph_.outputs)
+      if (output.eno) ++in[*output.eno];
     for (const Edge& edge : edges_) {
       const Position& at = first_contact(edge.path).position;
       if (edge.from == edge.to)
@@ -158,15 +160,13 @@ class Reduction {
   LadderBranch output_branch(const LadderGraph::Output& output) {
     LadderBranch branch;
     branch.output = output.element;
+    if (output.eno) branch.branches = branch_at(*output.eno).branches;
     for (std::size_t i = 1; i < output.inputs.size(); ++i) branch.more_inputs.push_back(way_from_rail(output, i));
     return branch;
   }
 
   /// The logic stack holds the inputs of a counter one above the other; each begins with an LD.
   LadderPath way_from_rail(const LadderGraph::Output& output, std::size_t input) {
-    if (graph_.outputs.size() > 1)
-      complain(output.element.position, "a box with several inputs for power flow shares its network with other outputs",
-               "draw it in a network of its own");
     const std::size_t point = output.inputs[input];
     if (point == kRail) return {};
     const auto edge = std::find_if(edges_.begin(), edges_.end(), [&](const Edge& e) { return e.to == point; });
@@ -183,7 +183,9 @@ class Reduction {
         complain(first_contact(edge.path).position, "no wire leads from the power rail to this contact", kHint);
     for (const LadderGraph::Output& output : graph_.outputs) {
       const std::size_t point = output.inputs.front();
-      const bool fed = std::any_of(edges_.begin(), edges_.end(), [&](const Edge& edge) { return edge.to == point; });
+      const bool fed =
+          std::ranges::any_of(edges_, [&](const Edge& edge) { return edge.to == point; }) ||
+          std::ranges::any_of(graph_.outputs, [&](const LadderGraph::Output& other) { return other.eno == point; });
       if (point != kRail && !fed)
         complain(output.element.position, "no wire leads from the power rail to this output", kHint);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct LadderGraph {
   struct Output {
     std::vector<std::size_t> inputs;  ///< one, or as many as the box has pins for power flow
     LadderElement element;
+    std::optional<std::size_t> eno{};  ///< of a box whose ENO is wired
   };
 
   std::size_t points = 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
@@ -59,6 +60,7 @@ class NetworkReader {
     find_boxes();
     find_contacts();
     find_coils();
+    find_connectors();
     if (contacts_ > kMostContacts) {
       complain(network_.position, "this network has too many contacts", "a network has at most 256");
       return;
@@ -83,6 +85,7 @@ class NetworkReader {
     Span span;                // a contact, a coil, or the upper edge of a box
     std::vector<Span> power;  // left sides of the pins of a box that take power flow
     const LadderRow* row = nullptr;
+    std::optional<Span> eno{};  // right side of the pin of a box that is wired there
   };
 
   // ---- cells ------------------------------------------------------------------------------------------------------------
@@ -159,7 +162,8 @@ class NetworkReader {
     const bool whole = (right_side & kUp) && (right_side & kDown);
     auto names = split_words(text_of(rows_[row], left + 1, whole ? right : row_end(row)));
     const bool power = pin_left && (sides(row, left - 1) & kRight);
-    take(row, left, right + 1, power ? kLeft : 0);
+    const bool eno = whole && (sides(row, right + 1) & kLeft) != 0 && !names.empty() && names.back() == "ENO";
+    take(row, left, right + 1, power ? kLeft : 0, eno ? kRight : 0);
     if (!whole && !restore_right_side(box, names, pin_left, row, left, right)) return;
     const bool pin_right = whole && (right_side & kRight);
     if (names.size() != std::size_t{pin_left} + std::size_t{pin_right})
@@ -168,11 +172,16 @@ class NetworkReader {
           fmt::format("the box {} has {} here, and {} at its sides", shortened(box.element.symbol),
                       counted(names.size(), "name"), counted(std::size_t{pin_left} + std::size_t{pin_right}, "pin")),
           "expected a name beside each ┤ and ├ of the box, and none elsewhere");
-    if (power)
+    if (power) {
       box.power.push_back({row, left, left + 1});
-    else if (pin_left)
+      box.element.power.push_back(names.front());
+    } else if (pin_left) {
       add_pin(box, names.front(), false, word_before(row, left), row, left);
-    if (pin_right) add_pin(box, names.back(), true, word_after(row, right), row, right);
+    }
+    if (eno)
+      box.eno = Span{row, right, right + 1};
+    else if (pin_right)
+      add_pin(box, names.back(), true, word_after(row, right), row, right);
   }
 
   /// Micro/DOS wrote `IN OUT *VD3570` where the operand was too long for the line: a blank and the right side are missing.
@@ -216,15 +225,68 @@ class NetworkReader {
     take(row, operand.from, operand.to);
   }
 
+  /// Blanks between quotes belong to the word: 'A B'.
+  bool is_quote(std::size_t row, std::size_t column) const {
+    return is_text(row, column) && (rows_[row].cells[column] == U'\'' || rows_[row].cells[column] == U'"');
+  }
+  /// The other quote of a constant, `step` to the right or to the left; the same place if there is none.
+  std::size_t other_quote(std::size_t row, std::size_t column, std::size_t step) const {
+    const std::u32string& cells = rows_[row].cells;
+    for (std::size_t at = column + step; at < cells.size(); at += step)
+      if (cells[at] == cells[column] && (at == 0 || cells[at - 1] != U'$') && !taken_[row][at]) return at;
+    return column;
+  }
+
   Span word_before(std::size_t row, std::size_t column) const {
     std::size_t from = column;
+    if (from > 0 && is_quote(row, from - 1)) from = other_quote(row, from - 1, SIZE_MAX);
     while (from > 0 && is_text(row, from - 1)) --from;
     return {row, from, column};
   }
-  Span word_after(std::size_t row, std::size_t column) const {
-    std::size_t to = column + 1;
+  Span word_after(std::size_t row, std::size_t column) const { return word_from(row, column + 1); }
+  Span word_from(std::size_t row, std::size_t from) const {
+    std::size_t to = from;
+    if (is_quote(row, from)) to = other_quote(row, from, 1);
     while (is_text(row, to)) ++to;
-    return {row, column + 1, to};
+    return {row, from, to};
+  }
+
+  // ---- lines that go on elsewhere ---------------------------------------------------------------------------------------
+
+  /// Finds `──>A`, where a line ends, and `A>──`, where it goes on.
+  void find_connectors() {
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      for (std::size_t column = 1; column < sides_[row].size(); ++column) {
+        if (rows_[row].cells[column] != U'>' || !is_text(row, column)) continue;
+        const Span after = word_after(row, column), before = word_before(row, column);
+        const bool ends = (sides(row, column - 1) & kRight) != 0 && after.from < after.to;
+        const bool begins = (sides(row, column + 1) & kLeft) != 0 && before.from < before.to;
+        if (ends) connect(after, {row, column, after.to}, kLeft, 0);
+        if (begins) connect(before, {row, before.from, column + 1}, 0, kRight);
+      }
+  }
+
+  void connect(const Span& name, const Span& whole, std::uint8_t left, std::uint8_t right) {
+    const std::size_t wire = index(whole.row, left != 0 ? whole.from : whole.to - 1);
+    connectors_.push_back({text_at(name), wire, left != 0});
+    take(whole.row, whole.from, whole.to, left, right);
+  }
+
+  /// Joins the ends of lines with the same name; complains of one that goes on nowhere.
+  void join_connectors() {
+    for (const Connector& one : connectors_) {
+      bool goes_on = false;
+      for (const Connector& other : connectors_) {
+        if (one.name.text != other.name.text || one.ends == other.ends) continue;
+        goes_on = true;
+        join(one.wire, other.wire);
+      }
+      if (!goes_on)
+        complain(one.name.position,
+                 fmt::format("the line that {} {} {} nowhere", one.ends ? "ends in" : "begins with",
+                             shortened(one.name.text), one.ends ? "goes on" : "begins"),
+                 "expected >A at the end of a line and A> where it goes on");
+    }
   }
 
   // ---- contacts and coils -----------------------------------------------------------------------------------------------
@@ -307,9 +369,9 @@ class NetworkReader {
     const bool first_row = placed.span.row == 0;
     const std::size_t above = first_row ? 0 : placed.span.row - 1;
     const std::size_t end = first_row ? 0 : sides_[above].size();
-    while (column < end && (!is_text(above, column) || word_after(above, column).to <= from)) ++column;
+    while (column < end && (!is_text(above, column) || word_from(above, column).to <= from)) ++column;
     if (column < std::min(end, to)) {
-      const Span word{above, column, word_after(above, column).to};
+      const Span word{above, column, word_from(above, column).to};
       placed.element.operands.push_back(text_at(word));
       take(above, word.from, word.to);
       column = word.to;
@@ -324,7 +386,7 @@ class NetworkReader {
     for (std::size_t row = 0; row < rows_.size(); ++row)
       for (std::size_t column = rail_ + 1; column < sides_[row].size(); ++column)
         if (is_text(row, column)) {
-          const Span word{row, column, word_after(row, column).to};
+          const Span word = word_from(row, column);
           complain(row, word.from, word.to - word.from,
                    fmt::format("'{}' does not belong to anything", shortened(text_at(word).text)),
                    "expected wires, contacts, coils and boxes here; an operand stands above its contact or coil, or beside "
@@ -356,6 +418,7 @@ class NetworkReader {
         leads(row, column, kUp, row - 1, column, kDown);
       }
     rail_point_ = rail;
+    join_connectors();
   }
 
   /// Whether a wire goes on in the cell beside it; complains of one that ends in nothing.
@@ -397,7 +460,9 @@ class NetworkReader {
         case LadderElement::Kind::Box:
           for (const Span& pin : placed.power) inputs.push_back(number(pin.row, pin.from));
       }
-      graph.outputs.push_back({std::move(inputs), std::move(placed.element)});
+      std::optional<std::size_t> eno;
+      if (placed.eno) eno = number(placed.eno->row, placed.eno->from);
+      graph.outputs.push_back({std::move(inputs), std::move(placed.element), eno});
     }
     return graph;
   }
@@ -410,6 +475,13 @@ class NetworkReader {
   std::vector<std::vector<std::uint8_t>> sides_;  // by row and column: of wires, and where they meet an element
   std::vector<std::vector<bool>> taken_;          // by row and column: part of an element or an operand
   std::vector<std::size_t> points_;               // by index: a cell that is wired to it, or itself
+  struct Connector {
+    LadderText name;
+    std::size_t wire;  // index of the cell in which its line ends or begins
+    bool ends;
+  };
+
+  std::vector<Connector> connectors_;
   std::vector<Placed> elements_;
   std::size_t contacts_ = 0;
   std::size_t rail_point_ = SIZE_MAX;
