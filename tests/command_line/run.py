@@ -2442,6 +2442,8 @@ class JsonPage(Case):
         text = pathlib.Path(self.system()).read_text(encoding="utf-8")
         return self.program(text.replace("bridges: {panel: {tcp: 127.0.0.1:0}}\n", "").replace(", panel]", "]"), "alone.yaml")
 
+    WIDE = "NETWORK 1 // as long as it may be\nLD I0.0 // start\n" + "A M0.0\n" * 12 + "= Q0.0\nMOVB 1, VB0\nMEND\n"
+
     def runs(self):
         echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
         faulty = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\nMEND\n", "faulty.stl")
@@ -2462,6 +2464,7 @@ class JsonPage(Case):
                     ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
                     ["inspect", self.program("LD I0.0\nLD I0.1\nCTU C5, 12\nTON T37, 5\nMOVB 16#81, SMB31\nMEND\n", "eeprom.stl"), "map"],
                     ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", SOURCE / "tests/programs/libraries/slave.awl", "map"],
+                    ["inspect", self.program(self.WIDE, "wide.stl"), "ladder"],
                     ["import", "--compare", self.program(Files.DRAWING.replace("LD", "LDN"), "drawn.txt")], ["run", faulty, *plant],
                     ["check", EXPORTS / "broken.awl", EXPORTS / "pump_symbols.txt"], ["convert", SLAVE, "--to", "microdos"],
                     ["run", faulty, "--for", "20ms", "--realtime"], ["send", faulty, "01", "--timeout", "10ms", *plant],
@@ -2509,13 +2512,31 @@ class Inspect(Case):
     PUMP = [EXPORTS / "pump.awl", EXPORTS / "pump_symbols.txt", EXPORTS / "pump_data.txt"]
 
     def test_views_keep_to_100_columns_and_need_no_colour(self):
-        for view in ("xref", "calls", "map", "races"):
+        for view in ("xref", "calls", "map", "races", "ladder"):
             for program in ([SLAVE], self.PUMP):
                 with self.subTest(view=view, program=program):
                     shown = self.ends(FINE, "inspect", *program, view).stdout
                     self.assertGreater(shown.count("\n"), 0)
                     self.assertNotIn("\x1b", shown)
                     self.assertLessEqual(max(map(len, shown.split("\n"))), 100)
+
+    def test_a_drawn_program_reads_back_as_the_same_instructions(self):
+        for program in ([SLAVE], self.PUMP):
+            drawn = self.program(self.ends(FINE, "inspect", *program, "ladder").stdout, "drawn.txt")
+            back = self.program(self.ends(FINE, "import", "--from", "ladder", drawn).stdout, "back.stl")
+            again = self.ends(FINE, "inspect", back, "ladder").stdout
+            elements = [re.sub(r"(?m)^(    [^ │┌└].*|.*, network .*|//.*)\n|^\d+", "", text) for text in (drawn.read_text(encoding="utf-8"), again)]
+            self.assertEqual(*elements)
+
+    def test_the_picture_of_the_docs_is_what_is_drawn(self):
+        written = self.folder / "ladder.svg"
+        for _ in range(2):  # what the option wrote it may replace
+            self.ends(FINE, "inspect", SOURCE / "tests/exports/pump.awl", SOURCE / "tests/exports/pump_symbols.txt", "ladder", "MAIN", "--svg", written)
+        self.assertEqual(written.read_text(encoding="utf-8"), (SOURCE / "docs/ladder.svg").read_text(encoding="utf-8"))
+        own = self.program("mine", "mine.svg")
+        self.assertIn("mine.svg", self.ends(UNUSABLE, "inspect", SLAVE, "ladder", "--svg", own).stderr)
+        self.assertIn("no picture", self.ends(UNUSABLE, "inspect", SLAVE, "xref", "--svg", written).stderr)
+        self.assertTrue(self.ends(FINE, "inspect", SLAVE, "ladder", "--ascii").stdout.isascii())
 
     def test_what_is_not_there_is_said_with_what_is_near(self):
         self.assertIn("name a view of it: xref", self.ends(UNUSABLE, "inspect", SLAVE).stderr)

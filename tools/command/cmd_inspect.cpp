@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,8 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/inspect_picture.hpp"
+#include "tools/command/inspect_request.hpp"
 #include "tools/command/inspected_program.hpp"
 #include "tools/command/options/choices.hpp"
 #include "tools/command/options/program_options.hpp"
@@ -27,50 +30,37 @@ namespace {
 struct InspectOptions {
   CpuOptions cpu;
   std::vector<std::string> words;
-  bool json = false;
+  std::string svg;
+  bool json = false, ascii = false;
 };
-
-/// The words of the command line: files, then a view, then what it is to be about.
-struct Request {
-  std::vector<std::string> paths, about;
-  const InspectView* view = nullptr;
-};
-
-Request request_of(const std::vector<std::string>& words) {
-  Request request;
-  for (const std::string& word : words) {
-    if (request.view)
-      request.about.push_back(word);
-    else if (const InspectView* view = request.paths.empty() ? nullptr : find_inspect_view(word))
-      request.view = view;
-    else
-      request.paths.push_back(word);
-  }
-  return request;
-}
 
 std::string view_names() { return stl::joined(inspect_views(), &InspectView::name); }
 
 int run_inspect(const InspectOptions& options) {
-  const Request request = request_of(options.words);
+  const InspectRequest request = inspect_request(options.words);
   if (!request.view) {
     print_error(fmt::format("after the PROGRAM name a view of it: {}", view_names()));
     return kUnusable;
   }
   if (!options.cpu.model()) return kUnusable;
+  Picture picture;
+  if (!picture.claim(options.svg, *request.view, request.paths)) return kUnusable;
   catch_interruption();
   int exit_code = kFine;
   TablesByCpu tables(options.cpu);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   auto programs = read_programs(request.paths, exit_code);
+  if (picture && programs.size() > 1) return print_error("--svg takes one program: a picture is of one"), kUnusable;
   for (ProgramFiles& file : programs) {
     if (interrupted()) break;
-    const auto inspection = inspected(options.cpu, file, {*request.view, request.about}, tables, exit_code);
+    auto inspection = inspected(options.cpu, file, {*request.view, request.about}, tables, exit_code);
     if (!inspection) continue;
+    inspection->ascii = options.ascii;
+    if (picture) exit_code = std::max(exit_code, picture.write(*request.view, *inspection));
     if (options.json) {
       files.push_back({{"file", file.path}, {"cpu", inspection->program->model->name}});
       files.back()[std::string(request.view->name)] = request.view->json(*inspection);
-    } else {
+    } else if (!picture) {
       if (programs.size() > 1) fmt::print("{}\n", stl::printable(file.path));
       fmt::print("{}", request.view->text(*inspection));
       std::fflush(stdout);
@@ -106,10 +96,14 @@ void add_inspect(CLI::App& app, int& exit_code) {
   options->cpu.add_cpu_and_times_to(*verb, fmt::format("CPU that they are to run on {}", kCpuFound));
   add_repair_option(*verb, options->cpu.repairs);
   add_no_stand_ins_option(*verb, options->cpu.no_stand_ins);
+  verb->add_option("--svg", options->svg, "write the view ladder as a picture instead of printing it")
+      ->type_name("FILE.svg");
+  verb->add_flag("--ascii", options->ascii, "draw with characters of 7 bits");
   verb->add_flag("--json", options->json, "print the results as JSON");
   verb->footer(views_text() +
                "Topics: models, programs, times\n"
-               "Example: s7200 inspect stl_programs/modbus_slave.stl xref VB1000");
+               "Example: s7200 inspect stl_programs/modbus_slave.stl xref VB1000\n"
+               "Example: s7200 inspect stl_programs/modbus_slave.stl ladder SBR_52:15");
   verb->callback([options, &exit_code] { exit_code = run_inspect(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "tools/views/calls_view.hpp"
+#include "tools/views/ladder_view.hpp"
 #include "tools/views/map_view.hpp"
 #include "tools/views/races_view.hpp"
 #include "tools/views/xref_view.hpp"
@@ -20,6 +21,8 @@ std::span<const InspectView> inspect_views() {
                   map_json},
       InspectView{"races", "words that the main program and an interrupt share and do not access in one instruction", true,
                   races_text, races_json},
+      InspectView{"ladder", "the networks as ladder: contacts, coils and boxes; also as SVG", true, ladder_text, ladder_json,
+                  ladder_svg},
   };
   return kTable;
 }

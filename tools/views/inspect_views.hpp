@@ -16,6 +16,7 @@ struct InspectView {
   bool of_memory;            ///< it can keep to addresses; to routines and networks each can
   std::string (*text)(const Inspection& inspection);
   nlohmann::ordered_json (*json)(const Inspection& inspection);
+  std::string (*svg)(const Inspection& inspection) = nullptr;  ///< the same as a picture; null where there is none
 };
 
 /// In the order of the help.

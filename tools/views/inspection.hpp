@@ -32,6 +32,7 @@ struct Inspection {
   Selection selection{};
   /// Looks for a run in which a race loses a word. Empty: none is looked for; whoever can run programs sets it.
   std::function<std::optional<LostWord>(const Inspection&, const Race&)> lose_word{};
+  bool ascii = false;  ///< drawings are made of characters that a 7-bit terminal has
 
   explicit Inspection(std::shared_ptr<const Program> inspected) : program(std::move(inspected)), facts(facts_of(*program)) {}
 };

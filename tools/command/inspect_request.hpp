@@ -1,0 +1,19 @@
+// What the words after `s7200 inspect` ask for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/views/inspect_views.hpp"
+
+namespace s7200::tools {
+
+/// The words of the command line: files, then a view, then what it is to be about.
+struct InspectRequest {
+  std::vector<std::string> paths, about;
+  const InspectView* view = nullptr;  ///< null: none is named
+};
+
+InspectRequest inspect_request(const std::vector<std::string>& words);
+
+}  // namespace s7200::tools
