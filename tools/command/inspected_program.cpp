@@ -10,6 +10,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/measuring/seen_times.hpp"
 #include "tools/measuring/worst_instant.hpp"
 
 namespace s7200::tools {
@@ -48,6 +49,8 @@ std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& fil
   if (!program) return {};
   std::optional<Inspection> inspection(std::in_place, std::move(program));
   inspection->lose_word = worst_instant;
+  inspection->see_times = seen_times;
+  inspection->slowest = [&file, model, times] { return decode_program(file.text.parsed, *model, slowest(*times)).known; };
   std::string why;
   auto selection = parse_selection(question.about, inspection->facts, why);
   if (selection && !question.view.of_memory && !selection->memory.empty()) {

@@ -16,7 +16,7 @@ struct Question {
   const std::vector<std::string>& about;
 };
 
-/// Errors of the program are printed, and what they are in is
+/// `file` and the tables must live as long as what is returned. Errors of the program are printed, and what they are in is
 /// left out. Nothing after messages, if the program or what is asked for is unknown: `exit_code` says how to end.
 std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const Question& question,
                                     TablesByCpu& tables, int& exit_code);

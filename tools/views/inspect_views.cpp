@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tools/views/bounds_view.hpp"
 #include "tools/views/calls_view.hpp"
 #include "tools/views/ladder_view.hpp"
 #include "tools/views/map_view.hpp"
@@ -21,6 +22,8 @@ std::span<const InspectView> inspect_views() {
                   map_json},
       InspectView{"races", "words that the main program and an interrupt share and do not access in one instruction", true,
                   races_text, races_json},
+      InspectView{"bounds", "how long a scan, a routine and the wait for an interrupt can take at most", false, bounds_text,
+                  bounds_json},
       InspectView{"ladder", "the networks as ladder: contacts, coils and boxes; also as SVG", true, ladder_text, ladder_json,
                   ladder_svg},
   };

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,6 +25,17 @@ struct LostWord {
   std::string between, before, behind;  ///< its value, in hex: of that run and of the two others
 };
 
+/// The largest times of a run with random inputs and characters.
+struct SeenTimes {
+  /// Of an event: how long its routine took, with the entry, and how long it waited.
+  struct OfEvent {
+    Time longest_routine = 0, latency = 0;
+  };
+  Time run = 0;  ///< how long it was, in ns of simulated time
+  Time scan = 0;
+  std::map<std::uint8_t, OfEvent> events;
+};
+
 /// A program with what is known of it, and what was asked about. The program may have errors; then what they are in is
 /// unread (interpreter/program/unread.hpp).
 struct Inspection {
@@ -33,6 +45,10 @@ struct Inspection {
   /// Looks for a run in which a race loses a word. Empty: none is looked for; whoever can run programs sets it.
   std::function<std::optional<LostWord>(const Inspection&, const Race&)> lose_word{};
   bool ascii = false;  ///< drawings are made of characters that a 7-bit terminal has
+  /// Runs the program. Empty, or nothing returned: it cannot be run.
+  std::function<std::optional<SeenTimes>(const Inspection&)> see_times{};
+  /// The program with the slowest times that are possible by their uncertainty. Empty: they are not known.
+  std::function<std::shared_ptr<const Program>()> slowest{};
 
   explicit Inspection(std::shared_ptr<const Program> inspected) : program(std::move(inspected)), facts(facts_of(*program)) {}
 };

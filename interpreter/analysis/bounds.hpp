@@ -1,0 +1,51 @@
+// Upper bounds of times: of the scan, of each routine, and from an event to the begin of its interrupt routine.
+//
+// A bound is the longest way through the routine: each instruction with power flow and the most that it counts, each loop as
+// often as it runs at most. That is known of FOR between constants, of FOR up to memory that instructions set to constants
+// only, and of a FOR or a JMP backwards whose comment says so: `at most 8 times`. Nothing else is guessed: a loop without a
+// bound is named, and the figure then holds for one pass through it.
+//
+// Times are those of a table, mostly estimates: the same program decoded with another table gives the bound for that one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpreter/analysis/calls.hpp"
+#include "interpreter/analysis/facts.hpp"
+
+namespace s7200 {
+
+struct Bounds {
+  /// A loop, and how often it runs at most; nothing if that is not known.
+  struct Loop {
+    std::uint32_t op = 0;  ///< its FOR, or the JMP back
+    std::optional<std::int64_t> times;
+  };
+  struct OfRoutine {
+    Time time = 0;  ///< in ns, with the subroutines that it calls
+    std::vector<std::uint32_t>
+        loops;  ///< FOR and JMP without a bound, and CALLs of recursion, below it: each once in `time`
+  };
+  struct OfEvent {
+    std::uint8_t event = 0;
+    std::optional<Time> period;        ///< the shortest time from one such event to the next; nothing: it is not known
+    Time longest_routine = 0;          ///< of the routines attached to it, with the entry
+    std::optional<Time> latency;       ///< until its routine begins; nothing: there is no bound
+    std::vector<std::uint32_t> loops;  ///< without a bound, on which these depend
+  };
+
+  std::vector<OfRoutine> routines;  ///< in ControlFlow::routines
+  std::vector<OfEvent> events;      ///< attached ones, in the order in which the CPU serves them
+  std::vector<Loop> loops;          ///< all, by op
+  Time scan = 0;                    ///< without interrupts
+  /// With as many interrupts as can come in it. As with OfEvent::latency, there is no bound if interrupts leave no time for
+  /// it, if the period of an attached event is not known, or if they may stay disabled for good.
+  std::optional<Time> scan_with_interrupts;
+};
+
+/// `timed`: the program of `facts`, with the times to count with.
+Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed);
+
+}  // namespace s7200

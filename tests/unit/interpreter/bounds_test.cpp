@@ -1,0 +1,82 @@
+// Upper bounds of times. Each instruction takes 10 us, powered or not; the system's part of a scan takes 800 us, the entry
+// of an interrupt routine 40 us (tests/support/plc.hpp).
+#include "interpreter/analysis/bounds.hpp"
+
+#include "tests/support/plc.hpp"
+
+namespace s7200::test {
+namespace {
+
+Bounds bounds(std::string_view stl) {
+  const auto program = program_of(stl, *find_cpu("224"));
+  const Facts facts = facts_of(*program);
+  return bounds_of(facts, calls_of(*program, facts.flow), *program);
+}
+
+TEST(Bounds, AScanIsTheLongestWayThroughTheProgramAndTheSystemsPart) {
+  EXPECT_EQ(bounds("LD I0.0\n= Q0.0\nMEND\n").scan, 800 * us + 30 * us);
+  EXPECT_EQ(bounds("LD I0.0\nJMP 1\nLD I0.1\n= Q0.0\n= Q0.1\nLBL 1\nMEND\n").scan, 800 * us + 60 * us) << "without the jump";
+  EXPECT_EQ(bounds("LD I0.0\nJMP 1\nLD I0.1\n= Q0.0\nLD SM0.0\nEND\nLBL 1\nMEND\n").scan, 800 * us + 60 * us);
+}
+
+TEST(Bounds, ALoopCountsAsOftenAsItRuns) {
+  const Bounds constant = bounds("LD SM0.0\nFOR VW0, 1, 5\nINCW VW2\nNEXT\nMEND\n");
+  EXPECT_EQ(constant.routines[0].time, 30 * us + 5 * 20 * us);
+  EXPECT_EQ(constant.loops.at(0).times, 5);
+  const Bounds set = bounds("LD SM0.0\nMOVW 3, VW10\nFOR VW0, 1, VW10\nINCW VW2\nNEXT\nMEND\n");
+  EXPECT_EQ(set.loops.at(0).times, 3) << "only constants are put into VW10";
+}
+
+TEST(Bounds, ACommentGivesALoopItsBound) {
+  const Bounds jump = bounds("LBL 1\nLD I0.0\nINCW VW0\nJMP 1 // at most 4 times\nMEND\n");
+  EXPECT_EQ(jump.routines[0].time, 4 * 30 * us + 10 * us);
+  EXPECT_TRUE(jump.routines[0].loops.empty());
+  EXPECT_EQ(bounds("LD SM0.0\nFOR VW0, 1, VW2 // at most 9 times\nINCW VW2\nNEXT\nMEND\n").loops.at(0).times, 9);
+}
+
+TEST(Bounds, ALoopWithoutOneIsNamedAndCountsOnce) {
+  const Bounds open = bounds("LD SM0.0\nFOR VW0, 1, VW2\nINCW VW4\nNEXT\nMOVW VW6, VW2\nMEND\n");
+  EXPECT_EQ(open.routines[0].loops, (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(open.routines[0].time, 4 * 10 * us + 20 * us);
+}
+
+TEST(Bounds, CallsCountWithWhatTheyCallAndRecursionIsNamed) {
+  EXPECT_EQ(bounds("LD SM0.0\nCALL 1\nMEND\nSBR 1\nLD I0.0\n= Q0.0\nRET\n").routines[0].time, 60 * us);
+  EXPECT_EQ(bounds("LD SM0.0\nCALL 1\nMEND\nSBR 1\nLD I0.0\nCALL 1\nRET\n").routines[1].loops,
+            (std::vector<std::uint32_t>{5}));
+}
+
+TEST(Bounds, CountedInstructionsTakeTheMostThatTheyCount) {
+  const auto program = program_of("LD SM0.0\nSLW VW0, 3\nSLW VW0, VB9\nMEND\n", *find_cpu("224"));
+  Program timed = *program;
+  for (Op& op : timed.ops) op.unit_cost = op.instruction->mnemonic == "SLW" ? 1000 : 0;
+  const Facts facts = facts_of(*program);
+  EXPECT_EQ(bounds_of(facts, calls_of(*program, facts.flow), timed).routines[0].time, 40 * us + 3 * us + 32 * us);
+}
+
+constexpr std::string_view kTwoInterrupts =
+    "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 5, SMB34\nATCH 0, 8\nATCH 1, 10\nENI\nMEND\n"
+    "INT 0\nLD SM0.0\nINCW VW0\nRETI\nINT 1\nLD SM0.0\nINCW VW2\nINCW VW4\nRETI\n";
+
+TEST(Bounds, InterruptsComeAsOftenAsTheirPeriodsAllow) {
+  const Bounds both = bounds(kTwoInterrupts);
+  ASSERT_EQ(both.events.size(), 2U);
+  EXPECT_EQ(both.events[0].period, 10 * kSecond / 9600) << "a character of ten bits";
+  EXPECT_EQ(both.events[1].period, 5 * ms);
+  EXPECT_EQ(both.events[0].longest_routine, 70 * us);
+  EXPECT_EQ(both.scan_with_interrupts, both.scan + 70 * us + 80 * us);
+}
+
+TEST(Bounds, LatencyIsTheLongestInstructionAndTheRoutinesThatAreServedBefore) {
+  const Bounds both = bounds(kTwoInterrupts);
+  EXPECT_EQ(both.events[0].latency, 10 * us + 80 * us + 40 * us) << "the other one may just have begun";
+  EXPECT_EQ(both.events[1].latency, 10 * us + 70 * us + 40 * us) << "a character is served before";
+}
+
+TEST(Bounds, HaveNoLatencyWhereInterruptsStayDisabledOrAnEventHasNoPeriod) {
+  EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 10\nENI\nLD I0.0\nDISI\nMEND\nINT 0\nRETI\n").events[0].latency);
+  EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nRETI\n").scan_with_interrupts);
+}
+
+}  // namespace
+}  // namespace s7200::test
