@@ -2463,7 +2463,7 @@ class JsonPage(Case):
                     ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
                     ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
                     ["inspect", self.program("LD I0.0\nLD I0.1\nCTU C5, 12\nTON T37, 5\nMOVB 16#81, SMB31\nMEND\n", "eeprom.stl"), "map"],
-                    ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", SLAVE, "bounds"],
+                    ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", SLAVE, "bounds"], ["inspect", *Inspect.PUMP, "document"],
                     ["inspect", self.program("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nLD SM0.0\nFOR VW0, 1, AC0\nNEXT\nRETI\n", "loop.stl"), "bounds"], ["inspect", SOURCE / "tests/programs/libraries/slave.awl", "map"],
                     ["inspect", self.program(self.WIDE, "wide.stl"), "ladder"],
                     ["import", "--compare", self.program(Files.DRAWING.replace("LD", "LDN"), "drawn.txt")], ["run", faulty, *plant],
@@ -2550,6 +2550,16 @@ class Inspect(Case):
         done = self.ends(FAILED, "inspect", self.program("LD I0.0\nMOVW VB1, VW10\n= Q0.0\nMEND\n"), "xref")
         self.assertIn("has errors: what they are in is left out", done.stderr)
         self.assertIn("Q0.0 (output)", done.stdout)
+
+    def test_the_document_is_one_page_of_well_formed_html_that_needs_nothing_else(self):
+        symbols = self.program("<i>Name</i>\tQ0.0\t<script>\n", "symbols.txt")
+        for program in ([SLAVE], self.PUMP, [self.program("LD I0.0\n= Q0.0 // </pre><b>\nMEND\n"), symbols]):
+            page = self.ends(FINE, "inspect", *program, "document").stdout
+            body = re.sub(r"<!doctype html>|<meta [^>]*>", "", page)
+            xml.etree.ElementTree.fromstring(body)
+            anchors, links = set(re.findall(r' id="([^"]+)"', page)), set(re.findall(r' href="#([^"]+)"', page))
+            self.assertEqual(anchors, links)
+            self.assertEqual(re.findall(r'href="(?!#)|src=|<script|<b>|<i>', page), [])
 
     def test_several_programs_are_shown_with_their_names(self):
         shown = self.ends(FINE, "inspect", SLAVE, SOURCE / "stl_programs/scale.stl", "xref", "SM0.0").stdout

@@ -21,4 +21,21 @@ std::string with_escapes(std::string_view text) {
   return escaped;
 }
 
+std::string as_markup(std::string_view text) {
+  std::string all;
+  for (const char c : text) {
+    if (c == '&')
+      all += "&amp;";
+    else if (c == '<')
+      all += "&lt;";
+    else if (c == '>')
+      all += "&gt;";
+    else if (c == '"')
+      all += "&quot;";
+    else
+      all += c;
+  }
+  return all;
+}
+
 }  // namespace s7200::tools

@@ -10,4 +10,7 @@ namespace s7200::tools {
 /// in double quotation marks, read as that character again. Bytes that are not UTF-8 stay as they are.
 std::string with_escapes(std::string_view text);
 
+/// The text as it stands in HTML and SVG, between tags or in a quoted attribute: never markup.
+std::string as_markup(std::string_view text);
+
 }  // namespace s7200::tools

@@ -5,6 +5,7 @@
 
 #include "tools/views/bounds_view.hpp"
 #include "tools/views/calls_view.hpp"
+#include "tools/views/document_view.hpp"
 #include "tools/views/ladder_view.hpp"
 #include "tools/views/map_view.hpp"
 #include "tools/views/races_view.hpp"
@@ -26,6 +27,7 @@ std::span<const InspectView> inspect_views() {
                   bounds_json},
       InspectView{"ladder", "the networks as ladder: contacts, coils and boxes; also as SVG", true, ladder_text, ladder_json,
                   ladder_svg},
+      InspectView{"document", "all of it as one HTML page to print", false, document_text, document_json},
   };
   return kTable;
 }

@@ -7,6 +7,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/base/wrapped.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "tools/views/escapes.hpp"
 #include "tools/views/ladder_text.hpp"
 
 namespace s7200::tools {
@@ -37,22 +38,7 @@ text{fill:#e6edf3}
 </style>
 )";
 
-std::string escaped(std::string_view text) {
-  std::string all;
-  for (const char c : stl::printable(std::string(text))) {
-    if (c == '&')
-      all += "&amp;";
-    else if (c == '<')
-      all += "&lt;";
-    else if (c == '>')
-      all += "&gt;";
-    else if (c == '"')
-      all += "&quot;";
-    else
-      all += c;
-  }
-  return all;
-}
+std::string escaped(std::string_view text) { return as_markup(stl::printable(std::string(text))); }
 
 int length(std::string_view text) { return static_cast<int>(stl::count_characters(std::string(text))); }
 
