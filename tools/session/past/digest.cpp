@@ -166,7 +166,7 @@ class Digest {
   template <class T>
   requires std::is_class_v<T>
   void add(const T& part) {
-    std::apply([this](const auto&... member) { (add(member), ...); }, members(part));
+    std::apply([this](const auto&... member) { (this->add(member), ...); }, members(part));
   }
 
   std::string text() const { return fmt::format("{:016x}", sum_); }
