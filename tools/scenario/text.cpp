@@ -45,7 +45,7 @@ bool Window::has(Time time, const SerialFormat& format) const { return time >= f
 std::optional<std::int64_t> parse_number(std::string_view text) {
   constexpr std::int64_t kLargest = 0xFFFF'FFFF;
   const auto number = parse_integer(stl::trim(text));
-  return number && Between{-kLargest, kLargest}.has(*number) ? number : std::nullopt;
+  return number && Between<std::int64_t>{-kLargest, kLargest}.has(*number) ? number : std::nullopt;
 }
 
 Sides sides(std::string_view text) {
