@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/gateway.hpp"
 #include "serial_sim/modbus/request.hpp"
 
@@ -95,9 +96,15 @@ class World {
     modbus::MbapReader& reader = readers_[client];
     reader.take(bytes);
     while (const auto request = reader.next())
-      if (request->unit != 0) owed_[client].insert({request->transaction, request->unit});
+      if (is_answered(*request)) owed_[client].insert({request->transaction, request->unit});
     must(reader.error() == gateway_.error(client) || gateway_.open(client) == Gateway::kMostOpen);
     must(gateway_.open(client) <= Gateway::kMostOpen);
+  }
+
+  /// A broadcast has no answer, unless it asks for one: that is refused.
+  static bool is_answered(const modbus::TcpMessage& request) {
+    const modbus::FunctionRow* const function = modbus::find_function(request.pdu[0]);
+    return request.unit != 0 || (function != nullptr && !function->broadcast);
   }
 
   static Bytes well_formed(Script& script) {
