@@ -17,7 +17,7 @@
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tools/bridge/com_port.hpp"
 #include "tools/bridge/tcp_server.hpp"
-#include "tools/rig/bridge_kinds.hpp"
+#include "tools/plan/bridge_kinds.hpp"
 
 namespace s7200::tools {
 namespace {

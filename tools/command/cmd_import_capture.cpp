@@ -12,7 +12,7 @@
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/stl_output.hpp"
 #include "tools/command/terminal.hpp"
-#include "tools/rig/system_reader.hpp"
+#include "tools/plan/system_reader.hpp"
 #include "tools/scenario/limits.hpp"
 #include "tools/scenario/scenario.hpp"
 #include "tools/views/results_json.hpp"

@@ -13,7 +13,7 @@
 #include "tools/command/send_slave.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/rig/system_reader.hpp"
+#include "tools/plan/system_reader.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"

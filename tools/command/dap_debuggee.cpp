@@ -22,7 +22,7 @@
 #include "tools/faces/dap/sources.hpp"
 #include "tools/faces/files/host_files.hpp"
 #include "tools/json/json.hpp"
-#include "tools/rig/bridge_kinds.hpp"
+#include "tools/plan/bridge_kinds.hpp"
 #include "tools/views/faults.hpp"
 
 namespace s7200::tools {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "tools/host/interruption.hpp"
-#include "tools/rig/system_reader.hpp"
+#include "tools/plan/system_reader.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/report.hpp"
 #include "tools/scenario/runner.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "tools/command/options/run_options.hpp"
-#include "tools/rig/system_reader.hpp"
+#include "tools/plan/system_reader.hpp"
 
 namespace s7200::tools {
 

@@ -7,7 +7,7 @@
 #include "interpreter/program/address.hpp"
 #include "tools/master/words.hpp"
 #include "tools/master/written_values.hpp"
-#include "tools/rig/clock_text.hpp"
+#include "tools/plan/clock_text.hpp"
 #include "tools/views/ppi_text.hpp"
 
 namespace s7200::tools {

@@ -7,6 +7,7 @@
 
 #include "interpreter/cpu/cpu.hpp"
 #include "tools/host/written_files.hpp"
+#include "tools/plan/plc_settings.hpp"
 
 namespace s7200::tools {
 
@@ -15,13 +16,6 @@ std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model)
 
 /// Returns nothing and sets `why` if the text is not such a memory, or that of another CPU.
 std::optional<RetentiveMemory> memory_from_json(std::string_view json, const CpuModel& model, std::string& why);
-
-/// The source of a PLC's retentive memory.
-struct MemorySettings {
-  std::string path{};     ///< empty: none is kept
-  bool ram_lost = false;  ///< power was off too long: only the EEPROM is left
-  Time power_off = 0;     ///< how long power was off since the file was written
-};
 
 /// A file of retentive memory. Each function returns false and sets `why` if the file cannot be used.
 class MemoryFile {

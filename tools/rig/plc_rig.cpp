@@ -2,36 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/output_record.hpp"
 #include "interpreter/trace/output_waves.hpp"
-#include "tools/host/files.hpp"
 #include "tools/record/trace_formats.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
-
-std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model,
-                                              std::vector<std::string>& problems) {
-  if (path.empty()) return serial::FieldScript{};
-  std::string why;
-  const auto csv = read_text(path, why);
-  if (!csv) {
-    problems.push_back(fmt::format("cannot read {}: {}", path, why));
-    return {};
-  }
-  std::vector<std::string> errors;
-  auto field = serial::parse_field_script(*csv, path, model, errors);
-  constexpr std::size_t kShown = 10;
-  problems.insert(problems.end(), errors.begin(),
-                  errors.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, errors.size())));
-  if (errors.size() > kShown) problems.push_back(fmt::format("{}: and {} more mistakes", path, errors.size() - kShown));
-  return errors.empty() ? std::optional(std::move(field)) : std::nullopt;
-}
 
 PlcRig::PlcRig(std::shared_ptr<const Program> program, const PlcSettings& settings)
     : program_(std::move(program)), settings_(settings) {}

@@ -1,40 +1,18 @@
 // The surroundings of one PLC: its retentive memory, the script that drives its inputs, and its records.
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "interpreter/program/address.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/system/plc.hpp"
 #include "tools/host/written_files.hpp"
+#include "tools/plan/plc_settings.hpp"
 #include "tools/rig/memory_file.hpp"
 #include "tools/rig/trace_files.hpp"
 
 namespace s7200::tools {
-
-/// The files of a PLC by their names, "" for none.
-struct PlcSettings {
-  std::vector<Assignment> set{};     ///< memory and input points, before the first scan
-  std::string input{};               ///< inputs over time, as CSV
-  std::optional<ClockTime> clock{};  ///< time of day at power-up
-  std::int32_t clock_error = 0;      ///< of its crystal, in millionths; positive: it is too fast
-  Time starts = 0;                   ///< when it is powered up
-  MemorySettings memory{};           ///< read at power-up, written by keep_memory()
-  std::string trace{};
-  TraceDetail trace_detail = TraceDetail::Way;
-  std::string output{};              ///< changes of outputs, as CSV; to FILE.vcd as a Value Change Dump
-  std::vector<MemoryRange> dumps{};  ///< shown at the end
-  std::vector<std::string> dump_names{};
-};
-
-/// Reads a script of inputs; nothing, with `problems` set, if the file is not such a script. An empty path is an empty
-/// script.
-std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model,
-                                              std::vector<std::string>& problems);
 
 /// claim(), read_memory(), open(), put(), power_up(), and after the run close() and keep_memory(). What can fail returns
 /// false and sets `why`, or adds to `problems`.

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/analysis/looks.hpp"
 #include "serial_sim/modbus/answer.hpp"
-#include "tools/rig/clock_text.hpp"
+#include "tools/plan/clock_text.hpp"
 #include "tools/rig/system_trace.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
@@ -362,15 +361,6 @@ std::uint32_t Rig::beyond(const EventPlan& cut) const {
     if (host) far |= bit(host->uart().driver());
   }
   return far;
-}
-
-void run_every_scan(SystemPlan& plan) {
-  for (PlcPlan& plc : plan.plcs) plc.program = with_every_scan(*plc.program);
-}
-
-void forget_files(SystemPlan& plan) {
-  for (PlcPlan& plc : plan.plcs) plc.settings.trace = plc.settings.output = plc.settings.memory.path = "";
-  for (LinePlan& line : plan.lines) line.captures.clear();
 }
 
 }  // namespace s7200::tools

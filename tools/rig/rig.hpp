@@ -15,9 +15,9 @@
 
 #include "serial_sim/system/simulation.hpp"
 #include "tools/host/written_files.hpp"
+#include "tools/plan/system_plan.hpp"
 #include "tools/rig/capture_files.hpp"
 #include "tools/rig/plc_rig.hpp"
-#include "tools/rig/system_plan.hpp"
 
 namespace s7200::tools {
 
@@ -149,11 +149,5 @@ class Rig final {
   std::vector<Onlooker> onlookers_;
   std::set<std::pair<Time, const EventPlan*>> told_;  // by their places in the plan: two of one instant may read the same
 };
-
-/// Lets nothing be recorded, and no memory be read or kept.
-void forget_files(SystemPlan& plan);
-
-/// Lets the system run every scan of its PLCs: none is passed over.
-void run_every_scan(SystemPlan& plan);
 
 }  // namespace s7200::tools

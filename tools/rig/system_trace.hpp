@@ -9,8 +9,8 @@
 
 #include "serial_sim/system/system.hpp"
 #include "tools/host/record_file.hpp"
+#include "tools/plan/system_plan.hpp"
 #include "tools/record/trace_formats.hpp"
-#include "tools/rig/system_plan.hpp"
 
 namespace s7200::tools {
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "tools/host/files.hpp"
-#include "tools/rig/program_cpu.hpp"
+#include "tools/plan/program_cpu.hpp"
 #include "tools/scenario/conformance_suite.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/steps/random_traffic.hpp"

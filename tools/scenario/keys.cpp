@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "serial_sim/peers/quiet_time.hpp"
-#include "tools/rig/system_block_reader.hpp"
+#include "tools/plan/system_block_reader.hpp"
 #include "tools/scenario/step_reader.hpp"
 #include "tools/scenario/steps/steps.hpp"
 

@@ -15,7 +15,7 @@
 #include "serial_sim/field/field_script.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/peers/requester.hpp"
-#include "tools/rig/system_plan.hpp"
+#include "tools/plan/system_plan.hpp"
 #include "tools/scenario/action.hpp"
 #include "tools/scenario/text.hpp"
 
@@ -57,7 +57,7 @@ struct Scenario {
   std::string cpu = "214";
   bool cpu_named = false;  ///< by the key `cpu`; otherwise it is the one that was found for the program
   std::string cpu_note{};  ///< what the user has to be told about the one that was found; empty: nothing
-  std::string times{};  ///< a name or a file; empty: the CPU's own
+  std::string times{};     ///< a name or a file; empty: the CPU's own
   SystemBlock system_block{};
   std::uint8_t port = 0;  ///< of the program's CPU, that the line is at
   std::vector<Assignment> set{};

@@ -7,7 +7,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
-#include "tools/rig/system_reader.hpp"
+#include "tools/plan/system_reader.hpp"
 #include "tools/slave/host_slave.hpp"
 
 namespace s7200::tools {

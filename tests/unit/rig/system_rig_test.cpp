@@ -9,8 +9,8 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/host/files.hpp"
+#include "tools/plan/system_reader.hpp"
 #include "tools/rig/rig.hpp"
-#include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
 namespace {

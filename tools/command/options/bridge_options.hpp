@@ -8,7 +8,7 @@
 
 #include "tools/bridge/bridge.hpp"
 #include "tools/command/options/line_options.hpp"
-#include "tools/rig/bridge_kinds.hpp"
+#include "tools/plan/bridge_kinds.hpp"
 
 namespace CLI {
 class App;

@@ -9,7 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/choices.hpp"
 #include "tools/command/options/help_groups.hpp"
-#include "tools/rig/other_plc.hpp"
+#include "tools/plan/other_plc.hpp"
 #include "tools/slave/slave_target.hpp"
 
 namespace s7200::tools {

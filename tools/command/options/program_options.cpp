@@ -20,9 +20,9 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/files.hpp"
 #include "tools/measuring/band.hpp"
+#include "tools/plan/program_cpu.hpp"
+#include "tools/plan/system_reader.hpp"
 #include "tools/recordings/recording.hpp"
-#include "tools/rig/program_cpu.hpp"
-#include "tools/rig/system_reader.hpp"
 
 namespace s7200::tools {
 namespace {

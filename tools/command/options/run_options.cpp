@@ -6,7 +6,7 @@
 
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/number_option.hpp"
-#include "tools/rig/system_keys.hpp"
+#include "tools/plan/system_keys.hpp"
 
 namespace s7200::tools {
 

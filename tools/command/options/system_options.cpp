@@ -14,7 +14,7 @@
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/files.hpp"
-#include "tools/rig/system_reader.hpp"
+#include "tools/plan/system_reader.hpp"
 
 namespace s7200::tools {
 

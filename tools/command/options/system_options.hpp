@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/rig/system_plan.hpp"
+#include "tools/plan/system_plan.hpp"
 
 namespace CLI {
 class App;

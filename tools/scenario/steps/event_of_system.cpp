@@ -1,5 +1,5 @@
 // What happens to a system in the field, as under `events` of its file: power_off, cut …
-#include "tools/rig/event_reader.hpp"
+#include "tools/plan/event_reader.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
 #include "tools/scenario/transcript_writer.hpp"

@@ -2,7 +2,7 @@
 #include "serial_sim/faults/fault.hpp"
 
 #include "interpreter/base/text.hpp"
-#include "tools/rig/system_reading.hpp"
+#include "tools/plan/system_reading.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
 #include "tools/scenario/transcript_writer.hpp"

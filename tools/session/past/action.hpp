@@ -10,7 +10,7 @@
 #include "interpreter/program/address.hpp"
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/rig/system_plan.hpp"
+#include "tools/plan/system_plan.hpp"
 #include "tools/session/past/line_stations.hpp"
 
 namespace s7200::tools {

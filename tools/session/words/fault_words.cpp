@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/base/text.hpp"
-#include "tools/rig/fault_owner.hpp"
+#include "tools/plan/fault_owner.hpp"
 #include "tools/session/words/line_words.hpp"
 #include "tools/views/faults.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/rig/program_cpu.hpp"
+#include "tools/plan/program_cpu.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "tools/rig/system_block_reader.hpp"
+#include "tools/plan/system_block_reader.hpp"
 
 #include <fmt/format.h>
 

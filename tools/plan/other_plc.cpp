@@ -1,4 +1,4 @@
-#include "tools/rig/other_plc.hpp"
+#include "tools/plan/other_plc.hpp"
 
 #include <stdexcept>
 

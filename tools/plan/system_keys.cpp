@@ -1,4 +1,4 @@
-#include "tools/rig/system_keys.hpp"
+#include "tools/plan/system_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/westinghouse/plcs.hpp"
-#include "tools/rig/bridge_kinds.hpp"
-#include "tools/rig/system_block_reader.hpp"
+#include "tools/plan/bridge_kinds.hpp"
+#include "tools/plan/system_block_reader.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/rig/system_check.hpp"
+#include "tools/plan/system_check.hpp"
 
 #include <fmt/format.h>
 

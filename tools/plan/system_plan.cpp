@@ -1,9 +1,10 @@
-#include "tools/rig/system_plan.hpp"
+#include "tools/plan/system_plan.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/line/line.hpp"
@@ -139,6 +140,15 @@ std::optional<std::size_t> first_askable_line(const SystemPlan& plan) {
   for (std::size_t line = 0; line < plan.lines.size(); ++line)
     if (why_no_other_plc(plan, line).empty()) return line;
   return {};
+}
+
+void run_every_scan(SystemPlan& plan) {
+  for (PlcPlan& plc : plan.plcs) plc.program = with_every_scan(*plc.program);
+}
+
+void forget_files(SystemPlan& plan) {
+  for (PlcPlan& plc : plan.plcs) plc.settings.trace = plc.settings.output = plc.settings.memory.path = "";
+  for (LinePlan& line : plan.lines) line.captures.clear();
 }
 
 }  // namespace s7200::tools

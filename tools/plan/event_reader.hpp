@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/rig/system_plan.hpp"
+#include "tools/plan/system_plan.hpp"
 #include "tools/yaml/values.hpp"
 
 namespace s7200::tools {

@@ -1,4 +1,4 @@
-#include "tools/rig/fault_owner.hpp"
+#include "tools/plan/fault_owner.hpp"
 
 #include <fmt/format.h>
 

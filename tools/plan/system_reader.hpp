@@ -10,7 +10,7 @@
 
 #include "interpreter/base/diagnostic.hpp"
 #include "interpreter/base/source.hpp"
-#include "tools/rig/system_plan.hpp"
+#include "tools/plan/system_plan.hpp"
 #include "tools/yaml/values.hpp"
 
 namespace s7200::tools {

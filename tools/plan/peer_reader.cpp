@@ -1,4 +1,4 @@
-#include "tools/rig/peer_reader.hpp"
+#include "tools/plan/peer_reader.hpp"
 
 #include <fmt/format.h>
 

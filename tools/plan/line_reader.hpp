@@ -1,7 +1,7 @@
 // The bridges and the lines of a system file, and who is on which line.
 #pragma once
 
-#include "tools/rig/system_reading.hpp"
+#include "tools/plan/system_reading.hpp"
 
 namespace s7200::tools {
 

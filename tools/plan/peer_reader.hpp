@@ -1,7 +1,7 @@
 // The peers of a system file: masters and PLCs of other makes.
 #pragma once
 
-#include "tools/rig/system_reading.hpp"
+#include "tools/plan/system_reading.hpp"
 
 namespace s7200::tools {
 

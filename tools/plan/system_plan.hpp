@@ -1,5 +1,5 @@
-// PLCs and lines as plain data: who there is, and who is on which line. system_reader.hpp reads it from YAML, rig.hpp
-// builds it.
+// PLCs and lines as plain data: who there is, and who is on which line. system_reader.hpp reads it from YAML; a rig is built
+// from it.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 #include "serial_sim/peers/automaton.hpp"
 #include "serial_sim/peers/poller.hpp"
 #include "serial_sim/peers/requester.hpp"
-#include "tools/rig/bridge_kinds.hpp"
-#include "tools/rig/plc_rig.hpp"
+#include "tools/plan/bridge_kinds.hpp"
+#include "tools/plan/plc_settings.hpp"
 
 namespace s7200::tools {
 
@@ -147,5 +147,11 @@ std::string why_no_other_plc(const SystemPlan& plan, std::size_t line);
 
 /// The first line that a master can join.
 std::optional<std::size_t> first_askable_line(const SystemPlan& plan);
+
+/// Lets nothing be recorded, and no memory be read or kept.
+void forget_files(SystemPlan& plan);
+
+/// Lets the system run every scan of its PLCs: none is passed over.
+void run_every_scan(SystemPlan& plan);
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-#include "tools/rig/system_reading.hpp"
+#include "tools/plan/system_reading.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "interpreter/base/joined.hpp"
 #include "serial_sim/system/dispatcher.hpp"
-#include "tools/rig/fault_owner.hpp"
+#include "tools/plan/fault_owner.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/rig/system_keys.hpp"
-#include "tools/rig/system_plan.hpp"
-#include "tools/rig/system_reader.hpp"
+#include "tools/plan/system_keys.hpp"
+#include "tools/plan/system_plan.hpp"
+#include "tools/plan/system_reader.hpp"
 #include "tools/yaml/values.hpp"
 
 namespace s7200::tools {

@@ -1,7 +1,7 @@
 // The PLCs of a system file.
 #pragma once
 
-#include "tools/rig/system_reading.hpp"
+#include "tools/plan/system_reading.hpp"
 
 namespace s7200::tools {
 

@@ -1,4 +1,4 @@
-#include "tools/rig/line_reader.hpp"
+#include "tools/plan/line_reader.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "tools/rig/event_reader.hpp"
+#include "tools/plan/event_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "tools/rig/system_reading.hpp"
+#include "tools/plan/system_reading.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/rig/system_reader.hpp"
+#include "tools/plan/system_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "interpreter/base/diagnostic.hpp"
-#include "tools/rig/event_reader.hpp"
-#include "tools/rig/line_reader.hpp"
-#include "tools/rig/peer_reader.hpp"
-#include "tools/rig/plc_reader.hpp"
-#include "tools/rig/system_check.hpp"
-#include "tools/rig/system_reading.hpp"
+#include "tools/plan/event_reader.hpp"
+#include "tools/plan/line_reader.hpp"
+#include "tools/plan/peer_reader.hpp"
+#include "tools/plan/plc_reader.hpp"
+#include "tools/plan/system_check.hpp"
+#include "tools/plan/system_reading.hpp"
 
 namespace s7200::tools {
 namespace {

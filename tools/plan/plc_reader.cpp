@@ -1,4 +1,4 @@
-#include "tools/rig/plc_reader.hpp"
+#include "tools/plan/plc_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -21,9 +21,9 @@
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "tools/host/files.hpp"
-#include "tools/rig/clock_text.hpp"
-#include "tools/rig/program_cpu.hpp"
-#include "tools/rig/system_block_reader.hpp"
+#include "tools/plan/clock_text.hpp"
+#include "tools/plan/program_cpu.hpp"
+#include "tools/plan/system_block_reader.hpp"
 #include "tools/yaml/names.hpp"
 
 namespace s7200::tools {

@@ -1,4 +1,4 @@
-#include "tools/rig/clock_text.hpp"
+#include "tools/plan/clock_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,29 @@
+#include "tools/plan/plc_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/host/files.hpp"
+
+namespace s7200::tools {
+
+std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model,
+                                              std::vector<std::string>& problems) {
+  if (path.empty()) return serial::FieldScript{};
+  std::string why;
+  const auto csv = read_text(path, why);
+  if (!csv) {
+    problems.push_back(fmt::format("cannot read {}: {}", path, why));
+    return {};
+  }
+  std::vector<std::string> errors;
+  auto field = serial::parse_field_script(*csv, path, model, errors);
+  constexpr std::size_t kShown = 10;
+  problems.insert(problems.end(), errors.begin(),
+                  errors.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, errors.size())));
+  if (errors.size() > kShown) problems.push_back(fmt::format("{}: and {} more mistakes", path, errors.size() - kShown));
+  return errors.empty() ? std::optional(std::move(field)) : std::nullopt;
+}
+
+}  // namespace s7200::tools
