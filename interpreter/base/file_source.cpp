@@ -4,6 +4,11 @@
 
 namespace s7200 {
 
+bool FileSource::exists(const std::string& path) const {
+  std::string why;
+  return read(path, why).has_value();
+}
+
 std::optional<std::string> FileSource::read_text(const std::string& path, std::string& why) const {
   auto text = read(path, why);
   if (text) text->erase(0, text->size() - stl::without_byte_order_mark(*text).size());

@@ -16,7 +16,11 @@ class FileSource {
   /// The bytes of a file. Returns nothing and sets `why` if it cannot be read.
   virtual std::optional<std::string> read(const std::string& path, std::string& why) const = 0;
 
-  /// A text in UTF-8, without the byte order mark that some editors put before it. Returns nothing and sets `why` like read().
+  /// Whether there is a file of this name, be it that it cannot be read.
+  virtual bool exists(const std::string& path) const;
+
+  /// A text in UTF-8, without the byte order mark that some editors put before it. Returns nothing and sets `why` like
+  /// read().
   std::optional<std::string> read_text(const std::string& path, std::string& why) const;
 };
 

@@ -115,7 +115,7 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
   if (!programs) return exit_code;
   const auto tip41 = band.tip41().empty() ? std::nullopt : read_tip41(band.tip41());
   if (!tip41 && !band.tip41().empty()) return kUnusable;
-  if (!rig_options.assemble(programs->program(0), json)) return rig_options.exit_code_without_rig();
+  if (!rig_options.take(programs->program(0)) || !rig_options.assemble(json)) return rig_options.exit_code_without_rig();
   const auto with_table = [&](std::size_t table) {
     const auto checked = programs->program(table);
     const auto of_table = program.every_scan ? with_every_scan(*checked) : checked;
@@ -129,8 +129,8 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
     outcomes.resize(exchanges.labels.size(), {.verdict = "not sent", .stop = stop_text(rig->cpu())});
     return Turn{std::move(outcomes), tip41 && agrees(programs->model(), programs->times(table), *tip41)};
   };
-  Results results{band_title(programs->model(), program.times_table, band.settings()), std::vector<OneExchange>(exchanges.labels.size()),
-                  tip41.has_value()};
+  Results results{band_title(programs->model(), program.times_table, band.settings()),
+                  std::vector<OneExchange>(exchanges.labels.size()), tip41.has_value()};
   BandProgress progress(programs->size());
   ParallelRun<Turn> run(programs->size(), band.jobs(), with_table);
   run.each(

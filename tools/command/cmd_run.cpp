@@ -52,7 +52,8 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   const auto program = options.program.load(exit_code);
   if (!program) return exit_code;
   if (!options.bridge.prepare()) return kUnusable;
-  const auto rig = options.rig.assemble(program, options.json, options.bridge.link());
+  if (!options.rig.take(program)) return kUnusable;
+  const auto rig = options.rig.assemble(options.json, options.bridge.link());
   if (!rig) return options.rig.exit_code_without_rig();
   serial::Simulation& simulation = rig->simulation();
   rig->power_up();

@@ -52,7 +52,7 @@ class RigDebuggee final : public dap::Debuggee {
   }
 
   std::string source() const override {
-    return options_->rig.plan() ? options_->program.path : rig_->plan().plcs.front().program->source.name;
+    return options_->rig.is_system() ? options_->program.path : rig_->plan().plcs.front().program->source.name;
   }
   History& history() override { return *history_; }
   SessionSetup setup() override {
@@ -211,7 +211,7 @@ std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_pt
     return nullptr;
   }
   if (!options->rig.load_all(app, options->program, exit_code)) return nullptr;
-  if (options->rig.plan()) check_limits(*options->rig.plan(), limits);
+  check_limits(options->rig.plan(), limits);
   exit_code = kUnusable;
   options->bridge.set_line(options->master);
   if (!options->bridge.prepare()) return nullptr;

@@ -103,7 +103,7 @@ std::string heading(const Opened& one) {
 
 int debug(const Opened& one, const std::string& script, const DebugOptions& options) {
   const PlaceInRun place = place_of(one.result);
-  const std::unique_ptr<Plant> plant = new_plant(*one.scenario, one.program, interruption());
+  const auto plant = std::make_unique<Plant>(*one.scenario, one.program, interruption());
   const HostFiles files;
   PromptSettings settings = prompt_settings({.master = one.scenario->line,
                                              .stations = debugged_stations(*one.scenario),

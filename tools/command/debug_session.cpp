@@ -223,7 +223,7 @@ std::string joined_or_none(const std::vector<std::string>& texts) {
 }
 
 /// Of the plant. How a master talks the debugger knows itself.
-std::vector<SessionOption> conditions(const RigSettings& settings, const PlcPlan& plc) {
+std::vector<SessionOption> conditions(const ProgramSettings& settings, const PlcPlan& plc) {
   std::vector<std::string> faults, assignments;
   for (const serial::Fault& fault : settings.faults) faults.push_back(serial::to_text(fault));
   for (const Assignment& one : settings.set) assignments.push_back(fmt::format("{}={}", one.place.name_of(0), one.value));

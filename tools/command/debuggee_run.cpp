@@ -22,7 +22,7 @@ DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges
                             .pause = pause,
                             .in_stop_too = true,
                             .before_wait = [&rig] { rig.flush_records(); }};
-  if (!options.rig.plan()) {
+  if (!options.rig.is_system()) {
     live_ = std::make_unique<LiveRun>(simulation, live, bridge);
     return;
   }
@@ -55,10 +55,7 @@ History::Settings DebuggeeRun::history() {
   return settings;
 }
 
-std::optional<SystemBridges> bridges_of(const DebuggeeOptions& options) {
-  const auto& plan = options.rig.plan();
-  return plan ? make_bridges(*plan) : std::optional(SystemBridges{});
-}
+std::optional<SystemBridges> bridges_of(const DebuggeeOptions& options) { return make_bridges(options.rig.plan()); }
 
 bool has_room_for_bridge(const DebuggeeOptions& options, const Rig& rig) {
   if (options.bridge.bridge() == nullptr || rig.simulation().has_host_port()) return true;

@@ -93,9 +93,8 @@ std::unique_ptr<MeasuringTarget> MeasuringTarget::open(const std::string& name, 
   const auto program = options.load(exit_code);
   if (!program) return nullptr;
   std::vector<std::string> problems;
-  RigSettings settings;
-  settings.stop = interruption();
-  result->rig_ = Rig::assemble(program, settings, problems);
+  const SystemPlan plan = plan_of(program);
+  result->rig_ = Rig::assemble(plan, {.spots = spots_of_plcs(plan), .stop = interruption()}, problems);
   if (!result->rig_) throw std::runtime_error(problems.empty() ? "interrupted" : problems.front());
   result->rig_->power_up();
   auto slave = std::make_unique<SimulatedSlave>(result->rig_->simulation(), serial::MasterSettings{}, program->source.name);

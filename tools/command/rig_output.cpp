@@ -58,8 +58,6 @@ std::string by_plc(const Rig& rig, Of of) {
 
 }  // namespace
 
-bool is_system(const Rig& rig) { return !rig.plan().lines.front().name.empty(); }
-
 std::string_view mode_of(const serial::Plc& plc) {
   return !plc.powered() ? "off" : plc.cpu().state().mode == Mode::Run ? "RUN" : "STOP";
 }
@@ -123,7 +121,7 @@ std::vector<std::string> framing_notes(const Rig& rig, const CollisionsOn& colli
       const std::string why =
           collided > 0 ? fmt::format("a master spoke while the PLC was sending, {}", counted(collided, "time"))
                        : fmt::format("whoever sent them is not set to {} like the port{}", set_to(plc.port_format(port)),
-                                     is_system(rig) ? ", or two stations sent at once" : "");
+                                     !is_of_one_program(rig.plan()) ? ", or two stations sent at once" : "");
       notes.push_back(fmt::format("{}port {} received {} with framing errors: {}", name.empty() ? "" : name + ": ", port,
                                   counted(plc.framing_errors(port), "character"), why));
     }
@@ -160,7 +158,7 @@ std::string poll_text(const serial::Poller::State& polls) {
 
 nlohmann::ordered_json rig_json(const Rig& rig) {
   const SystemPlan& plan = rig.plan();
-  if (!is_system(rig)) {
+  if (is_of_one_program(rig.plan())) {
     const Cpu& cpu = rig.plc(0).cpu();
     return {{"mode", mode_of(rig.plc(0))},
             {"errors", errors_json(cpu)},

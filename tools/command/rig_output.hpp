@@ -14,9 +14,6 @@
 
 namespace s7200::tools {
 
-/// Whether it came from a system file.
-bool is_system(const Rig& rig);
-
 /// `RUN`, `STOP`, or `off` without power.
 std::string_view mode_of(const serial::Plc& plc);
 

@@ -169,7 +169,7 @@ std::string scenario_text(const SessionSource& source) {
 void take_options(const SessionSource& source, Scenario& scenario) {
   const auto& [options, program, session] = source;
   const bool is_system = source.is_system();
-  const RigSettings& rig = options.rig.settings();
+  const ProgramSettings& rig = options.rig.settings();
   scenario.program = is_system ? "" : options.program.path;
   scenario.with = options.program.parts;
   scenario.times = options.program.times_table;

@@ -69,6 +69,7 @@ std::optional<std::string> read_all(int fd, std::string& why) {
 class HostFiles final : public FileSource {
  public:
   std::optional<std::string> read(const std::string& path, std::string& why) const override { return read_file(path, why); }
+  bool exists(const std::string& path) const override { return access(path.c_str(), F_OK) == 0; }
 };
 
 }  // namespace

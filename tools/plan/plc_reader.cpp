@@ -20,7 +20,6 @@
 #include "interpreter/program/slips.hpp"
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
-#include "tools/host/files.hpp"
 #include "tools/plan/clock_text.hpp"
 #include "tools/plan/program_cpu.hpp"
 #include "tools/plan/system_block_reader.hpp"
@@ -84,7 +83,7 @@ class PlcReader {
   const CpuModel* find_cpu_of(const Named& plc) {
     const auto project = read_project(plc);
     if (!project) return nullptr;
-    const ProgramCpu found = cpu_of_program(*project, beside(reading_.path, plc.item.find("program")->text));
+    const ProgramCpu found = cpu_of_program(*project, beside(reading_.path, plc.item.find("program")->text), reading_.files);
     if (!found.model) values_.wrong(*plc.item.find("program"), found.why);
     if (!found.note.empty())
       reading_.file.file.diagnostics.push_back({.severity = stl::Severity::Warning,
@@ -127,7 +126,7 @@ class PlcReader {
   const SourceText* text_of(const std::string& path, std::string& why) {
     if (const auto known = texts_.find(path); known != texts_.end()) return &known->second;
     if (is_standard_input(path)) why = "a system names its files";
-    const auto bytes = is_standard_input(path) ? std::nullopt : read_file(path, why);
+    const auto bytes = is_standard_input(path) ? std::nullopt : reading_.files.read(path, why);
     auto text = bytes ? read_source(*bytes, path, why) : std::nullopt;
     return text ? &texts_.emplace(path, std::move(*text)).first->second : nullptr;
   }
@@ -175,7 +174,7 @@ class PlcReader {
                             !written               ? ""
                             : find_times(*written) ? *written
                                                    : beside(reading_.path, *written),
-                            host_files(), errors);
+                            reading_.files, errors);
     if (!times) values_.wrong(*map.find("times"), errors.empty() ? "no such table" : errors.front());
     return times;
   }
@@ -248,7 +247,7 @@ class PlcReader {
 
   void read_inputs(const YamlNode& map, PlcPlan& plc) {
     std::vector<std::string> problems;
-    auto field = read_field(plc.settings.input, *plc.program->model, problems);
+    auto field = read_field(plc.settings.input, *plc.program->model, reading_.files, problems);
     if (field)
       plc.field = std::move(*field);
     else

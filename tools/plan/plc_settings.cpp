@@ -4,15 +4,13 @@
 
 #include <algorithm>
 
-#include "tools/host/files.hpp"
-
 namespace s7200::tools {
 
-std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model,
+std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model, const FileSource& files,
                                               std::vector<std::string>& problems) {
   if (path.empty()) return serial::FieldScript{};
   std::string why;
-  const auto csv = read_text(path, why);
+  const auto csv = files.read_text(path, why);
   if (!csv) {
     problems.push_back(fmt::format("cannot read {}: {}", path, why));
     return {};

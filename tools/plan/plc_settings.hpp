@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/file_source.hpp"
 #include "interpreter/cpu/state.hpp"
 #include "interpreter/program/address.hpp"
 #include "interpreter/trace/text_trace.hpp"
@@ -37,7 +38,7 @@ struct PlcSettings {
 
 /// Reads a script of inputs; nothing, with `problems` set, if the file is not such a script. An empty path is an empty
 /// script.
-std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model,
+std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model, const FileSource& files,
                                               std::vector<std::string>& problems);
 
 }  // namespace s7200::tools

@@ -2,29 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
 
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/cpu_choice.hpp"
 #include "interpreter/stl/symbols.hpp"
-#include "tools/host/files.hpp"
 #include "tools/yaml/values.hpp"
 
 namespace s7200::tools {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A complaint about the file, at its line.
 ProgramCpu wrong(const std::string& file, std::uint32_t line, const std::string& why) {
   return {.why = fmt::format("{}:{}: {}", stl::printable(file), line, why)};
 }
 
-ProgramCpu read_settings(const std::string& file) {
+ProgramCpu read_settings(const std::string& file, const FileSource& files) {
   ProgramCpu cpu;
-  const auto text = read_text(file, cpu.why);
+  const auto text = files.read_text(file, cpu.why);
   if (!text) return {.why = fmt::format("cannot read {}: {}", stl::printable(file), cpu.why)};
   stl::Diagnostics diagnostics;
   const auto source = source_of(*text, file);
@@ -48,11 +44,10 @@ ProgramCpu read_settings(const std::string& file) {
 
 }  // namespace
 
-ProgramCpu cpu_of_program(const SourceText& text, const std::string& path) {
+ProgramCpu cpu_of_program(const SourceText& text, const std::string& path, const FileSource& files) {
   if (const CpuModel* named = cpu_in_head(text.parsed.source)) return {.model = named};
-  const fs::path settings = fs::path(path).parent_path() / kFolderSettings;
-  std::error_code none;
-  if (!is_standard_input(path) && fs::exists(settings, none)) return read_settings(settings.string());
+  const std::string settings = beside(path, std::string(kFolderSettings));
+  if (!is_standard_input(path) && files.exists(settings)) return read_settings(settings, files);
   const CpuModel& first = first_cpu_for(text.parsed);
   const bool said = !stl::symbol_of_smart(text.parsed.source).empty() && &first == &cpu226();  // in a note of the text
   if (&first == &cpu214() || said) return {.model = &first};

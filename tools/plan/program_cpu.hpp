@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/file_source.hpp"
 #include "interpreter/program/load.hpp"
 
 namespace s7200::tools {
@@ -19,6 +20,6 @@ struct ProgramCpu {
 
 /// The CPU in the head of the program, else in `s7200.yaml` in the folder of the file `path`, else the first CPU that can
 /// run the program.
-ProgramCpu cpu_of_program(const SourceText& text, const std::string& path);
+ProgramCpu cpu_of_program(const SourceText& text, const std::string& path, const FileSource& files);
 
 }  // namespace s7200::tools

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/analysis/looks.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/line/line.hpp"
+#include "tools/plan/clock_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -63,6 +65,31 @@ EventSubject subject_of(const EventPlan& event) {
   }
   return {};
 }
+
+SystemPlan plan_of(std::shared_ptr<const Program> program, const ProgramSettings& settings, serial::FieldScript field) {
+  SystemPlan plan;
+  plan.plcs.push_back({.name = "", .program = std::move(program), .settings = settings, .field = std::move(field)});
+  plan.lines.push_back({.name = "",
+                        .faults = of_anyone(settings.faults),
+                        .contention = {},  // as a scenario's own line, which needs no seed
+                        .captures = settings.captures,
+                        .stations = {{StationPlan::Kind::Plc, 0, static_cast<std::uint8_t>(settings.port)}}});
+  return plan;
+}
+
+std::optional<SystemPlan> read_plan_of(std::shared_ptr<const Program> program, const ProgramSettings& settings,
+                                       const FileSource& files, std::vector<std::string>& problems) {
+  const CpuModel& model = *program->model;
+  if (settings.port >= model.ports)
+    problems.push_back(
+        fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, s7200::to_text(kTwoPorts)));
+  if (const std::string why = why_no_clock(model); settings.clock && !why.empty()) problems.push_back(why);
+  auto field = read_field(settings.input, model, files, problems);
+  if (!field || !problems.empty()) return {};
+  return plan_of(std::move(program), settings, std::move(*field));
+}
+
+bool is_of_one_program(const SystemPlan& plan) { return !plan.lines.empty() && plan.lines.front().name.empty(); }
 
 const std::string& name_of(const SystemPlan& plan, const StationPlan& station) {
   if (station.kind == StationPlan::Kind::Plc) return plan.plcs[station.number].name;

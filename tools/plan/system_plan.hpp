@@ -28,6 +28,7 @@ struct PlcPlan {
   std::shared_ptr<const Program> program;
   PlcSettings settings{};
   serial::FieldScript field{};
+  std::optional<RetentiveMemory> kept{};  ///< with which it powers up first; nothing: what its memory file says
   std::optional<std::uint8_t> address{};  ///< of its Modbus slave, if the file gives it one
 };
 
@@ -106,6 +107,25 @@ struct SystemPlan {
   std::vector<LinePlan> lines;
   std::vector<EventPlan> events;  ///< in the order of time
 };
+
+/// What a user says of the PLC that a PROGRAM is, and of the line at one of its ports.
+struct ProgramSettings : PlcSettings {
+  std::vector<serial::Fault> faults{};  ///< of the line, from power-up on
+  std::uint32_t port = 0;               ///< of the PLC, that the line with everything on it is at
+  std::vector<std::string> captures{};  ///< of the line: FILE.vcd, FILE.pcap
+};
+
+/// The plan of a PROGRAM: one PLC on a line of its own, both without a name. Its CPU has what the settings ask for.
+SystemPlan plan_of(std::shared_ptr<const Program> program, const ProgramSettings& settings = {},
+                   serial::FieldScript field = {});
+
+/// The same with the file of inputs that the settings name. Nothing, with `problems`, if it cannot be read, or if the CPU
+/// does not have what the settings ask for.
+std::optional<SystemPlan> read_plan_of(std::shared_ptr<const Program> program, const ProgramSettings& settings,
+                                       const FileSource& files, std::vector<std::string>& problems);
+
+/// Whether it is the plan of a PROGRAM, where nothing has a name.
+bool is_of_one_program(const SystemPlan& plan);
 
 /// A place in a system, where one more station joins it: beside a PLC, on the line that one of its ports is on.
 struct Spot {

@@ -51,13 +51,13 @@ void read_file(const YamlNode& root, SystemReading& reading) {
 
 bool is_system_file(std::string_view path) { return is_yaml_file(path); }
 
-SystemFile read_system(const std::string& text, const std::string& path) {
+SystemFile read_system(const std::string& text, const std::string& path, const FileSource& files) {
   SystemFile file;
   file.file.source = source_of(text, path);
   stl::Diagnostics& diagnostics = file.file.diagnostics;
   const auto root = read_yaml(text, *file.file.source, diagnostics, {"a system file", "'plcs:' and 'lines:'"});
   YamlValues values(diagnostics);
-  SystemReading reading{file, path, values};
+  SystemReading reading{file, path, files, values};
   if (root) read_file(*root, reading);
   std::ranges::move(reading.notes, std::back_inserter(diagnostics));
   stl::sort(diagnostics);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
+#include "interpreter/base/file_source.hpp"
 #include "interpreter/base/source.hpp"
 #include "tools/plan/system_plan.hpp"
 #include "tools/yaml/values.hpp"
@@ -31,6 +32,7 @@ struct SystemFile {
   bool ok() const { return !stl::has_errors(file.diagnostics); }
 };
 
-SystemFile read_system(const std::string& text, const std::string& path);
+/// Reads the text of the file `path`; the files that it names are read from `files`.
+SystemFile read_system(const std::string& text, const std::string& path, const FileSource& files);
 
 }  // namespace s7200::tools

@@ -54,6 +54,7 @@ class SystemNames {
 struct SystemReading {
   SystemFile& file;
   const std::string& path;
+  const FileSource& files;
   YamlValues& values;
   SystemNames names{};
   stl::Diagnostics notes{};  ///< on how programs were read; they are added after the complaints, any of which ends the

@@ -13,8 +13,7 @@
 
 namespace s7200::tools {
 
-PlcRig::PlcRig(std::shared_ptr<const Program> program, const PlcSettings& settings)
-    : program_(std::move(program)), settings_(settings) {}
+PlcRig::PlcRig(const PlcPlan& plan) : program_(plan.program), settings_(plan.settings), kept_(plan.kept) {}
 
 bool PlcRig::claim(WrittenFiles& files, std::string& why) {
   files.reads(program_->source.name);
@@ -44,7 +43,7 @@ bool PlcRig::read_memory(std::string& why) { return memory_.read(*program_->mode
 void PlcRig::power_up(serial::Plc& plc, Time at) {
   if (plc.powered() && !sinks().empty()) plc.cpu().set_sink(&sinks());  // without sinks, another watcher may be set by now
   plc.cpu().set_clock_error(settings_.clock_error);
-  plc.power_up(memory_.memory(), at);
+  plc.power_up(kept_ ? &*kept_ : memory_.memory(), at);
   if (settings_.clock) plc.cpu().set_clock(*settings_.clock);
   for (const Assignment& assignment : settings_.set) assign(plc.cpu(), assignment);
 }

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/system/plc.hpp"
 #include "tools/host/written_files.hpp"
-#include "tools/plan/plc_settings.hpp"
+#include "tools/plan/system_plan.hpp"
 #include "tools/rig/memory_file.hpp"
 #include "tools/rig/trace_files.hpp"
 
@@ -18,7 +19,7 @@ namespace s7200::tools {
 /// false and sets `why`, or adds to `problems`.
 class PlcRig {
  public:
-  PlcRig(std::shared_ptr<const Program> program, const PlcSettings& settings);
+  explicit PlcRig(const PlcPlan& plan);
 
   bool claim(WrittenFiles& files, std::string& why);
   bool read_memory(std::string& why);
@@ -44,6 +45,7 @@ class PlcRig {
  private:
   std::shared_ptr<const Program> program_;
   PlcSettings settings_;
+  std::optional<RetentiveMemory> kept_;
   MemoryFile memory_;
   TraceFiles traces_;
   TraceWriter* trace_ = nullptr;  // null: none is written

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "serial_sim/modbus/answer.hpp"
-#include "tools/plan/clock_text.hpp"
 #include "tools/rig/system_trace.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
@@ -52,7 +51,7 @@ Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
       pollers_(plan_.peers.size()),
       responders_(plan_.peers.size()),
       hosts_(plan_.bridges.size()) {
-  for (const PlcPlan& plc : plan_.plcs) plc_rigs_.emplace_back(plc.program, plc.settings);
+  for (const PlcPlan& plc : plan_.plcs) plc_rigs_.emplace_back(plc);
   captures_.resize(plan_.lines.size());
   for (std::size_t line = 0; line < plan_.lines.size(); ++line) lines_.push_back(&system_.add_line());
   for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) add_plc(plc);
@@ -128,31 +127,6 @@ void Rig::watch(std::size_t line, CaptureFiles& captures) {
     captures.watch(*plcs_[first->number], first->port);
   else if (const StationPlan* const other = first_other_plc(plan_, plan_.lines[line]))
     captures.watch(*responders_[other->number], system_.time());
-}
-
-std::unique_ptr<Rig> Rig::assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
-                                   std::vector<std::string>& problems) {
-  const CpuModel& model = *program->model;
-  if (settings.port >= model.ports)
-    problems.push_back(
-        fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, s7200::to_text(kTwoPorts)));
-  if (const std::string why = why_no_clock(model); settings.clock && !why.empty()) problems.push_back(why);
-  auto field = read_field(settings.input, model, problems);
-  if (!field || !problems.empty()) return nullptr;
-  const auto port = static_cast<std::uint8_t>(settings.port);
-  SystemPlan plan;
-  plan.plcs.push_back({.name = "", .program = std::move(program), .settings = settings, .field = std::move(*field)});
-  plan.lines.push_back({.name = "",
-                        .faults = of_anyone(settings.faults),
-                        .contention = {},  // as a scenario's own line, which needs no seed
-                        .captures = settings.captures,
-                        .stations = {{StationPlan::Kind::Plc, 0, port}}});
-  const RigSurroundings surroundings{.link = settings.link,
-                                     .standard_output = settings.standard_output,
-                                     .spots = {Spot{0, 0, port}},
-                                     .stop = settings.stop,
-                                     .begun = settings.begun};
-  return assemble(std::move(plan), surroundings, problems);
 }
 
 std::unique_ptr<Rig> Rig::assemble(SystemPlan plan, const RigSurroundings& surroundings,

@@ -23,23 +23,12 @@ namespace s7200::tools {
 
 class SystemTrace;
 
-/// The settings of one PLC on a line, as a user gives them. `-` is standard_output, for a trace and the outputs.
-struct RigSettings : PlcSettings {
-  std::vector<serial::Fault> faults{};  ///< of the line, from power-up on
-  std::uint32_t port = 0;               ///< of the PLC, that the line with everything on it is at
-  std::vector<std::string> captures{};  ///< of the line: FILE.vcd, FILE.pcap
-  std::string link{};                   ///< a pty's link: nothing is written there, and no output may have its name
-  std::ostream* standard_output = nullptr;
-  StopToken stop{};               ///< ends what runs
-  std::function<void()> begun{};  ///< told when all has been read, before files are written
-};
-
-/// The settings of a system that its plan does not have.
+/// What a rig is told besides its plan.
 struct RigSurroundings {
-  std::string path{};  ///< of the system file
-  std::string link{};
-  std::ostream* standard_output = nullptr;
-  std::string trace{};  ///< of a system, all its PLCs in one file
+  std::string path{};                       ///< of the system file
+  std::string link{};                       ///< a pty's link: nothing is written there, and no output may have its name
+  std::ostream* standard_output = nullptr;  ///< `-` for a trace and the outputs
+  std::string trace{};                      ///< of a system, all its PLCs in one file
   TraceDetail trace_detail = TraceDetail::Way;
   /// The spots from which callers look at the system, see simulation(). On each line a master stands beside the PLC of the
   /// first of its spots.
@@ -51,12 +40,8 @@ struct RigSurroundings {
 
 class Rig final {
  public:
-  /// Reads and opens all files that the settings name. Returns null with all `problems` if one of them cannot be opened;
-  /// then no file has been changed.
-  static std::unique_ptr<Rig> assemble(std::shared_ptr<const Program> program, const RigSettings& settings,
-                                       std::vector<std::string>& problems);
-
-  /// Assembles a system of any number of PLCs.
+  /// Reads and opens all files that the plan and its surroundings name. Returns null with all `problems` if one of them
+  /// cannot be opened; then no file has been changed.
   static std::unique_ptr<Rig> assemble(SystemPlan plan, const RigSurroundings& surroundings,
                                        std::vector<std::string>& problems);
 

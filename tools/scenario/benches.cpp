@@ -241,7 +241,7 @@ SlaveMaker system_slaves(const std::string& path, const SuiteSettings& settings,
   std::string why;
   const auto text = read_text(path, why);
   if (!text) return refuse(fmt::format("cannot read {}: {}", path, why));
-  SystemFile file = read_system(*text, path);
+  SystemFile file = read_system(*text, path, host_files());
   if (!file.ok()) {
     const auto add = [&](const SystemFile::Text& one) {
       messages.push_back({.kind = Message::Kind::Diagnostics, .diagnostics = one.diagnostics, .source = one.source});

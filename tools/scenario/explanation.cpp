@@ -54,7 +54,7 @@ void explain(const Scenario& scenario, const std::shared_ptr<const Program>& pro
     const auto is_here = [&](const Finding& finding) { return finding.place && finding.place->power_up == power_up; };
     if (std::none_of(result.findings.begin(), result.findings.begin() + static_cast<std::ptrdiff_t>(shown), is_here))
       continue;
-    const std::unique_ptr<Plant> plant = new_plant(scenario, program, stop);
+    const auto plant = std::make_unique<Plant>(scenario, program, stop);
     History::Settings settings = plant->history_settings();
     settings.stop_request = stop;
     History history(plant->stations(), std::move(settings));

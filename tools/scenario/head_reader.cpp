@@ -124,7 +124,7 @@ class HeadReader {
     std::string why;
     const auto text = read_text(path, why);
     if (!text) return values_.wrong(node, fmt::format("cannot read {}: {}", path, why));
-    SystemFile file = read_system(*text, path);
+    SystemFile file = read_system(*text, path, host_files());
     if (!file.ok()) {
       const stl::Diagnostic& first = file.file.diagnostics.front();
       return values_.wrong(node, fmt::format("{}:{}: {}", path, first.position.line, first.message),
@@ -188,7 +188,7 @@ class HeadReader {
       if (!text) return;
       files.push_back(std::move(*text));
     }
-    const ProgramCpu found = cpu_of_program(join_files(std::move(files)), scenario.program);
+    const ProgramCpu found = cpu_of_program(join_files(std::move(files)), scenario.program, host_files());
     if (found.model) scenario.cpu = found.model->name;
     scenario.cpu_note = found.model ? found.note : found.why;
   }

@@ -16,9 +16,17 @@ namespace {
 
 constexpr Time kSlice = 10 * kSecond;  // Ctrl-C is heard in between
 
+SystemPlan plan_of(const Scenario& scenario, std::shared_ptr<const Program> program) {
+  if (scenario.plan) return *scenario.plan;
+  ProgramSettings settings;
+  settings.set = scenario.set;
+  settings.clock = scenario.clock;
+  settings.port = scenario.port;
+  return plan_of(std::move(program), settings, scenario.field);
+}
+
 /// Those of the steps; the master stands beside the first of a line.
-std::vector<Spot> spots_of(const Scenario& scenario) {
-  const SystemPlan& plan = *scenario.plan;
+std::vector<Spot> spots_of(const Scenario& scenario, const SystemPlan& plan) {
   std::vector<Spot> spots;
   const auto add = [&](const std::optional<Spot>& spot) {
     if (spot && std::ranges::find(spots, *spot) == spots.end()) spots.push_back(*spot);
@@ -43,36 +51,36 @@ void InterruptCounter::record(const TraceRecord& record) {
 }
 
 Plant::Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop)
-    : scenario_(scenario), stop_(stop), program_(std::move(program)) {
-  watches_.push_back(std::make_unique<Watch>(program_));
-  power_up(nullptr);
-  if (scenario.clock) cpu().set_clock(*scenario.clock);
-  for (const Assignment& assignment : scenario.set) assign(cpu(), assignment);
+    : scenario_(scenario), stop_(stop), plan_(plan_of(scenario, std::move(program))), spots_(spots_of(scenario, plan_)) {
+  for (const PlcPlan& plc : plan_.plcs) watches_.push_back(std::make_unique<Watch>(plc.program));
+  power_up();
 }
 
-Plant::Plant(const Scenario& scenario, StopToken stop) : scenario_(scenario), stop_(stop) {
-  spots_ = spots_of(scenario);
+void Plant::power_up() {
+  slaves_.clear();
+  seen_.reset();
+  journal_.reset();
   std::vector<std::string> problems;
-  rig_ = Rig::assemble(*scenario.plan, {.path = scenario.system, .spots = spots_, .stop = stop}, problems);
+  rig_ = Rig::assemble(plan_, {.path = scenario_.system, .spots = spots_, .stop = stop_}, problems);
   if (!rig_) throw std::logic_error(problems.empty() ? "interrupted" : problems.front());
-  for (std::size_t plc = 0; plc < scenario.plan->plcs.size(); ++plc) {
-    watches_.push_back(std::make_unique<Watch>(scenario.plan->plcs[plc].program));
-    rig_->sinks(plc).add(&watches_.back()->sinks);
-  }
+  for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) rig_->sinks(plc).add(&watches_[plc]->sinks);
   rig_->tell_of_events(
       [this](std::size_t plc, Time at, const std::string& what) { watches_[plc]->timeline.note(at, what); });
   rig_->power_up();
+  const std::string& name = is_of_one_program(plan_) ? plan_.plcs.front().program->source.name : scenario_.system;
   for (std::size_t spot = 0; spot < spots_.size(); ++spot)
-    slaves_.push_back(std::make_unique<SimulatedSlave>(rig_->simulation(spot), master_of(spots_[spot]), scenario.system));
+    slaves_.push_back(std::make_unique<SimulatedSlave>(rig_->simulation(spot), master_of(spots_[spot]), name));
   begin_journal();
 }
 
-/// Of a system, unless a line is seen from no PLC: a recording has a station for each action.
+/// Unless a line is seen from no PLC: a recording has a station for each action.
 void Plant::begin_journal() {
   seen_.emplace(*rig_, spots_);
   for (const Spot& spot : spots_)
     if (!seen_->station_on(spot.line)) return;
-  journal_.emplace(rig_->simulation());
+  std::vector<RetentiveMemory> kept;
+  if (const auto& memory = plan_.plcs.front().kept) kept.push_back(*memory);
+  journal_.emplace(rig_->simulation(), std::move(kept));
   for (std::size_t spot = 0; spot < spots_.size(); ++spot)
     slaves_[spot]->when_asked(
         [this, station = *seen_->station_on(spots_[spot].line)](const SerialFormat& format, const serial::Request& request) {
@@ -85,17 +93,9 @@ void Plant::carry_out(const EventPlan& event) {
   rig_->carry_out(event);
 }
 
-std::vector<serial::Simulation*> Plant::stations() {
-  return rig_ ? seen_->stations() : std::vector<serial::Simulation*>{simulation_.get()};
-}
-
-History::Settings Plant::history_settings() { return rig_ ? tools::history_settings(*rig_) : History::Settings{}; }
-
 void Plant::look_at(const Spot& spot) { here_ = static_cast<std::size_t>(std::ranges::find(spots_, spot) - spots_.begin()); }
 
-serial::MasterSettings Plant::master_of(const Spot& spot) const {
-  return scenario_.plan ? on_line(scenario_.line, scenario_.plan->lines[spot.line]) : scenario_.line;
-}
+serial::MasterSettings Plant::master_of(const Spot& spot) const { return on_line(scenario_.line, plan_.lines[spot.line]); }
 
 void Plant::act(Action action) {
   note(action);
@@ -112,19 +112,6 @@ std::optional<PlaceInRun> Plant::place() const {
   return journal_ && !journal_->is_over() ? std::optional(PlaceInRun{recordings_.size(), journal_->now()}) : std::nullopt;
 }
 
-void Plant::power_up(const RetentiveMemory* memory) {
-  slaves_.clear();
-  simulation_ = std::make_unique<serial::Simulation>(program_, scenario_.field, scenario_.port);
-  simulation_->cpu().set_sink(&watches_.front()->sinks);
-  simulation_->stop_when(stop_);
-  simulation_->power_up(memory);
-  slaves_.push_back(std::make_unique<SimulatedSlave>(*simulation_, scenario_.line, program_->source.name));
-  journal_.emplace(*simulation_, memory ? std::vector{*memory} : std::vector<RetentiveMemory>{});
-  slaves_.back()->when_asked([this](const SerialFormat& format, const serial::Request& request) {
-    journal_->note(SendFrame{.format = format, .request = request});
-  });
-}
-
 void Plant::power_cycle(bool memory_lost, Time power_off) {
   RetentiveMemory memory = cpu().retentive_memory();
   memory.ram_lost = memory_lost;
@@ -132,7 +119,9 @@ void Plant::power_cycle(bool memory_lost, Time power_off) {
   before_ += simulation().time();
   recordings_.push_back(journal_->recording());
   const State before = cpu().state();
-  power_up(&memory);
+  plan_.plcs.front().kept = memory;
+  plan_.plcs.front().settings = {};
+  power_up();
   act(SetMemory{inputs_as_before(cpu(), before)});
 }
 
@@ -141,7 +130,7 @@ bool Plant::get_ready() {
     slave().wait(scenario_.after - simulation().time());
     return true;
   }
-  if (rig_ && !run_first_scans(*rig_, kReadyWithin)) return false;
+  if (!run_first_scans(*rig_, kReadyWithin)) return false;
   const bool ready = slaves_[here_]->get_ready(kReadyWithin);
   return ready || cpu().state().mode == Mode::Stop;
 }
@@ -194,14 +183,13 @@ std::string Plant::timeline(const serial::Exchange& exchange) const {
 }
 
 bool Plant::is_on(std::size_t line, std::size_t plc) const {
-  if (!rig_) return true;
-  return std::ranges::any_of(rig_->plan().lines[line].stations, [&](const StationPlan& station) {
+  return std::ranges::any_of(plan_.lines[line].stations, [&](const StationPlan& station) {
     return station.kind == StationPlan::Kind::Plc && station.number == plc;
   });
 }
 
 std::string Plant::of_plc(const std::string& what) const {
-  return rig_ ? fmt::format("{} of {}", what, name_of(plc_number())) : what;
+  return is_of_one_program(plan_) ? what : fmt::format("{} of {}", what, name_of(plc_number()));
 }
 
 bool Plant::is_in_stop(std::size_t plc) const { return is_powered(plc) && cpu_of(plc).state().mode == Mode::Stop; }
@@ -209,11 +197,6 @@ bool Plant::is_in_stop(std::size_t plc) const { return is_powered(plc) && cpu_of
 std::string Plant::why_stopped(std::size_t plc) const {
   const std::string why = errors_text(cpu_of(plc));
   return why.empty() ? "" : "\n" + why;
-}
-
-std::unique_ptr<Plant> new_plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop) {
-  return scenario.plan ? std::make_unique<Plant>(scenario, stop)
-                       : std::make_unique<Plant>(scenario, std::move(program), stop);
 }
 
 }  // namespace s7200::tools

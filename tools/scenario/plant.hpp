@@ -49,14 +49,12 @@ struct Watch {
   FanOut sinks;
 };
 
-/// One program, or a system of which one PLC at a time is looked at.
+/// The scenario's system, of which one PLC at a time is looked at; without one, that of a program alone.
 class Plant {
  public:
-  /// Powered up, with what the head of the scenario sets. The scenario is not owned.
+  /// Powered up, with what the head of the scenario sets. The scenario is not owned; `program` may be null if it has a
+  /// system.
   Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop);
-
-  /// The same of the scenario's system.
-  Plant(const Scenario& scenario, StopToken stop);
 
   /// Does it to the PLC that is looked at, as a programming device or the plant around it does.
   void act(Action action);
@@ -74,11 +72,11 @@ class Plant {
   std::optional<PlaceInRun> place() const;
 
   /// How a History sees what is to be played again: by PLC, and what it knows by name.
-  std::vector<serial::Simulation*> stations();
-  History::Settings history_settings();
+  std::vector<serial::Simulation*> stations() const { return seen_->stations(); }
+  History::Settings history_settings() { return tools::history_settings(*rig_); }
 
   /// Of those stations, the one from which the line that is looked at is seen.
-  std::size_t station_on_line() const { return rig_ ? seen_->station_on(spots_[here_].line).value_or(plc_number()) : 0; }
+  std::size_t station_on_line() const { return seen_->station_on(spots_[here_].line).value_or(plc_number()); }
 
   /// What follows is about that PLC of the system, and a master on that line.
   void look_at(const Spot& spot);
@@ -105,9 +103,8 @@ class Plant {
   /// Runs scan by scan until `holds`. Returns false if it does not when the time is over or the CPU is in STOP.
   bool wait_until(const std::function<bool()>& holds, Time timeout);
 
-  serial::Simulation& simulation() { return rig_ ? rig_->simulation(here_) : *simulation_; }
-  const serial::Simulation& simulation() const { return rig_ ? rig_->simulation(here_) : *simulation_; }
-  Cpu& cpu() { return simulation().cpu(); }
+  serial::Simulation& simulation() const { return rig_->simulation(here_); }
+  Cpu& cpu() const { return simulation().cpu(); }
   Slave& slave() { return *slaves_[here_]; }
   SerialFormat format() const { return slaves_[here_]->format(); }
 
@@ -123,7 +120,7 @@ class Plant {
 
   std::size_t plcs() const { return watches_.size(); }
   std::size_t plc_number() const { return spots_[here_].plc; }
-  std::string name_of(std::size_t plc) const { return rig_ ? rig_->plan().plcs[plc].name : ""; }
+  std::string name_of(std::size_t plc) const { return plan_.plcs[plc].name; }
   /// `VW20`, and of a system `VW20 of slave`, the PLC that is looked at.
   std::string of_plc(const std::string& what) const;
   bool is_in_stop(std::size_t plc) const;
@@ -135,31 +132,27 @@ class Plant {
   Time time() const { return before_ + simulation().time(); }
 
  private:
-  void power_up(const RetentiveMemory* memory);
+  void power_up();
   void begin_journal();
   /// The CPU does not pause at the ends of its scans any more, and is not paused at the last: no time passes.
   void leave_pause();
   serial::MasterSettings master_of(const Spot& spot) const;
-  const Cpu& cpu_of(std::size_t plc) const { return rig_ ? rig_->plc(plc).cpu() : simulation_->cpu(); }
+  const Cpu& cpu_of(std::size_t plc) const { return rig_->plc(plc).cpu(); }
   bool is_on(std::size_t line, std::size_t plc) const;
-  bool is_powered(std::size_t plc) const { return !rig_ || rig_->plc(plc).powered(); }
+  bool is_powered(std::size_t plc) const { return rig_->plc(plc).powered(); }
 
   const Scenario& scenario_;
   StopToken stop_;
-  std::shared_ptr<const Program> program_;               // null: a system
-  std::vector<std::unique_ptr<Watch>> watches_;          // by PLC; outlive who is watched
-  std::unique_ptr<serial::Simulation> simulation_;       // of a program
-  std::unique_ptr<Rig> rig_;                             // of a system
-  std::vector<Spot> spots_{Spot{}};                      // from which it is looked at
+  SystemPlan plan_;                              // with which it is powered up next
+  std::vector<std::unique_ptr<Watch>> watches_;  // by PLC; outlive who is watched
+  std::unique_ptr<Rig> rig_;
+  std::vector<Spot> spots_;                              // from which it is looked at
   std::vector<std::unique_ptr<SimulatedSlave>> slaves_;  // by spot
   std::size_t here_ = 0;                                 // the spot
-  std::optional<SeenRig> seen_;                          // of a system
-  std::optional<Journal> journal_;                       // since the last power-up
-  std::vector<Recording> recordings_;                    // what was before that
-  Time before_ = 0;                                      // what had passed at the last power cycle
+  std::optional<SeenRig> seen_;
+  std::optional<Journal> journal_;     // since the last power-up
+  std::vector<Recording> recordings_;  // what was before that
+  Time before_ = 0;                    // what had passed at the last power cycle
 };
-
-/// Powered up, of the scenario's program or of its system.
-std::unique_ptr<Plant> new_plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop);
 
 }  // namespace s7200::tools

@@ -18,7 +18,7 @@ Run::Run(const Scenario& scenario, const Bench& bench) : scenario_(scenario), be
   if (scenario.is_of_peers())
     join_lines();
   else
-    plant_ = new_plant(scenario, bench.program, bench.stop);
+    plant_ = std::make_unique<Plant>(scenario, bench.program, bench.stop);
 }
 
 void Run::join_lines() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/source_path.hpp"
+#include "tools/host/files.hpp"
 #include "tools/plan/system_reader.hpp"
 #include "tools/rig/rig.hpp"
 
@@ -38,7 +39,7 @@ enum PolledStation : std::size_t { kMaster, kSlave1, kSlave2 };
 struct SystemBench {
   explicit SystemBench(std::string_view text = kPolled) {
     const std::string path = test::source_path("stl_programs/systems/test.yaml");
-    SystemFile file = read_system(std::string(text), path);
+    SystemFile file = read_system(std::string(text), path, host_files());
     for (const stl::Diagnostic& d : file.file.diagnostics)
       if (d.severity == stl::Severity::Error) ADD_FAILURE() << d.position.line << ": " << d.message;
     std::vector<std::string> problems;

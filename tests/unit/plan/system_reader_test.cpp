@@ -7,13 +7,16 @@
 #include <algorithm>
 
 #include "tests/support/source_path.hpp"
+#include "tools/host/files.hpp"
 #include "tools/plan/event_reader.hpp"
 #include "tools/plan/system_keys.hpp"
 
 namespace s7200::tools {
 namespace {
 
-SystemFile read(const std::string& text) { return read_system(text, test::source_path("stl_programs/systems/test.yaml")); }
+SystemFile read(const std::string& text) {
+  return read_system(text, test::source_path("stl_programs/systems/test.yaml"), host_files());
+}
 
 TEST(SystemFile, NamesPlcsPeersAndLinesAndWhoIsOnThem) {
   const SystemFile file = read(
@@ -447,7 +450,7 @@ TEST(SystemKeys, EachRowHasAReader) {
   for (const SystemKey& key : system_keys()) {
     const std::string text = with_nonsense_at(key);
     const auto line = static_cast<std::uint32_t>(std::ranges::count(text.substr(0, text.find("[[nonsense]]")), '\n') + 1);
-    const SystemFile file = read_system(text, test::source_path("stl_programs/systems/test.yaml"));
+    const SystemFile file = read_system(text, test::source_path("stl_programs/systems/test.yaml"), host_files());
     EXPECT_TRUE(std::ranges::any_of(file.file.diagnostics,
                                     [&](const stl::Diagnostic& d) {
                                       return d.severity == stl::Severity::Error && d.position.line == line &&

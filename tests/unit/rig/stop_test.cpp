@@ -15,9 +15,8 @@ namespace {
 std::unique_ptr<Rig> rig_with(StopToken stop) {
   const auto program = check_text("LD SM0.0\nINCW VW0\nMEND\n", "counts.stl", cpu214(), default_times(cpu214())).program;
   std::vector<std::string> problems;
-  RigSettings settings;
-  settings.stop = stop;
-  auto rig = Rig::assemble(program, settings, problems);
+  const SystemPlan plan = plan_of(program);
+  auto rig = Rig::assemble(plan, {.spots = spots_of_plcs(plan), .stop = stop}, problems);
   rig->power_up();
   return rig;
 }

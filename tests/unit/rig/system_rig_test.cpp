@@ -18,7 +18,7 @@ namespace {
 std::string example(const std::string& name) { return test::source_path("stl_programs/systems/" + name); }
 
 std::unique_ptr<Rig> rig_of(const std::string& text) {
-  SystemFile file = read_system(text, example("test.yaml"));
+  SystemFile file = read_system(text, example("test.yaml"), host_files());
   for (const stl::Diagnostic& d : file.file.diagnostics)
     if (d.severity == stl::Severity::Error) ADD_FAILURE() << d.position.line << ": " << d.message;
   std::vector<std::string> problems;
@@ -820,7 +820,7 @@ TEST(SystemRig, ASpotIsALineOrAPlcOrOneOfItsPorts) {
 
 /// The three slaves and who joins beside one of them, 100 ms after the cable was cut after slave1.
 std::unique_ptr<Rig> cut_after_slave1(std::size_t beside) {
-  SystemFile file = read_system(kThreeSlaves, example("test.yaml"));
+  SystemFile file = read_system(kThreeSlaves, example("test.yaml"), host_files());
   file.plan.events.push_back({.what = EventPlan::What::Cut, .at = 100 * kMillisecond, .line = 0, .near = 2});
   std::vector<std::string> problems;
   auto rig = Rig::assemble(std::move(file.plan), {.spots = {Spot{0, beside, 0}}}, problems);

@@ -115,7 +115,7 @@ const CpuModel* CpuOptions::model() const {
 
 const CpuModel* CpuOptions::model_for(const SourceText& text, const std::string& path) const {
   if (!cpu.empty()) return model();
-  const ProgramCpu found = cpu_of_program(text, path);
+  const ProgramCpu found = cpu_of_program(text, path, host_files());
   if (!found.model) return print_error(found.why), nullptr;
   print_note_if_any(found.note);
   return system_block(*found.model) ? found.model : nullptr;

@@ -14,6 +14,7 @@
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/system_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/plan/clock_text.hpp"
 #include "tools/plan/system_reader.hpp"
@@ -94,38 +95,32 @@ void RigOptions::add_to(CLI::App& app) {
       ->group(help_group::kResults);
 }
 
-std::unique_ptr<Rig> RigOptions::assemble(const std::shared_ptr<const Program>& program, bool json,
-                                          const std::string& link) {
-  const bool to_output[] = {settings_.trace == "-", settings_.output == "-", json};
-  if (std::ranges::count(to_output, true) > 1) {
-    print_error("only one of --trace -, --output - and --json can have standard output; write the others to files");
-    return nullptr;
-  }
-  if (!faults_.prepare()) return nullptr;
+/// Reads what the options of a PROGRAM say into the settings. False after messages.
+bool RigOptions::read_settings(const Program& program) {
+  if (!faults_.prepare()) return false;
   std::string why;
-  const auto assignments = parse_assignments(set_, *program, why);
-  if (!assignments) return print_error("--set: " + why), nullptr;
+  const auto assignments = parse_assignments(set_, program, why);
+  if (!assignments) return print_error("--set: " + why), false;
   for (const Assignment& assignment : *assignments)
     if (const std::string refused = not_settable(assignment.place); !refused.empty())
-      return print_error("--set: " + refused), nullptr;
-  const auto dumps = parse_ranges(settings_.dump_names, *program, why);
-  if (!dumps) return print_error("--dump: " + why), nullptr;
+      return print_error("--set: " + refused), false;
+  const auto dumps = parse_ranges(settings_.dump_names, program, why);
+  if (!dumps) return print_error("--dump: " + why), false;
   settings_.dumps = *dumps;
   settings_.set = *assignments;
   settings_.faults = faults_.faults();
-  settings_.link = link;
-  settings_.standard_output = &std::cout;
-  settings_.stop = interruption();
-  settings_.begun = catch_interruption;
-  std::vector<std::string> problems;
-  auto rig = Rig::assemble(program, settings_, problems);
-  return keep_why(std::move(rig), problems);
+  return true;
 }
 
-std::unique_ptr<Rig> RigOptions::keep_why(std::unique_ptr<Rig> rig, const std::vector<std::string>& problems) {
+bool RigOptions::take(std::shared_ptr<const Program> program) {
+  if (!read_settings(*program)) return false;
+  std::vector<std::string> problems;
+  auto plan = read_plan_of(std::move(program), settings_, host_files(), problems);
   for (const std::string& problem : problems) print_error(problem);
-  only_interrupted_ = problems.empty() && interrupted();
-  return rig;
+  if (!plan) return false;
+  plan_ = std::move(*plan);
+  spot_ = spots_of_plcs(plan_).front();
+  return true;
 }
 
 void RigOptions::add_place_to(CLI::App& app) {
@@ -142,12 +137,11 @@ void RigOptions::add_first_station_to(CLI::App& app) {
 
 bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   if (!load_one(verb, program, exit_code)) return false;
-  if (!plan_) return true;
-  std::string why = without_s7200() ? why_no_other_plc(*plan_, spot_.line) : why_no_room(*plan_, spot_.line);
+  std::string why = without_s7200() ? why_no_other_plc(plan_, spot_.line) : why_no_room(plan_, spot_.line);
   if (!why.empty()) why = fmt::format("{}: {}", program.path, why);
-  if (!plan_->bridges.empty())
+  if (!plan_.bridges.empty())
     why = fmt::format("bridge '{}' of {} follows the clock, which 's7200 {}' does not: leave it out, or use 's7200 run'",
-                      plan_->bridges.front().name, program.path, verb.get_name());
+                      plan_.bridges.front().name, program.path, verb.get_name());
   if (why.empty()) return true;
   exit_code = kUnusable;
   print_error(why);
@@ -157,7 +151,6 @@ bool RigOptions::load(const CLI::App& verb, const ProgramOptions& program, int& 
 bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   looks_at_all_ = true;
   if (!load_one(verb, program, exit_code)) return false;
-  if (!plan_) return true;
   if (without_s7200()) {
     exit_code = kUnusable;
     print_error(
@@ -166,7 +159,7 @@ bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, i
                     program.path, verb.get_name()));
     return false;
   }
-  stations_ = spots_of_plcs(*plan_);
+  stations_ = spots_of_plcs(plan_);
   stations_[spot_.plc] = spot_;
   return true;
 }
@@ -174,38 +167,38 @@ bool RigOptions::load_all(const CLI::App& verb, const ProgramOptions& program, i
 /// Who looks at all PLCs on several lines begins with the first one.
 std::optional<Spot> RigOptions::place_in_system(std::string& why) const {
   if (without_s7200()) {
-    const auto line = find_line(*plan_, at_, why);
+    const auto line = find_line(plan_, at_, why);
     return line ? std::optional(Spot{.line = *line}) : std::nullopt;
   }
-  if (looks_at_all_ && at_.empty() && plan_->lines.size() > 1) return spots_of_plcs(*plan_).front();
-  return find_spot(*plan_, at_, why);
+  if (looks_at_all_ && at_.empty() && plan_.lines.size() > 1) return spots_of_plcs(plan_).front();
+  return find_spot(plan_, at_, why);
 }
 
 std::string RigOptions::note_on_first_station() const {
-  if (!plan_ || !at_.empty() || plan_->lines.size() < 2) return {};
+  if (!at_.empty() || plan_.lines.size() < 2) return {};
   return fmt::format("{} is in view, the first of {} PLCs on {} lines; 'station NAME' goes over to another one",
-                     stl::printable(plan_->plcs[spot_.plc].name), plan_->plcs.size(), plan_->lines.size());
+                     stl::printable(plan_.plcs[spot_.plc].name), plan_.plcs.size(), plan_.lines.size());
 }
 
 std::vector<serial::Simulation*> RigOptions::stations(Rig& rig) const {
   std::vector<serial::Simulation*> simulations;
   for (std::size_t spot = 0; spot < stations_.size(); ++spot) simulations.push_back(&rig.simulation(1 + spot));
-  return plan_ ? simulations : std::vector{&rig.simulation()};
+  return simulations;
 }
 
 std::vector<RigOptions::Station> RigOptions::named_stations(const serial::MasterSettings& master) const {
   std::vector<Station> stations;
+  if (!is_system()) return stations;
   for (const Spot& spot : stations_) {
-    const std::string& name = plan_->plcs[spot.plc].name;
+    const std::string& name = plan_.plcs[spot.plc].name;
     stations.push_back({.name = name,
                         .place = spot.port == 0 ? name : fmt::format("{}.{}", name, spot.port),
-                        .master = tools::on_line(master, plan_->lines[spot.line])});
+                        .master = tools::on_line(master, plan_.lines[spot.line])});
   }
   return stations;
 }
 
 bool RigOptions::load_one(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
-  path_ = program.path;
   if (is_other_plc(program.path)) {
     exit_code = kUnusable;
     print_error(
@@ -219,43 +212,65 @@ bool RigOptions::load_one(const CLI::App& verb, const ProgramOptions& program, i
     print_error("--at names a place in a system file; a PROGRAM has --port");
     return false;
   }
-  program_ = program.load(exit_code);
-  return program_ != nullptr;
+  auto loaded = program.load(exit_code);
+  if (!loaded) return false;
+  exit_code = kUnusable;
+  if (!take(std::move(loaded))) return false;
+  exit_code = kFine;
+  return true;
 }
 
 bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
   exit_code = kUnusable;
   if (!refuse_options_of_one_plc(verb, program)) return false;
-  plan_ = tools::load_system(program, exit_code);
-  if (!plan_) return false;
+  auto plan = tools::load_system(program, exit_code);
+  if (!plan) return false;
+  plan_ = std::move(*plan);
+  path_ = program.path;
   exit_code = kUnusable;
   std::string why;
   const auto spot = place_in_system(why);
   if (!spot) return print_error(fmt::format("{}: {} (--at NAME)", program.path, why)), false;
   spot_ = *spot;
-  if (!without_s7200()) program_ = plan_->plcs[spot_.plc].program;
   exit_code = kFine;
   return true;
 }
 
+/// False after a message if several want standard output.
+bool RigOptions::may_have_standard_output(bool json) const {
+  const bool wanted[] = {settings_.trace == "-", settings_.output == "-", json};
+  if (std::ranges::count(wanted, true) < 2) return true;
+  print_error(is_system()
+                  ? "--trace - and --json cannot both have standard output; write one to a file"
+                  : "only one of --trace -, --output - and --json can have standard output; write the others to files");
+  return false;
+}
+
 std::unique_ptr<Rig> RigOptions::assemble(bool json, const std::string& link) {
-  if (!plan_) return assemble(program_, json, link);
-  if (json && settings_.trace == "-")
-    return print_error("--trace - and --json cannot both have standard output; write one to a file"), nullptr;
+  if (!may_have_standard_output(json)) return nullptr;
   std::vector<std::string> problems;
   std::vector<Spot> spots{spot_};  // beside the first one stands whoever asks on its line
   spots.insert(spots.end(), stations_.begin(), stations_.end());
   RigSurroundings surroundings = this->surroundings(path_, link, without_s7200() ? std::vector<Spot>() : std::move(spots));
   if (without_s7200()) surroundings.lines = {spot_.line};
-  auto rig = Rig::assemble(*plan_, surroundings, problems);
-  return keep_why(std::move(rig), problems);
+  auto rig = Rig::assemble(plan_, surroundings, problems);
+  for (const std::string& problem : problems) print_error(problem);
+  only_interrupted_ = problems.empty() && interrupted();
+  return rig;
+}
+
+std::unique_ptr<Rig> RigOptions::assemble_another(std::shared_ptr<const Program> program,
+                                                  std::vector<std::string>& problems) const {
+  SystemPlan plan = plan_;
+  plan.plcs.front().program = std::move(program);
+  return Rig::assemble(std::move(plan), surroundings(path_, {}, {spot_}), problems);
 }
 
 RigSurroundings RigOptions::surroundings(const std::string& path, const std::string& link, std::vector<Spot> spots) const {
   return {.path = path,
           .link = link,
           .standard_output = &std::cout,
-          .trace = settings_.trace,
+          .trace = is_system() ? settings_.trace : "",
           .trace_detail = settings_.trace_detail,
           .spots = std::move(spots),
           .stop = interruption(),
@@ -263,9 +278,9 @@ RigSurroundings RigOptions::surroundings(const std::string& path, const std::str
 }
 
 std::string RigOptions::target() const {
-  if (!plan_) return program_->source.name;
-  if (without_s7200()) return fmt::format("{}: line {}", path_, plan_->lines[spot_.line].name);
-  return place_text(path_, *plan_, spot_);
+  if (!is_system()) return program()->source.name;
+  if (without_s7200()) return fmt::format("{}: line {}", path_, plan_.lines[spot_.line].name);
+  return place_text(path_, plan_, spot_);
 }
 
 void RigOptions::refuse_what_is_of_one_run(std::string_view because) const {
@@ -296,15 +311,14 @@ bool finish(Rig& rig) {
 }
 
 std::string RigOptions::recorded_files() const {
-  std::vector<std::string> files = settings_.captures;
+  std::vector<std::string> files;
   const auto add_first = [&files](const PlcSettings& settings) {
     for (const std::string& file : {settings.output, settings.trace})
       if (!file.empty()) files.insert(files.begin(), stl::printable(file));
   };
-  add_first(settings_);
-  if (!plan_) return fmt::format("{}", fmt::join(files, ", "));
-  for (const PlcPlan& plc : plan_->plcs) add_first(plc.settings);
-  for (const LinePlan& line : plan_->lines) files.insert(files.end(), line.captures.begin(), line.captures.end());
+  if (is_system()) add_first(settings_);
+  for (const PlcPlan& plc : plan_.plcs) add_first(plc.settings);
+  for (const LinePlan& line : plan_.lines) files.insert(files.end(), line.captures.begin(), line.captures.end());
   return fmt::format("{}", fmt::join(files, ", "));
 }
 

@@ -30,18 +30,21 @@ class RigOptions {
   /// The same of verbs that look at all its PLCs, and at one of them first.
   void add_first_station_to(CLI::App& app);
 
-  /// Loads the PROGRAM, or the system file that stands in its place. False after messages: `exit_code` says which way to
-  /// end.
+  /// Loads what is to be run: the PROGRAM, or the system file that stands in its place. False after messages: `exit_code`
+  /// says which way to end.
   bool load(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
 
   /// The same for verbs that look at all PLCs of a system.
   bool load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
 
   /// Whether what load() has loaded is a system of PLCs of another make alone: a master joins the line, and no PROGRAM runs.
-  bool without_s7200() const { return plan_ && plan_->plcs.empty(); }
+  bool without_s7200() const { return plan_.plcs.empty(); }
 
-  /// Of a system that was loaded; nothing of a PROGRAM.
-  const std::optional<SystemPlan>& plan() const { return plan_; }
+  /// Whether what was loaded is a system file.
+  bool is_system() const { return !is_of_one_program(plan_); }
+
+  /// What was loaded.
+  const SystemPlan& plan() const { return plan_; }
 
   /// The simulations of a rig of what load_all() has loaded, by PLC; and the one that is looked at first.
   std::vector<serial::Simulation*> stations(Rig& rig) const;
@@ -52,7 +55,7 @@ class RigOptions {
   std::size_t line() const { return spot_.line; }
 
   /// Where it is looked at from: of a PROGRAM its PLC at --port.
-  Spot spot() const { return plan_ ? spot_ : Spot{.port = static_cast<std::uint8_t>(settings_.port)}; }
+  Spot spot() const { return spot_; }
 
   /// A PLC of a system, as it is looked at.
   struct Station {
@@ -63,12 +66,19 @@ class RigOptions {
   /// By PLC, with `master` as it is on each line; none of a PROGRAM.
   std::vector<Station> named_stations(const serial::MasterSettings& master) const;
 
-  /// A rig of what was loaded. Null after messages, as below.
+  /// Takes a program as what is to be run. False after messages.
+  bool take(std::shared_ptr<const Program> program);
+
+  /// Reads and opens what the plan and the options name. Null after messages. `json`: standard output is taken; `link`: so
+  /// is this name, by --pty.
   std::unique_ptr<Rig> assemble(bool json, const std::string& link = {});
+
+  /// A rig like that of assemble() for another program, from any thread. Null, with `problems` if it is not for a signal.
+  std::unique_ptr<Rig> assemble_another(std::shared_ptr<const Program> program, std::vector<std::string>& problems) const;
 
   /// How a master talks on the line of what was loaded: as `given`, and for the rest as a system file says.
   serial::MasterSettings on_line(const serial::MasterSettings& given) const {
-    return plan_ ? tools::on_line(given, plan_->lines[spot_.line]) : given;
+    return tools::on_line(given, plan_.lines[spot_.line]);
   }
 
   /// What a system has besides its plan: --trace.
@@ -76,22 +86,12 @@ class RigOptions {
 
   /// Of what was loaded: what a master asks, in words; and the program of the PLC that is looked at.
   std::string target() const;
-  const std::shared_ptr<const Program>& program() const { return program_; }
-
-  /// Reads and opens what the options name. Null after messages. `json`: standard output is taken; `link`: so is this name,
-  /// by --pty.
-  std::unique_ptr<Rig> assemble(const std::shared_ptr<const Program>& program, bool json, const std::string& link = {});
+  const std::shared_ptr<const Program>& program() const { return plan_.plcs[spot_.plc].program; }
 
   /// Throws std::invalid_argument if an option asks for something that is written, or shown, of one run.
   void refuse_what_is_of_one_run(std::string_view because) const;
 
-  const RigSettings& settings() const { return settings_; }
-
-  /// Another one like the rig that was assembled, from any thread. Null, and why, if it cannot be had or a signal came.
-  std::unique_ptr<Rig> assemble_another(const std::shared_ptr<const Program>& program,
-                                        std::vector<std::string>& problems) const {
-    return Rig::assemble(program, settings_, problems);
-  }
+  const ProgramSettings& settings() const { return settings_; }
 
   /// How a verb ends that has got no rig: as after an interruption, if there was nothing else.
   int exit_code_without_rig() const;
@@ -118,19 +118,20 @@ class RigOptions {
   bool load_one(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
   bool load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
   std::optional<Spot> place_in_system(std::string& why) const;
-  std::unique_ptr<Rig> keep_why(std::unique_ptr<Rig> rig, const std::vector<std::string>& problems);
+  bool read_settings(const Program& program);
+  bool may_have_standard_output(bool json) const;
 
   std::vector<std::string> set_;
-  std::string at_, path_;
-  std::shared_ptr<const Program> program_;
-  std::optional<SystemPlan> plan_;  ///< of a system
+  std::string at_;
+  std::string path_;  ///< of a system file
+  SystemPlan plan_;
   Spot spot_;
-  std::vector<Spot> stations_;  ///< of a system, if it is about all PLCs: where each is looked at from
+  std::vector<Spot> stations_;  ///< of a verb that is about all PLCs: where each is looked at from
   bool looks_at_all_ = false;
   bool strict_ = false;
   bool only_interrupted_ = false;  ///< while a record waited for its reader
   FaultOptions faults_;
-  RigSettings settings_;
+  ProgramSettings settings_;
 };
 
 /// Whether an option of a rig makes sense for a line without an S7-200.

@@ -37,7 +37,7 @@ std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_c
   std::string why;
   const auto text = read_text(path, why);
   if (!text) return print_error(fmt::format("cannot read {}: {}", path, why)), std::nullopt;
-  SystemFile file = read_system(*text, path);
+  SystemFile file = read_system(*text, path, host_files());
   for (const SystemFile::Text& program : file.programs) print_diagnostics(program.diagnostics, *program.source);
   print_diagnostics(file.file.diagnostics, *file.file.source);
   exit_code = file.ok() ? kFine : file.programs.empty() ? kUnusable : kCheckFailed;
