@@ -15,8 +15,8 @@
 #include "tools/host/interruption.hpp"
 #include "tools/rig/first_scans.hpp"
 #include "tools/slave/line_of_other_plcs.hpp"
-#include "tools/slave/peer_slave.hpp"
 #include "tools/slave/simulated_slave.hpp"
+#include "tools/slave/slave_in_rig.hpp"
 #include "tools/views/faults.hpp"
 #include "tools/views/report.hpp"
 
@@ -207,46 +207,40 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
 }
 
 int run_on_peer(MasterOptions& options, const std::string& model, const std::vector<MasterAction>& actions) {
-  const auto make_plc = [&] { return options.other.make(*options.protocol, model); };
   const auto faults = options.rig.faults();
   if (!faults) return kUnusable;
-  const std::vector<std::string>& capture_paths = options.rig.settings().captures;
+  const auto plan_with = [&](const std::vector<std::string>& captures) {
+    return plan_of_other_plc(options.other.make(*options.protocol, model), *faults, captures);
+  };
+  const std::vector<std::string>& captures = options.rig.settings().captures;
   if (options.wants_menu()) {
-    if (!capture_paths.empty())
+    if (!captures.empty())
       throw std::invalid_argument(
           "the menu begins with a new westinghouse:MODEL each time its port is set: give actions for --capture");
-    const SerialFormat format = make_plc()->format();
+    const SerialFormat format = options.other.make(*options.protocol, model)->format();
     const auto open = [&](const serial::MasterSettings& master) {
-      return std::make_unique<PeerSlave>(make_plc(), master, *faults, options.target, interruption());
+      return join_lines(plan_with({}), 0, master, kNever, options.target, interruption());
     };
     return run_menu(options,
                     {.open = open, .format = [&](const serial::MasterSettings& master) { return master.over(format); }});
   }
-  WrittenFiles files;
-  CaptureFiles captures;
-  std::string why;
-  std::unique_ptr<westinghouse::Plc> plc = make_plc();
-  if (!captures.claim(files, capture_paths, why) || !captures.open(why) || !captures.put(why)) {
-    if (!why.empty()) return print_error(why), kUnusable;
-    print_interruption();
-    return kCheckFailed;
-  }
-  PeerSlave slave(std::move(plc), options.master, *faults, options.target, interruption());
-  slave.capture(captures);
+  options.rig.take_line(plan_with(captures));
+  const auto rig = options.rig.assemble(false);
+  if (!rig) return options.rig.exit_code_without_rig();
+  rig->power_up();
+  LineOfOtherPlcs slave(*rig, 0, options.master, options.target);
+  slave.wait_until_ready(kNever);
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
+  const auto plant = [&] {
+    nlohmann::ordered_json json = RigOptions::no_json();
+    json["faults"] = faults_json(rig->faults(0));
+    return json;
+  };
   const int exit_code = run_session(
-      options, session, actions, output, [] { return false; },
-      [&] {
-        nlohmann::ordered_json json = RigOptions::no_json();
-        json["faults"] = faults_json(slave.faults());
-        return json;
-      });
-  print_notes(fault_notes(slave.faults()));
-  std::vector<std::string> problems;
-  captures.close(problems);
-  for (const std::string& problem : problems) print_error(problem);
-  return problems.empty() ? exit_code : kUnusable;
+      options, session, actions, output, [] { return false; }, plant);
+  print_notes(fault_notes(rig->faults(0)));
+  return finish(*rig) ? exit_code : kUnusable;
 }
 
 }  // namespace s7200::tools

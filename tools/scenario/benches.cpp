@@ -13,10 +13,8 @@
 #include "tools/host/files.hpp"
 #include "tools/plan/other_plc.hpp"
 #include "tools/plan/system_reader.hpp"
-#include "tools/slave/peer_lines.hpp"
-#include "tools/slave/peer_slave.hpp"
+#include "tools/slave/slave_in_rig.hpp"
 #include "tools/slave/slave_target.hpp"
-#include "tools/slave/system_slave.hpp"
 
 namespace s7200::tools {
 
@@ -160,12 +158,12 @@ class ProgramBenches {
     const Programs::Loaded& loaded = programs_.get(path, with, scenario.cpu, scenario.times, scenario.repair);
     bench.program = loaded.program;
     if (loaded.program) look_for_stand_ins(*loaded.program, bench, messages);
-    if (loaded.program && scenario.system_block != SystemBlock{})
-      bench.program = with_system_block(*loaded.program, scenario.system_block);
+    if (loaded.program && scenario.plc.system_block != SystemBlock{})
+      bench.program = with_system_block(*loaded.program, scenario.plc.system_block);
     if (loaded.program && settings_.every_scan) bench.program = with_every_scan(*bench.program);
     if (loaded.program && (scenario.robust || settings_.band.random > 0))
-      bench.band =
-          programs_.band(path, with, scenario.cpu, scenario.times, scenario.repair, scenario.system_block, band_settings());
+      bench.band = programs_.band(path, with, scenario.cpu, scenario.times, scenario.repair, scenario.plc.system_block,
+                                  band_settings());
     if (!loaded.program && same_for_all_) {
       messages.insert(messages.end(), loaded.messages.begin(), loaded.messages.end());
       return false;
@@ -217,7 +215,7 @@ SlaveMaker peer_slaves(const std::string& model, const std::string& name, const 
   };
   make();  // or it throws
   return [make, name, stop = suite.stop](const Scenario& scenario) {
-    auto slave = std::make_unique<PeerSlave>(make(), scenario.line, std::vector<serial::Fault>{}, name, stop);
+    auto slave = join_lines(plan_of_other_plc(make()), 0, scenario.line, kNever, name, stop);
     if (scenario.after != kNever) slave->wait(std::max<Time>(0, scenario.after - slave->now()));
     return slave;
   };
@@ -231,7 +229,7 @@ SlaveMaker peer_lines(SystemPlan plan, const std::string& path, const std::strin
   if (!why.empty()) return add_error(messages, fmt::format("{}: {}{}", path, why, line ? "" : " (--at NAME)")), nullptr;
   forget_files(plan);
   return [plan = std::make_shared<const SystemPlan>(std::move(plan)), line = *line, path, stop](const Scenario& scenario) {
-    return std::make_unique<PeerLines>(*plan, line, scenario.line, scenario.after, path, stop);
+    return join_lines(*plan, line, scenario.line, scenario.after, path, stop);
   };
 }
 
@@ -259,10 +257,8 @@ SlaveMaker system_slaves(const std::string& path, const SuiteSettings& settings,
   if (why = why_no_room(file.plan, spot->line); !why.empty()) return refuse(fmt::format("{}: {}", path, why));
   forget_files(file.plan);
   if (settings.every_scan) run_every_scan(file.plan);
-  return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path,
-          stop = settings.stop](const Scenario& scenario) {
-    return std::make_unique<SystemSlave>(*plan, spot, scenario.line, scenario.after, path, stop);
-  };
+  return [plan = std::make_shared<const SystemPlan>(std::move(file.plan)), spot = *spot, path, stop = settings.stop](
+             const Scenario& scenario) { return join_spot(*plan, spot, scenario.line, scenario.after, path, stop); };
 }
 
 }  // namespace

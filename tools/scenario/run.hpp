@@ -8,7 +8,7 @@
 
 #include "tools/scenario/plant.hpp"
 #include "tools/scenario/runner.hpp"
-#include "tools/slave/peer_lines.hpp"
+#include "tools/slave/slave_in_rig.hpp"
 
 namespace s7200::tools {
 
@@ -99,7 +99,7 @@ class Run {
   const Bench& bench_;
   std::unique_ptr<Plant> plant_;
   std::unique_ptr<SlaveInSimulation> own_;  ///< that the bench made, or the lines of a system without an S7-200
-  PeerLines* lines_ = nullptr;              ///< those lines; null if the scenario is about something else
+  SlaveInRig* lines_ = nullptr;             ///< those lines; null if the scenario is about something else
   std::size_t step_ = 0, turn_ = 0;
   Time begin_ = 0, allowed_delay_ = 0;
   bool lost_ = false;                     ///< the slave

@@ -5,9 +5,9 @@
 namespace s7200::tools {
 
 LineOfOtherPlcs::LineOfOtherPlcs(Rig& rig, std::size_t line, const serial::MasterSettings& master, std::string name)
-    : system_(rig.system()),
-      master_(rig.system(), *rig.requester(line), master.over(format_without_s7200(rig.plan(), rig.plan().lines[line]))),
-      name_(std::move(name)) {}
+    : MasterInSimulation(std::move(name)), system_(rig.system()), station_(*rig.requester(line)) {
+  configure(on_line(master, rig.plan().lines[line]).over(format_without_s7200(rig.plan(), rig.plan().lines[line])));
+}
 
 bool LineOfOtherPlcs::wait_until_ready(Time after) {
   wait(after == kNever ? pause() : after);

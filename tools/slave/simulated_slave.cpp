@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
 #include <utility>
 
-#include "serial_sim/peers/quiet_time.hpp"
 #include "tools/views/port_mode.hpp"
 
 namespace s7200::tools {
 SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name,
                                bool in_stop_too)
-    : simulation_(simulation), master_(master), name_(std::move(name)), in_stop_too_(in_stop_too) {
+    : MasterInSimulation(std::move(name)), simulation_(simulation), master_(master), in_stop_too_(in_stop_too) {
   simulation_.let_master_follow([line = serial::LineSettings(master)](const SerialFormat& port) { return line.over(port); });
 }
 
@@ -52,32 +50,6 @@ std::string SimulatedSlave::note_on_port(bool wants_freeport) const {
   return why_no_freeport(simulation_.cpu(), simulation_.port());
 }
 
-serial::Exchange SimulatedSlave::exchange(const serial::Request& request) {
-  const SerialFormat format = this->format();
-  if (serial::has_wrong_parity(request.frame) && format.parity == Parity::None)
-    throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
-  simulation_.finish_exchange();  // what Ctrl-C has left under way
-  remark_ = ignored_text(serial::bytes_of(simulation_.master().heard()));
-  if (asked_) asked_(format, request);
-  simulation_.configure_master(format);
-  simulation_.master().start(request, simulation_.time());
-  serial::Exchange exchange = simulation_.finish_exchange();
-  if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();  // Ctrl-C ended the exchange
-  if (const SerialFormat now = this->format(); now != format) simulation_.configure_master(now);
-  return exchange;
-}
-
-serial::Exchange SimulatedSlave::receive(const serial::Listening& listening) {
-  remark_.clear();
-  simulation_.finish_exchange();
-  simulation_.master().listen(listening, simulation_.time());
-  serial::Exchange exchange = simulation_.finish_exchange();
-  if (simulation_.master().busy()) exchange.timed_out = exchange.response.empty();
-  return exchange;
-}
-
 void SimulatedSlave::wait(Time duration) { run_until(simulation_.time() + duration); }
-
-Time SimulatedSlave::pause() const { return serial::default_quiet(format()); }
 
 }  // namespace s7200::tools
