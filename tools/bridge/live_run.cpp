@@ -258,11 +258,11 @@ class LiveRun::Engine {
 };
 
 LiveRun::LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge)
-    : machine_(std::make_unique<SimulationMachine>(simulation, options.in_stop_too)),
-      engine_(std::make_unique<Engine>(*machine_, end_of(simulation, options, bridge), options)) {}
+    : LiveRun(std::make_unique<SimulationMachine>(simulation, options.in_stop_too), end_of(simulation, options, bridge),
+              options) {}
 
-LiveRun::LiveRun(LiveMachine& machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options)
-    : engine_(std::make_unique<Engine>(machine, ends, options)) {}
+LiveRun::LiveRun(std::unique_ptr<LiveMachine> machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options)
+    : machine_(std::move(machine)), engine_(std::make_unique<Engine>(*machine_, ends, options)) {}
 
 LiveRun::~LiveRun() = default;
 

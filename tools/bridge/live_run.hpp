@@ -59,8 +59,8 @@ class LiveRun {
  public:
   /// Neither the simulation nor the bridge is owned; `bridge` may be null.
   LiveRun(serial::Simulation& simulation, const LiveRunOptions& options, Bridge* bridge);
-  /// Runs a machine, which is not owned, with any number of bridges on its lines.
-  LiveRun(LiveMachine& machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options);
+  /// Runs a machine with any number of bridges on its lines.
+  LiveRun(std::unique_ptr<LiveMachine> machine, const std::vector<LiveEnd>& ends, const LiveRunOptions& options);
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
@@ -88,7 +88,7 @@ class LiveRun {
 
  private:
   class Engine;
-  std::unique_ptr<LiveMachine> machine_;  // of a simulation
+  std::unique_ptr<LiveMachine> machine_;
   std::unique_ptr<Engine> engine_;
 };
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
+#include "interpreter/base/counted.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
@@ -9,7 +11,7 @@
 #include "tools/command/progress.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/run_output.hpp"
-#include "tools/command/system_run.hpp"
+#include "tools/command/run_source.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/rig/run.hpp"
@@ -17,71 +19,84 @@
 namespace s7200::tools {
 namespace {
 
-Ending run_to_end(Rig& rig, const RunOptions& options) {
-  serial::Simulation& simulation = rig.simulation();
-  Bridge* const bridge = options.bridge.bridge();
-  const Time end = options.end(bridge != nullptr);
-  if (!options.bridge.realtime()) {
-    const RunLimits limits{end, options.scans, options.rig.strict()};
-    return {run(simulation, limits, Progress([&] { return simulation.time(); }, limits))};
+/// Runs with the clock. Of a PROGRAM its STOP ends the run, unless a bridge carries PPI, in which a master may start it
+/// again.
+std::string_view run_with_clock(LiveRun& live, Rig& rig, const RunLimits& limits, bool to_ppi) {
+  if (is_of_one_program(rig.plan())) {
+    LiveLimits of_program{limits.end, limits.scans, limits.strict};
+    if (to_ppi)
+      of_program.stopped = [] {
+        print_note("the CPU went to STOP: its ports speak PPI, and a PPI master may start it again");
+      };
+    return run_live(live, rig.simulation(), of_program);
   }
-  const bool to_ppi = bridge && bridge->carries_ppi();
-  LiveRun live(simulation,
-               {.speed = options.bridge.speed(),
-                .line = options.bridge.line(),
-                .messages = print_live_messages(),
-                .stop = interruption(),
-                .in_stop_too = to_ppi,
-                .before_wait = [&rig] { rig.flush_records(); }},
-               bridge);
+  const serial::Halt halt = live.run_until(limits.end);
+  return !live.failure().empty() ? "bridge" : halt == serial::Halt::Time ? "time" : "interrupted";
+}
+
+Ending run_to_end(Rig& rig, const RunBridges& bridges, bool serves, const RunOptions& options) {
+  const RunLimits limits{options.end(serves), options.scans, options.rig.strict()};
+  if (!serves && !options.bridge.realtime())
+    return {run(rig, limits, Progress([&] { return rig.system().time(); }, limits))};
+  const bool to_ppi = bridges.joined && bridges.joined->carries_ppi();
+  const auto live = live_run_of(rig, bridges.of_plan, bridges.joined,
+                                {.speed = options.bridge.speed(),
+                                 .line = options.bridge.line(),
+                                 .messages = print_live_messages(),
+                                 .stop = interruption(),
+                                 .in_stop_too = to_ppi,
+                                 .before_wait = [&rig] { rig.flush_records(); }});
   std::string why;
-  if (!live.start(why)) return print_error(why), Ending{};
-  LiveLimits limits{end, options.scans, options.rig.strict()};
-  if (to_ppi)
-    limits.stopped = [] { print_note("the CPU went to STOP: its ports speak PPI, and a PPI master may start it again"); };
-  const std::string_view reason = run_live(live, simulation, limits);
-  if (!live.failure().empty()) print_error(live.failure());
-  if (bridge && (reason == "stop" || reason == "fatal"))
+  if (!live->start(why)) return print_error(why), Ending{};
+  const std::string_view reason = run_with_clock(*live, rig, limits, to_ppi);
+  if (!live->failure().empty()) print_error(live->failure());
+  if (bridges.joined && (reason == "stop" || reason == "fatal"))
     print_note("the CPU went to STOP, which ends the run: it no longer answers");
-  return {reason, live.pace(), live.collisions(&simulation.line())};
+  Ending ending{reason, live->pace()};
+  for (std::size_t i = 0; i < rig.plan().lines.size(); ++i) ending.collisions[&rig.line(i)] = live->collisions(&rig.line(i));
+  return ending;
+}
+
+void note_events_to_come(Rig& rig) {
+  const Time end = rig.system().time();
+  const auto& events = rig.plan().events;
+  const auto first = std::ranges::find_if(events, [&](const EventPlan& event) { return event.at > end; });
+  if (first == events.end()) return;
+  print_note(fmt::format("the run ended before {}, the first at {}: --for says how long to run",
+                         counted(static_cast<std::size_t>(events.end() - first), "event"), format_duration(first->at)));
+}
+
+/// The error that a run has ended with; empty if it is none.
+std::string error_at_end(std::string_view reason, const Rig& rig) {
+  if (reason == "endless scan")
+    return fmt::format(
+        "scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "
+        "To run it all the same say how long: --for",
+        rig.cpu().state().scans + 1, format_duration(kEndlessScan));
+  return reason == "run-time error" ? "--strict: the run ended at the first run-time error" : "";
 }
 
 int run_run(const CLI::App& verb, RunOptions& options) {
-  if (const auto code = run_without_program(verb, options)) return *code;
   int exit_code = kFine;
-  const auto program = options.program.load(exit_code);
-  if (!program) return exit_code;
-  if (!options.bridge.prepare()) return kUnusable;
-  if (!options.rig.take(program)) return kUnusable;
+  const auto bridges = load_run(verb, options, exit_code);
+  if (!bridges) return exit_code;
   const auto rig = options.rig.assemble(options.json, options.bridge.link());
   if (!rig) return options.rig.exit_code_without_rig();
-  serial::Simulation& simulation = rig->simulation();
   rig->power_up();
-  simulation.cpu().pause_at_error(options.rig.strict());
-  const Ending ending = run_to_end(*rig, options);
+  if (is_of_one_program(rig->plan())) rig->simulation().cpu().pause_at_error(options.rig.strict());
+  std::vector<Bridge*> served = bridges->of_plan;
+  if (bridges->joined) served.push_back(bridges->joined);
+  const Ending ending = run_to_end(*rig, *bridges, !served.empty(), options);
   if (ending.reason.empty()) return kUnusable;
   const bool all_written = finish(*rig);
-
-  if (options.json)
-    print_json(*rig, ending, options);
-  else
-    print_text(*rig, ending, options);
-  print_notes(line_notes(*rig, [&](const serial::SharedLine*) { return ending.collisions; }));
+  (options.json ? print_json : print_text)(*rig, ending, served);
+  print_notes(line_notes(*rig, [&](const serial::SharedLine* line) { return ending.collisions_on(line); }));
+  if (ending.reason == "time") note_events_to_come(*rig);
   if (!all_written) return kUnusable;
-  if (ending.reason == "endless scan") {
-    print_error(
-        fmt::format("scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "
-                    "To run it all the same say how long: --for",
-                    simulation.cpu().state().scans + 1, format_duration(kEndlessScan)));
-    return kCheckFailed;
-  }
-  if (ending.reason == "run-time error") {
-    print_error("--strict: the run ended at the first run-time error");
-    return kCheckFailed;
-  }
+  if (const std::string error = error_at_end(ending.reason, *rig); !error.empty()) return print_error(error), kCheckFailed;
   if (ending.reason == "bridge") return kUnusable;
-  if (ending.reason == "interrupted" && options.has_end(options.bridge.bridge() != nullptr)) return kCheckFailed;
-  return exit_code_of(simulation.cpu());
+  if (ending.reason == "interrupted" && options.has_end(!served.empty())) return kCheckFailed;
+  return exit_code_of(*rig);
 }
 
 }  // namespace

@@ -14,32 +14,14 @@ DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges
   Bridge* const bridge = options.bridge.bridge();
   has_bridges_ = bridge != nullptr || !bridges_.empty();
   realtime_ = has_bridges_ || options.bridge.realtime();
-  serial::Simulation& simulation = rig.simulation();
-  const LiveRunOptions live{.speed = options.bridge.speed(),
-                            .line = options.rig.on_line(options.master),
-                            .messages = messages,
-                            .stop = interruption(),
-                            .pause = pause,
-                            .in_stop_too = true,
-                            .before_wait = [&rig] { rig.flush_records(); }};
-  if (!options.rig.is_system()) {
-    live_ = std::make_unique<LiveRun>(simulation, live, bridge);
-    return;
-  }
-  std::vector<LiveEnd> ends = ends_of(rig, those_of(bridges_));
-  if (bridge) {
-    std::size_t line = 0;
-    while (&rig.line(line) != &simulation.line()) ++line;
-    ends.push_back({.bridge = bridge,
-                    .port = &simulation.host_port(),
-                    .line = &simulation.line(),
-                    .plc = &simulation.plc(),
-                    .plc_port = simulation.port(),
-                    .settings = live.line,
-                    .why_no_modbus = [&rig, line] { return why_no_modbus(rig, line); }});
-  }
-  machine_ = machine_of(rig.system());
-  live_ = std::make_unique<LiveRun>(*machine_, ends, live);
+  live_ = live_run_of(rig, those_of(bridges_), bridge,
+                      {.speed = options.bridge.speed(),
+                       .line = options.rig.on_line(options.master),
+                       .messages = messages,
+                       .stop = interruption(),
+                       .pause = pause,
+                       .in_stop_too = true,
+                       .before_wait = [&rig] { rig.flush_records(); }});
 }
 
 History::Settings DebuggeeRun::history() {

@@ -39,7 +39,6 @@ class DebuggeeRun {
  private:
   Rig& rig_;
   SystemBridges bridges_;
-  std::unique_ptr<LiveMachine> machine_;  // of a system
   std::unique_ptr<LiveRun> live_;
   bool has_bridges_ = false, realtime_ = false;
 };

@@ -1,24 +1,31 @@
-// What `s7200 run` prints of a PLC.
+// What `s7200 run` prints.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string_view>
 
-#include "tools/command/options/run_options.hpp"
+#include "tools/command/system_bridges.hpp"
 #include "tools/host/pace.hpp"
 #include "tools/rig/rig.hpp"
 
 namespace s7200::tools {
 
-/// How a run has ended.
+/// How a run has ended; without a reason it could not begin.
 struct Ending {
-  std::string_view reason;
-  std::optional<Pace::Report> pace{};  // of a run in real time
-  std::uint64_t collisions = 0;        // of a master on its bridge with what the PLC sent
+  std::string_view reason{};
+  std::optional<Pace::Report> pace{};                               // of a run in real time
+  std::map<const serial::SharedLine*, std::uint64_t> collisions{};  // of masters on bridges with what a PLC sent, by line
+
+  std::uint64_t collisions_on(const serial::SharedLine* line) const {
+    const auto found = collisions.find(line);
+    return found == collisions.end() ? 0 : found->second;
+  }
 };
 
-void print_text(const Rig& rig, const Ending& ending, const RunOptions& options);
-void print_json(const Rig& rig, const Ending& ending, const RunOptions& options);
+/// `bridges`: those of the plan, or the one that has joined a PROGRAM's line.
+void print_text(const Rig& rig, const Ending& ending, Bridges bridges);
+void print_json(const Rig& rig, const Ending& ending, Bridges bridges);
 
 }  // namespace s7200::tools

@@ -20,14 +20,7 @@ class SystemMachine final : public LiveMachine {
   serial::System& system_;
 };
 
-}  // namespace
-
-std::vector<Bridge*> those_of(const SystemBridges& bridges) {
-  std::vector<Bridge*> those;
-  for (const auto& bridge : bridges) those.push_back(bridge.get());
-  return those;
-}
-
+/// Why nobody on that line answers Modbus, as the programs stand now; empty if somebody may.
 std::string why_no_modbus(const Rig& rig, std::size_t line) {
   const SystemPlan& plan = rig.plan();
   std::string why = "no PLC on this line speaks it";
@@ -50,6 +43,7 @@ std::string why_no_modbus(const Rig& rig, std::size_t line) {
   return why;
 }
 
+/// Where the bridges of the plan stand.
 std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges) {
   std::vector<LiveEnd> ends;
   for (std::size_t line = 0; line < rig.plan().lines.size(); ++line) {
@@ -69,6 +63,28 @@ std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges) {
   return ends;
 }
 
+/// Where a bridge has joined.
+LiveEnd end_of(Rig& rig, Bridge* joined, const serial::LineSettings& settings) {
+  serial::Simulation& simulation = rig.simulation();
+  std::size_t line = 0;
+  while (&rig.line(line) != &simulation.line()) ++line;
+  return {.bridge = joined,
+          .port = &simulation.host_port(),
+          .line = &simulation.line(),
+          .plc = &simulation.plc(),
+          .plc_port = simulation.port(),
+          .settings = settings,
+          .why_no_modbus = [&rig, line] { return why_no_modbus(rig, line); }};
+}
+
+}  // namespace
+
+std::vector<Bridge*> those_of(const SystemBridges& bridges) {
+  std::vector<Bridge*> those;
+  for (const auto& bridge : bridges) those.push_back(bridge.get());
+  return those;
+}
+
 std::optional<SystemBridges> make_bridges(const SystemPlan& plan) {
   SystemBridges bridges(plan.bridges.size());
   for (const LinePlan& line : plan.lines)
@@ -83,6 +99,11 @@ std::optional<SystemBridges> make_bridges(const SystemPlan& plan) {
   return bridges;
 }
 
-std::unique_ptr<LiveMachine> machine_of(serial::System& system) { return std::make_unique<SystemMachine>(system); }
+std::unique_ptr<LiveRun> live_run_of(Rig& rig, Bridges bridges, Bridge* joined, const LiveRunOptions& options) {
+  if (is_of_one_program(rig.plan())) return std::make_unique<LiveRun>(rig.simulation(), options, joined);
+  std::vector<LiveEnd> ends = ends_of(rig, bridges);
+  if (joined) ends.push_back(end_of(rig, joined, options.line));
+  return std::make_unique<LiveRun>(std::make_unique<SystemMachine>(rig.system()), ends, options);
+}
 
 }  // namespace s7200::tools

@@ -22,13 +22,8 @@ std::optional<SystemBridges> make_bridges(const SystemPlan& plan);
 using Bridges = std::span<Bridge* const>;
 std::vector<Bridge*> those_of(const SystemBridges& bridges);
 
-/// Why nobody on that line answers Modbus, as the programs stand now; empty if somebody may.
-std::string why_no_modbus(const Rig& rig, std::size_t line);
-
-/// Where they stand. Nothing is owned.
-std::vector<LiveEnd> ends_of(Rig& rig, Bridges bridges);
-
-/// A system as what follows the clock. It is not owned.
-std::unique_ptr<LiveMachine> machine_of(serial::System& system);
+/// A rig that follows the clock, with `bridges`, those of its plan, and the one that has `joined` the line of its first
+/// spot; null: none has. Nothing is owned.
+std::unique_ptr<LiveRun> live_run_of(Rig& rig, Bridges bridges, Bridge* joined, const LiveRunOptions& options);
 
 }  // namespace s7200::tools

@@ -53,6 +53,7 @@ class Rig final {
   void power_up();
 
   serial::System& system() { return system_; }
+  Time time() const { return system_.time(); }
   const SystemPlan& plan() const { return plan_; }
 
   /// The simulation as seen from one of the spots.

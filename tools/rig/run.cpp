@@ -23,11 +23,12 @@ std::string_view run(serial::Simulation& simulation, const RunLimits& limits, co
   return until_scans ? "endless scan" : "time";
 }
 
-std::string_view run(Rig& rig, Time end, const std::function<void()>& progress) {
+std::string_view run(Rig& rig, const RunLimits& limits, const std::function<void()>& progress) {
+  if (is_of_one_program(rig.plan())) return run(rig.simulation(), limits, progress);
   constexpr Time kSlice = kSecond;
-  while (rig.system().time() < end) {
+  while (rig.system().time() < limits.end) {
     if (rig.system().stop_requested()) return "interrupted";
-    rig.system().run_until(std::min(end, rig.system().time() + kSlice));
+    rig.system().run_until(std::min(limits.end, rig.system().time() + kSlice));
     progress();
   }
   return "time";

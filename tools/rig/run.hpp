@@ -23,7 +23,7 @@ struct RunLimits {
 /// `time`, `scans`, `endless scan`, `stop`, `fatal`, `run-time error` or `interrupted`.
 std::string_view run(serial::Simulation& simulation, const RunLimits& limits, const std::function<void()>& progress);
 
-/// Runs a system to `end`. Returns the reason of the end: `time` or `interrupted`.
-std::string_view run(Rig& rig, Time end, const std::function<void()>& progress);
+/// The same of a rig: a PROGRAM runs within its limits, a system to their `end`, whatever its PLCs do.
+std::string_view run(Rig& rig, const RunLimits& limits, const std::function<void()>& progress);
 
 }  // namespace s7200::tools
