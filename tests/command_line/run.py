@@ -917,6 +917,20 @@ class Verbs(Case):
         scenario = self.program(f"program: {idle}\ncpu: 212\nclock: 2026-11-21 10:00:00\nsteps: [wait: 1ms]\n", "clock.yaml")
         self.assertIn("CPU 212 has no time-of-day clock", self.ends(UNUSABLE, "test", scenario).stderr)
 
+    def test_a_key_of_a_plc_is_an_option_and_a_key_of_systems_and_scenarios(self):
+        counts = self.program("LD SM0.0\nTON T37, 32767\nMEND\n")
+        timed = ["run", counts, "--for", "200s", "--dump", "T37", "--json"]
+        usual = self.json(FINE, *timed)["dump"]["T37"]["values"][0]
+        fast = self.json(FINE, *timed, "--clock-error", "1000ppm")["dump"]["T37"]["values"][0]
+        self.assertEqual(fast - usual, 2, "0.2 s in 200 s")
+        system = self.program(f"plcs: {{a: {{program: {counts}, clock_error: 1000ppm, dump: [T37]}}}}\nlines: {{l: {{stations: [a]}}}}\n", "fast.yaml")
+        self.assertEqual(self.json(FINE, "run", system, "--for", "200s", "--json")["plcs"][0]["dump"]["T37"]["values"][0], fast)
+        scenario = self.program(f"program: {counts}\nclock_error: 1000ppm\nsteps: [wait: 200s, memory: {{T37: {fast}}}]\n", "fast_scenario.yaml")
+        record = self.folder / "fast_record.yaml"
+        self.ends(FINE, "test", scenario, "--record", record)
+        self.assertIn("\n    clock_error: 1000ppm\n", record.read_text(encoding="utf-8"))
+        self.assertIn("'1' is not from -1000ppm to 1000ppm", self.ends(UNUSABLE, *timed, "--clock-error", "1").stderr)
+
     def test_a_port_that_does_not_speak_ppi_any_more_is_named_after_the_session(self):
         idle = self.program("LD SM0.0\nINCW VW0\nMEND\n")
         ppi = ["master", "--protocol", "ppi", idle, "--timeout", "50ms"]

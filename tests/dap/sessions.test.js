@@ -82,6 +82,7 @@ session("a value of the wrong type is named with what it should be", async (s, p
     cwd: [7, /^cwd: 7 is not a text$/], input: ["a\0b", /^input: "a\\u0000b" is not a text without the character NUL$/],
     speed: ["fast", /--speed: 'fast' is not a number/], help: [true, /^launch: there is no attribute 'help'/], memry: ["a", /did you mean 'memory'/],
     version: [true, /no attribute 'version'/], ramLost: [true, /--ram-lost requires --memory/],
+    clockError: ["1", /--clock-error: .1. is not from -1000ppm to 1000ppm/],
   };
   for (const [key, [value, said]] of Object.entries(wrong)) assert.match(await s.refused("launch", { program, [key]: value }), said);
 });

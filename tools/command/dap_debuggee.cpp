@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -23,6 +22,7 @@
 #include "tools/faces/files/host_files.hpp"
 #include "tools/json/json.hpp"
 #include "tools/plan/bridge_kinds.hpp"
+#include "tools/plan/plc_keys.hpp"
 #include "tools/views/faults.hpp"
 
 namespace s7200::tools {
@@ -93,7 +93,7 @@ namespace fs = std::filesystem;
 bool is_option(const std::string& key) { return dap::use_of(key) == dap::AttributeUse::Program && key != "program"; }
 
 /// `--modbus-tcp` for `modbusTcp`
-std::string option_of(const std::string& key) {
+std::string option_of_attribute(const std::string& key) {
   std::string option = "--";
   for (const char c : key) {
     if (stl::is_upper(c)) option += '-';
@@ -106,7 +106,7 @@ std::string option_of(const std::string& key) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
     names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
-  const std::string option = option_of(key).substr(2);
+  const std::string option = option_of_attribute(key).substr(2);
   const std::string_view meant = nearest(option, std::vector<std::string_view>(names.begin(), names.end()));
   throw dap::Refused(
       fmt::format("launch: there is no attribute '{}'{}; the options of s7200 debug are attributes without "
@@ -114,7 +114,7 @@ std::string option_of(const std::string& key) {
                   stl::shortened(key), meant.empty() ? "" : fmt::format(", did you mean '{}'?", meant)));
 }
 
-/// A value as the command line has it: where it names a file, that is a path from `folder` on, or a URI.
+/// A value as its option takes it: where it names a file, that is a path from `folder` on, or a URI.
 std::string as_written(const std::string& value, const std::string& type, const std::string& folder) {
   const bool is_table = type == "TABLE" && std::ranges::find(named_times(), value, &NamedTimes::name) == named_times().end();
   if ((type != "FILE" && type != "LINK" && type != "DEVICE" && !is_table) || is_standard_input(value)) return value;
@@ -129,40 +129,40 @@ std::string word_of(const Json& value, std::string_view type) {
   throw WrongValue(fmt::format("{} is not {}: a text or a number", shown(value), type));
 }
 
-/// The words of the command line for one attribute; none for one that is off.
-std::vector<std::string> attribute_words(const Json& value, const std::string& option, const CLI::Option& known,
-                                         const std::string& folder) {
-  if (known.get_items_expected_max() == 0) return truth_of(value) ? std::vector{option} : std::vector<std::string>{};
-  if (value == false) return {};
-  std::vector<std::string> words;
-  const std::string type = known.get_type_name();
-  for (const Json& one : value.is_array() ? value : Json::array({value}))
-    words.push_back(option + "=" + as_written(word_of(one, type), type, folder));
-  if (words.size() > 1 && known.get_items_expected_max() == 1 &&
-      known.get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
+/// Gives an option the value of its attribute; nothing if that is off.
+void give(CLI::Option& option, const Json& value, const std::string& folder) {
+  if (option.get_items_expected_max() == 0) {
+    if (truth_of(value)) option.add_result("true");
+    return;
+  }
+  if (value == false) return;
+  const std::string type = option.get_type_name();
+  const Json values = value.is_array() ? value : Json::array({value});
+  if (values.size() > 1 && option.get_items_expected_max() == 1 &&
+      option.get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
     throw WrongValue(fmt::format("{} is not one {}", shown(value), type));
-  return words;
+  for (const Json& one : values) option.add_result(as_written(word_of(one, type), type, folder));
 }
 
-std::vector<std::string> attribute_words(const Json& arguments, const CLI::App& app) {
+/// Gives the options the values of their attributes. Returns the files of the program.
+std::vector<std::string> take_attributes(const Json& arguments, CLI::App& app) {
   const std::string folder = text_at(arguments, "cwd", "");
   std::error_code gone;
   if (!folder.empty() && !fs::is_directory(dap::path_of(folder), gone))
     throw dap::Refused(fmt::format("launch: cwd: '{}' is not a folder", stl::shortened(folder)));
-  std::vector<std::string> words;
   for (const auto& [key, value] : arguments.items()) {
     if (!is_option(key) || value.is_null()) continue;
-    const std::string option = option_of(key);
-    const CLI::Option* const known = app.get_option_no_throw(option);
+    CLI::Option* const known = app.get_option_no_throw(option_of_attribute(key));
     if (!known) refuse_unknown(key, app);
-    const auto more = taken(value, key.c_str(), [&](const Json& of) { return attribute_words(of, option, *known, folder); });
-    words.insert(words.end(), more.begin(), more.end());
+    taken(value, key.c_str(), [&](const Json& of) { return give(*known, of, folder), true; });
   }
-  words.emplace_back("--");
-  const std::vector<std::string> programs = texts_at(arguments, "program");
-  if (programs.empty()) throw dap::Refused("launch: 'program' is missing: the file of the program to debug");
-  for (const std::string& file : programs) words.push_back(as_written(file, "FILE", folder));
-  return words;
+  std::vector<std::string> files = texts_at(arguments, "program");
+  if (files.empty()) throw dap::Refused("launch: 'program' is missing: the file of the program to debug");
+  for (std::string& file : files) {
+    file = as_written(file, "FILE", folder);
+    app.get_option("PROGRAM")->add_result(file);
+  }
+  return files;
 }
 
 // --- what a launch may do ---
@@ -175,18 +175,18 @@ void refuse_to_open(std::string_view what, const LaunchLimits& limits) {
                   what));
 }
 
-void check_limits(const Json& arguments, const std::vector<std::string>& words, const LaunchLimits& limits) {
+void check_limits(const Json& arguments, const std::vector<std::string>& files, const LaunchLimits& limits) {
   for (const auto& [key, value] : arguments.items())
     for (const std::string& name : writing_attributes())
-      if (option_of(key) == "--" + name && !value.is_null() && value != false) refuse_to_open(name, limits);
+      if (option_of_attribute(key) == "--" + name && !value.is_null() && value != false) refuse_to_open(name, limits);
   const auto may_run = [&](const std::string& file) {
     std::error_code gone;
     return std::ranges::any_of(limits.programs, [&](const std::string& one) { return fs::equivalent(one, file, gone); });
   };
-  for (auto file = std::next(std::ranges::find(words, "--")); file != words.end() && !limits.programs.empty(); ++file)
-    if (!may_run(*file))
+  for (const std::string& file : files)
+    if (!limits.programs.empty() && !may_run(file))
       throw dap::Refused(fmt::format("launch: {} is not what this server was started with, and it runs nothing else: {}",
-                                     *file, fmt::join(limits.programs, ", ")));
+                                     file, fmt::join(limits.programs, ", ")));
 }
 
 /// A system file opens and writes on its own.
@@ -194,11 +194,9 @@ void check_limits(const SystemPlan& plan, const LaunchLimits& limits) {
   for (const BridgePlan& bridge : plan.bridges) refuse_to_open(row_of(bridge.kind).word(), limits);
   for (const LinePlan& line : plan.lines)
     if (!line.captures.empty()) refuse_to_open("capture", limits);
-  for (const PlcPlan& plc : plan.plcs) {
-    if (!plc.settings.trace.empty()) refuse_to_open("trace", limits);
-    if (!plc.settings.output.empty()) refuse_to_open("output", limits);
-    if (!plc.settings.memory.path.empty()) refuse_to_open("memory", limits);
-  }
+  for (const PlcKey& key : plc_keys())
+    for (const PlcPlan& plc : plan.plcs)
+      if (key.shape == PlcKey::Shape::Written && !key.text(plc.settings).empty()) refuse_to_open(key.name, limits);
 }
 
 }  // namespace
@@ -236,7 +234,10 @@ std::shared_ptr<dap::Debuggee> make_debuggee(const CLI::App& app, std::shared_pt
 }
 
 std::vector<std::string> writing_attributes() {
-  std::vector<std::string> names{"trace", "output", "memory", "capture"};
+  std::vector<std::string> names;
+  for (const PlcKey& key : plc_keys())
+    if (key.shape == PlcKey::Shape::Written) names.emplace_back(key.name);
+  names.emplace_back("capture");
   for (const BridgeRow& row : kBridges) names.emplace_back(row.word());
   names.emplace_back(kFilesOfCommands);
   return names;
@@ -258,10 +259,8 @@ std::shared_ptr<dap::Debuggee> launch_debuggee(const Json& arguments, const Laun
   const KeptMessages messages;
   int exit_code = kFine;
   try {
-    std::vector<std::string> words = attribute_words(arguments, app);
-    check_limits(arguments, words, limits);
-    std::reverse(words.begin(), words.end());  // as CLI11 takes them
-    app.parse(std::move(words));
+    check_limits(arguments, take_attributes(arguments, app), limits);
+    app.parse(std::vector<std::string>{});  // checks the values, and what needs or excludes what
     if (auto debuggee = make_debuggee(app, std::move(options), stop_request, exit_code, limits)) return debuggee;
   } catch (const CLI::ParseError& error) {
     throw dap::Refused(fmt::format("launch: {}", in_our_words(error, app)));

@@ -9,6 +9,7 @@
 #include "tools/command/session_scenario.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/plan/plc_keys.hpp"
 #include "tools/session/past/digest.hpp"
 #include "tools/session/past/host_frames.hpp"
 #include "tools/views/machine_text.hpp"
@@ -227,10 +228,17 @@ std::vector<SessionOption> conditions(const ProgramSettings& settings, const Plc
   std::vector<std::string> faults, assignments;
   for (const serial::Fault& fault : settings.faults) faults.push_back(serial::to_text(fault));
   for (const Assignment& one : settings.set) assignments.push_back(fmt::format("{}={}", one.place.name_of(0), one.value));
-  return {{"--port", fmt::format("{}", settings.port)},
-          {"--fault", joined_or_none(faults)},
-          {"--set", joined_or_none(assignments)},
-          {"--input", settings.input.empty() ? "none" : "with digest " + digest_of(plc.field)}};
+  std::vector<SessionOption> all{{"--port", fmt::format("{}", settings.port)},
+                                 {"--fault", joined_or_none(faults)},
+                                 {"--set", joined_or_none(assignments)},
+                                 {"--input", settings.input.empty() ? "none" : "with digest " + digest_of(plc.field)}};
+  for (const PlcKey& key : plc_keys()) {
+    if (!key.is_option() || !key.text || key.stage != PlcKey::Stage::Program || key.shape != PlcKey::Shape::Value) continue;
+    const std::string text = key.text(settings);
+    if (key.name != "clock")
+      all.push_back({option_of(key.name), text.empty() ? "none" : text});  // the clock of the CPU counts
+  }
+  return all;
 }
 
 /// In one line of the terminal, which the next output begins.

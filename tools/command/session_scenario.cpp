@@ -173,12 +173,11 @@ void take_options(const SessionSource& source, Scenario& scenario) {
   scenario.program = is_system ? "" : options.program.path;
   scenario.with = options.program.parts;
   scenario.times = options.program.times_table;
-  if (!is_system) scenario.system_block = program->system_block;
   scenario.line = options.master;
   if (!is_system) scenario.repair = repairs_text(options.program.repairs);
   if (!is_system) scenario.port = static_cast<std::uint8_t>(rig.port);
-  scenario.set = rig.set;
-  scenario.clock = rig.clock;
+  scenario.plc = rig;
+  if (!is_system) scenario.plc.system_block = program->system_block;
 }
 
 /// Nothing, and `why`, if the scenario cannot be read.

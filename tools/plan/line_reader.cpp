@@ -74,14 +74,7 @@ class LineReader {
 
   /// Reads the format in which masters and bridges talk on the line.
   void read_settings(const YamlNode& map, LinePlan& plan) {
-    if (const auto baud = values_.number(map.find("baud"), kLeastBaud, kMostBaud))
-      plan.settings.baud = static_cast<std::uint32_t>(*baud);
-    plan.settings.parity =
-        values_.choice<Parity>(map.find("parity"), {{"none", Parity::None}, {"even", Parity::Even}, {"odd", Parity::Odd}});
-    if (const auto bits = values_.number(map.find("data_bits"), 7, 8))
-      plan.settings.data_bits = static_cast<std::uint8_t>(*bits);
-    if (const auto bits = values_.number(map.find("stop_bits"), 1, 2))
-      plan.settings.stop_bits = static_cast<std::uint8_t>(*bits);
+    read_line_settings(map, plan.settings, values_);
     const YamlNode* const contention = map.find("contention");
     if (contention && contention->text == "space")
       plan.contention.reset();
@@ -192,6 +185,16 @@ void read_bridges(const YamlNode& root, SystemReading& reading) {
 
 void read_lines(const YamlNode& root, SystemReading& reading) {
   for (const Named& each : entries(root, "lines", reading.values)) LineReader(reading).read_line(each);
+}
+
+void read_line_settings(const YamlNode& map, serial::LineSettings& line, YamlValues& values) {
+  if (const auto baud = values.number(map.find("baud"), kLeastBaud, kMostBaud))
+    line.baud = static_cast<std::uint32_t>(*baud);
+  if (const auto parity =
+          values.choice<Parity>(map.find("parity"), {{"none", Parity::None}, {"even", Parity::Even}, {"odd", Parity::Odd}}))
+    line.parity = *parity;
+  if (const auto bits = values.number(map.find("data_bits"), 7, 8)) line.data_bits = static_cast<std::uint8_t>(*bits);
+  if (const auto bits = values.number(map.find("stop_bits"), 1, 2)) line.stop_bits = static_cast<std::uint8_t>(*bits);
 }
 
 }  // namespace s7200::tools

@@ -9,4 +9,7 @@ namespace s7200::tools {
 void read_bridges(const YamlNode& root, SystemReading& reading);
 void read_lines(const YamlNode& root, SystemReading& reading);
 
+/// Reads `baud`, `parity`, `data_bits` and `stop_bits`: of a line of a system file, and of the line of a scenario.
+void read_line_settings(const YamlNode& map, serial::LineSettings& line, YamlValues& values);
+
 }  // namespace s7200::tools

@@ -20,9 +20,8 @@
 #include "interpreter/program/slips.hpp"
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
-#include "tools/plan/clock_text.hpp"
+#include "tools/plan/plc_key_reader.hpp"
 #include "tools/plan/program_cpu.hpp"
-#include "tools/plan/system_block_reader.hpp"
 #include "tools/yaml/names.hpp"
 
 namespace s7200::tools {
@@ -61,6 +60,7 @@ class PlcReader {
       if (station) each.address = static_cast<std::uint8_t>(*station + copy);
       if (!model || values_.complaints.count() > before) continue;  // the other copies would say the same
       each.program = read_program(plc, *model, station ? std::optional(*station + copy) : std::nullopt);
+      each.settings.system_block = block;
       if (each.program) each.program = with_system_block(*each.program, block);
       if (each.program) read_settings(map, each, copy, copies > 1);
       if (map.find("ppi_station"))
@@ -181,8 +181,9 @@ class PlcReader {
 
   /// Reads the system block of the first copy.
   SystemBlock read_block(const YamlNode& map, const CpuModel& model, std::int64_t copies) {
-    SystemBlock block;
-    read_system_block(map, model, block, values_);
+    PlcSettings settings;
+    PlcKeyReader(values_, true, path_).read(map, PlcKey::Stage::Cpu, model, settings);
+    const SystemBlock& block = settings.system_block;
     const std::int64_t last = *std::ranges::max_element(block.ppi_stations) + copies - 1;
     if (map.find("ppi_station") && last > ppi::kLastStation)
       values_.wrong(*map.find("ppi_station"),
@@ -215,34 +216,17 @@ class PlcReader {
   }
 
   void read_settings(const YamlNode& map, PlcPlan& plc, std::int64_t copy, bool one_of_several) {
-    PlcSettings& settings = plc.settings;
-    if (const YamlNode* set = map.find("set")) settings.set = read_assignments(*set, *plc.program, values_);
-    settings.input = path(map, "input");
+    const auto may_write = [this, one_of_several](const YamlNode& node, const std::string& path) {
+      if (one_of_several)
+        return values_.wrong(node, fmt::format("several copies cannot write one file: {}", path),
+                             "name the PLC apart from its copies"),
+               false;
+      names_.take_file(node, path, values_);
+      return true;
+    };
+    PlcKeyReader(values_, true, path_, may_write).read(map, PlcKey::Stage::Program, *plc.program, plc.settings);
+    plc.settings.starts *= copy + 1;
     read_inputs(map, plc);
-    if (const YamlNode* clock = map.find("clock")) {
-      settings.clock = values_.value(clock, "a date and time between 1990 and 2089", "2026-11-21 10:00:00",
-                                     [](const std::string& t) { return parse_clock(t); });
-      if (const std::string why = why_no_clock(*plc.program->model); !why.empty()) values_.wrong(*clock, why);
-    }
-    settings.clock_error =
-        values_.value(map.find("clock_error"), "from -1000ppm to 1000ppm", "50ppm", parse_clock_error).value_or(0);
-    settings.starts = values_.duration(map.find("starts")).value_or(0) * (copy + 1);
-    settings.memory.path = written_file(map, "memory", one_of_several);
-    settings.trace = written_file(map, "trace", one_of_several);
-    settings.output = written_file(map, "output", one_of_several);
-    const bool instructions = values_.truth(map.find("trace_instructions"));
-    if (instructions) settings.trace_detail = TraceDetail::Instructions;
-    if (instructions && settings.trace.empty())
-      values_.wrong(*map.find("trace_instructions"), "there is no 'trace' to write them to");
-    for (const YamlNode* item : items_of(map, "dump", "VB0:16, VW100", values_)) {
-      const auto text = values_.text(*item);
-      std::string why;
-      const auto range = text ? parse_range(*text, *plc.program, why) : std::nullopt;
-      if (text && !range) values_.wrong(*item, why);
-      if (!range) continue;
-      settings.dumps.push_back(*range);
-      settings.dump_names.push_back(*text);
-    }
   }
 
   void read_inputs(const YamlNode& map, PlcPlan& plc) {
@@ -255,30 +239,15 @@ class PlcReader {
                     problems.size() > 1 ? fmt::format("and {} more", problems.size() - 1) : "");
   }
 
-  /// A file that is written has one writer.
-  std::string written_file(const YamlNode& map, std::string_view key, bool one_of_several) {
-    const YamlNode* const node = map.find(key);
-    const std::string path = this->path(map, key);
-    if (path.empty()) return path;
-    if (one_of_several) {
-      values_.wrong(*node, fmt::format("several copies cannot write one file: {}", path),
-                    "name the PLC apart from its copies");
-      return "";
-    }
-    names_.take_file(*node, path, values_);
-    return path;
-  }
-
-  std::string path(const YamlNode& map, std::string_view key) {
-    const auto written = values_.optional_text(map, key);
-    return written ? beside(reading_.path, *written) : "";
-  }
-
   SystemPlan& plan() { return reading_.file.plan; }
 
   SystemReading& reading_;
   SystemNames& names_ = reading_.names;
   YamlValues& values_ = reading_.values;
+  const PlcKeyReader::Path path_ = [this](const YamlNode& map, std::string_view key) {
+    const auto written = values_.optional_text(map, key);
+    return written ? beside(reading_.path, *written) : std::string();
+  };
   std::map<std::string, SourceText> texts_{};  // by path
   std::set<std::string> told_{};               // notes on them; copies of a PLC share its files
 };

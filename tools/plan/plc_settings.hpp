@@ -9,6 +9,7 @@
 #include "interpreter/base/file_source.hpp"
 #include "interpreter/cpu/state.hpp"
 #include "interpreter/program/address.hpp"
+#include "interpreter/program/system_block.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/field/field_script.hpp"
 
@@ -23,6 +24,7 @@ struct MemorySettings {
 
 /// The files of a PLC by their names, "" for none.
 struct PlcSettings {
+  SystemBlock system_block{};
   std::vector<Assignment> set{};     ///< memory and input points, before the first scan
   std::string input{};               ///< inputs over time, as CSV
   std::optional<ClockTime> clock{};  ///< time of day at power-up

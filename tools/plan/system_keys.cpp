@@ -2,17 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <deque>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "interpreter/base/joined.hpp"
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/westinghouse/plcs.hpp"
 #include "tools/plan/bridge_kinds.hpp"
-#include "tools/plan/system_block_reader.hpp"
+#include "tools/plan/plc_keys.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -38,66 +39,45 @@ SystemKey bridge_key(BridgeKind kind) {
 }
 
 // clang-format off
-const std::array kKeys{
-    SystemKey{Where::File, "plcs", "MAP", kept(fmt::format("names of PLCs, and what each is; PLCs, peers and bridges are {} at most", kMostStations))},
-    SystemKey{Where::File, "peers", "MAP", "names of the other stations, and what each is: a master that polls, or a PLC of another make"},
-    SystemKey{Where::File, "bridges", "MAP", "names of bridges to this computer, and what each is; with one the system runs as fast as the clock"},
-    SystemKey{Where::File, "lines", "MAP", "names of lines, and who is on each"},
+const SystemKey kOfFile[] = {
+    {Where::File, "plcs", "MAP", kept(fmt::format("names of PLCs, and what each is; PLCs, peers and bridges are {} at most", kMostStations))},
+    {Where::File, "peers", "MAP", "names of the other stations, and what each is: a master that polls, or a PLC of another make"},
+    {Where::File, "bridges", "MAP", "names of bridges to this computer, and what each is; with one the system runs as fast as the clock"},
+    {Where::File, "lines", "MAP", "names of lines, and who is on each"},
 
-    SystemKey{Where::File, "events", "LIST", "what is done to the system while it runs"},
+    {Where::File, "events", "LIST", "what is done to the system while it runs"},
+};
 
-    SystemKey{Where::Plc, "program", "PATH", "STL file or published document, from the folder of this file"},
-    SystemKey{Where::Plc, "with", "LIST", "paths of the other files of the program's project: symbol tables, data blocks, blocks"},
-    SystemKey{Where::Plc, "repair", "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2` or `all`"},
-    SystemKey{Where::Plc, "cpu", "TYPE", "`214` if left out"},
-    SystemKey{Where::Plc, "times", "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
-    SystemKey{Where::Plc, "ppi_baud", "NUMBER", ppi_baud_meaning()},
-    SystemKey{Where::Plc, "ppi_station", "NUMBER", ppi_station_meaning()},
-    SystemKey{Where::Plc, "ppi_second", "WORD", ppi_second_meaning()},
-    SystemKey{Where::Plc, "retain", "RANGES", retain_meaning()},
-    SystemKey{Where::Plc, "copies", "NUMBER", kept(fmt::format("how many PLCs like this one, 1 to {}; each has a number after the name: `slave1`, `slave2`, …; `station` and `ppi_station` go up by one with each", serial::Line::kDrivers))},
-    SystemKey{Where::Plc, "station", "NUMBER", kept(fmt::format("address on the line, 1 to {}: the constant that the program moves into VB4095, as our slaves and Application Tip 41 do", modbus::kLastStation))},
-    SystemKey{Where::Plc, "constants", "MAP", "constants that the program moves to an address with MOVB, MOVW or MOVD, instead of its own: `{SMB30: 16#45}`"},
-    SystemKey{Where::Plc, "set", "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
-    SystemKey{Where::Plc, "input", "PATH", "inputs over time, I, AIW, the potentiometers SMB28 and SMB29 and the mode switch SM0.7: CSV in the format of `s7200 run --input`"},
-    SystemKey{Where::Plc, "clock", "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
-    SystemKey{Where::Plc, "clock_error", "NUMBERppm", "how far its crystal is off, `50ppm` is too fast: all that it counts by its clock, and its scans as a whole, but not the bits of its ports, of which a fault `baud` is, and not PTO and PWM; `0ppm` if left out, from -1000ppm to 1000ppm"},
-    SystemKey{Where::Plc, "starts", "TIME", "when it is powered up, `0s` if left out; of `copies` each as much later than the one before, so that they are not in step"},
-    SystemKey{Where::Plc, "memory", "PATH", "retentive memory, EEPROM and clock: read at the start if it exists, written at the end"},
-    SystemKey{Where::Plc, "trace", "PATH", "interrupts, characters, attachments and errors are written there"},
-    SystemKey{Where::Plc, "trace_instructions", "true, false", "every instruction is traced too; `false` if left out"},
-    SystemKey{Where::Plc, "output", "PATH", "each change of an output is written there: CSV, or waves if it ends in .vcd"},
-    SystemKey{Where::Plc, "dump", "LIST", "memory to show at the end: `[VB0:16, VW100]`"},
+const SystemKey kOfOthers[] = {
+    {Where::Line, "stations", "LIST", kept(fmt::format("who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; {} at most", serial::Line::kDrivers))},
+    {Where::Line, "baud", "NUMBER", kept(fmt::format("of the masters and bridges on it and of who joins it, {} to {}; as its first PLC sets its port if left out (an S7-200, if there is one), like the next three", kLeastBaud, kMostBaud))},
+    {Where::Line, "parity", "none, even, odd", "parity bit of a character"},
+    {Where::Line, "data_bits", "7, 8", "data bits of a character"},
+    {Where::Line, "stop_bits", "1, 2", "stop bits of a character"},
+    {Where::Line, "turn_round", "TIME", "how long a master on it leaves it quiet between an answer and its next request; 7 characters and 10 ms if left out"},
+    {Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`, or a map if it is of one station; `master` says whose characters are requests"},
+    {Where::Line, "master", "NAME", "which station asks the others, for `faults` of requests or answers, as in `of=answer`; if left out, the first PLC to send, where several are on the line and no one has asked them"},
+    {Where::Line, "contention", "SEED, space", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed, 1 if left out; with `space` the level is always space, as if each driver only pulled the line down"},
+    {Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx, tx and line) or FILE.pcap (frames); rx and tx are those of its first PLC, an S7-200 if there is one"},
 
-    SystemKey{Where::Line, "stations", "LIST", kept(fmt::format("who is on it, in their order along the cable: names of PLCs (`gateway.1` is port 1; the name of several copies is all of them), of peers and of bridges; {} at most", serial::Line::kDrivers))},
-    SystemKey{Where::Line, "baud", "NUMBER", kept(fmt::format("of the masters and bridges on it and of who joins it, {} to {}; as its first PLC sets its port if left out (an S7-200, if there is one), like the next three", kLeastBaud, kMostBaud))},
-    SystemKey{Where::Line, "parity", "none, even, odd", "parity bit of a character"},
-    SystemKey{Where::Line, "data_bits", "7, 8", "data bits of a character"},
-    SystemKey{Where::Line, "stop_bits", "1, 2", "stop bits of a character"},
-    SystemKey{Where::Line, "turn_round", "TIME", "how long a master on it leaves it quiet between an answer and its next request; 7 characters and 10 ms if left out"},
-    SystemKey{Where::Line, "faults", "LIST", "from the start on, each in the form of `s7200 run --fault`, or a map if it is of one station; `master` says whose characters are requests"},
-    SystemKey{Where::Line, "master", "NAME", "which station asks the others, for `faults` of requests or answers, as in `of=answer`; if left out, the first PLC to send, where several are on the line and no one has asked them"},
-    SystemKey{Where::Line, "contention", "SEED, space", "two drivers that disagree give no defined level: mark or space by chance, the same with the same seed, 1 if left out; with `space` the level is always space, as if each driver only pulled the line down"},
-    SystemKey{Where::Line, "capture", "LIST", "files that it is written to: FILE.vcd (levels of rx, tx and line) or FILE.pcap (frames); rx and tx are those of its first PLC, an S7-200 if there is one"},
+    {Where::Fault, "fault", "TEXT", "in the form of `s7200 run --fault`: `parity:character=each`"},
+    {Where::Fault, "station", "NAME", "whose it is: what this station sends is disturbed, be it request or answer, or its clock is off, or it hears its echo; noise, and what happens at an instant, is of the line"},
 
-    SystemKey{Where::Fault, "fault", "TEXT", "in the form of `s7200 run --fault`: `parity:character=each`"},
-    SystemKey{Where::Fault, "station", "NAME", "whose it is: what this station sends is disturbed, be it request or answer, or its clock is off, or it hears its echo; noise, and what happens at an instant, is of the line"},
+    {Where::Master, "polls", "LIST", "what the master asks in Modbus RTU, in turn and without end"},
+    {Where::Master, "starts", "TIME", "when it sends its first request after it has power; `1s` if left out"},
+    {Where::Master, "every", "TIME", "the shortest time from the start of a round to the start of the next; without it rounds follow each other at once"},
+    {Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
 
-    SystemKey{Where::Master, "polls", "LIST", "what the master asks in Modbus RTU, in turn and without end"},
-    SystemKey{Where::Master, "starts", "TIME", "when it sends its first request after it has power; `1s` if left out"},
-    SystemKey{Where::Master, "every", "TIME", "the shortest time from the start of a round to the start of the next; without it rounds follow each other at once"},
-    SystemKey{Where::Master, "timeout", "TIME", "how long to wait for an answer to start; `1s` if left out"},
+    {Where::Poll, "station", "NUMBER, FIRST..LAST", kept(fmt::format("who is asked, 1 to {}; several are asked one after the other; 1 if left out", modbus::kLastStation))},
+    {Where::Poll, "read", "ADDRESS", "as manuals write it, with 5 or 6 digits: 00001 (coil), 10001 (input), 30001 (input register), 40001 (holding register)"},
+    {Where::Poll, "write", "ADDRESS", "instead of `read`: a coil or a holding register"},
+    {Where::Poll, "count", "NUMBER", "how many to read, up to 2000 coils or inputs or 125 registers; 1 if left out"},
+    {Where::Poll, "value", "NUMBER", "the one to write"},
 
-    SystemKey{Where::Poll, "station", "NUMBER, FIRST..LAST", kept(fmt::format("who is asked, 1 to {}; several are asked one after the other; 1 if left out", modbus::kLastStation))},
-    SystemKey{Where::Poll, "read", "ADDRESS", "as manuals write it, with 5 or 6 digits: 00001 (coil), 10001 (input), 30001 (input register), 40001 (holding register)"},
-    SystemKey{Where::Poll, "write", "ADDRESS", "instead of `read`: a coil or a holding register"},
-    SystemKey{Where::Poll, "count", "NUMBER", "how many to read, up to 2000 coils or inputs or 125 registers; 1 if left out"},
-    SystemKey{Where::Poll, "value", "NUMBER", "the one to write"},
-
-    SystemKey{Where::OtherPlc, "westinghouse", "PROTOCOL", kept(meaning_of_other_plc())},
-    SystemKey{Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
-    SystemKey{Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[slave=05, HR1=1234]` of modbus, `[unit=05, sync=ignored]` of pc1000-lan"},
-    SystemKey{Where::OtherPlc, "sync", "NAME.OUTPUT, master", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`, or the master that joins its line, `s7200 master --protocol pc1000-lan` or that of a scenario; without it the PLC needs the setting `sync=ignored`"},
+    {Where::OtherPlc, "westinghouse", "PROTOCOL", kept(meaning_of_other_plc())},
+    {Where::OtherPlc, "model", "NAME", "pc1200, pc503, …; the first that speaks the protocol if left out"},
+    {Where::OtherPlc, "settings", "LIST", "as `s7200 master --plc` takes them: `[slave=05, HR1=1234]` of modbus, `[unit=05, sync=ignored]` of pc1000-lan"},
+    {Where::OtherPlc, "sync", "NAME.OUTPUT, master", "of the PC1000 LAN: the output of a PLC that drives its sync signal, `gateway.Q0.0`, or the master that joins its line, `s7200 master --protocol pc1000-lan` or that of a scenario; without it the PLC needs the setting `sync=ignored`"},
 
     bridge_key(BridgeKind::Pty),
     bridge_key(BridgeKind::Tcp),
@@ -106,24 +86,35 @@ const std::array kKeys{
     bridge_key(BridgeKind::ModbusTcp),
     bridge_key(BridgeKind::Device),
 
-    SystemKey{Where::Event, "at", "TIME", "since the start; beside one of the following"},
-    SystemKey{Where::Event, "power_off", "NAME", "a PLC or a peer loses power: it falls silent in the middle of a character and keeps what a real one keeps"},
-    SystemKey{Where::Event, "power_on", "NAME", "its power comes back; a PLC begins anew in RUN, or stays in STOP if its mode switch, SM0.7, is in TERM, a master at its first request"},
-    SystemKey{Where::Event, "cut", "LINE", "the cable is cut: both parts go on without each other"},
-    SystemKey{Where::Event, "after", "NAME", "beside `cut`: the last station on the first part, in the order of `stations`"},
-    SystemKey{Where::Event, "mend", "LINE", "the cable is whole again"},
-    SystemKey{Where::Event, "set", "MAP", "memory and inputs of `plc`, as a programming device sets them: no effect while it has no power; SMB30 and SMB130 set a port to another rate"},
-    SystemKey{Where::Event, "plc", "NAME", "beside `set`"},
-    SystemKey{Where::Event, "fault", "TEXT", "a fault of `line` from then on, in the form of `s7200 run --fault`"},
-    SystemKey{Where::Event, "line", "LINE", "beside `fault`"},
-    SystemKey{Where::Event, "station", "NAME", "beside `fault`, if it is of one station"},
-    SystemKey{Where::Event, "clear_faults", "LINE", "all faults of that line end"},
+    {Where::Event, "at", "TIME", "since the start; beside one of the following"},
+    {Where::Event, "power_off", "NAME", "a PLC or a peer loses power: it falls silent in the middle of a character and keeps what a real one keeps"},
+    {Where::Event, "power_on", "NAME", "its power comes back; a PLC begins anew in RUN, or stays in STOP if its mode switch, SM0.7, is in TERM, a master at its first request"},
+    {Where::Event, "cut", "LINE", "the cable is cut: both parts go on without each other"},
+    {Where::Event, "after", "NAME", "beside `cut`: the last station on the first part, in the order of `stations`"},
+    {Where::Event, "mend", "LINE", "the cable is whole again"},
+    {Where::Event, "set", "MAP", "memory and inputs of `plc`, as a programming device sets them: no effect while it has no power; SMB30 and SMB130 set a port to another rate"},
+    {Where::Event, "plc", "NAME", "beside `set`"},
+    {Where::Event, "fault", "TEXT", "a fault of `line` from then on, in the form of `s7200 run --fault`"},
+    {Where::Event, "line", "LINE", "beside `fault`"},
+    {Where::Event, "station", "NAME", "beside `fault`, if it is of one station"},
+    {Where::Event, "clear_faults", "LINE", "all faults of that line end"},
 };
 // clang-format on
 
+std::vector<SystemKey> all_keys() {
+  std::vector<SystemKey> keys(std::begin(kOfFile), std::end(kOfFile));
+  for (const PlcKey& key : plc_keys())
+    if (key.of_system) keys.push_back({Where::Plc, key.name, key.form, key.meaning});
+  keys.insert(keys.end(), std::begin(kOfOthers), std::end(kOfOthers));
+  return keys;
+}
+
 }  // namespace
 
-std::span<const SystemKey> system_keys() { return kKeys; }
+std::span<const SystemKey> system_keys() {
+  static const std::vector<SystemKey> kKeys = all_keys();
+  return kKeys;
+}
 
 std::string system_keys_markdown() {
   static constexpr std::pair<Where, std::string_view> kTables[] = {

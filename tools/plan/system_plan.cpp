@@ -9,7 +9,7 @@
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/line/line.hpp"
-#include "tools/plan/clock_text.hpp"
+#include "tools/plan/plc_keys.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -83,13 +83,24 @@ std::optional<SystemPlan> read_plan_of(std::shared_ptr<const Program> program, c
   if (settings.port >= model.ports)
     problems.push_back(
         fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, s7200::to_text(kTwoPorts)));
-  if (const std::string why = why_no_clock(model); settings.clock && !why.empty()) problems.push_back(why);
   auto field = read_field(settings.input, model, files, problems);
   if (!field || !problems.empty()) return {};
   return plan_of(std::move(program), settings, std::move(*field));
 }
 
-bool is_of_one_program(const SystemPlan& plan) { return !plan.lines.empty() && plan.lines.front().name.empty(); }
+SystemPlan plan_of_other_plc(std::shared_ptr<const serial::Automaton> automaton, const std::vector<serial::Fault>& faults,
+                             std::vector<std::string> captures) {
+  SystemPlan plan;
+  plan.peers.push_back({.name = "", .automaton = std::move(automaton)});
+  plan.lines.push_back({.name = "",
+                        .faults = of_anyone(faults),
+                        .contention = {},
+                        .captures = std::move(captures),
+                        .stations = {{.kind = StationPlan::Kind::Peer}}});
+  return plan;
+}
+
+bool is_of_one_program(const SystemPlan& plan) { return plan.plcs.size() == 1 && plan.lines.front().name.empty(); }
 
 const std::string& name_of(const SystemPlan& plan, const StationPlan& station) {
   if (station.kind == StationPlan::Kind::Plc) return plan.plcs[station.number].name;
@@ -174,7 +185,9 @@ void run_every_scan(SystemPlan& plan) {
 }
 
 void forget_files(SystemPlan& plan) {
-  for (PlcPlan& plc : plan.plcs) plc.settings.trace = plc.settings.output = plc.settings.memory.path = "";
+  for (const PlcKey& key : plc_keys())
+    if (key.shape == PlcKey::Shape::Written)
+      for (PlcPlan& plc : plan.plcs) key.take(plc.settings, "", nullptr);
   for (LinePlan& line : plan.lines) line.captures.clear();
 }
 

@@ -18,6 +18,7 @@
 #include "serial_sim/peers/automaton.hpp"
 #include "serial_sim/peers/poller.hpp"
 #include "serial_sim/peers/requester.hpp"
+#include "serial_sim/system/plc.hpp"
 #include "tools/plan/bridge_kinds.hpp"
 #include "tools/plan/plc_settings.hpp"
 
@@ -120,9 +121,13 @@ SystemPlan plan_of(std::shared_ptr<const Program> program, const ProgramSettings
                    serial::FieldScript field = {});
 
 /// The same with the file of inputs that the settings name. Nothing, with `problems`, if it cannot be read, or if the CPU
-/// does not have what the settings ask for.
+/// does not have the port.
 std::optional<SystemPlan> read_plan_of(std::shared_ptr<const Program> program, const ProgramSettings& settings,
                                        const FileSource& files, std::vector<std::string>& problems);
+
+/// The plan of a PLC of another make, alone on a line; neither has a name.
+SystemPlan plan_of_other_plc(std::shared_ptr<const serial::Automaton> automaton,
+                             const std::vector<serial::Fault>& faults = {}, std::vector<std::string> captures = {});
 
 /// Whether it is the plan of a PROGRAM, where nothing has a name.
 bool is_of_one_program(const SystemPlan& plan);

@@ -11,11 +11,10 @@
 #include "interpreter/program/slips.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "tools/host/files.hpp"
-#include "tools/plan/clock_text.hpp"
+#include "tools/plan/line_reader.hpp"
+#include "tools/plan/plc_key_reader.hpp"
 #include "tools/plan/program_cpu.hpp"
-#include "tools/plan/system_block_reader.hpp"
 #include "tools/plan/system_reader.hpp"
-#include "tools/rig/rig.hpp"
 #include "tools/scenario/keys.hpp"
 #include "tools/scenario/memory_values.hpp"
 #include "tools/yaml/names.hpp"
@@ -69,17 +68,15 @@ class HeadReader {
       scenario.times = find_times(*times) ? *times : *optional_path(map, "times");
       check_times(*map.find("times"), scenario);
     }
-    read_system_block(map, *find_cpu(scenario.cpu), scenario.system_block, values_);
+    const auto path = [this](const YamlNode& of, std::string_view key) { return optional_path(of, key).value_or(""); };
+    PlcKeyReader plc_keys(values_, false, path);
+    plc_keys.read(map, PlcKey::Stage::Cpu, scenario.addresses(), scenario.plc);
     if (const YamlNode* port = map.find("port")) read_port(*port, scenario);
     if (const YamlNode* line = map.find("line")) read_line(*line, scenario.line);
     if (const auto station = read_station(map)) scenario.station = *station;
-    if (const YamlNode* set = map.find("set")) scenario.set = read_assignments(values_, *set, scenario.addresses());
-    if (const auto path = optional_path(map, "input")) read_field(*map.find("input"), *path, scenario);
-    if (const YamlNode* clock = map.find("clock")) {
-      scenario.clock = values_.value(clock, "a date and time between 1990 and 2089", "2026-11-21 10:00:00",
-                                     [](const std::string& t) { return parse_clock(t); });
-      if (const std::string why = why_no_clock(*find_cpu(scenario.cpu)); !why.empty()) values_.wrong(*clock, why);
-    }
+    if (const YamlNode* set = map.find("set")) scenario.plc.set = read_assignments(values_, *set, scenario.addresses());
+    plc_keys.read(map, PlcKey::Stage::Program, scenario.addresses(), scenario.plc);
+    if (const YamlNode* input = map.find("input")) read_inputs(*input, scenario);
     if (const auto after = values_.time(map.find("after"))) scenario.after = *after;
     if (const auto pause = values_.span(map.find("pause"))) scenario.pause = *pause;
     if (const auto timeout = values_.time(map.find("timeout"))) scenario.line.timeout = *timeout;
@@ -218,23 +215,16 @@ class HeadReader {
       return values_.wrong(map, "'line' is a map, not " + to_text(map),
                            "write for example line: {baud: 19200, parity: none}");
     values_.check_keys(map, {ScenarioKey::Where::Line});
-    if (const auto baud = values_.number(map.find("baud"), 50, 1'000'000)) line.baud = static_cast<std::uint32_t>(*baud);
-    if (const auto parity = values_.choice<Parity>(map.find("parity"),
-                                                   {{"none", Parity::None}, {"even", Parity::Even}, {"odd", Parity::Odd}}))
-      line.parity = *parity;
-    if (const auto bits = values_.number(map.find("data_bits"), 7, 8)) line.data_bits = static_cast<std::uint8_t>(*bits);
-    if (const auto bits = values_.number(map.find("stop_bits"), 1, 2)) line.stop_bits = static_cast<std::uint8_t>(*bits);
+    read_line_settings(map, line, values_);
   }
 
-  void read_field(const YamlNode& node, const std::string& path, Scenario& scenario) {
-    std::string why;
-    const auto csv = read_text(path, why);
-    if (!csv) return values_.wrong(node, fmt::format("cannot read {}: {}", path, why));
-    std::vector<std::string> errors;
-    scenario.input_file = path;
-    scenario.field = serial::parse_field_script(*csv, path, *find_cpu(scenario.cpu), errors);
-    if (!errors.empty())
-      values_.wrong(node, errors[0], errors.size() > 1 ? fmt::format("and {} more mistakes in it", errors.size() - 1) : "");
+  void read_inputs(const YamlNode& node, Scenario& scenario) {
+    std::vector<std::string> problems;
+    if (auto field = read_field(scenario.plc.input, *find_cpu(scenario.cpu), host_files(), problems))
+      scenario.field = std::move(*field);
+    else
+      values_.wrong(node, problems.front(),
+                    problems.size() > 1 ? fmt::format("and {} more mistakes in it", problems.size() - 1) : "");
   }
 
   ValueReader& values_;

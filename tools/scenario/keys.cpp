@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "serial_sim/peers/quiet_time.hpp"
-#include "tools/plan/system_block_reader.hpp"
+#include "tools/plan/plc_keys.hpp"
 #include "tools/scenario/step_reader.hpp"
 #include "tools/scenario/steps/steps.hpp"
 
@@ -30,22 +30,13 @@ const ScenarioKey kBeforeActions[] = {
     {Where::Scenario, "program", kOfOneProgram, "PATH", "STL file or published document, from the folder of this file, or `\"-\"` for standard input; `--target` comes before it"},
     {Where::Scenario, "system", "", "PATH", "instead of a program, a system file: PLCs and lines, and what happens to them when. What it says of records, `memory` among them, is left aside, and nobody is at its bridges"},
     {Where::Scenario, "on", "", "NAME", "of a system: the line or PLC that steps are about unless they say so themselves; the only line if left out"},
-    {Where::Scenario, "with", kOfOneProgram, "LIST", "paths of the other files of the program's project: symbol tables, data blocks, blocks"},
     {Where::Scenario, "repair", kOfOneProgram, "TEXT", "slips of a published listing to repair, as `s7200 check` names them: `R1,R2`, `all` or `none`"},
     {Where::Scenario, "skip_without", "", "PATH", "a file without which the scenario is skipped, such as a document that is not ours"},
-    {Where::Scenario, "cpu", kOfOneProgram, "TYPE", "`214` if left out"},
-    {Where::Scenario, "times", kOfOneProgram, "TABLE", "execution times: the name of a table, or the path of a CSV file as `s7200 times --csv` writes it"},
-    {Where::Scenario, "ppi_baud", kOfOneProgram, "NUMBER", ppi_baud_meaning()},
-    {Where::Scenario, "ppi_station", kOfOneProgram, "NUMBER", ppi_station_meaning()},
-    {Where::Scenario, "ppi_second", kOfOneProgram, "WORD", ppi_second_meaning()},
-    {Where::Scenario, "retain", kOfOneProgram, "RANGES", retain_meaning()},
     {Where::Scenario, "port", kOfOneProgram, "NUMBER", "of a CPU with two ports the one that the line is at, `0` or `1`; `0` if left out"},
     {Where::Scenario, "robust", kOfOneProgram, "SHARE", "`95%`: it must pass with so many of the tables of execution times that `--times-band 200` runs it with, and with the first of them, which is the one in use; not on a slave that is not a program"},
     {Where::Scenario, "line", "", "MAP", "how the master talks, if not as the program has set its port"},
     {Where::Scenario, "station", "", "NUMBER", "address of the slave, 0 to 247, or 255 for a Modbus TCP server itself; if left out that of the PLC that `on` names, in its system file, or 1"},
     {Where::Scenario, "set", kOfOneProgram, "MAP", "memory and inputs before the first scan: `{VW20: 16#1234, I0.3: 1}`"},
-    {Where::Scenario, "input", kOfOneProgram, "PATH", "inputs over time, I, AIW, the potentiometers SMB28 and SMB29 and the mode switch SM0.7: CSV in the format of `s7200 run --input`"},
-    {Where::Scenario, "clock", kOfOneProgram, "TIME", "time of day at the start: `2026-11-21 10:00:00`"},
     {Where::Scenario, "after", "", "TIME", "when the first step begins; if left out, when the first scan has ended and the line is quiet"},
     {Where::Scenario, "pause", "", "SPAN", kPause},
     {Where::Scenario, "timeout", "", "TIME", "how long to wait for an answer or a transmission to begin, or for memory; `1s` if left out"},
@@ -102,6 +93,8 @@ bool has_word(std::string_view words, std::string_view word) {
 
 std::vector<ScenarioKey> all_keys() {
   std::vector<ScenarioKey> keys(std::begin(kBeforeActions), std::end(kBeforeActions));
+  for (const PlcKey& key : plc_keys())
+    if (key.of_scenario) keys.push_back({Where::Scenario, key.name, kOfOneProgram, key.form, key.meaning});
   for (const StepKind& kind : step_kinds()) keys.push_back({Where::OfStep, kind.key, "", kind.form, kind.meaning});
   for (const LoopKind& kind : loop_kinds()) keys.push_back({Where::OfStep, kind.key, "", kind.form, kind.meaning});
   keys.insert(keys.end(), std::begin(kModifiers), std::end(kModifiers));

@@ -16,13 +16,11 @@ namespace {
 
 constexpr Time kSlice = 10 * kSecond;  // Ctrl-C is heard in between
 
-SystemPlan plan_of(const Scenario& scenario, std::shared_ptr<const Program> program) {
+SystemPlan plan_to_run(const Scenario& scenario, std::shared_ptr<const Program> program) {
   if (scenario.plan) return *scenario.plan;
-  ProgramSettings settings;
-  settings.set = scenario.set;
-  settings.clock = scenario.clock;
-  settings.port = scenario.port;
-  return plan_of(std::move(program), settings, scenario.field);
+  SystemPlan plan = plan_of(std::move(program), {scenario.plc, {}, scenario.port}, scenario.field);
+  forget_files(plan);
+  return plan;
 }
 
 /// Those of the steps; the master stands beside the first of a line.
@@ -51,7 +49,7 @@ void InterruptCounter::record(const TraceRecord& record) {
 }
 
 Plant::Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop)
-    : scenario_(scenario), stop_(stop), plan_(plan_of(scenario, std::move(program))), spots_(spots_of(scenario, plan_)) {
+    : scenario_(scenario), stop_(stop), plan_(plan_to_run(scenario, std::move(program))), spots_(spots_of(scenario, plan_)) {
   for (const PlcPlan& plc : plan_.plcs) watches_.push_back(std::make_unique<Watch>(plc.program));
   power_up();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "tools/plan/plc_keys.hpp"
 #include "tools/scenario/explanation.hpp"
 #include "tools/scenario/run.hpp"
 
@@ -22,8 +23,8 @@ Run::Run(const Scenario& scenario, const Bench& bench) : scenario_(scenario), be
 }
 
 void Run::join_lines() {
-  auto lines = std::make_unique<PeerLines>(*scenario_.plan, *first_askable_line(*scenario_.plan), scenario_.line,
-                                           scenario_.after, scenario_.system, bench_.stop);
+  auto lines = tools::join_lines(*scenario_.plan, *first_askable_line(*scenario_.plan), scenario_.line, scenario_.after,
+                                 scenario_.system, bench_.stop);
   lines_ = lines.get();
   own_ = std::move(lines);
 }
@@ -71,7 +72,8 @@ void Run::settle_outcome() {
 std::string Run::acted_inside() const {
   if (lines_) return "";
   if (scenario_.plan) return "it is about a system of PLCs";
-  if (!scenario_.set.empty() || scenario_.clock || !scenario_.input_file.empty()) return "it sets memory, clock or inputs";
+  if (!scenario_.plc.set.empty() || says_anything(scenario_.plc, PlcKey::Stage::Program))
+    return "it sets memory, clock or inputs";
   const auto step = std::find_if(scenario_.steps.begin(), scenario_.steps.end(),
                                  [](const Step& s) { return s.action->needs() >= Needs::ToChange; });
   return step == scenario_.steps.end() ? "" : fmt::format("line {}, '{}'", step->position.line, step->key);

@@ -55,16 +55,13 @@ struct Scenario {
   std::shared_ptr<const SystemPlan> plan{};  ///< that was read from it
   std::string on{};                          ///< what its steps are about unless they say so themselves
   std::string cpu = "214";
-  bool cpu_named = false;  ///< by the key `cpu`; otherwise it is the one that was found for the program
-  std::string cpu_note{};  ///< what the user has to be told about the one that was found; empty: nothing
-  std::string times{};     ///< a name or a file; empty: the CPU's own
-  SystemBlock system_block{};
-  std::uint8_t port = 0;  ///< of the program's CPU, that the line is at
-  std::vector<Assignment> set{};
-  std::string input_file{};  ///< of `field`; empty if there is none
-  serial::FieldScript field{};
-  std::optional<ClockTime> clock{};
-  Time after = kNever;  ///< when the first step begins; kNever: the first scan has ended and the line is quiet
+  bool cpu_named = false;       ///< by the key `cpu`; otherwise it is the one that was found for the program
+  std::string cpu_note{};       ///< what the user has to be told about the one that was found; empty: nothing
+  std::string times{};          ///< a name or a file; empty: the CPU's own
+  PlcSettings plc{};            ///< of the program's PLC
+  std::uint8_t port = 0;        ///< of the program's CPU, that the line is at
+  serial::FieldScript field{};  ///< its inputs
+  Time after = kNever;          ///< when the first step begins; kNever: the first scan has ended and the line is quiet
 
   std::optional<std::uint8_t> station{};  ///< of the slave, if the file says so
   serial::MasterSettings line{};          ///< with the time-out

@@ -129,24 +129,22 @@ void TranscriptWriter::head(const Scenario& scenario) {
   if (!scenario.times.empty()) line(4, "times: " + (find_times(scenario.times) ? scenario.times : near(scenario.times)));
   if (scenario.robust)
     line(4, fmt::format("# without its 'robust: {:g}%': the times below are those of one table", *scenario.robust));
-  const SystemBlock &block = scenario.system_block, usual{};
-  if (block.ppi_rates != usual.ppi_rates) line(4, fmt::format("ppi_baud: \"{}\"", s7200::to_text(block.ppi_rates)));
-  if (block.ppi_stations != usual.ppi_stations)
-    line(4, fmt::format("ppi_station: \"{}\"", s7200::to_text(block.ppi_stations)));
-  if (block.second_request != usual.second_request)
-    line(4, fmt::format("ppi_second: {}", s7200::to_text(block.second_request)));
-  if (block.retentive) line(4, fmt::format("retain: \"{}\"", s7200::to_text(*block.retentive)));
+  plc_keys_of(scenario, PlcKey::Stage::Cpu);
   if (scenario.port != 0) line(4, fmt::format("port: {}", scenario.port));
   line_settings(scenario.line);
   if (transcript_.tolerance > 0) line(4, "tolerance: " + exact(transcript_.tolerance));
   if (transcript_.live) return;
-  if (!scenario.set.empty()) line(4, "set: " + assignments_text(scenario.set));
-  if (!scenario.input_file.empty()) line(4, "input: " + near(scenario.input_file));
-  if (scenario.clock) {
-    const ClockTime& c = *scenario.clock;
-    line(4, fmt::format("clock: 20{:02}-{:02}-{:02} {:02}:{:02}:{:02}", c.year, c.month, c.day, c.hour, c.minute, c.second));
-  }
+  if (!scenario.plc.set.empty()) line(4, "set: " + assignments_text(scenario.plc.set));
+  plc_keys_of(scenario, PlcKey::Stage::Program);
   if (scenario.after != kNever) line(4, "after: " + exact(scenario.after));
+}
+
+void TranscriptWriter::plc_keys_of(const Scenario& scenario, PlcKey::Stage stage) {
+  for (const PlcKey& key : plc_keys()) {
+    if (!key.of_scenario || key.stage != stage || !key.text) continue;
+    const std::string text = key.text(scenario.plc);
+    if (!text.empty()) line(4, fmt::format("{}: {}", key.name, key.shape == PlcKey::Shape::Read ? near(text) : text));
+  }
 }
 
 void TranscriptWriter::line_settings(const serial::MasterSettings& settings) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/plan/plc_keys.hpp"
 #include "tools/scenario/memory_values.hpp"
 #include "tools/scenario/report.hpp"
 #include "tools/scenario/transcript.hpp"
@@ -54,6 +55,7 @@ class TranscriptWriter {
   void line(int indent, const std::string& content);
   std::string near(const std::string& path) const;
   void head(const Scenario& scenario);
+  void plc_keys_of(const Scenario& scenario, PlcKey::Stage stage);
   void line_settings(const serial::MasterSettings& settings);
 
   const Transcript& transcript_;

@@ -51,20 +51,6 @@ std::string object_text(const Cpu& cpu, const MemoryRange& range, std::uint32_t 
   return text;
 }
 
-template <class Parsed>
-std::optional<std::vector<Parsed>> parse_all(const std::vector<std::string>& texts, const AddressSpace& space,
-                                             std::optional<Parsed> (*parse)(std::string_view, const AddressSpace&,
-                                                                            std::string&),
-                                             std::string& why) {
-  std::vector<Parsed> all;
-  for (const std::string& text : texts) {
-    const auto parsed = parse(text, space, why);
-    if (!parsed) return {};
-    all.push_back(*parsed);
-  }
-  return all;
-}
-
 }  // namespace
 
 std::string_view type_of(const MemoryRange& range) {
@@ -94,16 +80,6 @@ nlohmann::ordered_json value_json(const State& state, const MemoryRange& range, 
       return static_cast<std::int32_t>(load32(place_of(state, range, i)));
   }
   return nullptr;
-}
-
-std::optional<std::vector<Assignment>> parse_assignments(const std::vector<std::string>& texts, const AddressSpace& space,
-                                                         std::string& why) {
-  return parse_all<Assignment>(texts, space, parse_assignment, why);
-}
-
-std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::string>& texts, const AddressSpace& space,
-                                                     std::string& why) {
-  return parse_all<MemoryRange>(texts, space, parse_range, why);
 }
 
 std::vector<Assignment> inputs_as_before(const Cpu& cpu, const State& before) {

@@ -13,12 +13,6 @@
 
 namespace s7200::tools {
 
-/// Reads `--set` or `--dump` arguments. Returns nothing and sets `why` if one is wrong.
-std::optional<std::vector<Assignment>> parse_assignments(const std::vector<std::string>& texts, const AddressSpace& space,
-                                                         std::string& why);
-std::optional<std::vector<MemoryRange>> parse_ranges(const std::vector<std::string>& texts, const AddressSpace& space,
-                                                     std::string& why);
-
 /// I addresses set the input points, everything else is written as a programming device would.
 void assign(Cpu& cpu, const Assignment& assignment);
 

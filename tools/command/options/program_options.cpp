@@ -86,22 +86,7 @@ void CpuOptions::add_cpu_and_times_to(CLI::App& app, const std::string& meaning)
 
 void CpuOptions::add_to(CLI::App& app) {
   add_cpu_and_times_to(app, fmt::format("CPU to run on {}", kCpuFound));
-  app.add_option("--ppi-baud", ppi_baud,
-                 fmt::format("rate of PPI: {}; 9600,187500: port 0 and port 1 [{}]", ppi_rates_text(),
-                             s7200::to_text(SystemBlock{}.ppi_rates)))
-      ->type_name("BAUD[,BAUD]");
-  app.add_option("--ppi-station", ppi_station,
-                 fmt::format("PPI station until SPA sets another, 1 to 126; 3,4: port 0 and port 1 [{}]",
-                             s7200::to_text(SystemBlock{}.ppi_stations)))
-      ->type_name("NUMBER[,NUMBER]");
-  app.add_option("--ppi-second", ppi_second,
-                 fmt::format("what becomes of a PPI master's request before it has fetched the answer to the last one: it "
-                             "{} that one, or is {} [{}]",
-                             kSecondRequestWords[0], kSecondRequestWords[1], s7200::to_text(SystemBlock{}.second_request)))
-      ->type_name("WORD");
-  app.add_option("--retain", retain,
-                 "memory that survives power off: VB0:100,MB0:14,T0:32,C0:5, or none [as the CPU is delivered]")
-      ->type_name("RANGES");
+  system_block_.add_to(app, PlcKey::Stage::Cpu);
   add_repair_option(app, repairs);
   add_no_stand_ins_option(app, no_stand_ins);
   add_no_skip_option(app, every_scan);
@@ -136,19 +121,9 @@ std::optional<TimesBand> CpuOptions::band(const CpuModel& model, const BandSetti
 }
 
 std::optional<SystemBlock> CpuOptions::system_block(const CpuModel& model) const {
-  const SystemBlock usual;
-  std::string why;
-  const auto rates = ppi_baud.empty() ? usual.ppi_rates : parse_ppi_rates(ppi_baud, model, why);
-  if (!rates) return print_error("--ppi-baud: " + why), std::nullopt;
-  const auto stations = ppi_station.empty() ? usual.ppi_stations : parse_ppi_stations(ppi_station, model, why);
-  if (!stations) return print_error("--ppi-station: " + why), std::nullopt;
-  const auto second = ppi_second.empty() ? usual.second_request : parse_second_request(ppi_second, why);
-  if (!second) return print_error("--ppi-second: " + why), std::nullopt;
-  SystemBlock block{.ppi_rates = *rates, .ppi_stations = *stations, .second_request = *second};
-  if (retain.empty()) return block;
-  block.retentive = parse_retentive(retain, model, why);
-  if (!block.retentive) return print_error("--retain: " + why), std::nullopt;
-  return block;
+  PlcSettings settings;
+  const AddressSpace of_cpu = model;
+  return system_block_.read(settings, &of_cpu) ? std::optional(settings.system_block) : std::nullopt;
 }
 
 void ProgramOptions::add_to(CLI::App& app) {
@@ -250,9 +225,10 @@ std::string form_of_recording(std::string_view bytes, const std::optional<Source
 
 std::optional<SourceText> read_program_text(const std::string& path, bool force_document) {
   if (is_system_file(path)) {
-    print_error(fmt::format(
-        "{} is a system file, which 's7200 run', 'send', 'master', 'test', 'debug', 'view' and 'dap' take; name one PROGRAM here",
-        path));
+    print_error(
+        fmt::format("{} is a system file, which 's7200 run', 'send', 'master', 'test', 'debug', 'view' and 'dap' take; name "
+                    "one PROGRAM here",
+                    path));
     return {};
   }
   std::string name, why;

@@ -9,6 +9,7 @@
 #include "interpreter/model/times_band.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/slips.hpp"
+#include "tools/command/options/plc_key_options.hpp"
 #include "tools/views/times_text.hpp"
 
 namespace CLI {
@@ -36,10 +37,6 @@ bool repair(SourceText& text, const Repairs& repairs);
 struct CpuOptions {
   std::string cpu;          ///< empty: not named
   std::string times_table;  ///< a name or a file; empty: the CPU's own
-  std::string ppi_baud;     ///< as parse_ppi_rates() takes it; empty: as a CPU is delivered
-  std::string retain;       ///< as parse_retentive() takes it; the same
-  std::string ppi_second;   ///< one of kSecondRequestWords; the same
-  std::string ppi_station;  ///< as parse_ppi_stations() takes it; the same
   Repairs repairs;
   bool every_scan = false;    ///< scans that are all alike are run, too
   bool no_stand_ins = false;  ///< a program that needs a stand-in for a library is refused
@@ -58,6 +55,9 @@ struct CpuOptions {
   /// The table and others around it, in place of times(): a table from a pipe can be read once only.
   std::optional<TimesBand> band(const CpuModel& model, const BandSettings& settings) const;
   std::optional<SystemBlock> system_block(const CpuModel& model) const;
+
+ private:
+  PlcKeyOptions system_block_;
 };
 
 struct ProgramOptions : CpuOptions {

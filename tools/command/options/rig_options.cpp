@@ -16,78 +16,21 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/files.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/plan/clock_text.hpp"
 #include "tools/plan/system_reader.hpp"
 #include "tools/session/words/force_words.hpp"
+#include "tools/slave/slave_in_rig.hpp"
 #include "tools/slave/slave_target.hpp"
-#include "tools/slave/system_slave.hpp"
 #include "tools/views/faults.hpp"
-#include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
 
 namespace s7200::tools {
 
 void RigOptions::add_to(CLI::App& app) {
-  app.add_option("--set", set_,
-                 "memory or inputs before the first scan: VW100=5, I0.3=1; symbols too, Speed=7; SM0.7=0 (repeatable)")
-      ->type_name("ADDRESS=VALUE")
-      ->allow_extra_args(false)
-      ->group(help_group::kMemory);
-  app.add_option("--dump", settings_.dump_names,
-                 "memory to show at the end: VB0:16, VW100, AC0, VD20:real; symbols too, Speed (repeatable)")
-      ->type_name("ADDRESS[:COUNT]")
-      ->allow_extra_args(false)
-      ->group(help_group::kMemory);
-  app.add_option("--input", settings_.input, "inputs over time: CSV rows such as 10ms,I0.3,1 (s7200 help files)")
-      ->type_name("FILE")
-      ->group(help_group::kMemory);
-  app.add_option("--output", settings_.output,
-                 "write each change of an output (Q, AQ): CSV, or waves in FILE.vcd; - is standard output")
-      ->type_name("FILE")
-      ->group(help_group::kMemory);
-  MemorySettings& memory = settings_.memory;
-  auto* file =
-      app.add_option("--memory", memory.path,
-                     "keep retentive memory and EEPROM; with the clock, read at power-up if FILE exists, written at the end")
-          ->type_name("FILE")
-          ->group(help_group::kMemory);
-  auto* lost =
-      app.add_flag("--ram-lost", memory.ram_lost, "power was off too long: only the EEPROM of --memory is left, SM0.2 is 1");
-  auto* off = add_duration(app, "--power-off", memory.power_off, "how long power was off since --memory was written [0s]");
-  lost->needs(file);
-  off->needs(file)->excludes(lost);
-  app.add_option_function<std::string>(
-         "--clock",
-         [this](const std::string& text) {
-           settings_.clock = parse_clock(text);
-           if (!settings_.clock)
-             throw CLI::ValidationError("--clock",
-                                        fmt::format("'{}' is not a date and time between 1990 and 2089; write for "
-                                                    "example \"2026-11-21 10:00:00\"",
-                                                    stl::shortened(text)));
-         },
-         "time of day at the start")
-      ->type_name("\"YYYY-MM-DD HH:MM:SS\"");
+  keys_.add_to(app, PlcKey::Stage::Program);
   app.add_flag("--strict", strict_, "end with exit code 1 at the first run-time error of the program")
       ->group(help_group::kRun);
   add_whole_number(app, "--port", settings_.port, {0, 1}, "the port of the PLC that all this is about", "0");
   faults_.add_to(app);
-  auto* trace =
-      app.add_option("--trace", settings_.trace,
-                     "write what happens in the CPU; interrupts, characters, attachments, errors and the main program's "
-                     "way; - is standard output")
-          ->type_name("FILE")
-          ->group(help_group::kResults);
-  auto* all =
-      app.add_flag_callback(
-             "--trace-instructions", [this] { settings_.trace_detail = TraceDetail::Instructions; },
-             "trace every instruction too, with its operand values: its line has the time of its begin, below what it did")
-          ->needs(trace);
-  app.add_flag_callback(
-         "--trace-events", [this] { settings_.trace_detail = TraceDetail::Events; },
-         "leave out the way of the main program, why a frame got no answer and how long an instruction took: faster")
-      ->needs(trace)
-      ->excludes(all);
   app.add_option("--capture", settings_.captures,
                  "write the line to FILE.vcd (levels) or FILE.pcap (frames); for sigrok and Wireshark (repeatable)")
       ->type_name("FILE")
@@ -98,16 +41,11 @@ void RigOptions::add_to(CLI::App& app) {
 /// Reads what the options of a PROGRAM say into the settings. False after messages.
 bool RigOptions::read_settings(const Program& program) {
   if (!faults_.prepare()) return false;
-  std::string why;
-  const auto assignments = parse_assignments(set_, program, why);
-  if (!assignments) return print_error("--set: " + why), false;
-  for (const Assignment& assignment : *assignments)
+  const AddressSpace of_program = program;
+  if (!keys_.read(settings_, &of_program)) return false;
+  for (const Assignment& assignment : settings_.set)
     if (const std::string refused = not_settable(assignment.place); !refused.empty())
       return print_error("--set: " + refused), false;
-  const auto dumps = parse_ranges(settings_.dump_names, program, why);
-  if (!dumps) return print_error("--dump: " + why), false;
-  settings_.dumps = *dumps;
-  settings_.set = *assignments;
   settings_.faults = faults_.faults();
   return true;
 }
@@ -206,12 +144,21 @@ bool RigOptions::load_one(const CLI::App& verb, const ProgramOptions& program, i
                     stl::printable(program.path), verb.get_name()));
     return false;
   }
-  if (is_system_file(program.path)) return load_system(verb, program, exit_code);
-  if (!at_.empty()) {
-    exit_code = kUnusable;
-    print_error("--at names a place in a system file; a PROGRAM has --port");
-    return false;
-  }
+  if (is_system_file(program.path)) return load_system(verb, program, {}, exit_code) && find_place(exit_code);
+  if (at_.empty()) return load_program(program, exit_code);
+  exit_code = kUnusable;
+  print_error("--at names a place in a system file; a PROGRAM has --port");
+  return false;
+}
+
+bool RigOptions::load_whole(const CLI::App& verb, const ProgramOptions& program, std::span<const std::string_view> more,
+                            int& exit_code) {
+  if (!is_system_file(program.path)) return load_program(program, exit_code);
+  joins_ = false;
+  return load_system(verb, program, more, exit_code);
+}
+
+bool RigOptions::load_program(const ProgramOptions& program, int& exit_code) {
   auto loaded = program.load(exit_code);
   if (!loaded) return false;
   exit_code = kUnusable;
@@ -220,20 +167,25 @@ bool RigOptions::load_one(const CLI::App& verb, const ProgramOptions& program, i
   return true;
 }
 
-bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code) {
+bool RigOptions::load_system(const CLI::App& verb, const ProgramOptions& program, std::span<const std::string_view> more,
+                             int& exit_code) {
   exit_code = kUnusable;
-  if (!refuse_options_of_one_plc(verb, program)) return false;
+  if (!refuse_options_of_one_plc(verb, program, more) || !keys_.read(settings_, nullptr)) return false;
   auto plan = tools::load_system(program, exit_code);
   if (!plan) return false;
   plan_ = std::move(*plan);
   path_ = program.path;
-  exit_code = kUnusable;
+  return true;
+}
+
+/// Finds the place of the master, or of the PLC that is looked at first. False after a message.
+bool RigOptions::find_place(int& exit_code) {
   std::string why;
   const auto spot = place_in_system(why);
-  if (!spot) return print_error(fmt::format("{}: {} (--at NAME)", program.path, why)), false;
-  spot_ = *spot;
-  exit_code = kFine;
-  return true;
+  if (spot) return spot_ = *spot, true;
+  print_error(fmt::format("{}: {} (--at NAME)", path_, why));
+  exit_code = kUnusable;
+  return false;
 }
 
 /// False after a message if several want standard output.
@@ -249,10 +201,13 @@ bool RigOptions::may_have_standard_output(bool json) const {
 std::unique_ptr<Rig> RigOptions::assemble(bool json, const std::string& link) {
   if (!may_have_standard_output(json)) return nullptr;
   std::vector<std::string> problems;
-  std::vector<Spot> spots{spot_};  // beside the first one stands whoever asks on its line
-  spots.insert(spots.end(), stations_.begin(), stations_.end());
-  RigSurroundings surroundings = this->surroundings(path_, link, without_s7200() ? std::vector<Spot>() : std::move(spots));
-  if (without_s7200()) surroundings.lines = {spot_.line};
+  std::vector<Spot> spots;
+  if (joins_ && !without_s7200()) {
+    spots.push_back(spot_);  // beside the first one stands whoever asks on its line
+    spots.insert(spots.end(), stations_.begin(), stations_.end());
+  }
+  RigSurroundings surroundings = this->surroundings(link, std::move(spots));
+  if (joins_ && without_s7200()) surroundings.lines = {spot_.line};
   auto rig = Rig::assemble(plan_, surroundings, problems);
   for (const std::string& problem : problems) print_error(problem);
   only_interrupted_ = problems.empty() && interrupted();
@@ -263,11 +218,11 @@ std::unique_ptr<Rig> RigOptions::assemble_another(std::shared_ptr<const Program>
                                                   std::vector<std::string>& problems) const {
   SystemPlan plan = plan_;
   plan.plcs.front().program = std::move(program);
-  return Rig::assemble(std::move(plan), surroundings(path_, {}, {spot_}), problems);
+  return Rig::assemble(std::move(plan), surroundings({}, {spot_}), problems);
 }
 
-RigSurroundings RigOptions::surroundings(const std::string& path, const std::string& link, std::vector<Spot> spots) const {
-  return {.path = path,
+RigSurroundings RigOptions::surroundings(const std::string& link, std::vector<Spot> spots) const {
+  return {.path = path_,
           .link = link,
           .standard_output = &std::cout,
           .trace = is_system() ? settings_.trace : "",
@@ -285,9 +240,9 @@ std::string RigOptions::target() const {
 
 void RigOptions::refuse_what_is_of_one_run(std::string_view because) const {
   const std::pair<const char*, bool> of_one_run[] = {
-      {"--dump", !settings_.dump_names.empty()},    {"--output", !settings_.output.empty()},
-      {"--trace", !settings_.trace.empty()},        {"--capture", !settings_.captures.empty()},
-      {"--memory", !settings_.memory.path.empty()}, {"--strict", strict_}};
+      {"--dump", keys_.given("dump")},     {"--output", keys_.given("output")},
+      {"--trace", keys_.given("trace")},   {"--capture", !settings_.captures.empty()},
+      {"--memory", keys_.given("memory")}, {"--strict", strict_}};
   for (const auto& [option, given] : of_one_run)
     if (given) throw std::invalid_argument(fmt::format("{} is about one run; {}", option, because));
 }

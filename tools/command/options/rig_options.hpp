@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/command/options/fault_options.hpp"
@@ -36,6 +38,19 @@ class RigOptions {
 
   /// The same for verbs that look at all PLCs of a system.
   bool load_all(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
+
+  /// The same for a verb that runs a system as a whole: no master joins it. `more`: further options that are about one PLC.
+  bool load_whole(const CLI::App& verb, const ProgramOptions& program, std::span<const std::string_view> more,
+                  int& exit_code);
+
+  /// Takes a plan of PLCs of another make, whose only line a master joins.
+  void take_line(SystemPlan plan) { plan_ = std::move(plan); }
+
+  /// Takes a plan as what is to be run as a whole.
+  void take_whole(SystemPlan plan) {
+    plan_ = std::move(plan);
+    joins_ = false;
+  }
 
   /// Whether what load() has loaded is a system of PLCs of another make alone: a master joins the line, and no PROGRAM runs.
   bool without_s7200() const { return plan_.plcs.empty(); }
@@ -81,9 +96,6 @@ class RigOptions {
     return tools::on_line(given, plan_.lines[spot_.line]);
   }
 
-  /// What a system has besides its plan: --trace.
-  RigSurroundings surroundings(const std::string& path, const std::string& link, std::vector<Spot> spots) const;
-
   /// Of what was loaded: what a master asks, in words; and the program of the PLC that is looked at.
   std::string target() const;
   const std::shared_ptr<const Program>& program() const { return plan_.plcs[spot_.plc].program; }
@@ -116,18 +128,23 @@ class RigOptions {
 
  private:
   bool load_one(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
-  bool load_system(const CLI::App& verb, const ProgramOptions& program, int& exit_code);
+  bool load_program(const ProgramOptions& program, int& exit_code);
+  bool load_system(const CLI::App& verb, const ProgramOptions& program, std::span<const std::string_view> more,
+                   int& exit_code);
+  bool find_place(int& exit_code);
+  RigSurroundings surroundings(const std::string& link, std::vector<Spot> spots) const;
   std::optional<Spot> place_in_system(std::string& why) const;
   bool read_settings(const Program& program);
   bool may_have_standard_output(bool json) const;
 
-  std::vector<std::string> set_;
+  PlcKeyOptions keys_;
   std::string at_;
   std::string path_;  ///< of a system file
   SystemPlan plan_;
   Spot spot_;
   std::vector<Spot> stations_;  ///< of a verb that is about all PLCs: where each is looked at from
   bool looks_at_all_ = false;
+  bool joins_ = true;  ///< a master, the line at the spot
   bool strict_ = false;
   bool only_interrupted_ = false;  ///< while a record waited for its reader
   FaultOptions faults_;
