@@ -490,7 +490,8 @@ std::vector<bool> powered_points(const LadderGrid& grid, const std::vector<bool>
   for (const std::size_t i : order) {
     const GridShape& shape = grid.shapes[i];
     if (shape.to == 0) continue;
-    const bool passes = shape.symbol == "NOT" ? !powered[shape.from] : powered[shape.from] && closed[i];
+    const bool edge = shape.symbol == "P" || shape.symbol == "N";
+    const bool passes = shape.symbol == "NOT" ? !powered[shape.from] : closed[i] && (edge || powered[shape.from]);
     if (passes) powered[shape.to] = true;
   }
   return powered;

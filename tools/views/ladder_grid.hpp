@@ -67,7 +67,7 @@ struct LadderGrid {
 LadderGrid grid_of(const stl::LadderNetwork& network, int columns);
 
 /// Whether each point has power: `closed` says of each shape, in the order of the instructions, whether it lets through what
-/// reaches it; a NOT lets through what does not.
+/// reaches it, and of an edge whether power comes out of it; a NOT lets through what does not reach it.
 std::vector<bool> powered_points(const LadderGrid& grid, const std::vector<bool>& closed);
 
 }  // namespace s7200::tools

@@ -152,6 +152,19 @@ std::string rows_text(const DrawnNetwork& network, bool ascii, const LadderFlow*
   return text;
 }
 
+/// What the elements found, each value once.
+std::string values_text(const LadderFlow& flow) {
+  std::vector<std::string> values;
+  for (const std::string& value : flow.values)
+    if (!value.empty() && std::ranges::find(values, value) == values.end()) values.push_back(value);
+  if (values.empty()) return {};
+  return stl::wrapped("    " +
+                          stl::joined(
+                              values, [](const auto& value) { return value; }, "  ") +
+                          "\n",
+                      kLadderColumns, 4);
+}
+
 std::string listing_text(const DrawnNetwork& network, const std::vector<const stl::Statement*>& statements) {
   std::string text =
       fmt::format("{}{:<4}STL\n", stl::wrapped(why_not_text(network) + "\n", kLadderColumns), network.ladder.number);
@@ -241,6 +254,7 @@ std::string network_text(const DrawnNetwork& network, const stl::Source& program
     text += stl::printable(fmt::format("// {}", stl::trim(comment))) + "\n";
   if (!network.why_not.empty()) return text + listing_text(network, statements_of(program));
   text += network.ladder.head ? head_text(*network.ladder.head, ascii) : rows_text(network, ascii, flow);
+  if (flow) text += values_text(*flow);
   if (!network.other_stl.empty()) text += stl::wrapped("    " + other_stl_text(network) + "\n", kLadderColumns);
   for (const std::string& line : notes_text(network, program)) text += line + "\n";
   return text;

@@ -119,6 +119,16 @@ TEST(Pages, GetTheStatusOfLinesWithTheTypesOfTheirOperands) {
   EXPECT_TRUE(has(session.error_of("status 1 2000"), "at most 1000"));
 }
 
+TEST(Pages, GetANetworkAsLadderWithItsPowerFlow) {
+  Asked session("NETWORK 1\nLD I0.0\nA I0.1\n= Q0.0\nMEND\n");
+  session("force I0.0=1");
+  session("scan 2");
+  const Json json = session.json("ladder NETWORK 1");
+  EXPECT_EQ(json["power"], Json::array({true, true, false}));
+  EXPECT_EQ(json["elements"][0]["value"], "I0.0=1");
+  EXPECT_EQ(json["elements"][1]["from"], 1);
+}
+
 TEST(Pages, GetManyValuesEachInItsForm) {
   Asked session(kTitled);
   session("set VW10=-5 VD40=1.5");

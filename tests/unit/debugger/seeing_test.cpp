@@ -31,6 +31,26 @@ TEST(Seeing, TheParametersOfACallHaveTheirValuesInStepsHistoryAndStatus) {
   EXPECT_TRUE(has(session("scan; status"), "S0=1 M0.0=1 VW10=16#0003"));
 }
 
+TEST(Seeing, LadderDrawsANetworkWithThePowerFlowOfItsLastExecution) {
+  constexpr std::string_view kText =
+      "NETWORK 1\nLD I0.0\nO M0.0\nA I0.1\n= Q0.0\nNETWORK 2\nLDW> VW0, -5\nEU\nMOVW VW2, VW4\nAENO\n= Q0.1\n"
+      "NETWORK 3\nLD M1.0\nCALL 0\nMEND\nNETWORK 4\nSBR 0\nLD I0.5\nCRET\nRET\n";
+  AtPrompt session(check_text(kText, "test.stl", cpu224(), default_times(cpu224())).program);
+  const std::string first = session("force I0.0=1; scan 2; ladder NETWORK 1");
+  EXPECT_TRUE(has(first, "1   ╠═┤   ├═╦═┤   ├───(     )\n"));
+  EXPECT_TRUE(has(first, "    I0.0=1  M0.0=0  I0.1=0  Q0.0=0\n"));
+  EXPECT_TRUE(has(session("force I0.1=1; scan 2; ladder 3"), "1   ╠═┤   ├═╦═┤   ├═══(     )\n"));
+  EXPECT_TRUE(has(session("ladder NETWORK 2"), "2   ╠═┤ > W ├═══┤ P ├─────┤EN ENO├──────(     )\n"));
+  EXPECT_TRUE(has(session("ladder SBR 0"), "not executed within "));
+  EXPECT_TRUE(has(session.error_of("ladder 99"), "the last instruction is in line"));
+}
+
+TEST(Seeing, LadderInThePastDrawsThePast) {
+  AtPrompt session("NETWORK 1\nLD SM0.1\n= Q0.0\nMEND\n");
+  EXPECT_TRUE(has(session("scan 3; ladder NETWORK 1"), "1   ╠═┤   ├───(     )\n"));
+  EXPECT_TRUE(has(session("at start; step 2; ladder NETWORK 1"), "1   ╠═┤   ├═══(     )\n"));
+}
+
 TEST(Seeing, WhoKnowsWhichInstructionAttachedAnEvent) {
   AtPrompt session(kNested);
   EXPECT_TRUE(has(session("continue 50ms; who event 10"),

@@ -256,6 +256,11 @@ they were set at. What stops at another station goes over to it.)",
        R"(Of the last 2 s at least. S0 is the top of the logic stack after it. For example: status NETWORK 2, or from one line
 to another: status 40 60.)",
        commands::status, Takes::Places},
+      {"ladder", "", "ladder [LINE | SBR n | INT n | LBL n | NETWORK n]",
+       "a network as ladder, with the power flow of its last execution",
+       R"(Double lines have power; below are the values that its instructions found. What was not executed in the last 2 s has none.
+For example: ladder, where the program stands, or ladder NETWORK 2. In the past it draws the past.)",
+       commands::ladder, Takes::Places},
       {"regs", "r", "regs", "time, place, calls, accumulators, flags, interrupts", "", commands::registers},
       {"record", "", "record FILE.yaml [!]", "write this session, up to now, as a scenario that 's7200 test' replays",
        R"(Frames, those that came over a bridge too, memory and inputs that were set, what was forced, modes, faults of the line

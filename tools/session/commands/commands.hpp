@@ -53,6 +53,7 @@ Reply display(Session& session, const Words& words);
 Reply station(Session& session, const Words& words);
 Reply list(Session& session, const Words& words);
 Reply status(Session& session, const Words& words);
+Reply ladder(Session& session, const Words& words);
 Reply registers(Session& session, const Words& words);
 Reply stack(Session& session, const Words& words);
 Reply port(Session& session, const Words& words);

@@ -3,13 +3,17 @@
 
 #include <algorithm>
 
+#include "interpreter/analysis/drawn_networks.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/session/commands/commands.hpp"
+#include "tools/session/commands/ladder_flow.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/commands/status.hpp"
 #include "tools/session/words/words.hpp"
+#include "tools/views/ladder_json.hpp"
+#include "tools/views/ladder_text.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/report.hpp"
 
@@ -104,6 +108,29 @@ Reply status(Session& session, const Words& arguments) {
   std::uint32_t end = first;
   while (end < std::min(ops, first + kShown) && (end == first || !network || !session.listing().begins_network(end))) ++end;
   return status_reply(session, first, end);
+}
+
+Reply ladder(Session& session, const Words& arguments) {
+  std::string why;
+  const auto place = arguments.empty() ? session.current_op() : find_op(session, arguments, "ladder", why);
+  if (!why.empty()) return wrong(why);
+  const Program& program = session.program();
+  const std::vector<DrawnNetwork> networks = drawn_networks(program.source);
+  auto network = std::ranges::find_if(networks, [&](const DrawnNetwork& each) { return place.value_or(0) < each.end; });
+  if (network == networks.end()) return wrong("there is no network");
+  if (network->ladder.head && network + 1 != networks.end()) ++network;  // of a routine or a label: what follows it
+  if (!network->why_not.empty())
+    return {.text = network_text(*network, program.source, false), .json = network_json(*network, program.source)};
+  const LastExecutions last = last_executions_of(session, network->first, network->end);
+  const LadderFlow flow = ladder_flow(program, *network, last);
+  Reply reply{.text = network_text(*network, program.source, false, &flow),
+              .json = network_json(*network, program.source, &flow),
+              .interrupted = last.interrupted};
+  if (last.of.empty())
+    reply.text += last.interrupted
+                      ? "interrupted while its last execution was looked for\n"
+                      : "not executed within " + format_duration(session.simulation().time() - last.since) + "\n";
+  return reply;
 }
 
 Reply registers(Session& session, const Words&) {
