@@ -67,9 +67,9 @@ steps: [wait: 1ms]
   EXPECT_EQ(s.line.baud, 19200U);
   EXPECT_EQ(s.line.parity, Parity::Odd);
   EXPECT_EQ(s.line.stop_bits, 2U);
-  ASSERT_EQ(s.set.size(), 2U);
-  EXPECT_EQ(s.set[0].value, 0x1234U);
-  EXPECT_EQ(s.clock->hour, 10);
+  ASSERT_EQ(s.plc.set.size(), 2U);
+  EXPECT_EQ(s.plc.set[0].value, 0x1234U);
+  EXPECT_EQ(s.plc.clock->hour, 10);
   EXPECT_EQ(s.after, 100 * kMillisecond);
   EXPECT_EQ(s.pause, (Span{0, 3500}));
   EXPECT_EQ(s.line.timeout, 2 * kSecond);
