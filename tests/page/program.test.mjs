@@ -116,6 +116,29 @@ test('the keyboard reaches lines, breakpoints and the menus of addresses', async
   await page.close();
 });
 
+test('the ladder has the power flow of the moment, and its addresses have their menus', async () => {
+  const page = await open(chrome, await start(...kPump));
+  for (const name of ['I0.1', 'I0.0']) await page.click(`[aria-label^="Input ${name}"]`);
+  for (let i = 0; i < 3; ++i) await page.click('#do-scan');
+  await page.click('text=LAD');
+  const pump = page.locator('.ladder-network', { hasText: 'network 2: Pump' });
+  await pump.locator('svg').waitFor();
+  await page.waitForFunction(() => {
+    const network = [...document.querySelectorAll('.ladder-network')].find((one) => one.textContent.includes('network 2: Pump'));
+    return network.querySelectorAll('g.on').length === 5 && network.querySelectorAll('.closed').length === 4;
+  });
+  await picture(page, 'program_ladder');
+  await page.keyboard.press('Home');
+  await page.waitForFunction(() => document.querySelectorAll('.ladder .closed').length === 0);
+  await pump.locator('text.address:has-text("Q0.0")').last().click();
+  await page.waitForSelector('[role=menu][aria-label="Q0.0"]');
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('v');
+  await page.waitForSelector('.row');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('texts of a program and its symbols are text, never markup', async () => {
   const program = path.join(kFolder, 'hostile.awl');
   const symbols = path.join(kFolder, 'symbols.txt');

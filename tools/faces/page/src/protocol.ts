@@ -216,6 +216,8 @@ export interface LadderNetwork {
   first_op: number;
   ops: number;
   comments: string[];
+  /** What is known of its addresses: symbols and their comments. */
+  notes: { text: string; symbol: string; comment: string }[];
   head: string | null;
   why_not: string | null;
   elements?: LadderElement[];

@@ -1,9 +1,9 @@
 // The ladder: networks as the session draws them, on a grid of characters, with power flow at the moment where it stands. Only the
 // networks in view are asked for and made.
 import { h, type Child, type Part } from '../dom';
-import { also_seen, query, Seen } from '../session';
+import { also_seen, fetch_chunk_of, query, Seen } from '../session';
 import { changed, state } from '../state';
-import type { LadderElement, LadderNetwork } from '../protocol';
+import type { LadderElement, LadderNetwork, Reply } from '../protocol';
 import { open_menu } from './menu';
 
 const kCellWidth = 8, kCellHeight = 18;  // pixels of a character and a line
@@ -30,20 +30,44 @@ function places(): Place[] {
     })));
 }
 
-const seen = new Seen(async () => {
-  if (state.view !== 'ladder') return;
-  for (const place of [...in_view]) {
-    const reply = await query<{ networks: LadderNetwork[] }>(`ladder ${place.line}`);
-    if (reply.json) state.ladder.set(place.line, reply.json.networks);
-    else wrong = reply.error ?? '';
+const kMostParts = 20;
+
+/** A network is several drawings where a label divides it. */
+async function fetch_network(place: Place): Promise<void> {
+  const parts: LadderNetwork[] = [];
+  await fetch_chunk_of(place.line);
+  for (let line: number | undefined = place.line; line !== undefined && parts.length < kMostParts;) {
+    const reply: Reply<LadderNetwork> = await query<LadderNetwork>(`ladder ${line}`);
+    if (!reply.json) {
+      wrong = reply.error ?? '';
+      return;
+    }
+    parts.push(reply.json);
+    const next = reply.json.first_op + reply.json.ops;
+    line = next < place.end ? [...state.lines.values()].find((one) => one.op === next)?.line : undefined;
   }
+  state.ladder.set(place.line, parts);
+}
+
+const seen = new Seen(async () => {
+  if (state.view !== 'ladder' || !state.has_ladder) return;
+  for (const place of [...in_view]) await fetch_network(place);
 });
 also_seen(seen);
 
+/** Of networks that have been in view, in pixels. */
+const heights = new Map<number, number>();
+
 function height_of(place: Place): number {
-  const known = state.ladder.get(place.line);
-  if (!known) return kUnknownHeight;
-  return 34 + known.reduce((sum, one) => sum + 18 * one.comments.length + (one.grid ? one.grid.rows * kCellHeight + 16 : 18 * (one.ops + 2)), 0);
+  return (state.ladder.has(place.line) ? heights.get(place.line) : undefined) ?? kUnknownHeight;
+}
+
+function measure(place: Place): (node: HTMLElement) => void {
+  return (node) => {
+    if (!state.ladder.has(place.line) || heights.get(place.line) === node.offsetHeight) return;
+    heights.set(place.line, node.offsetHeight);
+    changed();
+  };
 }
 
 const middle_x = (column: number): number => kRail + column * kCellWidth;
@@ -96,21 +120,33 @@ function element(one: LadderElement, power: boolean[]): Part {
   const here = one.op !== null && one.op === state.past?.op;
   return h('g', { class: `${on ? 'on' : ''}${here ? ' here' : ''}`, onclick: () => { state.selected_line = one.line; changed(); } },
     h('title', {}, `line ${one.line}${value ? `: ${value}` : ''}`),
-    filling(one), one.kind === 'box' ? box(one) : h('path', { class: 'wire', d: one.kind === 'contact' ? contact_path(one) : coil_path(one) }),
+    filling(one, power), one.kind === 'box' ? box(one) : h('path', { class: 'wire', d: one.kind === 'contact' ? contact_path(one) : coil_path(one) }),
     symbol_text(one), one.operands.map((text) => address_text(text.text, text.column, text.row, one.op)));
 }
 
 /** A contact that is closed is filled, as in Micro/WIN. */
-function filling(one: LadderElement): Child {
-  if (one.kind !== 'contact' || !is_closed(one)) return null;
+function filling(one: LadderElement, power: boolean[]): Child {
+  if (one.kind !== 'contact' || !is_closed(one, power)) return null;
   const narrow = one.symbol === '' || one.symbol === '/', inset = narrow ? kCellWidth : 0;
   const left = middle_x(one.column) + inset + 2, right = middle_x(one.column + one.width - 1) - inset - 2;
   return h('rect', { class: 'closed', x: left, y: middle_y(one.row) - 6, width: Math.max(1, right - left), height: 12 });
 }
 
-function is_closed(one: LadderElement): boolean {
-  const normally_closed = one.symbol === '/' || one.symbol === '/I';
-  return normally_closed ? one.value === '0' : one.value === '1';
+/** By the value of its bit; of another contact only what its power flow says. */
+function is_closed(one: LadderElement, power: boolean[]): boolean {
+  const bit = /=([01])$/.exec(one.value ?? '');
+  if (!bit || /[<>=]/.test(one.symbol)) return power[one.from] === true && one.to !== null && power[one.to] === true;
+  return (bit[1] === '1') !== one.symbol.startsWith('/');
+}
+
+/** What boxes and comparisons found or left, and the symbols of the addresses, below the drawing. */
+function values(network: LadderNetwork): Child {
+  const all = (network.elements ?? []).filter((one) => one.kind === 'box' || /[<>=]/.test(one.symbol)).map((one) => one.value ?? '');
+  const said = [...new Set(all.filter((text) => text !== ''))];
+  const symbols = network.notes.filter((note) => note.symbol !== '');
+  if (said.length + symbols.length === 0) return null;
+  return h('div', { class: 'ladder-values' }, said.map((text) => h('span', {}, text)),
+    symbols.map((note) => h('span', { class: 'hint', title: note.comment }, `${note.text} ${note.symbol}`)));
 }
 
 function drawing(network: LadderNetwork): Part {
@@ -132,7 +168,7 @@ function stl_of(network: LadderNetwork): Part {
 
 function network_part(one: LadderNetwork): Child[] {
   return [one.comments.map((comment) => h('div', { class: 'comment' }, comment)),
-    one.head !== null ? h('div', { class: 'ladder-stl' }, one.head) : one.grid ? drawing(one) : stl_of(one)];
+    one.head !== null ? h('div', { class: 'ladder-stl' }, one.head) : one.grid ? [drawing(one), values(one)] : stl_of(one)];
 }
 
 function follow(all: { place: Place; top: number }[]): void {
@@ -160,7 +196,7 @@ export function ladder_view(): Part {
   return h('div', { class: 'listing ladders', tabindex: '0', 'aria-label': 'Ladder', onscroll: changed,
     ref: (node: HTMLElement) => { const first = scroller !== node; scroller = node; if (first) requestAnimationFrame(changed); follow(all); } },
   h('div', { class: 'rows', style: { height: `${top}px` } }, shown.map(({ place, top: y }) =>
-    h('section', { class: `ladder-network${state.past?.op !== null && state.past && state.past.op! >= place.first && state.past.op! < place.end ? ' here' : ''}`, key: place.line, style: { top: `${y}px` } },
+    h('section', { class: `ladder-network${state.past?.op !== null && state.past && state.past.op! >= place.first && state.past.op! < place.end ? ' here' : ''}`, key: place.line, ref: measure(place), style: { top: `${y}px` } },
       h('h3', {}, place.name), (state.ladder.get(place.line) ?? []).map(network_part),
       state.ladder.has(place.line) ? null : h('div', { class: 'hint' }, wrong || '…')))));
 }
