@@ -63,6 +63,17 @@ test('a request and its answer', () => drawn(['stl_programs/modbus_slave.stl'], 
   await page.locator('.timeline').screenshot({ path: docs('page_timeline.png') });
 }));
 
+test('networks as ladder', () => drawn(kPump, async (page) => {
+  for (const name of ['I0.1', 'I0.0']) await page.click(`[aria-label^="Input ${name}"]`);
+  await run_for(page, 300);
+  await page.click('text=LAD');
+  await page.waitForSelector('.ladder .closed');
+  await page.click('text=Follow');
+  await page.selectOption('.navigator', { label: 'Network 2  Pump' });
+  await page.waitForTimeout(500);
+  await page.locator('.program').screenshot({ path: docs('page_ladder.png') });
+}));
+
 test('a forced output, a new value and a trend', () => drawn(kPump, async (page) => {
   for (const address of ['Pump', 'Run_Time', 'Longest_Run', 'T37']) {
     await page.fill('#add-address', address);

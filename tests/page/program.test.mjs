@@ -133,6 +133,9 @@ test('the ladder has the power flow of the moment, and its addresses have their 
   await pump.locator('text.address:has-text("Q0.0")').last().click();
   await page.waitForSelector('[role=menu][aria-label="Q0.0"]');
   await page.keyboard.press('Escape');
+  await page.selectOption('.navigator', { label: 'INT 0' });
+  await page.locator('.ladder-network', { hasText: 'INT 0, network 1' }).locator('svg').waitFor();
+  await page.evaluate(() => document.activeElement.blur());
   await page.keyboard.press('v');
   await page.waitForSelector('.row');
   assert.deepEqual(page.troubles, []);

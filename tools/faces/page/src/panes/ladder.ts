@@ -42,6 +42,7 @@ async function fetch_network(place: Place): Promise<void> {
       wrong = reply.error ?? '';
       return;
     }
+    if (reply.json.first_op >= place.end) break;  // the head of a routine stands alone: this is what follows it
     parts.push(reply.json);
     const next = reply.json.first_op + reply.json.ops;
     line = next < place.end ? [...state.lines.values()].find((one) => one.op === next)?.line : undefined;
@@ -177,6 +178,18 @@ function follow(all: { place: Place; top: number }[]): void {
   followed = op;
   const found = all.find(({ place }) => op >= place.first && op < place.end);
   if (found && (found.top < scroller.scrollTop || found.top > scroller.scrollTop + scroller.clientHeight - 60)) scroller.scrollTop = Math.max(0, found.top - 20);
+}
+
+/** Brings the network of that line into view, or the first one after it. */
+export function show_in_ladder(line: number): void {
+  if (!scroller) return;
+  let top = 0;
+  for (const place of places()) {
+    if (place.line >= line) break;
+    top += height_of(place);
+  }
+  scroller.scrollTop = top;
+  changed();
 }
 
 export function ladder_view(): Part {

@@ -5,7 +5,7 @@ import { changed, state } from '../state';
 import { duration_text, moment_text } from '../words';
 import type { Execution, Line, Operand } from '../protocol';
 import { open_menu, open_menu_at } from './menu';
-import { ladder_view } from './ladder';
+import { ladder_view, show_in_ladder } from './ladder';
 import { opener } from './opener';
 import { can_open } from '../playground';
 
@@ -46,6 +46,7 @@ async function find(text: string): Promise<void> {
   const outline = state.outline;
   if (!outline || text === '') return;
   const wanted = text.toLowerCase();
+  state.view = 'stl';
   const start = found_at === 0 ? line_at_top() : found_at + 1;
   for (let i = 0; i < outline.lines; ++i) {
     const number = ((start - 1 + i) % outline.lines) + 1;
@@ -164,7 +165,7 @@ function on_key(event: KeyboardEvent): void {
 function block_choice(): Part {
   return h('select', { class: 'navigator', 'aria-label': 'Go to block or network', value: '', onchange: (event: Event) => {
     const field = event.target as HTMLSelectElement;
-    if (field.value !== '') scroll_to(Number(field.value));
+    if (field.value !== '') (state.view === 'ladder' ? show_in_ladder : scroll_to)(Number(field.value));
     field.value = '';
   } }, h('option', { value: '' }, 'Block, network …'),
   (state.outline?.routines ?? []).map((routine) => h('optgroup', { label: routine.name }, [
