@@ -84,6 +84,12 @@ test('the search goes to the request without an answer', async () => {
   assert.ok(await moment(page) > 300);
 });
 
+test('the longest answer of the whole past is gone to', async () => {
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('Shift+L');
+  await page.waitForSelector('.notice:has-text("The longest of 2 answers: after 15.")');
+});
+
 test('the wheel zooms at the pointer, a click goes to the moment there', async () => {
   await page.click('#timeline-all');
   await page.waitForTimeout(300);
