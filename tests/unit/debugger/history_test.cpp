@@ -643,5 +643,19 @@ TEST(History, ALimitAmongScansThatAreAllAlikeEndsInFrontOfTheFirstInstructionAft
   }
 }
 
+TEST(History, ALimitEndsARunThatBeganWithAFrameUnderWayAndGoesOverAlikeScansAfterIt) {
+  const auto program =
+      test::compile("LD SM0.1\nMOVB 16#09, SMB30\nMOVB 2, VB100\nMOVB 65, VB101\nMOVB 66, VB102\nXMT VB100, 0\nMEND\n");
+  Recorded session(program);
+  session.simulation.cpu().use_steady_scans(SteadyScansUse::On);
+  Stepper stepper(*session.history, StopToken());
+  PlainUntil plain(program);
+  for (const Time limit : {kMillisecond, 200 * kMillisecond, 260 * kMillisecond}) {
+    EXPECT_EQ(stepper.run(goal::none(), limit, false).reason, StopReason::Limit);
+    plain.run_to(limit);
+    EXPECT_EQ(session.simulation.time(), plain.simulation.time()) << limit;
+  }
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -222,7 +222,9 @@ serial::Halt History::run_live() {
     const Time idle = executes() ? kNever : observer_->idles_until(time());
     if (idle <= time()) break;
     checkpoint_due_ = passes_over() ? next : kNever;
-    const Time end = passes_over() ? observer_->passes_over_until() : next;
+    // A run that wants scans now may want none soon, and then goes over as many as it may at once.
+    const Time over = observer_->passes_over_until();
+    const Time end = passes_over() ? over : over > time() ? std::min(next, over) : next;
     halt = run_live_until(executes() ? end : std::min({next, idle, time() + kSlice}));
     if (halt == serial::Halt::Time && time() >= next) keep_checkpoint();
   }
@@ -340,8 +342,8 @@ bool History::pass(Time end) {
     Time until = end;
     if (observer_ && !executes())
       until = std::min({end, observer_->idles_until(time()), time() + kSlice});
-    else if (observer_ && !wants_scans(0))
-      until = std::min(end, observer_->passes_over_until());
+    else if (const Time over = observer_ ? observer_->passes_over_until() : kNever; over > time() || !wants_scans(0))
+      until = std::min(end, over);
     if (until <= time()) return false;
     halt = run_until(until);
   }
