@@ -7,33 +7,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What has too much of something, or empty. Of a text that is JSON it counts right, and of no other does that matter.
-std::string why_too_much(std::string_view text, const JsonLimits& limits) {
-  if (text.size() > limits.bytes) return fmt::format("longer than {} bytes", limits.bytes);
-  std::vector<std::size_t> members;  // of each map or list that is open
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted && c == '\\')
-      ++i;
-    else if (c == '"')
-      quoted = !quoted;
-    else if (quoted)
-      continue;
-    else if (c == '{' || c == '[')
-      members.push_back(0);
-    else if ((c == '}' || c == ']') && !members.empty())
-      members.pop_back();
-    else if (c == ':' && !members.empty())
-      ++members.back();
-    if (members.size() > limits.depth)
-      return fmt::format("JSON of more than {} maps and lists inside each other", limits.depth);
-    if (!members.empty() && members.back() > limits.members)
-      return fmt::format("JSON with more than {} members in one map", limits.members);
-  }
-  return {};
-}
-
 [[noreturn]] void wrong_kind(const Json& value, std::string_view kind) {
   throw WrongValue(fmt::format("{} is not {}", shown(value), kind));
 }
@@ -46,19 +19,6 @@ const Json& of_kind(const Json& map, const char* key, Json::value_t kind, std::s
 }
 
 }  // namespace
-
-std::optional<Json> parse_json(std::string_view text, std::string& why, const JsonLimits& limits) {
-  why = why_too_much(text, limits);
-  if (!why.empty()) return {};
-  Json json = Json::parse(text, nullptr, false);
-  if (!json.is_discarded()) return json;
-  why = "not JSON";
-  return {};
-}
-
-std::string in_one_line(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-std::string shown(const Json& value) { return stl::shortened(in_one_line(value)); }
 
 std::string text_of(const Json& value) {
   if (!value.is_string()) wrong_kind(value, "a text");

@@ -1,4 +1,4 @@
-// JSON that comes from outside: read within limits, and its values taken by their kind.
+// JSON that comes from outside: its values taken by their kind. What is wrong with one is thrown.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,31 +16,15 @@
 #include <vector>
 
 #include "interpreter/base/numbers.hpp"
+#include "tools/json/json_text.hpp"
 
 namespace s7200::tools {
-
-/// How much a JSON text may have.
-struct JsonLimits {
-  std::size_t bytes = 64 << 20;
-  std::size_t depth = 64;        ///< maps and lists inside each other: what handles them calls itself for each
-  std::size_t members = 10'000;  ///< of one map: each is compared with all before it
-};
-
-/// Returns nothing and sets `why` if the text is not JSON, or has more of something than `limits` allow. `why` completes a
-/// sentence that begins with "it is": `not JSON`.
-std::optional<nlohmann::ordered_json> parse_json(std::string_view text, std::string& why, const JsonLimits& limits = {});
 
 /// A value that is not what its place takes: `three: 3.5 is not a whole number from 0 to 255`.
 class WrongValue : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// A value as JSON in one line; what is not UTF-8 in it as U+FFFD.
-std::string in_one_line(const nlohmann::ordered_json& value);
-
-/// A value for a message, at most 40 characters of it.
-std::string shown(const nlohmann::ordered_json& value);
 
 /// The value as a number that the type can hold; `1.0` and `1e3` are whole. Returns nothing for anything else.
 template <class Number>

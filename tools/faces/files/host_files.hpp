@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/host/written_files.hpp"
+#include "tools/session/commands/session_file.hpp"
 #include "tools/session/commands/session_files.hpp"
 
 namespace s7200::tools {
@@ -17,6 +18,11 @@ class HostFiles final : public SessionFiles {
   bool begins(const std::string& path, std::string_view beginning) const override;
   std::optional<FilePlace> place_for(const WantedFile& wanted, std::string& why) const override;
   std::vector<std::string> names(std::string_view beginning) const override;
+  std::string saved(const SessionFile& session) const override { return to_text(session); }
+  std::optional<SessionFile> loaded(std::string_view text, std::span<const CpuModel* const> models,
+                                    std::span<const std::string> stations, std::string& why) const override {
+    return session_from_text(text, models, stations, why);
+  }
 
  private:
   WrittenFiles taken_;

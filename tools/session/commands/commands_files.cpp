@@ -151,7 +151,7 @@ Reply save(Session& session, const Words& arguments) {
     if (const auto* const event = std::get_if<SystemEvent>(&action))
       return wrong(
           fmt::format("cannot save: a step of the scenario did '{}', which saved sessions have no word for", event->words));
-  if (!to->write(to_text(file), why)) return wrong(why);
+  if (!to->write(session.setup.files->saved(file), why)) return wrong(why);
   session.said << fmt::format("saved: {} with {} from outside{}\n", moment_text(session.history.now().time),
                               counted(file.recording.actions.size(), "action"),
                               file.stops.empty() ? "" : fmt::format("; breakpoints and watches: {}", file.stops.size()));
@@ -171,7 +171,7 @@ Reply load(Session& session, const Words& arguments) {
   std::vector<std::string> names;
   for (const Session::Station& station : session.stations) models.push_back(station.simulation->cpu().program().model);
   for (const DebuggedStation& station : session.setup.stations) names.push_back(station.name);
-  const auto file = session_from_text(*text, models, names, why);
+  const auto file = session.setup.files->loaded(*text, models, names, why);
   const std::string differing = file ? differences(file->options, here.options) : "";
   for (std::size_t number = 0; file && why.empty() && number < session.stations.size(); ++number) {
     const SessionFile::Station &its = file->stations[number], &ours = here.stations[number];

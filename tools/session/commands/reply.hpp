@@ -1,12 +1,11 @@
 // What a command answers.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "tools/json/json.hpp"
 
 namespace s7200::tools {
 

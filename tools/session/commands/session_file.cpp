@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kFormat = "s7200 session 5", kAnyFormat = "s7200 session ";
+constexpr std::string_view kFormat = "s7200 session 5";
 
 /// Of JSON from outside, which may hold what is not UTF-8.
 std::string sum_of(const Json& json) { return digest_of(in_one_line(json)); }
@@ -323,36 +323,6 @@ std::string why_other_plcs(const Json& json, Models models, std::span<const std:
 
 }  // namespace
 
-std::string session_beginning() { return fmt::format("{{\n  \"format\": \"{}", kAnyFormat); }
-
-std::vector<SessionOption> options_of(const serial::MasterSettings& master, const ClockTime& clock) {
-  const auto number = [](const auto& given) { return given ? fmt::format("{}", *given) : std::string("as the port"); };
-  return {{"--baud", number(master.baud)},
-          {"--parity", master.parity ? std::string(word_of(*master.parity)) : "as the port"},
-          {"--data-bits", number(master.data_bits)},
-          {"--stop-bits", number(master.stop_bits)},
-          {"--timeout", format_duration(master.timeout, 9)},
-          {"--gap", master.gap == 0 ? "none" : format_duration(master.gap, 9)},
-          {"--clock", fmt::format("{:02}-{:02}-{:02} {:02}:{:02}:{:02}", clock.year, clock.month, clock.day, clock.hour,
-                                  clock.minute, clock.second)}};
-}
-
-std::string differences(const std::vector<SessionOption>& then, const std::vector<SessionOption>& now) {
-  const auto value_in = [](const std::vector<SessionOption>& options, const std::string& name) {
-    const auto found = std::ranges::find(options, name, &SessionOption::name);
-    return found == options.end() ? std::string("none") : found->value;
-  };
-  std::string text;
-  const auto compare = [&](const std::string& name) {
-    const std::string old = value_in(then, name), is = value_in(now, name);
-    if (old != is) text += fmt::format("{}{} {} (here {})", text.empty() ? "" : ", ", name, old, is);
-  };
-  for (const SessionOption& option : then) compare(option.name);
-  for (const SessionOption& option : now)
-    if (std::ranges::find(then, option.name, &SessionOption::name) == then.end()) compare(option.name);
-  return text;
-}
-
 std::string to_text(const SessionFile& file) {
   const Recording& recording = file.recording;
   const bool one = file.stations.size() == 1 && file.stations.front().name.empty();
@@ -391,7 +361,7 @@ std::optional<SessionFile> session_from_text(std::string_view text, std::span<co
   std::string not_json;
   Json json = parse_json(text, not_json).value_or(Json());
   const Json* const format = member(json, "format");
-  if (!format || !format->is_string() || !format->get_ref<const std::string&>().starts_with(kAnyFormat)) {
+  if (!format || !format->is_string() || !format->get_ref<const std::string&>().starts_with(kAnySessionFormat)) {
     why = !text.starts_with(session_beginning()) ? "it is not a saved session"
           : not_json.empty()                     ? "it is damaged"
                                                  : "it is damaged: it is " + not_json;

@@ -14,6 +14,9 @@
 
 namespace s7200::tools {
 
+/// The format of every version, without its number.
+inline constexpr std::string_view kAnySessionFormat = "s7200 session ";
+
 /// How the file begins: it is known by this.
 std::string session_beginning();
 

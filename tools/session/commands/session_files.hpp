@@ -3,11 +3,18 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+namespace s7200 {
+struct CpuModel;
+}
+
 namespace s7200::tools {
+
+struct SessionFile;
 
 /// What may be there already where a file is to be written.
 enum class Replacing : std::uint8_t { Own, Nothing, Anything };
@@ -43,6 +50,12 @@ class SessionFiles {
 
   /// Files and folders whose names begin so; folders end with `/`.
   virtual std::vector<std::string> names(std::string_view beginning) const = 0;
+
+  /// A saved session as the text of a file, and out of one: to_text() and session_from_text() of session_file.hpp, which
+  /// throw inside, as not every system that holds a session can.
+  virtual std::string saved(const SessionFile& session) const = 0;
+  virtual std::optional<SessionFile> loaded(std::string_view text, std::span<const CpuModel* const> models,
+                                            std::span<const std::string> stations, std::string& why) const = 0;
 };
 
 }  // namespace s7200::tools

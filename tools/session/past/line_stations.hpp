@@ -11,8 +11,6 @@
 
 namespace s7200::tools {
 
-class Rig;
-
 /// One on a line; a PLC for each of its ports.
 struct LineStation {
   enum class Kind : std::uint8_t { Plc, Poller, Responder, Bridge };
@@ -25,9 +23,6 @@ struct LineStation {
   std::string line_name{};
   int driver = 0;
 };
-
-/// Of all lines, in the order of the system file.
-std::vector<LineStation> line_stations(Rig& rig);
 
 /// `a master that polls`
 std::string_view kind_text(LineStation::Kind kind);

@@ -26,6 +26,19 @@ std::vector<Spot> spots_of(const SystemPlan& plan, const std::vector<Spot>& aske
   return spots;
 }
 
+int driver_of(const Rig& rig, std::size_t line, const StationPlan& station, const std::string& name) {
+  if (station.kind == StationPlan::Kind::Plc) return rig.plc(station.number).driver(station.port);
+  int driver = 0;
+  while (driver < serial::Line::kDrivers && rig.station_at(line, driver) != name) ++driver;
+  return driver;
+}
+
+LineStation::Kind kind_of(const Rig& rig, const StationPlan& station) {
+  if (station.kind == StationPlan::Kind::Plc) return LineStation::Kind::Plc;
+  if (station.kind == StationPlan::Kind::Bridge) return LineStation::Kind::Bridge;
+  return rig.poller(station.number) ? LineStation::Kind::Poller : LineStation::Kind::Responder;
+}
+
 }  // namespace
 
 SeenRig::SeenRig(Rig& rig, const std::vector<Spot>& asked) : spots_(spots_of(rig.plan(), asked)) {
@@ -43,6 +56,23 @@ std::vector<serial::Simulation*> SeenRig::stations() const {
 std::optional<std::size_t> SeenRig::station_on(std::size_t line) const {
   const auto spot = std::ranges::find(spots_, line, &Spot::line);
   return spot == spots_.end() ? std::nullopt : std::optional(spot->plc);
+}
+
+std::vector<LineStation> line_stations(Rig& rig) {
+  std::vector<LineStation> all;
+  const std::vector<LinePlan>& lines = rig.plan().lines;
+  for (std::size_t line = 0; line < lines.size(); ++line)
+    for (const StationPlan& station : lines[line].stations) {
+      const std::string& name = name_of(rig.plan(), station);
+      all.push_back({.kind = kind_of(rig, station),
+                     .name = name,
+                     .number = station.number,
+                     .port = station.port,
+                     .line = &rig.line(line),
+                     .line_name = lines[line].name,
+                     .driver = driver_of(rig, line, station, name)});
+    }
+  return all;
 }
 
 History::Settings history_settings(Rig& rig) {

@@ -27,6 +27,9 @@ class SeenRig {
   std::vector<std::unique_ptr<serial::Simulation>> simulations_;
 };
 
+/// The stations of all lines, in the order of the system file.
+std::vector<LineStation> line_stations(Rig& rig);
+
 /// What a history knows of a rig by name: its PLCs, masters that poll, and what its system file has planned. It drives and
 /// records nothing.
 History::Settings history_settings(Rig& rig);
