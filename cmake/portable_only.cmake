@@ -19,5 +19,7 @@ endif()
 
 add_subdirectory(interpreter)
 add_subdirectory(serial_sim)
-add_subdirectory(tools/views)
+foreach(room views json rig session faces/page)
+  add_subdirectory(tools/${room})
+endforeach()
 add_subdirectory(tests/platforms)

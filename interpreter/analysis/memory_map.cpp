@@ -32,9 +32,9 @@ Bits common(const Bits& a, const Bits& b) {
 
 Bits bits_of(const InitialData& data) { return {(image::kV + data.offset) * 8u, data.bytes.size() * 8}; }
 
-class Builder {
+class MapBuilder {
  public:
-  Builder(const Facts& facts, const CrossReference& reference) : facts_(facts), reference_(reference) {}
+  MapBuilder(const Facts& facts, const CrossReference& reference) : facts_(facts), reference_(reference) {}
 
   MemoryMap all() {
     for (const ReferenceEntry& entry : reference_.entries) {
@@ -136,6 +136,6 @@ class Builder {
 
 }  // namespace
 
-MemoryMap memory_map(const Facts& facts, const CrossReference& reference) { return Builder(facts, reference).all(); }
+MemoryMap memory_map(const Facts& facts, const CrossReference& reference) { return MapBuilder(facts, reference).all(); }
 
 }  // namespace s7200

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """The libraries that know no operating system say the same on every system: builds them for one, lets them have the same
-conversation with the same programs, and compares what is printed with what the native build prints, byte by byte.
+conversation with the same programs, and with the engine of the page, and compares what is printed with what the native build
+prints, byte by byte.
 
-    run.py SYSTEM NATIVE_CONVERSATION SOURCE_FOLDER BUILD_FOLDER
+    run.py SYSTEM NATIVE_CONVERSATION NATIVE_ENGINE_LINES SOURCE_FOLDER BUILD_FOLDER
 
 Exit code 77, which a test run shows as skipped, if the compiler or what runs its programs is missing; the package is named.
 """
@@ -12,6 +13,8 @@ import pathlib
 import shutil
 import subprocess
 import sys
+
+from engine_messages import messages
 
 HERE = pathlib.Path(__file__).resolve().parent
 SKIPPED = 77
@@ -31,6 +34,8 @@ class System:
     needed: dict  # packages by the commands that they bring
     start: callable  # the command that runs a program
     lacks: callable = lambda: ""  # why nothing here can run its programs
+    engine: str = "engine_lines"  # the target that the engine of the page is
+    start_engine: callable = None  # the command that runs it, if it is another than that of programs
 
 
 def node(program):
@@ -45,9 +50,13 @@ def lacks_tail_calls():
     return "" if found else "this Node has no tail calls of WebAssembly; version 20 has them"
 
 
+def module(engine):
+    return ["node", "--no-warnings", "--single-threaded", "--experimental-wasi-unstable-preview1", HERE / "engine.mjs", engine]
+
+
 SYSTEMS = {
-    "wasm": System("wasm", {"clang++-19": FOR_WASM, "node": FOR_WASM}, node),
-    "wasm-tail-calls": System("wasm-tail-calls", {"clang++-19": FOR_WASM, "node": FOR_WASM}, node, lacks_tail_calls),
+    "wasm": System("wasm", {"clang++-19": FOR_WASM, "node": FOR_WASM}, node, engine="engine", start_engine=module),
+    "wasm-tail-calls": System("wasm-tail-calls", {"clang++-19": FOR_WASM, "node": FOR_WASM}, node, lacks_tail_calls, "engine", module),
     "mingw": System("mingw", {"x86_64-w64-mingw32-g++-posix": "g++-mingw-w64-x86-64-posix", WINE: "wine64"},
                     lambda program: [WINE, program]),
 }
@@ -57,12 +66,11 @@ def programs(source):
     return [source / "stl_programs/modbus_slave.stl", source / "stl_programs/text_commands.stl", HERE / "reals.awl"]
 
 
-def said(command, program):
-    with open(program, "rb") as listing:
-        result = subprocess.run(command, stdin=listing, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
-                                env=os.environ | {"WINEDEBUG": "-all"})
+def said(command, text, name):
+    result = subprocess.run(command, input=text, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
+                            env=os.environ | {"WINEDEBUG": "-all"})
     if result.returncode != 0 or not result.stdout:
-        sys.exit(f"{' '.join(map(str, command))} < {program.name}: exit code {result.returncode}\n"
+        sys.exit(f"{' '.join(map(str, command))} < {name}: exit code {result.returncode}\n"
                  f"{result.stderr.decode()[-2000:]}{result.stdout.decode(errors='replace')[-500:]}")
     return result.stdout
 
@@ -73,17 +81,23 @@ def first_difference(native, other):
     return f"line {number}\n  native: {ours.decode(errors='replace')}\n  there:  {theirs.decode(errors='replace')}"
 
 
-def build(preset, source, build_folder):
-    """Configures and builds a preset in a folder of the native build, so that the next run finds it there."""
+def build(system, source, build_folder):
+    """Configures and builds a preset in a folder of the native build, so that the next run finds it there. Returns the programs."""
+    preset = system.preset
     folder = build_folder / "platforms" / preset
     quickly = "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
     for command in (["cmake", "--preset", preset, "-B", folder, quickly],
-                    ["cmake", "--build", folder, "--target", "conversation"]):
+                    ["cmake", "--build", folder, "--target", "conversation", system.engine]):
         result = subprocess.run(command, cwd=source, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         if result.returncode != 0:
             sys.exit(f"{' '.join(map(str, command))}:\n{result.stdout.decode()[-6000:]}")
-    built = [path for path in (folder / "tests/platforms").glob("conversation*") if path.is_file()]
-    return built[0] if len(built) == 1 else sys.exit(f"{folder} has {len(built)} programs")
+    return [program_in(folder / "tests/platforms", "conversation"),
+            program_in(folder / ("tests/platforms" if system.engine == "engine_lines" else "tools/faces/page/engine"), system.engine)]
+
+
+def program_in(folder, name):
+    built = [path for path in folder.glob(f"{name}*") if path.is_file() and path.suffix in ("", ".exe", ".wasm")]
+    return built[0] if len(built) == 1 else sys.exit(f"{folder} has {len(built)} programs {name}")
 
 
 def skip(why):
@@ -91,23 +105,28 @@ def skip(why):
     sys.exit(SKIPPED)
 
 
+def compare(native, there, text, name):
+    """How many lines are the same."""
+    expected, heard = said(native, text, name), said(there, text, name)
+    if heard != expected:
+        sys.exit(f"{name}: {first_difference(expected, heard)}")
+    return len(expected.splitlines())
+
+
 def main():
-    system, native, source, build_folder = SYSTEMS[sys.argv[1]], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
+    system, native, native_engine = SYSTEMS[sys.argv[1]], sys.argv[2], sys.argv[3]
+    source, build_folder = pathlib.Path(sys.argv[4]), pathlib.Path(sys.argv[5])
     for command, packages in system.needed.items():
         if shutil.which(command) is None:
             skip(f"there is no {command}: apt-get install {packages}")
     if why := system.lacks():
         skip(why)
-    program_file = build(system.preset, source, build_folder)
-    lines = 0
-    for program in programs(source):
-        expected = said([native], program)
-        heard = said(system.start(program_file), program)
-        if heard != expected:
-            sys.exit(f"{program.name}: {first_difference(expected, heard)}")
-        lines += len(expected.splitlines())
-    print(f"{len(programs(source))} conversations of {lines} lines in all are those of the native build; "
-          f"the program has {program_file.stat().st_size / 1e6:.2f} MB")
+    program_file, engine = build(system, source, build_folder)
+    lines = sum(compare([native], system.start(program_file), program.read_bytes(), program.name) for program in programs(source))
+    said_by_page = "".join(text + "\n" for text in messages(source)).encode()
+    replies = compare([native_engine], (system.start_engine or system.start)(engine), said_by_page, "messages of a page")
+    print(f"{len(programs(source))} conversations of {lines} lines in all and {replies} replies of the engine are those of the native build; "
+          f"the programs have {program_file.stat().st_size / 1e6:.2f} and {engine.stat().st_size / 1e6:.2f} MB")
 
 
 main()

@@ -203,7 +203,7 @@ ordered_json element_json(const Inspection& inspection, const MemoryMap::Element
   return json;
 }
 
-ordered_json places_json(const Inspection& inspection, const std::vector<std::uint32_t>& ops) {
+ordered_json map_places_json(const Inspection& inspection, const std::vector<std::uint32_t>& ops) {
   ordered_json all = ordered_json::array();
   for (const std::uint32_t op : ops) all.push_back(place_json(inspection, op));
   return all;
@@ -232,8 +232,9 @@ ordered_json map_json(const Inspection& inspection) {
   for (const MemoryMap::Element& timer : map.timers) json["timers"].push_back(element_json(inspection, timer, "T"));
   for (const MemoryMap::Element& counter : map.counters) json["counters"].push_back(element_json(inspection, counter, "C"));
   for (const MemoryMap::Data& data : map.data)
-    json["data_block"].push_back({{"memory", range_text(data.bits)}, {"writers", places_json(inspection, data.writers)}});
-  json["eeprom_savers"] = places_json(inspection, map.savers);
+    json["data_block"].push_back(
+        {{"memory", range_text(data.bits)}, {"writers", map_places_json(inspection, data.writers)}});
+  json["eeprom_savers"] = map_places_json(inspection, map.savers);
   for (const StandIn& stand_in : stand_ins_of(inspection.program->source))
     json["stand_ins"].push_back({{"file", stand_in.file},
                                  {"routines", stand_in.routines},

@@ -10,7 +10,7 @@
 
 #include "interpreter/analysis/check.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/json/json.hpp"
+#include "tools/json/json_text.hpp"
 
 namespace s7200::tools::page {
 namespace {

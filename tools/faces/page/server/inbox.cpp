@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tools/json/json.hpp"
+#include "tools/json/json_text.hpp"
 
 namespace s7200::tools::page {
 

@@ -1,0 +1,45 @@
+// A session that is all in one place, for a page that holds it itself: programs and commands in, messages out. The messages
+// are those of docs/page_protocol.md, as over the WebSocket of `s7200 view`.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "interpreter/program/address.hpp"
+#include "serial_sim/faults/fault.hpp"
+#include "serial_sim/system/simulation.hpp"
+#include "tools/faces/page/conversation.hpp"
+
+namespace s7200::tools::page {
+
+/// What surrounds the PLC of a page.
+struct Surroundings {
+  std::uint8_t port = 0;  ///< that is on the line with the master
+  std::vector<Assignment> set{};
+  std::vector<serial::Fault> faults{};
+};
+
+class Engine {
+ public:
+  /// `send` gets each message, in one line.
+  explicit Engine(std::function<void(std::string)> send) : send_(std::move(send)) {}
+
+  /// Carries out a message; its reply and all notifications have been sent when it returns.
+  void take(std::string_view message);
+
+ private:
+  void open(const Json& message);
+  void begin(std::shared_ptr<const Program> program, const Surroundings& around);
+
+  std::function<void(std::string)> send_;
+  std::unique_ptr<serial::Simulation> simulation_{};
+  std::unique_ptr<History> history_{};
+  std::unique_ptr<Conversation> talk_{};  ///< null before a program was opened
+};
+
+}  // namespace s7200::tools::page

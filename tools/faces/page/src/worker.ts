@@ -1,0 +1,75 @@
+// The session in the browser: s7200 as WebAssembly, with the same messages as over the WebSocket (docs/page_protocol.md).
+
+/** The module in a page that is one file: deflated (gzip), in base64. A page with files beside it has `engine.wasm`. */
+declare const kEngine: string | undefined;
+
+interface Engine {
+  memory: WebAssembly.Memory;
+  _initialize(): void;
+  room(size: number): number;
+  take(size: number): void;
+  next(): number;
+  message(): number;
+}
+
+async function module_bytes(): Promise<ArrayBuffer> {
+  if (typeof kEngine === 'undefined') return (await fetch(new URL('engine.wasm', self.location.href))).arrayBuffer();
+  const deflated = Uint8Array.from(atob(kEngine), (character) => character.charCodeAt(0));
+  return new Response(new Blob([deflated]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+}
+
+const kFine = 0, kNotThere = 8; // errno of WASI
+
+/** What a module of WASI asks its system for: there are no files here, and no clock. What it prints goes to the console. */
+function system(memory: () => WebAssembly.Memory): WebAssembly.ModuleImports {
+  const view = (): DataView => new DataView(memory().buffer);
+  const calls: Record<string, (...given: number[]) => number> = {
+    fd_write: (_descriptor = 0, pieces = 0, count = 0, written = 0) => {
+      let size = 0;
+      for (let piece = pieces; piece < pieces + 8 * count; piece += 8) {
+        const length = view().getUint32(piece + 4, true);
+        console.error(new TextDecoder().decode(new Uint8Array(memory().buffer, view().getUint32(piece, true), length)));
+        size += length;
+      }
+      view().setUint32(written, size, true);
+      return kFine;
+    },
+    environ_sizes_get: (count = 0, size = 0) => {
+      view().setUint32(count, 0, true);
+      view().setUint32(size, 0, true);
+      return kFine;
+    },
+    environ_get: () => kFine,
+    proc_exit: (code = 0) => {
+      throw new Error(`the engine has ended with ${code}`);
+    },
+  };
+  return new Proxy<WebAssembly.ModuleImports>({}, { get: (_none, name) => calls[String(name)] ?? (() => kNotThere) });
+}
+
+async function load(): Promise<Engine> {
+  let engine: Engine | undefined;
+  const memory = (): WebAssembly.Memory => engine!.memory;
+  const { instance } = await WebAssembly.instantiate(await module_bytes(), { wasi_snapshot_preview1: system(memory) });
+  engine = instance.exports as unknown as Engine;
+  engine._initialize();
+  return engine;
+}
+
+/** Carries out a message, and reads what came of it. */
+function take(engine: Engine, message: unknown): unknown[] {
+  const bytes = new TextEncoder().encode(JSON.stringify(message));
+  const room = engine.room(bytes.length); // before memory is looked at: it may have grown
+  new Uint8Array(engine.memory.buffer).set(bytes, room);
+  engine.take(bytes.length);
+  const all: unknown[] = [];
+  for (let size = engine.next(); size >= 0; size = engine.next())
+    all.push(JSON.parse(new TextDecoder().decode(new Uint8Array(engine.memory.buffer, engine.message(), size))));
+  return all;
+}
+
+const engine = load();
+self.onmessage = async ({ data }: MessageEvent) => {
+  for (const message of take(await engine, data)) self.postMessage(message);
+};
+engine.catch((error: unknown) => setTimeout(() => { throw error; })); // an error of the worker, which the page hears of
