@@ -19,7 +19,7 @@ endif()
 
 add_subdirectory(interpreter)
 add_subdirectory(serial_sim)
-foreach(room views json rig session faces/page)
+foreach(room views json plan rig session faces/page)
   add_subdirectory(tools/${room})
 endforeach()
 add_subdirectory(tests/platforms)

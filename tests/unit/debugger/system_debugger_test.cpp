@@ -9,6 +9,7 @@
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/debugger/system_session.hpp"
+#include "tools/session/past/seen_rig.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
