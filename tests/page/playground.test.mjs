@@ -90,6 +90,14 @@ test('a program is typed, run as fast as it goes, and paused', async () => {
   await page.close();
 });
 
+test('the licences of what the engine is linked with are in About', async () => {
+  const page = await open();
+  await page.click('.program-name');
+  const text = await page.textContent('[role=dialog]');
+  for (const name of ['fmt', 'Niels Lohmann', 'Boost', 'LLVM', 'wasi-libc']) assert.ok(text.includes(name), name);
+  await page.close();
+});
+
 test('an address carries a small program and a moment', async () => {
   const page = await open();
   await page.click('text=Example');

@@ -2,6 +2,7 @@
 import { h, type Child, type Part } from '../dom';
 import { icon } from '../icons';
 import { kActions, key_text } from '../actions';
+import { can_open } from '../playground';
 import { changed, state } from '../state';
 
 function close(): void {
@@ -27,14 +28,28 @@ function help(): Part {
       'Esc closes menus and leaves fields.'));
 }
 
+/** What the engine of the page in one file is linked with. */
+const kLinked = [
+  ['{fmt}', 'Copyright (c) 2012 - present, Victor Zverovich', 'MIT licence'],
+  ['JSON for Modern C++', 'Copyright (c) 2013-2022 Niels Lohmann', 'MIT licence'],
+  ['Boost (Spirit X3 and what it needs)', 'Copyright of its authors', 'Boost Software License 1.0'],
+  ['libc++, libc++abi and compiler-rt of LLVM', 'Copyright of their authors', 'Apache License 2.0 with LLVM exceptions'],
+  ['wasi-libc, with parts of musl', 'Copyright of their authors', 'Apache License 2.0 with LLVM exceptions, MIT licence'],
+];
+
+function licences(): Child[] {
+  return [h('h3', {}, 'Licences'),
+    h('p', {}, 'MIT licence. Copyright (c) 2026 the s7200 authors. The page is TypeScript of this project and contains no code of others.'),
+    can_open() ? h('table', { class: 'licences' }, h('tbody', {}, kLinked.map((row) => h('tr', {}, row.map((cell) => h('td', {}, cell)))))) : null];
+}
+
 function about(): Part {
   const hello = state.hello;
   return dialog('About',
     h('p', {}, `s7200 ${hello?.version ?? ''}: runs SIMATIC S7-200 STL programs, instruction by instruction in simulated time.`),
     hello ? h('p', {}, `Program ${hello.program} on a CPU ${hello.cpu}.`) : null,
     h('p', {}, 'Execution times are estimates until you measure a real CPU.'),
-    h('h3', {}, 'Licences'),
-    h('p', {}, 'MIT licence. Copyright (c) 2026 the s7200 authors. The page is TypeScript of this project and contains no code of others.'),
+    licences(),
     h('p', {}, 'SIMATIC and S7-200 are names of Siemens products; this project has no connection with Siemens.'));
 }
 
