@@ -3226,7 +3226,7 @@ class Files(Case):
         self.assertNotIn("why ", self.ends(FINE, "send", SLAVE, "--crc", "0103000a0001").stdout)
         done = self.ends(FAILED, "master", SLAVE, "read", "40011", "--station", "9", "--timeout", "200ms")
         self.assertRegex(done.stdout, r"why 09 03 00 0a 00 01 a5 40, sent at [0-9.]+ ms, got no answer:\n")
-        self.assertIn("the request was for station 9; the program compared its first character with 1", done.stdout)
+        self.assertIn("the request was for station 9; the program compared its first character with 1: LDB= SMB2", done.stdout)
         self.assertIn("why", self.json(FAILED, "master", SLAVE, "read", "40011", "--station", "9", "--timeout", "200ms", "--json"))
 
     def test_requests_that_got_no_answer_for_the_same_reason_are_counted(self):

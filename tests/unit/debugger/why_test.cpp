@@ -235,10 +235,48 @@ TEST(Why, NoiseThatTheMasterTookForTheAnswerIsNamed) {
 
 TEST(Why, ARequestForAnotherStationIsSaidToBeSoFirst) {
   const std::string text = why_after("send 02 03 00 0a 00 01 crc; continue");
-  EXPECT_TRUE(has(text, "the request was for station 2; the program compared its first character with 1\n"));
+  EXPECT_TRUE(has(
+      text, "the request was for station 2; the program compared its first character with 1: LDB= SMB2, VB4095 in line "));
   EXPECT_TRUE(has(text, "CRETI in line 662, not taken"));
   EXPECT_LT(text.find("the request was for"), text.find("CRETI"));
   EXPECT_FALSE(has(why_after("send 01 03 00 0a 00 01 00 00; continue"), "the request was for"));
+}
+
+std::string why_station_5(const std::string& program) {
+  AtPrompt session(check_text(program, "test.stl", cpu224(), default_times(cpu224())).program);
+  session("continue 100ms; break unanswered; send 05 03 00 00 00 01 crc; continue 2s");
+  session("send 05 03 00 00 00 01 crc; continue 2s");
+  return session("why");
+}
+
+TEST(Why, ARequestForAnotherStationNamesTheCompareWhereverTheFirstCharacterHasGone) {
+  const std::string frame = "LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\nENI\nMOVD &VB101, VD0\n";
+  const std::string copied =
+      "LDB= VB50, 8\nMOVB 0, VB50\nMOVD &VB101, VD0\nLDB= VB101, 2\nXMT VB100, 0\nMEND\n"
+      "INT 0\nLD SM0.0\nMOVB SMB2, *VD0\nINCD VD0\nINCB VB50\nRETI\n";
+  EXPECT_TRUE(has(why_station_5(frame + copied),
+                  "the request was for station 5; the program compared its first "
+                  "character with 2: LDB= VB101, 2 in line 9\n"));
+  const std::string received =
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#94, SMB87\nMOVW 5, SMW90\nMOVW 5, SMW92\nMOVB 100, SMB94\nATCH 0, 23\nENI\n"
+      "RCV VB100, 0\nMEND\nINT 0\nLDB= VB101, 2\nXMT VB100, 0\nLD SM0.0\nRCV VB100, 0\nRETI\n";
+  EXPECT_TRUE(has(why_station_5(received),
+                  "the request was for station 5; the program compared its first character "
+                  "with 2: LDB= VB101, 2 in line 12\n"));
+  const std::string library =
+      "LD SM0.1\nCALL MBUS_INIT, 1, 2, 9600, 2, 0, 128, 32, 100, &VB1000, M0.1, MB1\n"
+      "LD SM0.0\nCALL MBUS_SLAVE, M0.2, MB2\n";
+  const std::string text = why_station_5(library);
+  EXPECT_TRUE(has(text, "the request was for station 5; the program compared its first character with 2: LDB= mbTo"));
+  EXPECT_TRUE(has(text.substr(0, text.find('\n')), " in stand-in:modbus_slave.awl:"));
+}
+
+TEST(Why, ACompareOfAnotherCharacterIsNotThatOfTheStation) {
+  const std::string text = why_station_5(
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#94, SMB87\nMOVW 5, SMW90\nMOVW 5, SMW92\nMOVB 100, SMB94\nATCH 0, 23\nENI\n"
+      "MOVB 5, VB7\nRCV VB100, 0\nMEND\nINT 0\nLDB= VB7, 6\nXMT VB100, 0\nLD SM0.0\nRCV VB100, 0\nRETI\n");
+  EXPECT_TRUE(has(text, "LDB= VB7, 6: VB7=16#05"));
+  EXPECT_FALSE(has(text, "the request was for"));
 }
 
 /// Keeps a line of text in VB101 …; sends it when its end has come, M0.0.

@@ -1,40 +1,83 @@
 // Was another station asked, and who is that?
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "interpreter/trace/statement_text.hpp"
 #include "serial_sim/modbus/functions.hpp"
+#include "tools/session/causes/expression.hpp"
 #include "tools/session/causes/inquiry.hpp"
 #include "tools/session/causes/last_power_loss.hpp"
 #include "tools/session/causes/last_stop.hpp"
+#include "tools/session/causes/last_write.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {
 
-/// With the value of an equality contact, before the second character came in.
-std::optional<std::uint32_t> compared_with(const Inquiry& inquiry, const TraceReasons::Unanswered& frame) {
+/// What a program does with the first character of a frame: a contact that compares it with the number of its station.
+struct Compared {
+  std::uint32_t op = 0;
+  std::uint32_t with = 0;
+};
+
+/// Whether the byte has got the first character of the frame: RCV has put it there, or an instruction that reads SMB2.
+bool has_first_character(Inquiry& inquiry, const Operand& byte, const TraceReasons::Unanswered& frame, Time second,
+                         Time compared) {
+  History& history = inquiry.history();
+  if (!history.go_to(compared)) return inquiry.answers.interrupted = true, false;
+  if (byte.at == sm::kReceivedCharacter) return compared < second;
+  const Program& program = inquiry.program();
+  const MessageReceiver& message = inquiry.here().cpu().state().port[inquiry.port()].message;
+  const bool has_received = message.most > 0;
+  if (has_received && message.table + 1 == byte.at) return true;
+  const auto range = range_at(byte.at, Width::Byte, *program.model);
+  if (!range) return false;
+  const WriteSearch search = find_last_write(history, inquiry.station(), *range, inquiry.stop_request());
+  inquiry.answers.interrupted |= search.interrupted;
+  if (!search.write || !search.write->by || search.write->at < frame.since || search.write->at >= second) return false;
+  return std::ranges::any_of(program.ops[search.write->by->op].operand,
+                             [](const Operand& one) { return one.at == sm::kReceivedCharacter && !one.pointer; });
+}
+
+/// An equality contact of the first character, with another value than it has.
+std::optional<Compared> compared_with(Inquiry& inquiry, const TraceReasons::Unanswered& frame, std::uint8_t asked) {
   const Time second = frame.since + 2 * inquiry.here().plc().line_format(inquiry.port()).character_time();
   for (const InstructionRecord& contact : frame.cause->looked_at) {
     const Op& op = inquiry.program().ops[contact.op];
     const std::string_view mnemonic = op.instruction->mnemonic;
     const bool is_equality = mnemonic == "LDB=" || mnemonic == "AB=" || mnemonic == "OB=";
-    if (!is_equality || contact.at >= second || !contact.value[0] || !contact.value[1]) continue;
-    for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
-      if (op[side].at == sm::kReceivedCharacter && !op[side].pointer && *contact.value[1 - side] != modbus::kBroadcast)
-        return *contact.value[1 - side];
+    if (!is_equality || !contact.value[0] || !contact.value[1]) continue;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      const std::uint32_t other = *contact.value[1 - side];
+      const bool differs = *contact.value[side] == asked && other != asked && other != modbus::kBroadcast;
+      if (differs && !op[side].pointer && has_first_character(inquiry, op[side], frame, second, contact.at))
+        return Compared{contact.op, other};
+    }
   }
   return {};
 }
 
+/// The frames that the program has left, or taken without sending anything.
+std::vector<TraceReasons::Unanswered> unanswered_frames(const Inquiry& inquiry) {
+  std::vector<TraceReasons::Unanswered> frames = inquiry.witness().reasons.taken(inquiry.since());
+  for (const Witness::Left& one : inquiry.frames_left()) frames.push_back(one.frame);
+  return frames;
+}
+
 /// `; slave1 is station 1`, as the system file says; or with what the program compared the first character when it left the
 /// frame. Empty if it was asked itself, or if that is not known.
-std::string own_address(const Inquiry& inquiry, std::uint8_t asked) {
+std::string own_address(Inquiry& inquiry, std::uint8_t asked) {
   const History& history = inquiry.history();
   if (const auto known = history.address_of(inquiry.station()))
     return known == asked ? "" : fmt::format("; {} is station {}", history.name_of(inquiry.station()), *known);
-  for (const Witness::Left& one : inquiry.frames_left()) {
-    const auto compared = one.frame.cause ? compared_with(inquiry, one.frame) : std::nullopt;
-    if (compared && *compared != asked) return fmt::format("; the program compared its first character with {}", *compared);
+  for (const TraceReasons::Unanswered& frame : unanswered_frames(inquiry)) {
+    const auto compared = frame.cause ? compared_with(inquiry, frame, asked) : std::nullopt;
+    if (compared)
+      return fmt::format("; the program compared its first character with {}: {}", compared->with,
+                         named_in_sentence(compared->op, inquiry.program()));
   }
   return {};
 }
