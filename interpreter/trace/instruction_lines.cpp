@@ -5,6 +5,7 @@
 
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/line_parts.hpp"
+#include "interpreter/trace/statement_text.hpp"
 
 namespace s7200 {
 namespace {
@@ -69,7 +70,7 @@ std::vector<WatchedValue> watched_values(const Program& program, std::uint32_t n
 InstructionLines::OpText InstructionLines::make(const Program& program, std::uint32_t number) {
   const stl::Statement& statement = program.statement(number);
   return {.made = true,
-          .head = fmt::format("line {:<5} {:<28} S0=", statement.position.line, stl::to_text(statement)),
+          .head = fmt::format("{:<10} {:<28} S0=", line_of(number, program), stl::to_text(statement)),
           .values = watched_values(program, number),
           .duration = {}};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
@@ -74,12 +75,20 @@ std::string Listing::around(std::uint32_t line, std::size_t before, std::size_t 
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.line >= line; });
   const auto place = static_cast<std::size_t>(found - entries_.begin());
   const std::size_t first = place - std::min(place, before), end = std::min(entries_.size(), first + count);
+  const std::span<const Entry> shown(entries_.begin() + static_cast<std::ptrdiff_t>(first), end - first);
+  std::size_t width = 5;
+  for (const Entry& entry : shown) width = std::max(width, stl::count_characters(number_of(entry)));
   std::string text;
-  for (std::size_t i = first; i < end; ++i) {
-    const Entry& entry = entries_[i];
-    text += fmt::format("{:>2} {:>5}  {}\n", entry.op ? mark(*entry.op) : "", entry.line, entry.text);
-  }
+  for (const Entry& entry : shown)
+    text += fmt::format("{:>2} {:>{}}  {}\n", entry.op ? mark(*entry.op) : "", number_of(entry), width, entry.text);
   return text;
+}
+
+/// `12`, or of another file than the first `pump.awl:12`.
+std::string Listing::number_of(const Entry& entry) const {
+  const stl::FileLine place = stl::in_file(program_.source, entry.line);
+  if (&place.file == &program_.source.name) return fmt::format("{}", place.line);
+  return fmt::format("{}:{}", stl::printable(place.file), place.line);
 }
 
 }  // namespace s7200::tools
