@@ -33,7 +33,7 @@ int show_side_by_side(const TimesOptions& options, const CpuModel& model) {
     results["side_by_side"] = side_by_side_json(model, *tables);
     fmt::print("{}", lines_of(results));
   } else {
-    fmt::print("{}", side_by_side_text(model, *tables));  // rows of a table are not wrapped
+    fmt::print("{}", side_by_side_text(model, *tables, output_width()));
   }
   return kFine;
 }
@@ -63,7 +63,7 @@ int show_table(const TimesOptions& options, const CpuModel& model) {
     print_file(cpu_line(model.name) + comment_line(about) + to_csv(times));
   } else {
     if (!about.empty()) print_report(about + "\n\n");
-    fmt::print("{}\n", table_text(model, times));
+    fmt::print("{}\n", table_text(model, times, output_width()));
     print_report(tables_text(model));
   }
   return kFine;

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/base/wrapped.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/model/times_file.hpp"
+#include "tools/views/text_table.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -99,9 +102,6 @@ std::string figure_text(const TimeRow* row) {
   return fmt::format("{} + {}", in_microseconds(row->base), in_microseconds(row->per_unit));
 }
 
-/// The width of the column in which each figure fits.
-constexpr std::size_t kColumn = 16;
-
 nlohmann::ordered_json in_us(Time time) { return static_cast<double>(time) / kMicrosecond; }
 
 /// The uncertainty of base and unit: `25%`; `± 0.6`, `± 0.6, 0.02`.
@@ -112,29 +112,29 @@ std::string within_text(const TimeRow& row) {
   return row.uncertainty > 0 ? fmt::format("{:g}% {}", row.uncertainty, text) : text;
 }
 
-/// Wraps a text that is wider than its column.
-std::string in_column(const std::string& text, std::size_t begin, std::size_t width) {
-  if (stl::count_characters(text) > width) return fmt::format("{}\n{}", text, std::string(begin + width, ' '));
-  return fmt::format("{:<{}}", text, width);
-}
+constexpr auto kRight = TextTable::Align::Right;
 
 }  // namespace
 
-std::string table_text(const CpuModel& model, const TimeTable& times) {
-  std::string text = fmt::format(
+std::string table_text(const CpuModel& model, const TimeTable& times, std::size_t width) {
+  TextTable table({{.heading = "instructions", .breaks = true},
+                   {.heading = "form", .breaks = true},
+                   {.heading = "base", .align = kRight},
+                   {.heading = "per unit", .align = kRight},
+                   {.heading = "unit"},
+                   {.heading = "marker"},
+                   {.heading = "within", .align = kRight},
+                   {.heading = "source", .breaks = true}});
+  for (const TimeRow& row : times.rows())
+    table.add({stl::printable(fmt::format("{}", fmt::join(row.mnemonics, " "))), stl::printable(row.form),
+               in_microseconds(row.base), row.per_unit ? in_microseconds(row.per_unit) : "", stl::printable(row.unit),
+               row.marker, within_text(row), stl::printable(row.source)});
+  const std::string about = fmt::format(
       "Execution times of CPU {0} in microseconds. Only a figure marked 'manual' was read in a manual.\n"
       "To correct them: s7200 times --cpu {0} --csv > my_times.csv, edit, and give --times my_times.csv to a verb, or "
-      "write\n"
-      "times: my_times.csv into a scenario or a system file.\n\n"
-      "{1:<40} {2:<28} {3:>9} {4:>9}  {5:<10} {6:<11} {7:>7}  {8}\n",
-      model.name, "instructions", "form", "base", "per unit", "unit", "marker", "within", "source");
-  for (const TimeRow& row : times.rows())
-    text += fmt::format("{} {} {:>9} {:>9}  {:<10} {:<11} {:>7}  {}\n",
-                        in_column(stl::printable(fmt::format("{}", fmt::join(row.mnemonics, " "))), 0, 40),
-                        in_column(stl::printable(row.form), 41, 28), in_microseconds(row.base),
-                        row.per_unit ? in_microseconds(row.per_unit) : "", stl::printable(row.unit), row.marker,
-                        within_text(row), stl::printable(row.source));
-  return text;
+      "write times: my_times.csv into a scenario or a system file.\n\n",
+      model.name);
+  return stl::wrapped(about, width) + table.text(width);
 }
 
 nlohmann::ordered_json table_json(const TimeTable& times) {
@@ -177,28 +177,24 @@ double ratio_of(const Line& line, Time TimeRow::*figure) {
   return smallest > 0 ? static_cast<double>(largest) / static_cast<double>(smallest) : 0;
 }
 
-std::string side_by_side_text(const CpuModel& model, const std::vector<TitledTimes>& tables) {
-  std::string text = fmt::format(
-      "Execution times of CPU {} in microseconds, base + per unit, and by how many times they differ, in the one or the\n"
+std::string side_by_side_text(const CpuModel& model, const std::vector<TitledTimes>& tables, std::size_t width) {
+  std::vector<TextTable::Column> columns{{.heading = "instructions", .breaks = true},
+                                         {.heading = "first operand", .breaks = true}};
+  for (const TitledTimes& table : tables) columns.push_back({.heading = stl::shortened(table.title), .align = kRight});
+  columns.push_back({.heading = "ratio", .align = kRight});
+  TextTable table(std::move(columns));
+  for (const Line& line : lines_of_all(model, tables)) {
+    std::vector<std::string> cells{fmt::format("{}", fmt::join(line.mnemonics, " ")), names_of(line.areas)};
+    for (const TimeRow* row : line.found) cells.push_back(figure_text(row));
+    const double ratio = std::max(ratio_of(line, &TimeRow::base), ratio_of(line, &TimeRow::per_unit));
+    cells.push_back(ratio > 0 ? fmt::format("{:.2f}", ratio) : "");
+    table.add(std::move(cells));
+  }
+  const std::string about = fmt::format(
+      "Execution times of CPU {} in microseconds, base + per unit, and by how many times they differ, in the one or the "
       "other.\n\n",
       model.name);
-  std::string heading;
-  std::vector<std::size_t> widths;
-  for (const TitledTimes& table : tables) {
-    const std::string title = stl::shortened(table.title);
-    widths.push_back(std::max(kColumn, stl::count_characters(title)));
-    heading += fmt::format("  {:>{}}", title, widths.back());
-  }
-  text += fmt::format("{:<42} {:<22}{}   ratio\n", "instructions", "first operand", heading);
-  for (const Line& line : lines_of_all(model, tables)) {
-    std::string figures;
-    for (std::size_t i = 0; i < line.found.size(); ++i)
-      figures += fmt::format("  {:>{}}", figure_text(line.found[i]), widths[i]);
-    const double ratio = std::max(ratio_of(line, &TimeRow::base), ratio_of(line, &TimeRow::per_unit));
-    text += fmt::format("{} {}{}  {:>6}\n", in_column(fmt::format("{}", fmt::join(line.mnemonics, " ")), 0, 42),
-                        in_column(names_of(line.areas), 43, 22), figures, ratio > 0 ? fmt::format("{:.2f}", ratio) : "");
-  }
-  return text;
+  return stl::wrapped(about, width) + table.text(width);
 }
 
 nlohmann::ordered_json side_by_side_json(const CpuModel& model, const std::vector<TitledTimes>& tables) {
