@@ -19,6 +19,12 @@ std::string comment_of(const stl::Statement& statement) {
   return statement.comment.empty() ? "" : "  //" + stl::printable(statement.comment);
 }
 
+std::string line_number(std::uint32_t line, const Program& program) {
+  const stl::FileLine place = stl::in_file(program.source, line);
+  if (&place.file == &program.source.name) return fmt::format("{}", place.line);
+  return fmt::format("{}:{}", stl::printable(place.file), place.line);
+}
+
 std::string line_of(std::uint32_t op, const Program& program) {
   constexpr std::uint32_t kInMainFile = 1;
   return stl::line_text(program.source, program.statement(op).position.line, kInMainFile);

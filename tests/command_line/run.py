@@ -2460,7 +2460,9 @@ class JsonPage(Case):
 
     def runs(self):
         echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
-        faulty = self.program("LD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\nMEND\n", "faulty.stl")
+        faulty = self.program("// CPU 224\nLD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\n"
+                              "LD SM0.1\nCALL MBUS_INIT, 0, 2, 9600, 2, 0, 128, 32, 100, &VB1000, M0.1, MB1\n",
+                              "faulty.stl")  # of several files: with a stand-in
         stopped = self.program("LD SM0.0\nSTOP\nMEND\n", "stopped.stl")
         good, bad = self.program(Scenarios.GOOD, "good.yaml"), self.program(Scenarios.BAD, "bad.yaml")
         gap = self.program(Scenarios.BAD + "expected_failure: not yet\n", "gap.yaml")
@@ -2860,7 +2862,7 @@ class Files(Case):
         said = self.ends(FAILED, "send", self.LIBRARY / "slave.awl", "--cpu", "224", "010300000001").stdout
         (place,) = re.findall(r"the contacts from (stand-in:modbus_slave\.awl:\d+) on", said)
         stopped = self.ends(FINE, "debug", self.LIBRARY / "slave.awl", "--cpu", "224", "-x", f"break {place}").stdout
-        self.assertRegex(stopped, r"breakpoint 1 in SBR 61 line \d+: LDW<> ")
+        self.assertRegex(stopped, r"breakpoint 1 in SBR 61 stand-in:modbus_slave\.awl:\d+: LDW<> ")
 
     def test_scenarios_say_which_stand_ins_they_had(self):
         steps = "steps: [{read: holding 0, expect: accepted}]\n"

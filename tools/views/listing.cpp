@@ -8,6 +8,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/statement_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -77,18 +78,12 @@ std::string Listing::around(std::uint32_t line, std::size_t before, std::size_t 
   const std::size_t first = place - std::min(place, before), end = std::min(entries_.size(), first + count);
   const std::span<const Entry> shown(entries_.begin() + static_cast<std::ptrdiff_t>(first), end - first);
   std::size_t width = 5;
-  for (const Entry& entry : shown) width = std::max(width, stl::count_characters(number_of(entry)));
+  for (const Entry& entry : shown) width = std::max(width, stl::count_characters(line_number(entry.line, program_)));
   std::string text;
   for (const Entry& entry : shown)
-    text += fmt::format("{:>2} {:>{}}  {}\n", entry.op ? mark(*entry.op) : "", number_of(entry), width, entry.text);
+    text += fmt::format("{:>2} {:>{}}  {}\n", entry.op ? mark(*entry.op) : "", line_number(entry.line, program_), width,
+                        entry.text);
   return text;
-}
-
-/// `12`, or of another file than the first `pump.awl:12`.
-std::string Listing::number_of(const Entry& entry) const {
-  const stl::FileLine place = stl::in_file(program_.source, entry.line);
-  if (&place.file == &program_.source.name) return fmt::format("{}", place.line);
-  return fmt::format("{}:{}", stl::printable(place.file), place.line);
 }
 
 }  // namespace s7200::tools

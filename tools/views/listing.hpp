@@ -38,8 +38,8 @@ class Listing {
   /// The text of an instruction with its comment.
   std::string text_of(std::uint32_t op) const;
 
-  /// Up to `count` lines, without blank ones, from `before` lines ahead of `line`. Each has its number in its own file, and
-  /// that file's name if it is not the first one. `mark` returns the text in front of an instruction's line.
+  /// Up to `count` lines, without blank ones, from `before` lines ahead of `line`. `mark` returns the text in front of an
+  /// instruction's line.
   using Mark = std::function<std::string(std::uint32_t op)>;
   std::string around(std::uint32_t line, std::size_t before, std::size_t count, const Mark& mark) const;
 
@@ -49,8 +49,6 @@ class Listing {
     std::string text;
     std::optional<std::uint32_t> op;
   };
-
-  std::string number_of(const Entry& entry) const;
 
   const Program& program_;
   Networks networks_;

@@ -10,6 +10,7 @@
 #include "interpreter/model/special_bits.hpp"
 #include "interpreter/program/operands.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
 
@@ -38,25 +39,27 @@ std::string_view phase_text(Phase phase) {
   return {};
 }
 
-std::string line_text(const Listing& listing, std::uint32_t op) {
-  return fmt::format("{} line {}", listing.routine_of(op), listing.line_of(op));
+std::string line_text(const Program& program, const Listing& listing, std::uint32_t op) {
+  return fmt::format("{} {}", listing.routine_of(op), stl::printable(line_of(op, program)));
 }
 
 /// The calls as text: `SBR 63 line 700, called in SBR 51 line 340, called in main line 12`
-std::string calls_text(const State& state, const Listing& listing, std::uint32_t op) {
-  std::string text = line_text(listing, op);
+std::string calls_text(const Cpu& cpu, const Listing& listing, std::uint32_t op) {
+  const State& state = cpu.state();
+  std::string text = line_text(cpu.program(), listing, op);
   for (std::size_t depth = state.call_depth; depth > 0; --depth)
-    text += ", called in " + line_text(listing, state.calls[depth - 1].return_to - 1);
+    text += ", called in " + line_text(cpu.program(), listing, state.calls[depth - 1].return_to - 1);
   return text;
 }
 
-std::string where_text(const State& state, const Listing& listing) {
+std::string where_text(const Cpu& cpu, const Listing& listing) {
+  const State& state = cpu.state();
   if (state.mode == Mode::Stop) return "STOP: no program runs";
   const std::uint32_t op = state.in_interrupt ? state.saved.return_to : state.pc;
   const std::string scan =
-      state.phase == Phase::Program ? calls_text(state, listing, op) : std::string(phase_text(state.phase));
+      state.phase == Phase::Program ? calls_text(cpu, listing, op) : std::string(phase_text(state.phase));
   if (!state.in_interrupt) return scan;
-  return fmt::format("{}, serving {} since {}\n           interrupted: {}", line_text(listing, state.pc),
+  return fmt::format("{}, serving {} since {}\n           interrupted: {}", line_text(cpu.program(), listing, state.pc),
                      event_text(state.serving_event), moment_text(state.serving_since), scan);
 }
 
@@ -262,20 +265,21 @@ std::string place_text(const Cpu& cpu, const Listing& listing) {
   if (!op) {
     const std::string where = state.instructions == 0 ? "powered up, the inputs are read first"
                                                       : fmt::format("between two scans, {}", phase_text(state.phase));
-    return fmt::format("{}  {}\n > {:>5}  {}\n", when, where, listing.line_of(0), listing.text_of(0));
+    return fmt::format("{}  {}\n > {:>5}  {}\n", when, where, line_number(listing.line_of(0), cpu.program()),
+                       listing.text_of(0));
   }
   const std::string serving = state.in_interrupt ? fmt::format(" for {}", event_text(state.serving_event)) : "";
   const std::string& network = listing.network_of(*op);
   return fmt::format("{}  {}{}  S0={}{}{}\n > {:>5}  {}\n", when, listing.routine_of(*op), serving,
-                     state.stack.top() ? 1 : 0, network.empty() ? "" : "  ", network, listing.line_of(*op),
-                     listing.text_of(*op));
+                     state.stack.top() ? 1 : 0, network.empty() ? "" : "  ", network,
+                     line_number(listing.line_of(*op), cpu.program()), listing.text_of(*op));
 }
 
 std::string registers_text(const Cpu& cpu, const Listing& listing) {
   const State& state = cpu.state();
   std::string text =
       fmt::format("time       {}, {}, {} instructions\n", moment_text(state.time), scan_text(state), state.instructions);
-  text += fmt::format("where      {}\n", where_text(state, listing));
+  text += fmt::format("where      {}\n", where_text(cpu, listing));
   text += accumulators_text(cpu);
   text += fmt::format("flags      {}\n", flags_text(state.image[sm::kFlags]));
   text += fmt::format("interrupts {}\n", state.interrupts_enabled ? "enabled (ENI)" : "disabled (DISI, or no ENI yet)");

@@ -26,9 +26,13 @@ std::string place_text(const Program& program, std::uint32_t op) {
 nlohmann::ordered_json error_json(const Program& program, std::uint16_t code, std::string_view meaning, std::uint32_t op,
                                   bool fatal) {
   nlohmann::ordered_json json{{"code", fmt::format("{:04X}", code)}, {"fatal", fatal}, {"meaning", meaning}};
-  json["line"] =
-      op == kNoRoutine ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(program.statement(op).position.line);
-  json["statement"] = op == kNoRoutine ? "" : stl::to_text(program.statement(op));
+  json["line"] = nullptr;
+  json["statement"] = "";
+  if (op == kNoRoutine) return json;
+  const stl::FileLine place = stl::in_file(program.source, program.statement(op).position.line);
+  json["line"] = place.line;
+  if (!program.source.further_files.empty()) json["file"] = place.file;
+  json["statement"] = stl::to_text(program.statement(op));
   return json;
 }
 

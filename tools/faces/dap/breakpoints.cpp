@@ -10,6 +10,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/networks.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "tools/faces/dap/addresses.hpp"
 #include "tools/faces/dap/conversation.hpp"
 #include "tools/faces/dap/exception_filters.hpp"
@@ -53,7 +54,7 @@ StopPoint stop_at(Conversation& talk, std::uint32_t op) {
   return {.station = talk.looks_at(),
           .on = On::Place,
           .op = op,
-          .name = fmt::format("{} line {}", talk.listing().routine_of(op), talk.listing().line_of(op)),
+          .name = fmt::format("{} {}", talk.listing().routine_of(op), stl::printable(line_of(op, talk.cpu().program()))),
           .needs_power = true};
 }
 
@@ -154,7 +155,13 @@ std::vector<StopPoint> line_stops(Conversation& talk, const std::string& path, c
   return at_all_stations(talk, wanted, answer, [&](std::string& why) -> std::optional<StopPoint> {
     const auto line = talk.sources().line_in(path, talk.line_of_client(wanted_line));
     const auto op = line ? talk.listing().op_from_line(*line) : std::nullopt;
-    if (line && !op) why = fmt::format("the last instruction is in line {}", talk.client_line(talk.listing().last_line()));
+    const stl::Source& source = talk.cpu().program().source;
+    const auto file_of = [&](std::uint32_t of_program) { return &stl::in_file(source, of_program).file; };
+    if (line && (!op || file_of(talk.listing().line_of(*op)) != file_of(*line))) {
+      why = fmt::format("{} has no instruction in line {} or after it", std::filesystem::path(path).filename().string(),
+                        wanted_line);
+      return {};
+    }
     if (!op) return {};
     if (talk.listing().line_of(*op) != *line)
       answer["message"] = fmt::format("line {} has no instruction; this is the next one", wanted_line);

@@ -6,6 +6,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/errors.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/faces/dap/addresses.hpp"
 #include "tools/faces/dap/conversation.hpp"
@@ -226,11 +227,11 @@ Json body_of_fatal_error(Conversation& talk) {
   const auto code = state.fatal_code;
   const std::uint32_t op = state.fatal_op;
   const bool between = op == kNoRoutine;
-  const std::string text =
-      fmt::format("{}the CPU went to STOP: fatal error {:04X}, {}, {}", talk.said_of(talk.looks_at()), code,
-                  meaning_of(FatalError{code}),
-                  between ? "between two scans"
-                          : fmt::format("in {} line {}", talk.listing().routine_of(op), talk.listing().line_of(op)));
+  const std::string text = fmt::format(
+      "{}the CPU went to STOP: fatal error {:04X}, {}, {}", talk.said_of(talk.looks_at()), code,
+      meaning_of(FatalError{code}),
+      between ? "between two scans"
+              : fmt::format("in {} {}", talk.listing().routine_of(op), stl::printable(line_of(op, talk.cpu().program()))));
   talk.print(text, "important", between ? std::nullopt : std::optional(op));
   talk.exceptions[talk.looks_at()] = {
       {"exceptionId", fmt::format("fatal {:04X}", code)}, {"description", text}, {"breakMode", "always"}};

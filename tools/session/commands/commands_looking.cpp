@@ -11,6 +11,7 @@
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/commands/status.hpp"
+#include "tools/session/stops/stop_words.hpp"
 #include "tools/session/words/words.hpp"
 #include "tools/views/ladder_json.hpp"
 #include "tools/views/ladder_text.hpp"
@@ -83,13 +84,12 @@ Reply list(Session& session, const Words& arguments) {
                                              kListed, mark);
     return {};
   }
-  if (const auto line = parse_decimal<std::uint32_t>(joined(arguments))) {
-    if (*line > session.listing().last_line())
-      return wrong(fmt::format("the last instruction is in line {}", session.listing().last_line()));
+  std::string why;
+  if (const auto line = find_program_line(joined(arguments), session.program(), session.listing(), why)) {
     session.said << session.listing().around(*line, kListedBefore, kListed, mark);
     return {};
   }
-  std::string why;
+  if (!why.empty()) return wrong(why);
   const auto op = find_op(session, arguments, "list", why);
   if (!op) return wrong(why);
   session.said << session.listing().around(session.listing().line_of(*op), 0, kListed, mark);

@@ -120,7 +120,8 @@ Json list_stops(Session& session) {
       if (s.is_watch() != watches) continue;
       const Session::Station& of = session.stations[s.station];
       const std::string_view kind = watches ? "watch" : "break";
-      std::string what = session.said_of(s.station) + (s.on == On::Place ? op_text(of.listing, s.op) : s.name);
+      std::string what = session.said_of(s.station) +
+                         (s.on == On::Place ? op_text(of.simulation->cpu().program(), of.listing, s.op) : s.name);
       if (watches) what += " is " + value_of(of.simulation->cpu(), *s.range);
       session.said << fmt::format("{:<3} {}  {:>8}  {}{}\n", s.number, kind, counted(s.hits, "hit"), what, options_text(s));
       Json stop{{"number", s.number}, {"kind", kind}, {"text", what + options_text(s)}, {"hits", s.hits}};
@@ -154,15 +155,16 @@ Reply set_break(Session& session, const Words& arguments) {
   };
   const auto same = std::ranges::find_if(all, is_the_same);
   if (stop->on == On::Place && same != all.end() && words.empty()) {
-    session.said << fmt::format("breakpoint {} is already in {}\n", same->number, op_text(session.listing(), stop->op));
+    session.said << fmt::format("breakpoint {} is already in {}\n", same->number,
+                                op_text(session.program(), session.listing(), stop->op));
     return {};
   }
   stop->number = session.next_number++;
   stop->station = session.focus();
-  session.said << fmt::format(
-      "breakpoint {} {}{}\n", stop->number,
-      stop->on == On::Place ? "in " + op_text(session.listing(), stop->op) : "at " + stl::printable(stop->name),
-      options_text(*stop));
+  session.said << fmt::format("breakpoint {} {}{}\n", stop->number,
+                              stop->on == On::Place ? "in " + op_text(session.program(), session.listing(), stop->op)
+                                                    : "at " + stl::printable(stop->name),
+                              options_text(*stop));
   if (stop->on == On::Becomes && stop->condition->value(session.cpu(), why).value_or(Value{}).truth())
     session.said << "  it holds now: the run stops when it comes to hold again\n";
   session.stepper.add(std::move(*stop));

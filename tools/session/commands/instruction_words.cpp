@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/base/text.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 
 namespace s7200::tools {
 
-std::string op_text(const Listing& listing, std::uint32_t op) {
-  return fmt::format("{} line {}: {}", listing.routine_of(op), listing.line_of(op), listing.text_of(op));
+std::string op_text(const Program& program, const Listing& listing, std::uint32_t op) {
+  return fmt::format("{} {}: {}", listing.routine_of(op), stl::printable(line_of(op, program)), listing.text_of(op));
 }
 
 Json instruction_json(const Session& session, const InstructionRecord& record) {

@@ -12,7 +12,7 @@
 namespace s7200::tools {
 
 /// `INT 123 line 40: MOVB SMB2, VB1 // …`
-std::string op_text(const Listing& listing, std::uint32_t op);
+std::string op_text(const Program& program, const Listing& listing, std::uint32_t op);
 
 /// {"instruction": "…", "routine": "INT 123", "op": 40}: one that was executed. A face that has other words for a place puts
 /// them for `op`.

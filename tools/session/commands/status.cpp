@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "interpreter/base/text.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/views/execution_text.hpp"
 #include "tools/views/results_json.hpp"
@@ -63,9 +65,10 @@ std::vector<std::string> status_lines(const Session& session, std::uint32_t firs
   for (std::uint32_t op = first; op < end; ++op) {
     const auto found = last.of.find(op);
     lines.push_back(fmt::format("{:>2} {}{}", mark_of(session, op),
-                                found != last.of.end() ? execution_text(found->second, program)
-                                                       : fmt::format("line {:<5} {:<28} {}", session.listing().line_of(op),
-                                                                     stl::to_text(program.statement(op)), not_found),
+                                found != last.of.end()
+                                    ? execution_text(found->second, program)
+                                    : fmt::format("{:<10} {:<28} {}", stl::printable(line_of(op, program)),
+                                                  stl::to_text(program.statement(op)), not_found),
                                 forced_text(session, session.cpu(), operands_of(session, op))));
   }
   return lines;

@@ -92,15 +92,16 @@ void report_cpu_stop(Session& session) {
   const State& state = session.cpu().state();
   const auto last_op = session.stations[session.focus()].last_op;
   if (state.fatal_code != 0) {
-    const std::string place =
-        state.fatal_op == kNoRoutine ? "between two scans" : "in " + op_text(session.listing(), state.fatal_op);
+    const std::string place = state.fatal_op == kNoRoutine
+                                  ? "between two scans"
+                                  : "in " + op_text(session.program(), session.listing(), state.fatal_op);
     session.said << session.said_of(session.focus())
                  << session.red(fmt::format("the CPU went to STOP: fatal error {:04X}, {},", state.fatal_code,
                                             meaning_of(FatalError{state.fatal_code})))
                  << "\n  " << place << '\n';
   } else if (last_op) {
     session.said << fmt::format("{}the CPU went to STOP; the last instruction was in {}\n", session.said_of(session.focus()),
-                                op_text(session.listing(), *last_op));
+                                op_text(session.program(), session.listing(), *last_op));
   }
 }
 

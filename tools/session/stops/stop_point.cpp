@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools {
@@ -19,7 +20,7 @@ std::string scan_text(const Cpu& cpu, Time, const InstructionRecord*) { return f
 
 std::string line_text(const Cpu& cpu, Time, const InstructionRecord* by) {
   const auto op = by ? std::optional(by->op) : standing_at(cpu.state());
-  return op ? fmt::format("{}", cpu.program().statement(*op).position.line) : "-";
+  return op ? line_number(cpu.program().statement(*op).position.line, cpu.program()) : "-";
 }
 
 std::string event_text(const Cpu& cpu, Time, const InstructionRecord*) {

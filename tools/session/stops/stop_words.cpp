@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "interpreter/base/numbers.hpp"
@@ -12,6 +13,7 @@
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/ports.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "tools/session/causes/two_masters.hpp"
 #include "tools/session/words/words.hpp"
@@ -55,32 +57,57 @@ struct Mark {
 };
 constexpr Mark kMarks[] = {{"SBR", Structure::SubroutineHead}, {"INT", Structure::InterruptHead}, {"LBL", Structure::Label}};
 
-/// `12`, or in capitals `STAND-IN:MODBUS_SLAVE.AWL:12`, a line of one of the program's files, as a line of all of them.
-std::optional<std::uint32_t> line_named(std::string_view text, const stl::SourceLines& source) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return parse_decimal<std::uint32_t>(text);
-  const auto line = parse_decimal<std::uint32_t>(text.substr(colon + 1));
-  const auto is_named = [file = text.substr(0, colon)](const std::string& name) { return stl::upper_case(name) == file; };
-  if (!line || is_named(source.name)) return line;
-  const auto further = std::ranges::find_if(source.further_files, is_named, &stl::FurtherFile::name);
-  return further == source.further_files.end() ? std::nullopt : std::optional(further->first_line + *line - 1);
+/// The lines of one of the program's files, counted over all of them.
+struct LinesOfFile {
+  const std::string* name;
+  std::uint32_t first, end;
+
+  bool has(std::uint32_t line) const { return first <= line && line < end; }
+};
+
+std::vector<LinesOfFile> files_of(const stl::SourceLines& source) {
+  std::vector<LinesOfFile> files{{&source.name, 1, 0}};
+  for (const stl::FurtherFile& file : source.further_files) files.push_back({&file.name, file.first_line, 0});
+  for (std::size_t i = 0; i < files.size(); ++i)
+    files[i].end = i + 1 < files.size() ? files[i + 1].first : std::numeric_limits<std::uint32_t>::max();
+  return files;
+}
+
+/// The file that is named in capitals, with its folders or without them; the first one for an empty name. Null if none is.
+const LinesOfFile* file_named(std::string_view name, const std::vector<LinesOfFile>& files) {
+  if (name.empty()) return &files.front();
+  for (const bool with_folders : {true, false})
+    for (const LinesOfFile& file : files) {
+      const std::string known = stl::upper_case(*file.name);
+      if (with_folders ? known == name : known.ends_with(fmt::format("/{}", name))) return &file;
+    }
+  return nullptr;
+}
+
+/// Why a line of a file has no instruction at or after it.
+std::string no_instruction_text(const LinesOfFile& file, const Program& program) {
+  const auto is_in_file = [&](const stl::Statement& statement) { return file.has(statement.position.line); };
+  const auto last = std::find_if(program.statements.rbegin(), program.statements.rend(), is_in_file);
+  const std::vector<stl::FurtherFile>& further = program.source.further_files;
+  const bool is_first = file.name == &program.source.name;
+  const std::string others =
+      is_first && !further.empty()
+          ? fmt::format("; write for example {}:1 for a line of another file", stl::printable(further.front().name))
+          : "";
+  if (last == program.statements.rend()) return fmt::format("{} has no instruction{}", stl::printable(*file.name), others);
+  return fmt::format("the last instruction{} is in line {}{}", further.empty() ? "" : " of " + stl::printable(*file.name),
+                     last->position.line - file.first + 1, others);
 }
 
 std::optional<NamedPlace> place_of_line(const std::string& text, const Program& program, const Listing& listing,
                                         std::string_view command, std::string& why) {
-  const auto line = line_named(text, program.source);
-  if (!line) {
-    why = expects(command, kPlaces);
-    return {};
-  }
-  const auto op = listing.op_from_line(*line);
-  if (!op) {
-    why = fmt::format("the last instruction is in line {}", listing.last_line());
-    return {};
-  }
-  if (listing.line_of(*op) == *line) return NamedPlace{*op};
-  return NamedPlace{*op,
-                    fmt::format("line {} has no instruction; the next one is in line {}\n", *line, listing.line_of(*op))};
+  const auto line = find_program_line(text, program, listing, why);
+  if (!line && why.empty()) why = expects(command, kPlaces);
+  if (!line) return {};
+  const std::uint32_t op = listing.op_from_line(*line).value();
+  if (listing.line_of(op) == *line) return NamedPlace{op};
+  return NamedPlace{op, fmt::format("{} has no instruction; the next one is in {}\n",
+                                    stl::line_text(program.source, *line, 1), line_of(op, program))};
 }
 
 std::optional<NamedPlace> place_of_network(const std::string& text, const Listing& listing, std::string_view command,
@@ -194,6 +221,23 @@ std::string stop_options_text() {
   for (const StopOption& option : kStopOptions)
     text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", option.word, option.takes.empty() ? "" : " ", option.takes);
   return text;
+}
+
+std::optional<std::uint32_t> find_program_line(std::string_view text, const Program& program, const Listing& listing,
+                                               std::string& why) {
+  const std::string upper = stl::upper_case(text);
+  const std::size_t colon = upper.rfind(':');
+  const bool is_named = colon != std::string::npos;
+  const auto number = parse_decimal<std::uint32_t>(is_named ? std::string_view(upper).substr(colon + 1) : upper);
+  if (!number || *number == 0) return {};
+  const std::vector<LinesOfFile> files = files_of(program.source);
+  const LinesOfFile* const file = file_named(is_named ? std::string_view(upper).substr(0, colon) : "", files);
+  if (!file) return {};
+  const std::uint64_t line = std::uint64_t{file->first} + *number - 1;
+  const auto op = line < file->end ? listing.op_from_line(static_cast<std::uint32_t>(line)) : std::nullopt;
+  if (op && file->has(listing.line_of(*op))) return static_cast<std::uint32_t>(line);
+  why = no_instruction_text(*file, program);
+  return {};
 }
 
 std::optional<std::uint16_t> error_code_of(std::string_view text, std::string& why) {

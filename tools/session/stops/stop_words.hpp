@@ -45,6 +45,12 @@ struct NamedPlace {
   std::string note{};  ///< what is to be said: the line that was named has no instruction
 };
 
+/// A line of the program, counted over all its files, that is named by its number in its own file: `12`, of another file
+/// than the first `pump.awl:12`. Nothing, and `why`, if no instruction of that file is in it or after it; nothing, and no
+/// `why`, if the text is not of this form or names no file of the program.
+std::optional<std::uint32_t> find_program_line(std::string_view text, const Program& program, const Listing& listing,
+                                               std::string& why);
+
 /// `LINE`, `SBR n`, `INT n`, `LBL n`, `NETWORK n`. Nothing, and `why`, if there is no such place; `command` is named in it.
 std::optional<NamedPlace> find_place(const std::vector<std::string>& words, const Program& program, const Listing& listing,
                                      std::string_view command, std::string& why);
