@@ -152,9 +152,9 @@ std::optional<SourceText> read_plain(std::string_view text, const std::string& n
   if (auto dialect = statements ? std::nullopt : other_dialect(text))
     return SourceText{foreign(*std::move(dialect), text, name), {}, SourceKind::Listing};
   const std::optional<SourceKind> kind = stl::is_block_export(text)                          ? SourceKind::Blocks
-                    : force_document || stl::has_routine_headings(text) ? SourceKind::Document
-                    : statements                                        ? std::nullopt
-                                                                        : kind_of_table(text);
+                                         : force_document || stl::has_routine_headings(text) ? SourceKind::Document
+                                         : statements                                        ? std::nullopt
+                                                                                             : kind_of_table(text);
   if (kind) return SourceText{read_as(*kind, text, name), {}, *kind};
   auto listing = stl::read_listing(text, name, instruction_set());
   if (!listing) return SourceText{read_as(SourceKind::Document, text, name), {}, SourceKind::Document};
@@ -166,7 +166,8 @@ std::optional<SourceText> read_plain(std::string_view text, const std::string& n
 std::string why_not_stl(std::string_view text) {
   while (!text.empty())
     if (stl::has_drawing(stl::take_line(text))) return fmt::format("{}: {}", stl::kIsDrawing, stl::kForDrawing);
-  return "it is not an STL program: there is no instruction in its first lines; a symbol table has rows such as Motor = Q0.0";
+  return "it is not an STL program: there is no instruction in its first lines; a symbol table has rows such as Motor = "
+         "Q0.0";
 }
 
 bool is_code(const stl::Line& line) {
@@ -209,8 +210,15 @@ SourceText join_files(std::vector<SourceText> files) {
   return project;
 }
 
+/// More than any program, with all the text around it: it would be read for seconds, and need 200 bytes for each byte.
+constexpr std::size_t kLargestProgram = 4 << 20;
+
 std::optional<SourceText> read_source(std::string_view bytes, const std::string& name, std::string& why,
                                       bool force_document) {
+  if (bytes.size() > kLargestProgram) {
+    why = fmt::format("it is larger than {} MB, more than any program", kLargestProgram >> 20);
+    return {};
+  }
   const auto decoded = stl::decode(bytes, why);
   if (!decoded) {
     if (stl::upper_case(name).ends_with(".MWP"))

@@ -233,6 +233,7 @@ def check_files(s7200):
         yield "/dev/zero", lambda: expect_refusal(s7200, "/dev/zero", "it is a device, not a file")
         yield "serial port", lambda: expect_no_wait_for_a_serial_port(s7200)
         yield "endless pipe", lambda: expect_no_endless_reading(s7200)
+        yield "large.stl", lambda: expect_no_program_of_that_size(s7200, pathlib.Path(folder) / "large.stl")
         yield "pipe without writer", lambda: expect_wait_for_the_writer(s7200, pathlib.Path(folder) / "pipe.stl")
 
 
@@ -257,10 +258,23 @@ def expect_no_wait_for_a_serial_port(s7200):
 
 
 def expect_no_endless_reading(s7200):
-    with subprocess.Popen(["yes"], stdout=subprocess.PIPE) as endless:
-        exit_code, _, error = run([s7200, "check", "/dev/stdin"], stdin=endless.stdout)
-        endless.kill()
-    if exit_code != 2 or "larger than" not in error:
+    for line in ("y", "LD I0.0", "01 03 00 00 00 01 84 0a"):
+        with subprocess.Popen(["yes", line], stdout=subprocess.PIPE) as endless:
+            exit_code, _, error = run([s7200, "check", "/dev/stdin"], stdin=endless.stdout)
+            endless.kill()
+        if exit_code != 2 or "larger than" not in error:
+            raise Failure(f"exit code {exit_code}: {error}")
+
+
+def expect_no_program_of_that_size(s7200, path):
+    path.write_text("LD I0.0\n" * 600_000)
+    for verb in ("check", "run", "import", "debug", "convert"):
+        exit_code, _, error = run([s7200, verb, str(path)])
+        if exit_code != 2 or "it is larger than 4 MB, more than any program" not in error:
+            raise Failure(f"{verb}: exit code {exit_code}: {error}")
+    path.write_text("01 03 00 00 00 01 84 0a\n" * 200_000)
+    exit_code, _, error = run([s7200, "check", str(path)])
+    if exit_code != 2 or "it is a recording of a line" not in error:
         raise Failure(f"exit code {exit_code}: {error}")
 
 

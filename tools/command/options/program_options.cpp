@@ -22,6 +22,7 @@
 #include "tools/measuring/band.hpp"
 #include "tools/plan/program_cpu.hpp"
 #include "tools/plan/system_reader.hpp"
+#include "tools/recordings/forms.hpp"
 #include "tools/recordings/recording.hpp"
 
 namespace s7200::tools {
@@ -212,8 +213,9 @@ std::string form_of_capture(std::string_view bytes) {
 /// may be a log, a table only if it has columns of one.
 std::string form_of_recording(std::string_view bytes, const std::optional<SourceText>& text) {
   constexpr std::string_view kPlainLog = "text";
+  constexpr std::size_t kEnoughOfText = 1 << 20;
   std::string why;
-  const auto recording = read_recording(bytes, {}, why);
+  const auto recording = read_recording(is_text(bytes) ? bytes.substr(0, kEnoughOfText) : bytes, {}, why);
   if (!recording) return form_of_capture(bytes);
   const bool any =
       !std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.doubt != nullptr; });
