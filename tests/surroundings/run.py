@@ -447,6 +447,24 @@ class Signals(Case):
                     self.assertEqual((self.noted(process, number), process.error), (FAILED, b"s7200: note: interrupted\n"))
                     self.assertEqual(process.out, b"")
 
+    def test_reading_a_long_recording(self):
+        frame, modbus = "01 03 00 00 00 01 84 0a", "b'\\x01\\x03\\x00\\x00\\x00\\x01\\x84\\n'"
+        rows = {"log.txt": f"10:00:00.000 TX {frame}\n", "log.csv": f"1.5,{frame}\n", "python.log": f"10:00:00.000 {modbus}\n",
+                "lines.json": '{"time": 1.5, "direction": "tx", "data": "%s"}\n' % frame, "pairs.log": f'time=1.5 dir=tx data="{frame}"\n'}
+        for name, row in rows.items():
+            head = "Time [s],Data\n" if name == "log.csv" else ""
+            path = self.file(name, head + row * (40_000_000 // len(row)))
+            for verb, number in (("decode", signal.SIGINT), ("import-capture", signal.SIGTERM)):
+                with self.subTest(name=name, verb=verb):
+                    process = self.start(verb, path, "--json")
+                    self.eventually(lambda process=process: catches(process, signal.SIGALRM), "signals are not only noted")
+                    begun = time.monotonic()
+                    self.assertEqual(self.ended(process, number), FAILED)
+                    self.assertLess(time.monotonic() - begun, 5)  # the whole file takes longer
+                    self.assertIn(b"s7200: note: interrupted", process.error)
+                    self.assertEqual(json.loads(process.out)["s7200"]["verb"], verb)
+            pathlib.Path(path).unlink()
+
     def test_writing_a_pipe_that_no_one_reads(self):
         pipe = self.folder / "pipe"
         os.mkfifo(pipe)

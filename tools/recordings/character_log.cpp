@@ -128,12 +128,12 @@ bool looks_like_character_log(std::string_view bytes) {
   return shown > in_hex;
 }
 
-std::optional<LineRecording> read_character_log(std::string_view bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_character_log(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
   LeftOut left_out;
   DayCounter days;
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     if (stl::trim(line).empty()) continue;
     const Row row = row_of(line);

@@ -162,7 +162,7 @@ bool looks_like_csv(std::string_view bytes) {
 
 std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
   LineRecording recording;
-  TableRows rows(bytes);
+  TableRows rows(bytes, choices.stop);
   const Columns columns = columns_of(rows.next()->text);
   const auto [notation, characters] = notation_of(rows, columns, why);
   if (notation == nullptr) return {};

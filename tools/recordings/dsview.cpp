@@ -30,7 +30,7 @@ Remark remark_of(std::string_view cell) {
 bool looks_like_dsview(std::string_view bytes) { return bytes.starts_with(kHead); }
 
 std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
-  TableRows rows(bytes);
+  TableRows rows(bytes, choices.stop);
   const auto names = fields_of(rows.next()->text, ',');
   NotationFinder finder;
   const auto for_each_cell = [&](auto tell) {

@@ -68,13 +68,13 @@ bool looks_like_esphome(std::string_view bytes) {
   return is_text(bytes) && beginning_of(bytes).find(kTag) != std::string_view::npos;
 }
 
-std::optional<LineRecording> read_esphome(std::string_view bytes, const ReadingChoices&, std::string& why) {
+std::optional<LineRecording> read_esphome(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
   std::vector<LoggedBytes> all;
   LeftOut left_out;
   NotationFinder finder;
   bool has_numbers = false;
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     auto logged = logged_bytes(line);
     if (!logged) {

@@ -55,13 +55,13 @@ bool looks_like_esphome_modbus(std::string_view bytes) {
          });
 }
 
-std::optional<LineRecording> read_esphome_modbus(std::string_view bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_esphome_modbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
   LeftOut left_out;
   DayCounter days;
   std::size_t number = 0;
   std::optional<Time> last;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     const auto written = said_after(line, kWrite);
     const auto received = written ? std::nullopt : said_after(line, kByteReceived);

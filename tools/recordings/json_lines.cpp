@@ -163,11 +163,11 @@ bool looks_like_json_lines(std::string_view bytes) {
   return is_text(bytes) && (any_record(bytes, has_frame) || any_record(bytes, has_characters));
 }
 
-std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   NamedFieldsReader reader;
   if (any_record(bytes, has_characters)) reader.take_characters();
   Pieces pieces(bytes);
-  while (const auto piece = pieces.next()) {
+  while (const auto piece = choices.stop.stop_requested() ? std::nullopt : pieces.next()) {
     const auto records = records_of(*piece);
     for (const NamedFields& fields : records) reader.take(fields, piece->before, piece->number);
     if (piece->kind == Piece::Kind::Other)

@@ -61,11 +61,11 @@ bool looks_like_key_values(std::string_view bytes) {
   return is_text(bytes) && (any_line(bytes, has_frame) || any_line(bytes, has_characters));
 }
 
-std::optional<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   NamedFieldsReader reader;
   if (any_line(bytes, has_characters)) reader.take_characters();
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     const Pairs pairs = pairs_of(line);
     if (!pairs.fields.empty())

@@ -176,7 +176,7 @@ std::optional<LineRecording> read_levels_table(std::string_view bytes, const Rea
   }
   LevelsTableReader reader(head, samplerate);
   std::size_t line = 0;
-  for (const std::string_view text : Lines(bytes)) {
+  for (const std::string_view text : Lines(bytes, choices.stop)) {
     if (line++ < head.lines || stl::trim(text).empty()) continue;
     if (!reader.take(text, why)) return why = fmt::format("line {}: {}", line, why), std::nullopt;
   }

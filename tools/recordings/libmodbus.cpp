@@ -49,7 +49,7 @@ bool looks_like_libmodbus(std::string_view bytes) {
 std::optional<LineRecording> read_libmodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     auto frame = frame_in(line);
     if (!frame) {

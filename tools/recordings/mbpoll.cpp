@@ -169,7 +169,7 @@ class MbpollReader {
 void read_values_of_mbpoll(std::string_view bytes, const ReadingChoices& choices, LineRecording& recording) {
   MbpollReader reader(recording, choices.mbpoll_from_zero);
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) reader.take(line, ++number);
+  for (const std::string_view line : Lines(bytes, choices.stop)) reader.take(line, ++number);
   if (recording.frames.empty()) {
     recording.notes.emplace_back(
         "mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it prints "

@@ -88,12 +88,12 @@ bool looks_like_pymodbus(std::string_view bytes) {
 
 /// A log that begins with what was sent is a client's. One that begins with what has come may be a server's, or begin in the
 /// middle: then the frames have to say it themselves.
-std::optional<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_pymodbus(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
   DayCounter days;
   std::optional<bool> is_client;
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     auto moved = pymodbus_row(line);
     if (!moved) {

@@ -51,12 +51,12 @@ bool looks_like_python_bytes(std::string_view bytes) {
          });
 }
 
-std::optional<LineRecording> read_python_bytes(std::string_view bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_python_bytes(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
   LeftOut left_out;
   DayCounter days;
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     auto shown = shown_bytes(line);
     if (!shown || (shown->bytes && shown->bytes->empty())) {

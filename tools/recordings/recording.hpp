@@ -11,6 +11,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/serial_format.hpp"
+#include "interpreter/base/stop_token.hpp"
 #include "interpreter/base/time.hpp"
 #include "serial_sim/line/line_settings.hpp"
 
@@ -67,6 +68,7 @@ struct ReadingChoices {
   std::uint64_t samplerate = 0;  ///< samples a second of a recording that counts them; 0: as it says itself, or not known
   /// mbpoll had its option -0: references count from 0. A run of mbpoll that starts at 0 counts so without this, too.
   bool mbpoll_from_zero = false;
+  StopToken stop{};  ///< asked from line to line: what comes after it is not read
 };
 
 /// A form in which tools write recordings.

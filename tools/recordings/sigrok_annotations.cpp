@@ -132,7 +132,7 @@ std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, con
   LeftOut left_out;
   NotationFinder finder;
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     auto annotation = annotation_of(line);
     if (!annotation) {

@@ -314,9 +314,9 @@ bool looks_like_strace(std::string_view bytes) {
   return is_text(bytes) && std::ranges::any_of(Lines(beginning_of(bytes)), is_of_strace);
 }
 
-std::optional<LineRecording> read_strace(std::string_view bytes, const ReadingChoices&, std::string& why) {
+std::optional<LineRecording> read_strace(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
   StraceReader reader;
-  for (const std::string_view line : Lines(bytes)) reader.take(line);
+  for (const std::string_view line : Lines(bytes, choices.stop)) reader.take(line);
   return reader.finish(why);
 }
 

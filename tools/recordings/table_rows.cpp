@@ -20,7 +20,7 @@ bool is_after_mark(std::string_view row, std::size_t at) {
 }  // namespace
 
 std::optional<TableRow> TableRows::next() {
-  if (rest_.empty()) return {};
+  if (rest_.empty() || stop_.stop_requested()) return {};
   std::size_t end = 0, lines = 1;
   bool quoted = false;
   for (; end < rest_.size(); ++end) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
+
 namespace s7200::tools {
 
 struct TableRow {
@@ -15,16 +17,17 @@ struct TableRow {
 };
 
 /// The lines of a text one after the other, with the empty ones. A line end right after an opening quotation mark is a
-/// recorded character, as Logic 2 writes it. Nothing is copied.
+/// recorded character, as Logic 2 writes it. Nothing is copied. There are no more rows once `stop` is requested.
 class TableRows {
  public:
-  explicit TableRows(std::string_view text) : rest_(text) {}
+  explicit TableRows(std::string_view text, StopToken stop = {}) : rest_(text), stop_(stop) {}
 
   /// The next row; nothing at the end.
   std::optional<TableRow> next();
 
  private:
   std::string_view rest_;
+  StopToken stop_;
   std::size_t number_ = 1;
 };
 

@@ -41,12 +41,12 @@ bool looks_like_tasmota(std::string_view bytes) {
          });
 }
 
-std::optional<LineRecording> read_tasmota(std::string_view bytes, const ReadingChoices&, std::string&) {
+std::optional<LineRecording> read_tasmota(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   LineRecording recording;
   LeftOut left_out;
   DayCounter days;
   std::size_t number = 0;
-  for (const std::string_view line : Lines(bytes)) {
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     const auto moved = tasmota_row(line);
     if (!moved) {

@@ -78,10 +78,10 @@ std::string pcap_of(const std::vector<PrintedPacket>& packets, int link_type) {
 }
 
 /// Takes the rows of packets. Returns false after a message if a row is missing.
-bool take_rows(std::string_view text, std::vector<PrintedPacket>& packets, std::string& why) {
+bool take_rows(std::string_view text, StopToken stop, std::vector<PrintedPacket>& packets, std::string& why) {
   DayCounter days;
   std::size_t number = 0;
-  for (const std::string_view line : Lines(text)) {
+  for (const std::string_view line : Lines(text, stop)) {
     ++number;
     if (const auto row = tcpdump_row(line)) {
       if (packets.empty() || packets.back().bytes.size() != row->offset) {
@@ -109,7 +109,7 @@ bool looks_like_tcpdump(std::string_view bytes) {
 
 std::optional<LineRecording> read_tcpdump(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
   std::vector<PrintedPacket> packets;
-  if (!take_rows(bytes, packets, why)) return {};
+  if (!take_rows(bytes, choices.stop, packets, why)) return {};
   std::erase_if(packets, [](const PrintedPacket& packet) { return packet.bytes.empty() || packet.at < 0; });
   // The bytes begin with the head of IP after -x and -X, and with that of the link after -xx and -XX.
   const bool of_ip =

@@ -1,6 +1,8 @@
 // Logs of serial sniffers: a frame in each line, or in rows below a line with its time.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
@@ -97,8 +99,11 @@ std::optional<RecordedCharacter> character_of_interceptty(std::string_view line)
 
 class LogReader {
  public:
-  /// `joins`: the rows have a character each, and become frames at once.
-  LogReader(const ReadingChoices& choices, bool joins) : joiner_(choices), joins_(joins) {}
+  /// `joins`: the rows have a character each, and become frames at once. Room for frames in so many `lines` costs nothing
+  /// until it is used, and growing would copy all frames.
+  LogReader(const ReadingChoices& choices, bool joins, std::size_t lines) : joiner_(choices), joins_(joins) {
+    recording_.frames.reserve(lines);
+  }
 
   /// A row has not just a character and its time.
   bool has_other_rows() const { return has_other_rows_; }
@@ -345,9 +350,11 @@ class LogReader {
 }  // namespace
 
 std::optional<LineRecording> read_text_log(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+  constexpr std::size_t kShortestRow = 16;  // of most logs
+  const auto lines = std::min(static_cast<std::size_t>(std::ranges::count(bytes, '\n')) + 1, bytes.size() / kShortestRow);
   const auto read = [&](bool joins) -> std::optional<LineRecording> {
-    LogReader reader(choices, joins);
-    for (const std::string_view line : Lines(bytes)) {
+    LogReader reader(choices, joins, joins ? 0 : lines);
+    for (const std::string_view line : Lines(bytes, choices.stop)) {
       reader.take(line);
       if (joins && reader.has_other_rows()) return {};
     }

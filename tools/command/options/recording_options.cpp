@@ -174,7 +174,9 @@ std::optional<ReadRecording> read_file(const RecordingOptions& options) {
   ReadingChoices choices = options.reading;
   choices.line = options.line;
   choices.usual = options.format();
+  choices.stop = interruption();
   auto recording = read_recording(*bytes, choices, why);
+  if (!recording && interrupted()) return read;
   if (!recording) return print_error(fmt::format("{}: {}", read.name, why)), std::nullopt;
   read.recording = std::move(*recording);
   const bool over_tcp = read.recording.over_tcp;
