@@ -45,7 +45,7 @@ constexpr std::array<std::pair<Change, std::string_view>, 12> kChangeNames{{
     {kMarkdown, "Markdown"},
     {kLineNumbers, "line numbers"},
     {kPercent, "% before addresses"},
-    {kMargin, "bullets and quotation marks in the margin"},
+    {kMargin, "bullets, quotation marks and speakers in the margin"},
     {kLineEnds, "line ends of a word processor"},
 }};
 
@@ -272,7 +272,13 @@ bool begins_with_one_of(std::string_view text, std::span<const std::string_view>
   return std::ranges::any_of(beginnings, [text](std::string_view each) { return text.starts_with(each); });
 }
 
-bool is_fence(std::string_view line) { return begins_with_one_of(trim(line), kFences); }
+/// Markdown's marks around code, and those of forums: `[code]`, `[code=stl]`, `[/code]`.
+bool is_fence(std::string_view line) {
+  const std::string_view text = trim(line);
+  if (begins_with_one_of(text, kFences)) return true;
+  const std::string mark = text.starts_with('[') && text.find(']') == text.size() - 1 ? lower_case(text) : "";
+  return mark == "[code]" || mark == "[/code]" || mark.starts_with("[code=");
+}
 
 /// Rewrites lines, and keeps for each character of the result the column that it had.
 class LineWriter {
@@ -457,6 +463,7 @@ bool looks_like_statement(std::string_view line) {
       text, [](char c) { return c == ',' || c == ';'; }, ' ');
   const std::vector<std::string> written = split_words(text);
   if (written.size() < 2 || written.size() > kMostWords || written[0].size() > kLongestMnemonic) return false;
+  if (written[0].starts_with('|')) return false;  // a row of a table
   return std::any_of(std::next(written.begin()), written.end(), [](const std::string& word) {
     constexpr std::string_view kLetters = "IQVMSTCALEHBWDX";
     const std::string upper = upper_case(word);
@@ -562,6 +569,25 @@ std::optional<LineNumber> line_number(std::string_view line) {
   return result.bytes > end && begins ? std::optional(result) : std::nullopt;
 }
 
+/// How many bytes the time and the name of a speaker take at the beginning of a line of a chat: `[27.11.26, 14:02:11] Hans:
+/// LD I0.0`, `27.11.26, 14:02 - Hans: LD I0.0`, `14:02 <hans> LD I0.0`.
+std::size_t speaker(std::string_view line) {
+  constexpr std::size_t kLongestTime = 30, kLongestName = 40;
+  const std::size_t begin = std::min(line.find_first_not_of(" \t["), line.size());
+  std::size_t after_time = std::min(line.find_first_not_of("0123456789.,:/- \t", begin), line.size());
+  const std::string_view time = line.substr(begin, after_time - begin);
+  const std::size_t colon = time.find(':');
+  const bool is_time = time.size() <= kLongestTime && colon != time.npos && colon > 0 && colon + 1 < time.size() &&
+                       is_digit(time[colon - 1]) && is_digit(time[colon + 1]);
+  if (!is_time) return 0;
+  const std::string half = upper_case(line.substr(after_time, 3));
+  if (half.starts_with("AM") || half.starts_with("PM")) after_time += half.size() == 3 && is_letter(half[2]) ? 0U : 2U;
+  const std::size_t name = std::min(line.find_first_not_of("] -\t", after_time), line.size());
+  const bool in_brackets = name < line.size() && line[name] == '<';
+  const std::size_t end = line.find(in_brackets ? "> " : ": ", name);
+  return end != line.npos && end > name && end - name <= kLongestName ? end + 2 : 0;
+}
+
 /// How many bytes the > of quoted text takes at the beginning of a line.
 std::size_t quotation_mark(std::string_view line) {
   const std::size_t from = line.find_first_not_of(" \t");
@@ -644,17 +670,19 @@ class Page {
   void run() {
     constexpr int kMostSteps = 6;
     for (int step = 0; step < kMostSteps; ++step)
-      if (!cut_out_fences() && !leave_out_marks(quotation_mark) && !leave_out_numbers() && !leave_out_marks(list_mark))
+      if (!cut_out_fences() && !leave_out_speakers() && !leave_out_marks(quotation_mark) && !leave_out_numbers() &&
+          !leave_out_marks(list_mark))
         return;
   }
 
-  /// Paragraphs and headings between the lines of a program that has tags, too. `lines` are those of the original.
+  /// Paragraphs and headings between the lines of a program that has tags or is quoted, too. `lines` are those of the
+  /// original.
   void leave_out_text(const std::vector<std::string>& lines) {
     for (Row& row : rows) {
-      if ((row.changes & kHtml) == 0) continue;
+      if ((row.changes & (kHtml | kMargin)) == 0) continue;
       const bool is_heading =
           is_html_heading(lines[row.original - 1]) && !stands_without_mark(row.text) && !looks_like_statement(row.text);
-      if (is_heading || is_text(row.text)) leave_out_around(row, kHtml);
+      if (is_heading || is_text(row.text)) leave_out_around(row, (row.changes & kHtml) != 0 ? kHtml : kMargin);
     }
   }
 
@@ -688,6 +716,25 @@ class Page {
         leave_out_around(rows[i], kMarkdown);
       else if (is_fence(rows[i].text))
         rows[i].leave_out(kMarkdown);
+    return true;
+  }
+
+  /// Leaves out who said it and when, and what is no statement. Lines of one message have that once.
+  bool leave_out_speakers() {
+    std::vector<std::size_t> bytes;
+    std::ranges::transform(rows, std::back_inserter(bytes), [](const Row& row) { return speaker(row.text); });
+    std::size_t said = 0;
+    bool any_statement = false;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      said += bytes[i] > 0 ? 1U : 0U;
+      any_statement |= bytes[i] > 0 && looks_like_statement(std::string_view(rows[i].text).substr(bytes[i]));
+    }
+    if (said < 2 || !any_statement) return false;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].leave_out_beginning(bytes[i], kMargin);
+      if (bytes[i] > 0 && !stands_without_mark(rows[i].text) && !looks_like_statement(rows[i].text))
+        leave_out_around(rows[i], kMargin);
+    }
     return true;
   }
 
@@ -783,7 +830,7 @@ PlainText::PlainText(std::string_view original) : original_(original) {
     if (parts[i].empty() && !trim(lines[i]).empty()) left_out_.push_back(i + 1);
   Page page(read_lines(lines, parts, html));
   page.run();
-  if (html) page.leave_out_text(lines);
+  page.leave_out_text(lines);
   around_ |= page.around;
   left_out_.insert(left_out_.end(), page.left_out.begin(), page.left_out.end());
   std::ranges::sort(left_out_);

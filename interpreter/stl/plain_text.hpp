@@ -2,7 +2,7 @@
 //
 // Read as what they stand for: no-break and other Unicode blanks, full-width signs, typographic quotes, dashes and signs,
 // HTML tags and entities; left out: characters that nobody sees, Markdown fences and what is around them, line numbers,
-// bullets, the > of quoted mail, text around lines with these, the % before an address. All of this may come together, in any
+// bullets, the > of quoted mail, the times and names of a chat, text around lines with these, the % before an address. All of this may come together, in any
 // order. Comments and quoted text stay as they are.
 #pragma once
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "interpreter/analysis/check.hpp"
@@ -162,7 +163,8 @@ TEST(PlainText, TextAroundNumberedOrQuotedLinesIsLeftOut) {
   EXPECT_EQ(program("From the forum:\n1. LD I0.0\n2. = Q0.0\n\nThanks, Jim\n"), program("\nLD I0.0\n= Q0.0\n\n\n"));
   EXPECT_EQ(program("Jim wrote:\n> LD I0.0\n> = Q0.0\n"), program("\nLD I0.0\n= Q0.0\n"));
   EXPECT_EQ(note("Jim wrote:\n> LD I0.0\n> = Q0.0\n"),
-            "page.txt: read as plain text: bullets and quotation marks in the margin; the first in line 2; left out around "
+            "page.txt: read as plain text: bullets, quotation marks and speakers in the margin; the first in line 2; left "
+            "out around "
             "the program: line 1");
 }
 
@@ -301,6 +303,41 @@ TEST(LookAlikes, SymbolsMayLookAsTheyLike) {
   const CpuModel& model = *find_cpu("224");
   const CheckResult result = check(join_files(std::move(files)).parsed, model, default_times(model));
   EXPECT_TRUE(result.program) << diagnostics(result);
+}
+
+std::string without_blank_lines(std::string text) {
+  text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == '\n' && b == '\n'; }), text.end());
+  return text;
+}
+
+TEST(PlainText, TheTimesAndNamesOfAChatAreLeftOutWithWhatIsNoStatement) {
+  const std::string expected = program("LD I0.0\nAN I0.1\n= Q0.0\nLD Q0.0\nTON T37, 50\n");
+  for (const char* const chat :
+       {"[27.11.26, 14:02:11] Hans: this is it\n[27.11.26, 14:02:30] Hans: LD I0.0\n[27.11.26, 14:02:33] Hans: AN I0.1\n"
+        "[27.11.26, 14:02:38] Hans: = Q0.0\n[27.11.26, 14:03:01] Jo: and the timer?\n[27.11.26, 14:03:20] Hans: LD Q0.0\n"
+        "[27.11.26, 14:03:25] Hans: TON T37, 50\n",
+        "27.11.26, 14:02 - Pam: LD I0.0\nAN I0.1\n= Q0.0\n27.11.26, 14:03 - Paul M.: LD Q0.0\nTON T37, 50\n",
+        "11/27/26, 2:02 PM - Pam: LD I0.0\nAN I0.1\n= Q0.0\n11/27/26, 2:03 PM - Amy: LD Q0.0\nTON T37, 50\n",
+        "14:02 <hans> LD I0.0\n14:02 <hans> AN I0.1\n14:02 <hans> = Q0.0\n14:02 <jo> hm\n14:03 <hans> LD Q0.0\n"
+        "14:03 <hans> TON T37, 50\n"})
+    EXPECT_EQ(without_blank_lines(program(chat)), expected) << chat;
+  EXPECT_EQ(
+      note("14:02 <hans> LD I0.0\n14:02 <jo> hm\n14:02 <hans> = Q0.0\n"),
+      "page.txt: read as plain text: bullets, quotation marks and speakers in the margin; the first in line 1; left out "
+      "around the program: line 2");
+}
+
+TEST(PlainText, TheMarksOfAForumAroundCodeAreFences) {
+  EXPECT_EQ(program("Hello,\nhere it is:\n[code]\nLD I0.0\n= Q0.0\n[/code]\nThanks\n"), program("LD I0.0\n= Q0.0\n"));
+  EXPECT_EQ(program("My program\n[CODE=stl]\nLD I0.0\n= Q0.0\n[/CODE]\n"), program("LD I0.0\n= Q0.0\n"));
+}
+
+TEST(PlainText, ATableAndASentenceAreNoStatements) {
+  const std::string expected = program("LD I0.0\n= Q0.0\n");
+  EXPECT_EQ(
+      program("# Pump\n\nHere's it:\n\n```stl\nLD I0.0\n= Q0.0\n```\n\n| Name | Address |\n|---|---|\n| Pump | Q0.0 |\n"),
+      expected);
+  EXPECT_EQ(program("On Friday Joe wrote:\n> LD I0.0\n> = Q0.0\n>\n> Hope this really helps\n"), expected);
 }
 
 }  // namespace
