@@ -8,6 +8,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "tools/recordings/number_list.hpp"
 #include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
@@ -206,7 +207,7 @@ bool has_date(std::string_view word) {
 /// Appends the bytes of `01`, `0103`, `0x1`, `01-03`, `[01][03]`, `0x01,`. Returns false and appends nothing for anything
 /// else; a date is not a byte.
 bool append_bytes(Bytes& bytes, std::string_view word) {
-  constexpr std::string_view kOpening = "[<(\"", kBetween = ",;-[]<>()\"";
+  constexpr std::string_view kOpening = "[<({\"", kBetween = ",;-[]<>(){}\"";
   if (word.size() == 2 && is_hex_digit(word[0]) && is_hex_digit(word[1])) {
     bytes.push_back(static_cast<std::uint8_t>(value_of_digit(word[0]) << 4 | value_of_digit(word[1])));
     return true;
@@ -283,12 +284,16 @@ bool ends_name(std::string_view word, std::size_t end) {
 
 /// The length of a name before bytes: `Tx:01` is `01` after its name; `len=09` and `plc:5020` have no such name.
 std::size_t length_of_name(std::string_view word) {
+  const auto is_of_name = [&](std::size_t at) {
+    const bool is_mark = at > 0 && word[at - 1] == '0' && (word[at] | 0x20) == 'x';
+    return !is_hex_digit(word[at]) && is_letter_of_any_language(word[at]) && !is_mark;
+  };
   std::size_t end = word.size();
-  while (end > 0 && !ends_name(word, end)) --end;
-  if (end == 0 || end == word.size()) return 0;
+  while (end > 0 && !is_of_name(end - 1)) --end;
+  while (end > 0 && end < word.size() && !ends_name(word, end)) ++end;
+  if (end == 0 || end >= word.size()) return 0;
   const std::string_view name = word.substr(0, end);
-  const bool named = std::ranges::any_of(name, [](char c) { return !is_hex_digit(c) && is_letter_of_any_language(c); });
-  return named && name.find('=') == std::string_view::npos && !is_port_of_host(name, word.substr(end)) ? name.size() : 0;
+  return name.find('=') == std::string_view::npos && !is_port_of_host(name, word.substr(end)) ? name.size() : 0;
 }
 
 /// Words beside a number that say what the number is.
@@ -422,7 +427,7 @@ bool has_both_cases(Words run) {
 
 bool has_mark(const Word& word) {
   if (word.text.size() < 3) return false;
-  return is_marked(word.text.substr(std::min(word.text.find_first_not_of("[<(\""), word.text.size())));
+  return is_marked(word.text.substr(std::min(word.text.find_first_not_of("[<({\""), word.text.size())));
 }
 
 /// Whether bytes end with a number of several digits after pairs of digits: `01 03 04 12 34 81 07 4660`
@@ -779,7 +784,20 @@ bool has_clock(std::string_view text) {
   return false;
 }
 
+/// Numbers that are no pairs of digits may be bytes as well, if they are a right frame.
 std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
+  auto found = among_words(line);
+  if (found && found->not_understood.empty() && found->bytes.size() > 1) return found;
+  auto list = number_list_at_end(without_comment(line));
+  if (!list) return found;
+  if (!found || found->not_understood.empty())
+    return BytesInLine{.begin = list->begin, .not_understood = list->odd, .readings = std::move(list->readings)};
+  std::ranges::move(list->readings, std::back_inserter(found->readings));
+  found->begin = std::min(found->begin, list->begin);
+  return found;
+}
+
+std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
   take_apart(without_comment(line));
   const std::size_t end_of_row = end_of_hex(line);
   if (end_of_row < line.size()) take_apart(without_comment(line.substr(0, end_of_row)));

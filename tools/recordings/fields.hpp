@@ -78,6 +78,7 @@ class BytesOfLines {
   std::optional<BytesInLine> in(std::string_view line);
 
  private:
+  std::optional<BytesInLine> among_words(std::string_view line);
   void take_apart(std::string_view line);
   std::size_t end_of_hex(std::string_view line) const;
   std::optional<BytesInLine> bytes_in_comment(std::string_view line);

@@ -95,7 +95,8 @@ bool is_mostly_modbus_tcp(Rows rows) {
     const RecordedFrame& first = rows.front();
     std::size_t count = 1;
     if (first.doubt) {
-      over_tcp += reading_of(first) != nullptr;
+      const Reading* const reading = reading_of(first);
+      over_tcp += reading != nullptr && !modbus::crc_ok(reading->bytes);
     } else if (is_message(first.bytes)) {
       over_tcp += !modbus::crc_ok(first.bytes);  // by chance a message may have a CRC
     } else {
@@ -131,7 +132,7 @@ void read_modbus_tcp(LineRecording& recording) {
   for (std::span<RecordedFrame> rows = recording.frames; !rows.empty();) {
     RecordedFrame& first = rows.front();
     if (const Reading* const reading = first.doubt ? reading_of(first) : nullptr) {
-      ignored.add(fmt::format("{}: '{}' beside the bytes", first.place, first.doubt->word));
+      if (reading->without_word) ignored.add(fmt::format("{}: '{}' beside the bytes", first.place, first.doubt->word));
       first.bytes = reading->bytes;
       first.doubt.reset();
     }

@@ -123,6 +123,7 @@ class LogReader {
     const bool is_of_dump = !at && (has_offsets_ || is_dump(line));
     const bool may_be_row = is_of_dump || (!at && (heading_ || goes_on_));
     const Offset offset = may_be_row ? offset_of(line) : Offset{};
+    if (is_of_dump && !offset.digits.empty() && hex_number(offset.digits) == 0) goes_on_ = has_offsets_ = false;
     if (!offset.digits.empty() && !is_right(offset) && is_of_dump) {
       in_dump_ = true;
       return leave_out({.not_understood = offset.digits}, {}, Direction::Unknown);
@@ -205,10 +206,13 @@ class LogReader {
   /// The number of bytes of the frame above the row.
   std::size_t bytes_above() const { return goes_on_ || has_offsets_ ? recording_.frames.back().bytes.size() : 0; }
 
-  /// Whether a line is a row of hexdump, eight digits, two blanks, and pairs of digits: `00000010  01 03 …`
+  /// Whether a line is a row of hexdump, eight digits, two blanks, and pairs of digits: `00000010  01 03 …`; or the first
+  /// row of a packet as Wireshark writes it: `0000   01 03 …`
   static bool is_dump(std::string_view line) {
     Scan scan(line);
-    const bool has_offset = scan.take_hex(8).size() == 8 && scan.skip(kAllBlanks) >= 2;
+    const std::string_view offset = scan.take_hex(8);
+    const bool is_offset = offset.size() == 8 || offset == "0000";
+    const bool has_offset = is_offset && scan.skip(kAllBlanks) >= 2;
     return has_offset && scan.take_hex(2).size() == 2 && (scan.at_end() || scan.skip(kAllBlanks, 1) == 1);
   }
 

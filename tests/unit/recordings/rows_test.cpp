@@ -398,6 +398,61 @@ TEST(RowsOfADump, AnOffsetThatIsNotRightIsNoByteAndTheFrameIsNotRead) {
   EXPECT_EQ(frames[1].bytes, Bytes{});
 }
 
+TEST(RowsOfADump, AnOffsetOfZeroBeginsAPacketWithoutAHeading) {
+  const std::string asked = "0000   01 03 00 0a 00 02 e4 09                           ........\n";
+  const std::string said = "0000   01 03 04 12 34 56 78 81 07                        ...4Vx...\n";
+  for (const std::string& between : {std::string(), std::string("\n")}) {
+    const auto frames = read(asked + between + said + between + asked + between + said);
+    EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid, kAsked, kSaid})) << between;
+  }
+  const std::string full = "0000   00 01 02 03 04 05 06 07 08 09 0a 0b 0c 0d 0e 0f   ................\n";
+  const auto frames = recording_of(full + "0010   10 11   ..\n\n" + full + "\n" + full).frames;
+  ASSERT_EQ(frames.size(), 3U) << "a full row does not go on in another packet";
+  EXPECT_EQ(frames[0].bytes.size(), 18U);
+  EXPECT_EQ(frames[1].bytes.size(), 16U);
+}
+
+// --- lists of numbers ---
+
+TEST(NumbersInALog, AreBytesInDecimalOrHexIfTheyAreARightFrame) {
+  for (const char* const log :
+       {">>> send [1, 3, 0, 10, 0, 2, 228, 9]\n>>> recv [1, 3, 4, 18, 52, 86, 120, 129, 7]\n",
+        "TX [1,3,0,10,0,2,228,9]\nRX [1,3,4,18,52,86,120,129,7]\n",
+        "10:00:00.000 -> TX: 1 3 0 A 0 2 E4 9\n10:00:00.067 -> RX: 1 3 4 12 34 56 78 81 7\n",
+        "TX 1 3 0 10 0 2 228 9\nRX 1 3 4 18 52 86 120 129 7\n", "1 3 0 a 0 2 e4 9\n1 3 4 12 34 56 78 81 7\n",
+        "[D] tx: {0x01, 0x03, 0x00, 0x0A, 0x00, 0x02, 0xE4, 0x09}\n"
+        "[D] rx: {0x01, 0x03, 0x04, 0x12, 0x34, 0x56, 0x78, 0x81, 0x07}\n",
+        "byte tx[] = {0x1, 0x3, 0x0, 0xA, 0x0, 0x2, 0xE4, 0x9};\nbyte rx[] = {0x1,0x3,0x4,0x12,0x34,0x56,0x78,0x81,0x7};\n",
+        "send (1, 3, 0, 10, 0, 2, 228, 9)\nrecv (1, 3, 4, 18, 52, 86, 120, 129, 7)\n"}) {
+    const auto frames = read(log);
+    EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid})) << log;
+    EXPECT_EQ(notes(frames), std::vector<std::string>{}) << log;
+  }
+}
+
+TEST(NumbersInALog, ARightFrameIsNoMessageOfModbusTcpThoughItLooksLikeOne) {
+  for (const char* const log : {"send [1, 3, 0, 0, 0, 2, 196, 11]\n", "TX: 1 3 0 0 0 2 C4 B\n",
+                                "TX (8): 0x01 0x03 0x00 0x00 0x00 0x02 0xC4 0x0B @ 1234 ms\n"})
+    EXPECT_EQ(texts(read(log)), std::vector<std::string>{"station 1, read holding registers 40001, 2 of them"}) << log;
+  EXPECT_EQ(texts(read("TX [0, 1, 0, 0, 0, 6, 1, 3, 0, 10, 0, 2]\n")), std::vector{kAsked}) << "that is one";
+}
+
+TEST(NumbersInALog, ThatAreNoRightFrameAreNoBytes) {
+  for (const char* const row : {"TX [1, 3, 0, 10, 0, 2, 228, 8]", "TX: 1 3 0 A 0 2 E4 8", "RX values 100 200 30 4"}) {
+    const auto frames = read(std::string(row) + "\nTX 01 03 00 0a 00 02 e4 09\n");
+    ASSERT_EQ(frames.size(), 2U) << row;
+    EXPECT_TRUE(frames[0].not_read) << row;
+    EXPECT_EQ(frames[1].text, kAsked);
+  }
+}
+
+TEST(NumbersInALog, EachCellOfARowIsAByte) {
+  const auto frames = read("0.000,TX,01,03,00,0A,00,02,E4,09,\n0.067,RX,01,03,04,12,34,56,78,81,07\n");
+  EXPECT_EQ(texts(frames), (std::vector{kAsked, kSaid}));
+  EXPECT_EQ(texts(read("TX:01,03,00,0a,00,02,e4,09\nRx:0x01,0x03,0x04,0x12,0x34,0x56,0x78,0x81,0x07\n")),
+            (std::vector{kAsked, kSaid}));
+}
+
 // --- characters ---
 
 const std::vector<std::string> kWeighed{R"("?W\r\n")", R"("+0012.40 kg\r\n")", "ENQ", "NAK", R"("AB 12\r\n")"};
