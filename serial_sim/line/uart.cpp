@@ -83,11 +83,22 @@ void Uart::send_without_stop_bit(std::uint8_t byte, Time at) {
 }
 
 void Uart::send_break(int bit_times, Time at) {
-  assert(!state_.sending && at >= state_.send_end && bit_times > 0);
+  assert(bit_times > 0);
+  begin_break(at);
   const Time end = at + BitClock{state_.format, clock_error()}.bit_times(bit_times);
+  end_break(end, end);
+}
+
+void Uart::begin_break(Time at) {
+  assert(!state_.sending && at >= state_.send_end);
   line_.drive(driver_, at, false);
-  line_.drive(driver_, end, true);
-  sends_until(end);
+  state_.sending = true;
+  state_.send_end = kNever;
+}
+
+void Uart::end_break(Time at, Time sent) {
+  line_.drive(driver_, at, true);
+  sends_until(sent);
 }
 
 void Uart::begin_exchange(Time at) {

@@ -78,6 +78,11 @@ class Uart final : public SerialPort, private LineListener {
   void send(std::uint8_t byte, Time at) override;
   void send_break(int bit_times, Time at) override;
 
+  /// Holds the line at space from `at` on, until end_break() says when that ends.
+  void begin_break(Time at);
+  /// The line is at mark from `at` on; `sent` is reported like the end of a character.
+  void end_break(Time at, Time sent);
+
   /// A character with its parity bit the wrong way round, for tests of the other end. Needs a format with parity.
   void send_with_wrong_parity(std::uint8_t byte, Time at);
 

@@ -1,5 +1,6 @@
 #include "serial_sim/peers/host_port.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -47,8 +48,31 @@ void HostPort::send_next(Time at) {
     case HostCharacter::Fault::NoStopBit:
       return uart_.send_without_stop_bit(character.byte, at);
     case HostCharacter::Fault::Break:
-      return uart_.send_break(HostCharacter::kBreakBits, at);
+      return send_break(character, at);
   }
+}
+
+void HostPort::send_break(const HostCharacter& character, Time at) {
+  uart_.begin_break(at);
+  if (character.lasts > 0)
+    finish_break(at + character.lasts);
+  else
+    state_.held_break = {character.sender, at};
+}
+
+void HostPort::finish_break(Time end) { uart_.end_break(end, end + mark_after_break(uart_.state().format)); }
+
+void HostPort::end_break(std::uint64_t sender, Time lasts, Time at) {
+  note({.what = HostCall::What::EndBreak, .characters = {}, .sender = sender, .lasts = lasts});
+  if (state_.held_break && state_.held_break->sender == sender) {
+    const Time end = state_.held_break->since + std::max(lasts, shortest_break(uart_.state().format));
+    state_.held_break.reset();
+    return finish_break(std::max(at, end));
+  }
+  const auto waiting = std::ranges::find_if(state_.to_send, [&](const HostCharacter& character) {
+    return character.fault == HostCharacter::Fault::Break && character.sender == sender && character.lasts == 0;
+  });
+  if (waiting != state_.to_send.end()) waiting->lasts = std::max(lasts, shortest_break(waiting->format));
 }
 
 std::size_t HostPort::waiting(std::uint64_t sender) const {
@@ -84,6 +108,9 @@ void HostPort::repeat(const HostCall& call, Time at) {
       break;
     case HostCall::What::TakeReceived:
       take_received();
+      break;
+    case HostCall::What::EndBreak:
+      end_break(call.sender, call.lasts, at);
       break;
   }
   journal_ = journal;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,24 +15,31 @@ namespace s7200::serial {
 /// A character that waits to be sent.
 struct HostCharacter {
   enum class Fault : std::uint8_t { None, WrongParity, NoStopBit, Break };
-  static constexpr int kBreakBits = 20;  ///< longer than any character
+  static constexpr int kBreakBits = 20;  ///< of the shortest break: longer than any character
 
   std::uint8_t byte = 0;
   SerialFormat format{};
   Fault fault = Fault::None;  ///< WrongParity needs a format with parity; a Break has no byte
   std::uint64_t sender = 0;   ///< whose it is, where several share the port
+  Time lasts = 0;             ///< of a Break; 0: until HostPort::end_break()
 
   bool operator==(const HostCharacter&) const = default;
 };
 
+/// How long a break lasts at least: both ends of it may come at once.
+constexpr Time shortest_break(const SerialFormat& format) { return format.bit_times(HostCharacter::kBreakBits); }
+/// How long the line is at mark after a break, so that the next start bit has an edge.
+constexpr Time mark_after_break(const SerialFormat& format) { return format.bit_times(1); }
+
 /// A call to the port from outside the simulation, as plain data: it can be repeated.
 struct HostCall {
-  enum class What : std::uint8_t { Attach, ReceiveAs, Send, Drop, TakeReceived };
+  enum class What : std::uint8_t { Attach, ReceiveAs, Send, Drop, TakeReceived, EndBreak };
 
   What what{};
   SerialFormat format{};                  ///< Attach, ReceiveAs
   std::vector<HostCharacter> characters;  ///< Send
-  std::uint64_t sender = 0;               ///< Drop
+  std::uint64_t sender = 0;               ///< Drop, EndBreak
+  Time lasts = 0;                         ///< EndBreak
 
   bool operator==(const HostCall&) const = default;
 };
@@ -56,6 +64,13 @@ class HostPort {
     std::deque<HostCharacter> to_send;
     std::map<std::uint64_t, std::size_t> waiting;  ///< how many of each sender; none with 0
     std::vector<ReceivedCharacter> received;
+    /// The break on the line whose end its sender has not said.
+    struct HeldBreak {
+      std::uint64_t sender = 0;
+      Time since = 0;
+      bool operator==(const HeldBreak&) const = default;
+    };
+    std::optional<HeldBreak> held_break{};
     bool operator==(const State&) const = default;
   };
 
@@ -81,6 +96,10 @@ class HostPort {
 
   /// Drops the waiting characters of `sender`. Returns how many there were.
   std::size_t drop(std::uint64_t sender);
+
+  /// The open break of `sender`, on the line or waiting, has been held for `lasts`: it ends when it has been on the line for
+  /// so long, and at least for kBreakBits, but not before `at`. Does nothing if `sender` has none.
+  void end_break(std::uint64_t sender, Time lasts, Time at);
 
   /// The characters received since the last call, with their errors.
   std::vector<ReceivedCharacter> take_received();
@@ -110,6 +129,8 @@ class HostPort {
 
  private:
   void send_next(Time at);
+  void send_break(const HostCharacter& character, Time at);
+  void finish_break(Time end);
   void note(HostCall call) const {
     if (journal_) journal_->host_called(call);
   }

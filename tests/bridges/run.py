@@ -856,14 +856,30 @@ class Rfc2217Tests(TcpCase):
         running = self.serve("--rfc2217", "--capture", capture)
         port = self.open(running)
         self.until_heard(port)
+        begun = time.monotonic()
         port.send_break(0.05)
+        held = time.monotonic() - begun
         self.assertEqual(self.until_heard(port), ANSWER)
         self.assertEqual(running.end()["bridge"]["breaks"], 1)
         levels = re.findall(r"#(\d+)\n((?:[01][rtl]\n)+)", capture.read_text(encoding="utf-8"))
         falls = [int(at) for at, edges in levels if "0r" in edges]
         rises = [int(at) for at, edges in levels if "1r" in edges]
         longest = max(next((rise - fall for rise in rises if rise > fall), 0) for fall in falls)
-        self.assertEqual(longest, 20 * 1_000_000_000 // 9600)
+        self.assertGreater(longest, 45_000_000, "as long as the client held it")
+        self.assertLess(longest, (held + SILENCE) * 1_000_000_000)
+
+    def test_a_break_ends_with_the_client_that_held_it(self):
+        running = self.serve("--rfc2217")
+        other = self.open(running)
+        self.until_heard(other)
+        port = self.open(running)
+        port.break_condition = True
+        time.sleep(0.1)
+        other.write(READ)
+        self.assertEqual(other.read(1), b"", "the line is at space")
+        port.close()
+        self.assertEqual(self.until_heard(other), ANSWER)
+        self.assertEqual(running.end()["bridge"]["breaks"], 1)
 
     def test_each_client_has_settings_of_its_own(self):
         running = self.serve("--rfc2217")

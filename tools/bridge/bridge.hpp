@@ -36,6 +36,9 @@ class LiveLine {
   /// Drops the characters of `sender` that are waiting to be sent. Returns how many there were.
   virtual std::size_t drop(std::uint64_t sender) = 0;
 
+  /// The open break of `sender` has been held for `lasts`, as HostPort::end_break() has it.
+  virtual void end_break(std::uint64_t sender, Time lasts) = 0;
+
   /// The format that the program has set its port to, with the options' settings in place of its own.
   virtual SerialFormat format() const = 0;
 

@@ -146,7 +146,8 @@ void ComPort::command() {
       return;
     case kSetBaudRate: {
       if (value.size() != 4) return;
-      const std::uint32_t baud = std::uint32_t{value[0]} << 24 | std::uint32_t{value[1]} << 16 | std::uint32_t{value[2]} << 8 | value[3];
+      const std::uint32_t baud =
+          std::uint32_t{value[0]} << 24 | std::uint32_t{value[1]} << 16 | std::uint32_t{value[2]} << 8 | value[3];
       if (baud >= serial::kSlowestBaud && baud <= serial::kFastestBaud) baud_ = baud;
       const std::uint32_t now = format().baud;
       return answer(what, std::array{static_cast<std::uint8_t>(now >> 24), static_cast<std::uint8_t>(now >> 16),
@@ -182,6 +183,7 @@ void ComPort::set_control(std::uint8_t value) {
   if (value == kDtrOn || value == kDtrOff) dtr_ = value == kDtrOn;
   if (value == kRtsOn || value == kRtsOff) rts_ = value == kRtsOn;
   if (value == kBreakOn && !break_) port_.begin_break();
+  if (value == kBreakOff && break_) port_.end_break();
   if (value == kBreakOn || value == kBreakOff) break_ = value == kBreakOn;
   if (value <= kFlowOutLast)
     answer(kSetControl, flow_out_);

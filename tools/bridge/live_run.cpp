@@ -145,6 +145,10 @@ class LiveRun::Engine {
       end_.port->send(characters, now());
     }
     std::size_t drop(std::uint64_t sender) override { return end_.port->drop(sender); }
+    void end_break(std::uint64_t sender, Time lasts) override {
+      engine_.busy();
+      end_.port->end_break(sender, lasts, now());
+    }
 
     Time now() const override { return engine_.now(); }
     const serial::HostPort& host_port() const override { return *end_.port; }

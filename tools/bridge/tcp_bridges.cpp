@@ -153,11 +153,13 @@ class Rfc2217Bridge final : public TcpBridge {
     const auto character = [this, client](std::uint8_t byte) { put(client, {.byte = byte}); };
     const auto begin_break = [this, client] {
       ++breaks_;
+      held_since_[client] = line().now();
       put(client, {.fault = HostCharacter::Fault::Break});
     };
     ports_.try_emplace(client, ComPort::Port{.format = [this] { return line().program_format(); },
                                              .character = character,
                                              .begin_break = begin_break,
+                                             .end_break = [this, client] { end_break(client); },
                                              .purge = [this, client] { purged_ += line().drop(client); }});
     speaker_ = client;
   }
@@ -168,6 +170,10 @@ class Rfc2217Bridge final : public TcpBridge {
     line().send(std::span(&character, 1));
   }
 
+  void end_break(Client client) {
+    if (const auto held = held_since_.extract(client)) line().end_break(client, line().now() - held.mapped());
+  }
+
   void take(Client client, std::span<const std::uint8_t> bytes) override {
     line().catch_up();
     speaker_ = client;
@@ -175,6 +181,7 @@ class Rfc2217Bridge final : public TcpBridge {
   }
   std::size_t gone(Client client) override {
     ports_.erase(client);
+    end_break(client);
     return line().drop(client);
   }
   std::string error(Client client) const override {
@@ -196,7 +203,8 @@ class Rfc2217Bridge final : public TcpBridge {
 
   serial::LineSettings options_;
   std::map<Client, ComPort> ports_;
-  Client speaker_ = 0;  // in whose format the line is heard
+  std::map<Client, Time> held_since_;  // breaks that their clients have not ended
+  Client speaker_ = 0;                 // in whose format the line is heard
   std::uint64_t breaks_ = 0, purged_ = 0;
 };
 

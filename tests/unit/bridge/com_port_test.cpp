@@ -13,10 +13,11 @@ using Bytes = std::vector<std::uint8_t>;
 struct Client {
   SerialFormat plc{9600, 8, Parity::Even, 1};
   Bytes sent;
-  int breaks = 0, purges = 0;
+  int breaks = 0, ended = 0, purges = 0;
   ComPort port{{.format = [this] { return plc; },
                 .character = [this](std::uint8_t byte) { sent.push_back(byte); },
                 .begin_break = [this] { ++breaks; },
+                .end_break = [this] { ++ended; },
                 .purge = [this] { ++purges; }}};
 
   std::string take(const Bytes& bytes) { return serial::to_hex(port.take(bytes)); }
@@ -67,12 +68,18 @@ TEST(ComPort, WhatAPortOfAnS7200CannotDoStaysAsItIs) {
   EXPECT_EQ(client.ask({4, 3}), "68 01") << "1.5 stop bits";
 }
 
-TEST(ComPort, ABreakIsOneOfTheLine) {
+TEST(ComPort, ABreakIsHeldFromOnToOff) {
   Client client;
-  EXPECT_EQ(client.ask({5, 5}), "69 05");
-  EXPECT_EQ(client.ask({5, 5}), "69 05");
-  EXPECT_EQ(client.breaks, 1);
   EXPECT_EQ(client.ask({5, 6}), "69 06");
+  EXPECT_EQ(client.ended, 0) << "there was none";
+  EXPECT_EQ(client.ask({5, 5}), "69 05");
+  EXPECT_EQ(client.ask({5, 5}), "69 05");
+  EXPECT_EQ(client.ask({5, 4}), "69 05") << "asked";
+  EXPECT_EQ(client.breaks, 1);
+  EXPECT_EQ(client.ended, 0);
+  EXPECT_EQ(client.ask({5, 6}), "69 06");
+  EXPECT_EQ(client.ask({5, 6}), "69 06");
+  EXPECT_EQ(client.ended, 1);
   EXPECT_EQ(client.ask({5, 5}), "69 05");
   EXPECT_EQ(client.breaks, 2);
 }

@@ -198,5 +198,69 @@ TEST(HostPort, AsksAProgramInASimulationAndGoesBackToASnapshot) {
   EXPECT_EQ(last[0], last[1]);
 }
 
+HostCharacter break_of(std::uint64_t sender) { return {.format = k8E1, .fault = Fault::Break, .sender = sender}; }
+
+TEST(HostPort, ABreakLastsAsLongAsItIsHeld) {
+  Wire wire;
+  wire.port.attach(k8E1, 0);
+  wire.port.send(std::vector{break_of(7)}, kMillisecond);
+  wire.port.send(characters({0x41}), 2 * kMillisecond);
+  wire.run(50 * kMillisecond);
+  EXPECT_FALSE(wire.line.level(50 * kMillisecond));
+  EXPECT_TRUE(wire.port.sending());
+  wire.port.end_break(7, 50 * kMillisecond, 51 * kMillisecond);
+  wire.run();
+  EXPECT_TRUE(wire.line.level(51 * kMillisecond));
+  ASSERT_EQ(wire.heard.size(), 2U) << "a break is one character of it, whatever its length";
+  EXPECT_TRUE(wire.heard[0].line_break);
+  EXPECT_EQ(wire.heard[1].byte, 0x41);
+  EXPECT_EQ(wire.heard[1].start, 51 * kMillisecond + mark_after_break(k8E1));
+}
+
+TEST(HostPort, ABreakIsLongerThanAnyCharacter) {
+  Wire wire;
+  wire.port.attach(k8E1, 0);
+  wire.port.send(std::vector{break_of(7)}, kMillisecond);
+  wire.port.end_break(7, 0, kMillisecond);
+  wire.run(kMillisecond + shortest_break(k8E1) - 1);
+  EXPECT_FALSE(wire.line.level(kMillisecond + shortest_break(k8E1) - 1));
+  wire.run();
+  EXPECT_EQ(wire.port.sent_until(), kMillisecond + shortest_break(k8E1) + mark_after_break(k8E1));
+}
+
+TEST(HostPort, ABreakBehindOtherCharactersIsAsLongAsItWasHeld) {
+  Wire wire;
+  wire.port.attach(k8E1, 0);
+  wire.port.send(characters({1, 2, 3}), 0);
+  const Time free = 3 * k8E1.character_time();
+  wire.port.send(std::vector{break_of(7)}, 0);
+  wire.port.end_break(8, kSecond, kMicrosecond);  // it is not theirs
+  wire.port.end_break(7, 10 * kMillisecond, kMicrosecond);
+  wire.run();
+  EXPECT_EQ(wire.port.sent_until(), free + 10 * kMillisecond + mark_after_break(k8E1));
+}
+
+TEST(HostPort, ABreakThatBeganLateEndsLateToo) {
+  Wire wire;
+  wire.port.attach(k8E1, 0);
+  wire.port.send(characters({1, 2, 3}), 0);
+  const Time free = 3 * k8E1.character_time();
+  wire.port.send(std::vector{break_of(7)}, 0);
+  wire.run(free + kMillisecond);
+  wire.port.end_break(7, free + kMillisecond, free + kMillisecond);
+  wire.run();
+  EXPECT_EQ(wire.port.sent_until(), 2 * free + kMillisecond + mark_after_break(k8E1));
+}
+
+TEST(HostPort, CallsOfABreakCanBeRepeated) {
+  Wire wire;
+  wire.port.attach(k8E1, 0);
+  wire.port.repeat({.what = HostCall::What::Send, .characters = {break_of(7)}}, kMillisecond);
+  wire.port.repeat({.what = HostCall::What::EndBreak, .characters = {}, .sender = 7, .lasts = 30 * kMillisecond},
+                   31 * kMillisecond);
+  wire.run();
+  EXPECT_EQ(wire.port.sent_until(), 31 * kMillisecond + mark_after_break(k8E1));
+}
+
 }  // namespace
 }  // namespace s7200::serial

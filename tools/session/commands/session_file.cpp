@@ -110,7 +110,8 @@ struct ToJson {
     return {{"host", static_cast<int>(call.what)},
             {"format", json_of(call.format)},
             {"characters", characters},
-            {"sender", call.sender}};
+            {"sender", call.sender},
+            {"lasts", call.lasts}};
   }
 };
 
@@ -144,11 +145,12 @@ SendFrame send_from(const Json& json) {
 serial::HostCall call_from(const Json& json) {
   using Call = serial::HostCall;
   using Fault = serial::HostCharacter::Fault;
-  const int what = number_at<int>(json, "host", {0, static_cast<int>(Call::What::TakeReceived)});
+  const int what = number_at<int>(json, "host", {0, static_cast<int>(Call::What::EndBreak)});
   Call call{.what = static_cast<Call::What>(what),
             .format = format_from(json.at("format")),
             .characters = {},
-            .sender = number_at<std::uint64_t>(json, "sender")};
+            .sender = number_at<std::uint64_t>(json, "sender"),
+            .lasts = number_at<Time>(json, "lasts", kAnyDuration, 0)};
   for (const Json& c : json.at("characters")) {
     const int fault = number_of<int>(c.at(1), {0, static_cast<int>(Fault::Break)});
     call.characters.push_back({number_of<std::uint8_t>(c.at(0)), format_from(c.at(3)), static_cast<Fault>(fault),

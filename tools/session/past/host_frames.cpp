@@ -7,27 +7,45 @@
 
 namespace s7200::tools {
 
-/// A character waits for those before it. What is dropped has not begun.
+Time HostFrames::duration(const Character& character) {
+  if (character.fault != serial::HostCharacter::Fault::Break) return character.format.character_time();
+  return std::max(character.lasts, serial::shortest_break(character.format)) + serial::mark_after_break(character.format);
+}
+
+/// A character waits for those before it.
+void HostFrames::append(Character character, Time at) {
+  character.from = characters_.empty() ? at : std::max(at, characters_.back().to);
+  character.to = character.from + duration(character);
+  characters_.push_back(character);
+}
+
+/// What is dropped has not begun.
+void HostFrames::drop(std::uint64_t sender, Time at) {
+  const auto waiting = std::ranges::find_if(characters_, [&](const Character& one) { return one.from >= at; });
+  const std::vector<Character> kept(waiting, characters_.end());
+  characters_.erase(waiting, characters_.end());
+  for (const Character& one : kept)
+    if (one.sender != sender) append(one, at);
+}
+
+void HostFrames::end_break(std::uint64_t sender, Time lasts) {
+  const auto held = std::ranges::find_if(characters_, [&](const Character& one) {
+    return one.fault == serial::HostCharacter::Fault::Break && one.sender == sender && one.lasts == 0;
+  });
+  if (held == characters_.end()) return;
+  std::vector<Character> again(held, characters_.end());
+  characters_.erase(held, characters_.end());
+  again.front().lasts = lasts;
+  for (const Character& one : again) append(one, one.from);
+}
+
 void HostFrames::note(const serial::HostCall& call, Time at) {
-  Time free = at;
-  const auto append = [&](Character character) {
-    character.from = free;
-    character.to = free + character.format.character_time();
-    free = character.to;
-    characters_.push_back(character);
-  };
-  if (call.what == serial::HostCall::What::Drop) {
-    const auto waiting = std::ranges::find_if(characters_, [&](const Character& one) { return one.from >= at; });
-    const std::vector<Character> kept(waiting, characters_.end());
-    characters_.erase(waiting, characters_.end());
-    if (!characters_.empty()) free = std::max(free, characters_.back().to);
-    for (const Character& one : kept)
-      if (one.sender != call.sender) append(one);
-  }
-  if (call.what != serial::HostCall::What::Send) return;
-  if (!characters_.empty()) free = std::max(free, characters_.back().to);
+  using What = serial::HostCall::What;
+  if (call.what == What::Drop) drop(call.sender, at);
+  if (call.what == What::EndBreak) end_break(call.sender, call.lasts);
+  if (call.what != What::Send) return;
   for (const serial::HostCharacter& one : call.characters)
-    append({.byte = one.byte, .fault = one.fault, .sender = one.sender, .format = one.format});
+    append({.byte = one.byte, .fault = one.fault, .sender = one.sender, .format = one.format}, at);
 }
 
 std::vector<SentByHost> HostFrames::frames() const {

@@ -40,8 +40,15 @@ class HostFrames {
     serial::HostCharacter::Fault fault{};
     std::uint64_t sender = 0;
     SerialFormat format{};
+    Time lasts = 0;  ///< of a break; 0: its end is not known yet
     Time from = 0, to = 0;
   };
+
+  static Time duration(const Character& character);
+  void append(Character character, Time at);
+  void drop(std::uint64_t sender, Time at);
+  void end_break(std::uint64_t sender, Time lasts);
+
   std::vector<Character> characters_{};
 };
 
