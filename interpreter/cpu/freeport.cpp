@@ -70,7 +70,8 @@ void send_next_character(Core& core, std::uint8_t number, Time at) {
 
 Ignored reason_to_ignore(const Core& core, std::uint8_t number) {
   if (core.s.port[number].transmitting || core.s.port[number].on_wire != OnWire::Nothing) return Ignored::WhileSending;
-  return core.s.port[number].active ? Ignored::NotAttached : Ignored::NoPpiFrame;
+  if (!core.s.port[number].active) return Ignored::NoPpiFrame;
+  return core.program().receives_messages[number] ? Ignored::NoRcvWaits : Ignored::NotAttached;
 }
 
 void trace(const Core& core, std::uint8_t number, const ReceivedCharacter& character, TraceKind kind, Ignored why = {}) {

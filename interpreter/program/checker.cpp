@@ -589,6 +589,7 @@ class Checker {
         add_parameters(program->ops.back(), found->second, *program);
       note_timer(program->ops.back(), *program);
       note_reals(placed_[i], program->ops.back(), *program);
+      note_reception(program->ops.back(), *program);
       program->uses_local_memory |= std::ranges::any_of(program->ops.back().operand, is_local);
     }
     follow_eno(*program);
@@ -678,6 +679,10 @@ class Checker {
     const bool first = op.operand[0].pointer, second = op.operand[1].pointer, third = op.operand[2].pointer;
     if (third || (first && second)) return run_with_pointers;
     return first ? run_with_pointer_first : run_with_pointer_second;
+  }
+
+  static void note_reception(const Op& op, Program& program) {
+    if (op.instruction->effect == Effect::Receives && !op[1].unread()) program.receives_messages.at(op[1].at) = true;
   }
 
   /// Timers that are also updated outside their instructions.

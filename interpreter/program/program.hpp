@@ -8,6 +8,7 @@
 
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/model/ports.hpp"
 #include "interpreter/model/times.hpp"
 #include "interpreter/program/looks.hpp"
 #include "interpreter/program/system_block.hpp"
@@ -128,9 +129,10 @@ struct Program {
   bool uses_timers = false;
   Looks looks{};
   bool uses_local_memory = false;
-  Areas pointed_at = 0;                 ///< areas of the addresses that it makes pointers of, with &
-  std::array<Reach, kReaches> reach{};  ///< by the top byte of a pointer
-  std::vector<std::uint32_t> reals;     ///< double words that some instruction uses as a real: places in the image, sorted
+  std::array<bool, kPorts.size()> receives_messages{};  ///< with RCV, by port
+  Areas pointed_at = 0;                                 ///< areas of the addresses that it makes pointers of, with &
+  std::array<Reach, kReaches> reach{};                  ///< by the top byte of a pointer
+  std::vector<std::uint32_t> reals;  ///< double words that some instruction uses as a real: places in the image, sorted
 
   // Times that the CPU needs while running, taken from `times`.
   Time no_power_flow = 0, interrupt_entry = 0, eeprom_save = 0;

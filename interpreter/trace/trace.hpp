@@ -49,6 +49,7 @@ enum class PpiVerb : std::uint8_t { Reads, Writes, Forces, Unforces, SetsInStop 
 /// Why a character is ignored.
 enum class Ignored : std::uint16_t {
   NotAttached,   ///< its receive event
+  NoRcvWaits,    ///< in a program that receives with RCV at this port, and its receive event is not attached
   NoPpiFrame,    ///< in PPI mode; count: 1 after another
   WhileSending,  ///< the receiver is off, and at is when that was so; the byte is what others drive, not what the line has
   NoPower,       ///< at the PLC

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpreter/model/special_bits.hpp"
 #include "interpreter/program/networks.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/instruction_lines.hpp"
@@ -100,6 +101,15 @@ std::uint8_t passed_transmits(const Program& program, std::uint32_t number) {
   return 0;
 }
 
+/// ` and ended at 41.000000 ms with SMB86 = 16#04 (the time has passed)` of a message that neither its end character nor the
+/// number of its characters has ended; nothing of others.
+std::string broken_off_text(const std::optional<TraceRecord>& end, std::string_view ended) {
+  if (!end || (end->byte & (sm::message::kEndCharacter | sm::message::kCount)) != 0) return {};
+  const std::uint32_t status = kPorts[end->port].message;
+  return fmt::format("{} at {}.{:06} ms with SMB{} = 16#{:02X} ({})", ended, end->at / kMillisecond, end->at % kMillisecond,
+                     status - image::kSM, end->byte, special_meanings_text(status, end->byte));
+}
+
 /// What has kept the program from an XMT, after the message that nothing was sent.
 std::string because(const std::optional<TraceReasons::Cause>& kept) {
   return kept ? ": " + kept->text : " (no XMT was executed)";
@@ -112,6 +122,8 @@ std::string ignored_because(const TraceRecord& record) {
   switch (Ignored{record.code}) {
     case Ignored::NotAttached:
       return fmt::format("event {} is not attached", kPorts[record.port].received);
+    case Ignored::NoRcvWaits:
+      return "no RCV waits";
     case Ignored::NoPpiFrame:
       return "the port is in PPI mode, and this is not a PPI frame";
     case Ignored::WhileSending:
@@ -333,10 +345,10 @@ TraceReasons::Cause TraceReasons::received_again(const Reception& reception, con
   const InstructionRecord rcv{.at = record.at - program_.ops[record.op].cost, .end = record.at, .op = record.op};
   const std::optional<Cause> kept = cause_of(reception.frame);
   Cause cause = kept.value_or(Cause{.text = {}, .by = rcv, .first = rcv, .in_interrupt = in_interrupt_});
-  cause.text = fmt::format("{} {}, and RCV in {} waits for the next one{}",
+  cause.text = fmt::format("{} {}{}, and RCV in {} waits for the next one{}",
                            in_interrupt_ ? fmt::format("INT {}", begun_.routine) : "the main program",
-                           reception.message_open ? "broke the message off" : "took the message", line_of(record.op),
-                           because(kept));
+                           reception.message_open ? "broke the message off" : "took the message",
+                           broken_off_text(reception.ended, ", which ended"), line_of(record.op), because(kept));
   return cause;
 }
 
@@ -368,8 +380,9 @@ std::optional<TraceReasons::Unanswered> TraceReasons::taken(const Reception& rec
   all.characters -= all.lost;
   const std::optional<Cause> cause = cause_of(frame);
   const std::string text =
-      fmt::format("{} took {}, and nothing was sent since{}", all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV",
-                  all.characters == 1 ? "it" : "them", because(cause));
+      fmt::format("{} took {}{}, and nothing was sent since{}",
+                  all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV", all.characters == 1 ? "it" : "them",
+                  broken_off_text(reception.ended, " and ended"), because(cause));
   return Unanswered{all.characters, all.since, frame.last, text, cause, reception.message_open, !frame.attached_anew};
 }
 
@@ -441,7 +454,10 @@ void TraceReasons::note_end_of_service() {
 void TraceReasons::note_reception(const TraceRecord& record) {
   Reception& reception = reception_[port_of(record)];
   if (is_attached_already(record)) return;
-  if (record.kind == TraceKind::Receive) reception.message_open = true;
+  if (record.kind == TraceKind::Receive) {
+    reception.message_open = true;
+    reception.ended.reset();
+  }
   if (record.kind != TraceKind::Receive) reception.attached.reset();
   if (record.kind == TraceKind::Attach) reception.attached = record.routine;
   Frame& frame = reception.frame;
@@ -572,6 +588,7 @@ void TraceReasons::note(const TraceRecord& record) {
       return;
     case TraceKind::ReceiveEnd:
       reception_[record.port].message_open = false;
+      reception_[record.port].ended = record;
       return;
     case TraceKind::RuntimeError:
       failed_ = true;

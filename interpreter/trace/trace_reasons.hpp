@@ -164,7 +164,8 @@ class TraceReasons {
     std::vector<Decision> kept_by{};  ///< what has kept the program from each XMT first, since its last character
   };
   struct Reception {
-    bool message_open = false;  ///< RCV is at work
+    bool message_open = false;           ///< RCV is at work
+    std::optional<TraceRecord> ended{};  ///< the ReceiveEnd of the last RCV
     Frame frame{};
     std::vector<Frame> earlier{};  ///< that another one followed before it was decided about them
     std::optional<std::uint32_t> attached_by{};

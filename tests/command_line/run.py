@@ -2165,7 +2165,7 @@ lines:
     def test_why_knows_that_a_program_receives_with_rcv(self):
         shown = self.ends(FINE, "debug", self.GATEWAY, "--at", "office", "-x",
                           "continue 1030ms; break unanswered; send 01 03 00 00 00 01 crc; continue 20ms; why").stdout
-        self.assertIn(": no RCV waits for them; the last one, RCV VB100, 0 in line 29", shown)
+        self.assertIn(": no RCV waits; the last one, RCV VB100, 0 in line 29", shown)
         self.assertNotIn("event 8 is not attached", shown)
 
     def test_record_names_the_bytes_that_differ(self):

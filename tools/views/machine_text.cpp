@@ -137,13 +137,17 @@ std::string ppi_text(const PpiPort& port) {
   return {};
 }
 
-std::string receiver_text(const State& state, std::size_t number) {
+/// The event of a received character is of no interest in a program that receives with RCV instead.
+std::string receiver_text(const Cpu& cpu, std::size_t number) {
+  const State& state = cpu.state();
   const Freeport& port = state.port[number];
   std::string is = "on";
   if (port.transmitting) is = "off while sending";
   if (!port.active) is = fmt::format("PPI, station {}{}", state.station[number], ppi_text(state.ppi[number]));
-  return fmt::format("receiver   {}; {}; SMB2 = 16#{:02X}, parity error SM3.0 = {}", is,
-                     routine_text(state, kPorts[number].received), state.image[sm::kReceivedCharacter],
+  const std::uint8_t event = kPorts[number].received;
+  const bool by_rcv_only = cpu.program().receives_messages[number] && state.attached[event] == kNotAttached;
+  return fmt::format("receiver   {}{}; SMB2 = 16#{:02X}, parity error SM3.0 = {}", is,
+                     by_rcv_only ? "" : "; " + routine_text(state, event), state.image[sm::kReceivedCharacter],
                      state.image[sm::kReceiveStatus] & sm::kParityError);
 }
 
@@ -158,14 +162,25 @@ std::string network_text(const State& state, std::size_t port) {
   return text.empty() ? text : text + "\n";
 }
 
-/// What RCV is doing; empty if it is off.
-std::string message_text(const State& state, std::size_t port) {
+/// `no RCV waits, SMB86 = 16#20 (end character)`: the status is that of the last RCV.
+std::string no_reception_text(const State& state, std::size_t port) {
+  const std::uint32_t at = kPorts[port].message;
+  const std::uint8_t status = state.image[at];
+  const std::string meanings = special_meanings_text(at, status);
+  return fmt::format("no RCV waits, SMB{} = 16#{:02X}{}", at - image::kSM, status,
+                     meanings.empty() ? "" : fmt::format(" ({})", meanings));
+}
+
+/// What RCV is doing; empty in a program without RCV at this port.
+std::string message_text(const Cpu& cpu, std::size_t port) {
+  const State& state = cpu.state();
+  if (!cpu.program().receives_messages[port]) return {};
   const MessageReceiver& message = state.port[port].message;
-  if (message.phase == MessageReceiver::Phase::Off) return {};
   const bool searching = message.phase == MessageReceiver::Phase::Search;
   return fmt::format("RCV        {}; {}\n",
-                     searching ? "waits for the start of a message"
-                               : fmt::format("has {} characters of at most {}", message.stored, message.most),
+                     message.phase == MessageReceiver::Phase::Off ? no_reception_text(state, port)
+                     : searching                                  ? "waits for the start of a message"
+                                 : fmt::format("has {} of at most {}", counted(message.stored, "character"), message.most),
                      routine_text(state, kPorts[port].received_message));
 }
 
@@ -177,8 +192,9 @@ std::string transmitter_text(const State& state, std::size_t number) {
   return fmt::format("transmitter {}; {}", is, routine_text(state, kPorts[number].sent));
 }
 
-std::string port_text(const State& state, std::size_t port) {
-  return fmt::format("{}\n{}\n{}{}{}\n", control_text(state, port), receiver_text(state, port), message_text(state, port),
+std::string port_text(const Cpu& cpu, std::size_t port) {
+  const State& state = cpu.state();
+  return fmt::format("{}\n{}\n{}{}{}\n", control_text(state, port), receiver_text(cpu, port), message_text(cpu, port),
                      network_text(state, port), transmitter_text(state, port));
 }
 
@@ -298,7 +314,7 @@ std::string stack_text(const State& state) {
 std::string port_text(const serial::Simulation& simulation) {
   std::string text;
   for (std::size_t port = 0; port < simulation.cpu().program().model->ports; ++port) {
-    text += port_text(simulation.cpu().state(), port);
+    text += port_text(simulation.cpu(), port);
     if (port == simulation.port() && simulation.has_master())
       text += fmt::format("master     {}\n", master_text(simulation.master().state()));
   }

@@ -27,7 +27,7 @@ TEST(ReceptionEnded, WithoutRoomForACharacterTheParameterIsNamed) {
   session("continue 50ms; break unanswered; send 41 42 0d; continue 1s");
   const std::string text = session("why");
   EXPECT_TRUE(has(text, "no answer to 3 characters since 50."));
-  EXPECT_TRUE(has(text, ": no RCV waits for them; the last one, RCV VB100, 0 in line 7 at 0."));
+  EXPECT_TRUE(has(text, ": no RCV waits; the last one, RCV VB100, 0 in line 7 at 0."));
   EXPECT_TRUE(has(text, " with SMB86 = 16#40 because SMB94 is 0: a message must be allowed a character; "));
   session("rwhy");
   EXPECT_EQ(session.line(), 7U);
@@ -55,6 +55,70 @@ TEST(ReceptionEnded, AsManyCharactersAsAllowedAreCounted) {
   AtPrompt session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 2, SMB94"));
   session("continue 50ms; send 41 42; continue; break unanswered; send 41 43 0d; continue");
   EXPECT_TRUE(has(session("why"), "with SMB86 = 16#02 because 2 characters came, as many as SMB94 allows; "));
+}
+
+TEST(ReceptionEnded, ATimeThatHasPassedSaysWhatItRanFrom) {
+  const auto why = [](const std::string& control) {
+    const std::string timed = test::changed(kOnce, "MOVB 16#E0, SMB87", "MOVW 20, SMW92\nMOVB " + control + ", SMB87");
+    AtPrompt session = session_of_cpu_224(timed);
+    session("continue 50ms; send 41 42; continue; break unanswered; send 41 43 0d; continue");
+    return session("why");
+  };
+  const std::string started = "; the next would be started by RCV VB100, 0 in line 8, which had no power flow at ";
+  const std::string of_message = why("16#EC"), between = why("16#E4"), from_rcv = why("16#9C");
+  EXPECT_TRUE(has(of_message, " ms with SMB86 = 16#04 because 20 ms passed since the message began" + started));
+  EXPECT_TRUE(has(between, " ms with SMB86 = 16#04 because 20 ms passed without another character" + started));
+  EXPECT_TRUE(has(from_rcv, "RCV VB100, 0 in line 8 at 0.1")) << "an idle time of 0: any character starts the message";
+  EXPECT_TRUE(has(from_rcv, " ended at 21.000000 ms with SMB86 = 16#04 because 20 ms passed after the RCV without a "));
+}
+
+TEST(ReceptionEnded, ADamagedCharacterIsNamed) {
+  AtPrompt session = session_of_cpu_224(test::changed(kOnce, "MOVB 16#09, SMB30", "MOVB 16#49, SMB30"));
+  session("continue 50ms; send 41 42p; continue; break unanswered; send 41 43 0d; continue");
+  EXPECT_TRUE(has(session("why"), "with SMB86 = 16#01 because the character 42 had a parity error; the next would be "));
+}
+
+/// Sends back what an end character has ended, and begins again once that is sent.
+const std::string kOnlyWithEnd =
+    "LD SM0.1\n"
+    "MOVB 16#49, SMB30\n"
+    "MOVB 16#E4, SMB87\n"
+    "MOVB 16#41, SMB88\n"
+    "MOVB 16#0D, SMB89\n"
+    "MOVW 20, SMW92\n"
+    "MOVB 10, SMB94\n"
+    "ATCH 0, 23\n"
+    "ATCH 1, 9\n"
+    "ENI\n"
+    "RCV VB100, 0\n"
+    "MEND\n"
+    "INT 0\n"
+    "LDB= SMB86, 16#20\n"
+    "XMT VB100, 0\n"  // 15
+    "RETI\n"
+    "INT 1\n"
+    "LD SM0.0\n"
+    "RCV VB100, 0\n"  // 19
+    "RETI\n";
+
+TEST(ReceptionEnded, ARequestThatATimeOrADamagedCharacterHasEndedSaysSo) {
+  for (const auto& [sent, ended] : std::vector<std::pair<std::string, std::string>>{
+           {"41 42", "16#04 (the time has passed)"}, {"41 42p", "16#01 (a bad character)"}}) {
+    AtPrompt session = session_of_cpu_224(kOnlyWithEnd);
+    session("continue 50ms; break unanswered; send " + sent + "; continue 500ms");
+    const std::string text = session("why");
+    EXPECT_TRUE(has(text, "no answer to 2 characters since 50.")) << text;
+    EXPECT_TRUE(has(text, ": RCV took them and ended at ")) << text;
+    EXPECT_TRUE(has(text, " ms with SMB86 = " + ended + ", and nothing was sent since: XMT VB100, 0 in line 15, ")) << text;
+  }
+}
+
+TEST(ReceptionEnded, WhoCouldStartTheNextIsSaidOfEachRcv) {
+  AtPrompt session = session_of_cpu_224(kOnlyWithEnd);
+  session("continue 50ms; send 41 42; continue 500ms; send cancel; break unanswered; send 41 43 0d; continue");
+  const std::string text = session("why");
+  EXPECT_TRUE(has(text, "the next would be started by RCV VB100, 0 in line 11, which had no power flow at ")) << text;
+  EXPECT_TRUE(has(text, "; or by RCV VB100, 0 in line 19: INT 1, which serves event 9, has not executed it since\n")) << text;
 }
 
 TEST(ReceptionEnded, AnInterruptRoutineThatNoEventCallsStartsNothing) {

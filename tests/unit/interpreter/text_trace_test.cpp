@@ -46,6 +46,8 @@ TEST(TextTrace, ReportsThePortCharacterByCharacter) {
   EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2}), "ignored  02: event 8 is not attached");
   EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2, .code = static_cast<std::uint16_t>(Ignored::NoPower)}),
             "ignored  02: the PLC has no power");
+  EXPECT_EQ(told({.kind = TraceKind::CharacterIgnored, .byte = 2, .code = static_cast<std::uint16_t>(Ignored::NoRcvWaits)}),
+            "ignored  02: no RCV waits");
 }
 
 TEST(TextTrace, WhatPassesAPlcWithoutPowerIsNotWrittenAndWhatIsDoneToItIs) {

@@ -184,6 +184,18 @@ TEST(TraceReasons, ACharacterThatNobodyWantedSaysWhy) {
             "ignored  41 and the rest up to the next pause: the port is in PPI mode, and this is not a PPI frame");
 }
 
+TEST(TraceReasons, ACharacterWithoutAnRcvSaysSoWhereTheProgramReceivesWithRcvAtThatPort) {
+  const auto reason = [](const std::string& program) {
+    Plc plc("LD SM0.1\nMOVB 9, SMB30\n" + program + "MEND\n", cpu216());
+    plc.character_at(1 * ms, 0x41);
+    plc.run_until(2 * ms);
+    return describe(plc.records.of(TraceKind::CharacterIgnored).at(0), plc.cpu.program());
+  };
+  EXPECT_EQ(reason("AN SM0.0\nRCV VB100, 0\n"), "ignored  41: no RCV waits");
+  EXPECT_EQ(reason("AN SM0.0\nRCV VB100, 1\n"), "ignored  41: event 8 is not attached");
+  EXPECT_EQ(reason(""), "ignored  41: event 8 is not attached");
+}
+
 TEST(TraceReasons, ARoutineThatIsAttachedAlreadyIsNoSignThatTheProgramLeavesAFrame) {
   EXPECT_FALSE(has(trace_of_frame("LD SM0.1\nMOVB 9, SMB30\nENI\nLD SM0.0\nATCH 0, 8 // in every scan\nMEND\n"
                                   "INT 0\nLD SM0.0\nMOVB SMB2, VB1\nRETI\n",

@@ -1,6 +1,7 @@
 // What a machine looks like in words: its ports.
 #include "tools/views/machine_text.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "interpreter/analysis/check.hpp"
@@ -43,12 +44,32 @@ TEST(MachineText, ACpuWithTwoPortsShowsBothAndTheMasterWhereItIs) {
       "transmitter idle; event 9 is not attached\n";
   const std::string port1 =
       "SMB130     16#05 = 2#00000101: Freeport, 19200 baud, 8 data bits, no parity, 1 stop bit\n"
-      "receiver   on; event 25 is not attached; SMB2 = 16#00, parity error SM3.0 = 0\n"
+      "receiver   on; SMB2 = 16#00, parity error SM3.0 = 0\n"
       "RCV        waits for the start of a message; event 24 → INT 0\n"
       "transmitter idle; event 26 is not attached\n";
   const std::string master = "master     has sent nothing\n";
   EXPECT_EQ(ports_of(*find_cpu("226"), program), port0 + master + port1);
   EXPECT_EQ(ports_of(*find_cpu("226"), program, 1), port0 + port1 + master);
+}
+
+TEST(MachineText, AProgramThatReceivesWithRcvIsToldWhetherOneWaits) {
+  const auto receiver = [](std::string_view more) {
+    const std::string shown =
+        ports_of(*find_cpu("224"), fmt::format("LD SM0.1\nMOVB 9, SMB30\n{}MEND\nINT 0\nRETI\n", more));
+    const std::size_t begin = shown.find("receiver");
+    return shown.substr(begin, shown.find("transmitter") - begin);
+  };
+  constexpr std::string_view kRest = "SMB2 = 16#00, parity error SM3.0 = 0\n";
+  EXPECT_EQ(receiver("MOVB 16#80, SMB87\nRCV VB100, 0\n"),  // no start condition
+            fmt::format("receiver   on; {}RCV        no RCV waits, SMB86 = 16#40 (no start condition or no room); event 23 "
+                        "is not attached\n",
+                        kRest));
+  EXPECT_EQ(receiver("ATCH 0, 23\nAN SM0.0\nRCV VB100, 0\n"),
+            fmt::format("receiver   on; {}RCV        no RCV waits, SMB86 = 16#00; event 23 → INT 0\n", kRest));
+  EXPECT_EQ(
+      receiver("ATCH 0, 8\nAN SM0.0\nRCV VB100, 0\n"),
+      fmt::format("receiver   on; event 8 → INT 0; {}RCV        no RCV waits, SMB86 = 16#00; event 23 is not attached\n",
+                  kRest));
 }
 
 }  // namespace

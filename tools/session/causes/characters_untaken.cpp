@@ -74,14 +74,9 @@ Keeper what_left_freeport(Inquiry& inquiry, std::uint8_t port, Time until) {
   return what_wrote_ppi_mode(inquiry, control, until);
 }
 
-/// What has detached their event, or left Freeport mode, which ends in STOP.
-Keeper what_kept(Inquiry& inquiry, const TraceRecord& ignored) {
-  const Ignored why{ignored.code};
-  const bool detached = why == Ignored::NotAttached, in_ppi_mode = why == Ignored::NoPpiFrame;
-  if (ignored.kind != TraceKind::CharacterIgnored || !(detached || in_ppi_mode)) return {};
-  if (in_ppi_mode && inquiry.stopped() && ignored.at >= *inquiry.stopped()) return {.text = "; the CPU is in STOP"};
-  return detached ? what_detached(inquiry, kPorts[ignored.port].received, ignored.at)
-                  : what_left_freeport(inquiry, ignored.port, ignored.at);
+Keeper what_kept_in_ppi_mode(Inquiry& inquiry, const TraceRecord& ignored) {
+  if (inquiry.stopped() && ignored.at >= *inquiry.stopped()) return {.text = "; the CPU is in STOP"};
+  return what_left_freeport(inquiry, ignored.port, ignored.at);
 }
 
 /// RCV had not found the start of its message when the character had ended.
@@ -91,6 +86,19 @@ Keeper what_was_searched(Inquiry& inquiry, const TraceRecord& dropped) {
   if (message.phase != MessageReceiver::Phase::Search) return {.text = ignored_because(dropped)};
   Keeper keeper = inquiry.kept_by_rcv(dropped.port);
   keeper.text = "RCV waits for " + keeper.text;
+  return keeper;
+}
+
+/// The reason why nobody got the character, with what has detached their event, ended the last RCV or left Freeport mode,
+/// which also ends in STOP.
+Keeper what_kept(Inquiry& inquiry, const TraceRecord& untaken) {
+  if (untaken.kind == TraceKind::CharacterDropped) return what_was_searched(inquiry, untaken);
+  const Ignored why{untaken.code};
+  Keeper keeper = why == Ignored::NotAttached  ? what_detached(inquiry, kPorts[untaken.port].received, untaken.at)
+                  : why == Ignored::NoRcvWaits ? what_ended_receiving(inquiry, untaken)
+                  : why == Ignored::NoPpiFrame ? what_kept_in_ppi_mode(inquiry, untaken)
+                                               : Keeper{};
+  keeper.text = ignored_because(untaken) + keeper.text;
   return keeper;
 }
 
@@ -106,15 +114,8 @@ void find_port_in_ppi_mode(Inquiry& inquiry) {
 void find_characters_untaken(Inquiry& inquiry) {
   for (const auto& [first, characters, end] : inquiry.witness().line.untaken()) {
     if (first.at < inquiry.since()) continue;
-    const bool detached = first.kind == TraceKind::CharacterIgnored && Ignored{first.code} == Ignored::NotAttached;
-    const bool by_rcv = detached && receives_messages(inquiry.program(), first.port);
-    const bool dropped = first.kind == TraceKind::CharacterDropped;
-    const Keeper keeper = dropped  ? what_was_searched(inquiry, first)
-                          : by_rcv ? what_ended_receiving(inquiry, first)
-                                   : what_kept(inquiry, first);
-    const std::string because = (by_rcv || dropped ? "" : ignored_because(first)) + keeper.text;
-    inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = because}),
-                keeper);
+    const Keeper kept = what_kept(inquiry, first);
+    inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = kept.text}), kept);
   }
   if (!inquiry.has_unanswered() || !inquiry.answers.unanswered.empty()) return;
   if (!inquiry.history().go_to(inquiry.request()->end)) return void(inquiry.answers.interrupted = true);

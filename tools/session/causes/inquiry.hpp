@@ -93,9 +93,6 @@ class Inquiry {
   Witness witness_;
 };
 
-/// Whether a program receives with RCV at a port, which needs no event for it.
-bool receives_messages(const Program& program, std::uint8_t port);
-
 /// Of a character that came while no RCV received: how the last RCV ended, and what keeps the program from the next.
 Keeper what_ended_receiving(Inquiry& inquiry, const TraceRecord& ignored);
 

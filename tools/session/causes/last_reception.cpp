@@ -8,7 +8,7 @@ namespace {
 
 /// What ends a reception, by a status or without one.
 struct End {
-  std::optional<TraceRecord> status{}, abandoned{};
+  std::optional<TraceRecord> status{}, damaged{}, abandoned{};
 };
 
 class ReceptionFinder final : public Reader {
@@ -33,9 +33,12 @@ class ReceptionFinder final : public Reader {
   }
 
   void record(const TraceRecord& record) override {
-    if (record.kind == TraceKind::ReceiveEnd && record.port == port_) {
+    if (record.kind == TraceKind::CharacterReceived && record.port == port_) {
+      character_ = record;
+    } else if (record.kind == TraceKind::ReceiveEnd && record.port == port_) {
       if (executing_) of_rcv_.status = record;
       end_.status = record;
+      end_.damaged = (record.byte & sm::message::kParity) != 0 ? character_ : std::nullopt;
     } else if (record.kind == TraceKind::RuntimeError && record.op == executing_) {
       refused_ = record.code;
     } else if (ends_silently(record) && !end_.status && !end_.abandoned) {
@@ -59,6 +62,7 @@ class ReceptionFinder final : public Reader {
     LastReception last = *found_;
     const End& end = end_.status || end_.abandoned ? end_ : later_;
     last.end = end.status;
+    last.damaged = end.damaged;
     last.abandoned = end.abandoned;
     return last;
   }
@@ -76,6 +80,7 @@ class ReceptionFinder final : public Reader {
   const Program& program_;
   std::uint8_t port_;
   Moment in_front_;
+  std::optional<TraceRecord> character_{};
   std::optional<std::uint32_t> executing_{};
   End of_rcv_{}, end_{}, later_{};
   std::optional<std::uint16_t> refused_{};

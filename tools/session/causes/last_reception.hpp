@@ -14,6 +14,7 @@ struct LastReception {
   Moment moment;                           ///< in front of the RCV
   InstructionRecord by{};                  ///< the RCV
   std::optional<TraceRecord> end{};        ///< ReceiveEnd; that of this RCV, or that it has brought about
+  std::optional<TraceRecord> damaged{};    ///< CharacterReceived, the damaged one that has ended it
   std::optional<TraceRecord> abandoned{};  ///< PortControl or ModeChange, with which it ended without a status
   std::optional<std::uint16_t> refused{};  ///< with this run-time error, so that it received nothing
 };

@@ -44,23 +44,34 @@ std::string parameters_text(const Settings& settings) {
   return fmt::format("{} is 16#{:02X}, which has no start condition", settings.name(kControl), settings.byte(kControl));
 }
 
-std::string time_text(const Settings& settings) {
-  return fmt::format("{} ms passed {}", settings.word(kTimeout),
-                     settings.has(kWholeMessage) ? "since the message began" : "without another character");
+/// A message that any character starts begins with the RCV.
+std::string time_text(const TraceRecord& end, const Settings& settings) {
+  const std::string time = fmt::format("{} ms passed ", settings.word(kTimeout));
+  if (end.count == 0) return time + "after the RCV without a character";
+  return time + (settings.has(kWholeMessage) ? "since the message began" : "without another character");
 }
 
-/// Why a message ended with this status (facts 10.3).
-std::string reason_text(std::uint8_t status, const Settings& settings) {
+/// `the character 42 had a parity error`
+std::string damage_text(const std::optional<TraceRecord>& character) {
+  if (!character) return "a character was damaged, or the line had a break";
+  if (character->framing_error && character->byte == 0) return "the line had a break, or a 00 had a framing error";
+  return fmt::format("the character {:02x} had a {} error", character->byte,
+                     character->parity_error ? "parity" : "framing");
+}
+
+/// Why a message ended as it did (facts 10.3).
+std::string reason_text(const LastReception& last, const Settings& settings) {
+  const std::uint8_t status = last.end->byte;
   std::vector<std::string> reasons;
   if (status & kUser) reasons.push_back(fmt::format("{} is 0, which ends a reception", settings.enable()));
   if (status & kParameters) reasons.push_back(parameters_text(settings));
   if (status & kEndCharacter)
     reasons.push_back(fmt::format("the end character 16#{:02X} came", settings.byte(kEndOfMessage)));
-  if (status & kTimer) reasons.push_back(time_text(settings));
+  if (status & kTimer) reasons.push_back(time_text(*last.end, settings));
   if (status & kCount)
     reasons.push_back(
         fmt::format("{} came, as many as {} allows", counted(settings.byte(kMost), "character"), settings.name(kMost)));
-  if (status & kParity) reasons.emplace_back("a character was damaged, or the line had a break");
+  if (status & kParity) reasons.push_back(damage_text(last.damaged));
   return fmt::format("{}", fmt::join(reasons, ", and "));
 }
 
@@ -76,7 +87,7 @@ std::string ended_text(const LastReception& last, const State& state, std::uint8
   if (last.end) {
     const Settings settings(state, port);
     return fmt::format("ended at {} with {} = 16#{:02X} because {}", moment_text(last.end->at), settings.name(0),
-                       last.end->byte, reason_text(last.end->byte, settings));
+                       last.end->byte, reason_text(last, settings));
   }
   return last.abandoned ? fmt::format("{} at {}", abandoned_text(*last.abandoned), moment_text(last.abandoned->at))
                         : "is over";
@@ -129,10 +140,6 @@ std::string could_start_text(Inquiry& inquiry, std::uint8_t port, Time since) {
 
 }  // namespace
 
-bool receives_messages(const Program& program, std::uint8_t port) {
-  return std::ranges::any_of(program.ops, [&](const Op& op) { return is_rcv(op, port); });
-}
-
 Keeper what_ended_receiving(Inquiry& inquiry, const TraceRecord& ignored) {
   const std::uint8_t port = ignored.port;
   History& history = inquiry.history();
@@ -141,13 +148,13 @@ Keeper what_ended_receiving(Inquiry& inquiry, const TraceRecord& ignored) {
   inquiry.answers.interrupted |= search.interrupted;
   if (search.interrupted) return {};
   if (!search.reception)
-    return {.text = fmt::format("no RCV waits for them, and none was executed {}; {}", since_oldest_text(history),
+    return {.text = fmt::format("; none was executed {}; {}", since_oldest_text(history),
                                 could_start_text(inquiry, port, 0))};
   const LastReception& last = *search.reception;
   history.go_to(last.moment);
   const std::string ended = ended_text(last, inquiry.here().cpu().state(), port);
   LastDecision by{last.moment, named_in_sentence(last.by.op, inquiry.program()), last.by};
-  std::string text = fmt::format("no RCV waits for them; the last one, {} at {}, {}; {}", by.text, moment_text(last.by.at),
+  std::string text = fmt::format("; the last one, {} at {}, {}; {}", by.text, moment_text(last.by.at),
                                  ended, could_start_text(inquiry, port, last.by.end));
   return {.text = std::move(text), .by = std::move(by), .since = last.by.at};
 }
