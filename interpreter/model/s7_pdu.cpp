@@ -110,9 +110,17 @@ std::size_t data_bytes(std::uint8_t type, std::size_t length) {
   return type == kInBits || type == kInBitsOfBytes ? (length + 7) / 8 : length;
 }
 
+/// The client library libnodave does not count the values in the length of its list.
+static std::optional<std::span<const std::uint8_t>> list_to_force(std::span<const std::uint8_t> data) {
+  constexpr std::size_t kHead = 4, kListHead = 2, kOfVariable = kVariableBytes - 2;
+  if (const auto list = list_in(data); list || data.size() < kHead + kListHead) return list;
+  const bool counts_variables = load16(&data[2]) == kListHead + data[kHead + 1] * kOfVariable;
+  return counts_variables ? std::optional(data.subspan(kHead)) : std::nullopt;
+}
+
 std::optional<ForcedList> forced_in(std::span<const std::uint8_t> data, std::size_t head) {
   constexpr std::size_t kListHead = 2, kNoHead = 2, kBytes = kVariableBytes - kNoHead;
-  const auto list = list_in(data);
+  const auto list = list_to_force(data);
   if (!list || list->size() < kListHead || (*list)[0] > 1 || (*list)[1] == 0) return {};
   const std::size_t count = (*list)[1];
   std::size_t at = kListHead + count * kBytes;

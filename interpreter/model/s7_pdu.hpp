@@ -13,7 +13,7 @@
 // the variables without `12 0A`, then the values, each filled up to an even number of bytes. So 0B stands in published
 // requests to an S7-200 (of Q0.0) and to an S7-200 SMART (of VD228, forced with 00 and released with 01). The client library
 // libnodave sends 0E, which "sets outputs in STOP" and ends with RUN; there each value has the head of a value that is
-// written, `00 04 00 08`.
+// written, `00 04 00 08`, and the length of the list does not count the values.
 // Blocks go as user data of group 3 and as functions 1D, 1E and 1F, in the form that the client libraries libnodave and
 // snap7 share; their errors are those that libnodave names.
 //

@@ -836,6 +836,12 @@ TEST(S7Services, OutputsAreSetInStopUntilTheNextChangeOfTheMode) {
   EXPECT_EQ(outputs(), 0);
   EXPECT_EQ(data_of(master.ask(q0_is_5)), codes(0, {0xFF}));
   EXPECT_EQ(outputs(), 5);
+  Bytes of_libnodave = q0_is_5;
+  of_libnodave[25] = 0x0C;
+  of_libnodave[42] = 0x06;
+  EXPECT_EQ(data_of(master.ask(of_libnodave)), codes(0, {0xFF})) << "its list does not count the values";
+  EXPECT_EQ(outputs(), 6);
+  EXPECT_EQ(data_of(master.ask(q0_is_5)), codes(0, {0xFF}));
   EXPECT_EQ(data_of(master.ask(forcing(0x0E, joined({{0, 1}, forced(1, 0x82, 4), {0, 3, 0, 1, 1, 0}})))), codes(0, {0xFF}));
   EXPECT_EQ(outputs(), 0x15);
   EXPECT_EQ(data_of(master.ask(forcing(0x0B, joined({{0, 1}, forced(1, 0x82, 5), {1, 0}})))), codes(0, {0xFF}));
