@@ -3153,6 +3153,17 @@ class Files(Case):
         ask, record = "send 01 03 00 0a 00 01 crc; ", f"record {self.folder / 'late.yaml'} !"
         done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; {record}")
         self.assertIn("a request is under way: 01 03 00 0a 00 01 a4 08; 'continue' runs to its end, 'send cancel' gives it up; then record", done.stderr)
+
+    def test_record_after_rwhy_says_how_the_whole_session_is_recorded(self):
+        path = self.folder / "unanswered.yaml"
+        session = "continue 1s; break unanswered; send 02 03 00 0a 00 01 crc; continue; rwhy"
+        done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"{session}; record {path}")
+        self.assertRegex(done.stderr, r"a request is under way: 02 03 .*; 'at end' goes to 20\d\d\.\d+ ms, up to where it has run; then record")
+        self.ends(FINE, "debug", SLAVE, "-x", f"{session}; at end; record {path}")
+        self.assertIn("expect: silence", path.read_text(encoding="utf-8"))
+        self.assertIn("1 passed", self.ends(FINE, "test", path).stdout)
+        done = self.ends(FINE, "debug", SLAVE, "-x", f"{session}; at 500ms; record {path} !")
+        self.assertRegex(done.stdout, r"what has run after that, up to 20\d\d\.\d+ ms, is not in it: 'at end' goes there")
         done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; set VW20=5; continue; display VW20; {record}")
         self.assertIn("1 passed", self.ends(FINE, "test", self.folder / "late.yaml").stdout)
         self.assertIn("left out: how it stands at the end, which is another without the rest: ", done.stdout)

@@ -26,6 +26,8 @@ std::string without_quotes(const std::string& text) {
   return length > 1 && length == text.size() ? text.substr(1, length - 2) : text;
 }
 
+std::string newest_text(const Session& session) { return moment_text(session.history.newest().time); }
+
 std::string no_files(const Session& session, std::string_view command) {
   return fmt::format("{}: {}", command, session.setup.why_no_files);
 }
@@ -214,10 +216,10 @@ Reply record(Session& session, const Words& arguments) {
   const auto to = place_of(session, arguments, wanted, why);
   if (!to) return wrong(why);
   if (const std::string requests = requests_under_way(session); !requests.empty())
-    return wrong(fmt::format(
-        "cannot record this session: a request is under way: {}; 'continue' runs to its end, 'send cancel' gives it up; "
-        "then record",
-        requests));
+    return wrong(fmt::format("cannot record this session: a request is under way: {}; {}; then record", requests,
+                             session.history.in_the_past()
+                                 ? fmt::format("'at end' goes to {}, up to where it has run", newest_text(session))
+                                 : "'continue' runs to its end, 'send cancel' gives it up"));
   SessionRecord record{.session = session.history.recording(), .stations = {}};
   for (std::size_t host = 0; host < session.history.hosts().size(); ++host)
     record.host_stations.push_back(station_at_host(session, host));
@@ -231,6 +233,9 @@ Reply record(Session& session, const Words& arguments) {
   for (const std::string& what : *left_out) session.said << fmt::format("left out: {}\n", what);
   session.said << fmt::format("recorded up to {}; 's7200 test {}' replays it\n", moment_text(session.history.now().time),
                               stl::printable(to->path));
+  if (session.history.in_the_past())
+    session.said << fmt::format("what has run after that, up to {}, is not in it: 'at end' goes there\n",
+                                newest_text(session));
   return {};
 }
 
