@@ -19,7 +19,7 @@ using namespace lint;
 
 namespace {
 
-Structure structure(const Op& op) { return op.instruction->structure; }
+Structure structure_of(const Op& op) { return op.instruction->structure; }
 
 bool is_edge(const Op& op) {
   return op.instruction->hidden == Hidden::RisingMemory || op.instruction->hidden == Hidden::FallingMemory;
@@ -33,7 +33,7 @@ bool never_changes(const Facts& facts, std::uint32_t edge) {
 
 /// What stands in a program without doing anything, or has to stand there.
 bool does_nothing(const Op& op) {
-  switch (structure(op)) {
+  switch (structure_of(op)) {
     case Structure::Label:
     case Structure::Jump:
     case Structure::Next:
@@ -85,7 +85,7 @@ bool surely_writes(const Facts& facts, std::uint32_t op, const Bits& bit) {
 }
 
 bool uses(const Facts& facts, std::uint32_t op, const Bits& bit) {
-  if (structure(facts.program.ops[op]) == Structure::Call) return true;
+  if (structure_of(facts.program.ops[op]) == Structure::Call) return true;
   return std::ranges::any_of(facts.effects[op],
                              [&](const MemoryAccess& access) { return is_meant(facts.program, access, bit); });
 }
@@ -103,7 +103,7 @@ std::optional<std::uint32_t> overwriting(const Facts& facts, Paths& paths, std::
   const std::uint32_t end = std::min(facts.flow.routine_of(first).end, first + kFarthest);
   for (std::uint32_t op = first + 1; op < end; ++op) {
     const Op& now = facts.program.ops[op];
-    if (structure(now) != Structure::None && structure(now) != Structure::Compare) return {};
+    if (structure_of(now) != Structure::None && structure_of(now) != Structure::Compare) return {};
     if (now.instruction->effect == Effect::ConditionalEnd || now.in_segment) return {};
     const bool again = now.instruction->effect == Effect::SetsBits || now.instruction->effect == Effect::ResetsBits;
     if (surely_writes(facts, op, bit)) {
@@ -146,8 +146,8 @@ void find_repeated_edges(const Facts& facts, stl::Diagnostics& diagnostics) {
   };
   std::vector<std::uint32_t> loops;  // the FOR around an op
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
-    if (structure(program.ops[op]) == Structure::For) loops.push_back(op);
-    if (structure(program.ops[op]) == Structure::Next && !loops.empty()) loops.pop_back();
+    if (structure_of(program.ops[op]) == Structure::For) loops.push_back(op);
+    if (structure_of(program.ops[op]) == Structure::Next && !loops.empty()) loops.pop_back();
     if (!is_edge(program.ops[op]) || never_changes(facts, op)) continue;
     if (!loops.empty()) {
       warn_of(op, fmt::format("the loop from line {} sees an edge the first time only", line(program, loops.back())));
@@ -168,7 +168,7 @@ void find_skipped_timers(const Facts& facts, stl::Diagnostics& diagnostics) {
   std::uint32_t jump = 0, leads_to = 0;  // the jump forwards that goes farthest
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
     const Op& now = program.ops[op];
-    if (structure(now) == Structure::Jump && !facts.flow.nodes[op].powered && now.target > std::max(op, leads_to)) {
+    if (structure_of(now) == Structure::Jump && !facts.flow.nodes[op].powered && now.target > std::max(op, leads_to)) {
       jump = op;
       leads_to = now.target;
     }

@@ -149,9 +149,9 @@ class Protection {
   const Calls& calls_;
 };
 
-class Finder {
+class RaceFinder {
  public:
-  Finder(const Facts& facts, const Calls& calls)
+  RaceFinder(const Facts& facts, const Calls& calls)
       : facts_(facts),
         calls_(calls),
         accesses_(facts),
@@ -337,6 +337,6 @@ class Finder {
 
 }  // namespace
 
-std::vector<Race> find_races(const Facts& facts, const Calls& calls) { return Finder(facts, calls).all(); }
+std::vector<Race> find_races(const Facts& facts, const Calls& calls) { return RaceFinder(facts, calls).all(); }
 
 }  // namespace s7200
