@@ -20,7 +20,7 @@ using stl::LadderPath;
 using Kind = LadderPath::Kind;
 
 constexpr std::size_t kRail = 0;
-constexpr std::size_t kMostContacts = 256;  // as many as the reader of drawings takes
+constexpr std::size_t kMostDrawn = 256;  // as many as the reader of drawings takes
 
 std::string words_of(const stl::Statement& statement) {
   std::string text = statement.mnemonic;
@@ -156,7 +156,7 @@ class NetworkDrawing {
   }
 
   LadderPath drawn_contact(std::string symbol) {
-    if (++contacts_ > kMostContacts) refuse("is one contact too many: a drawing has at most 256");
+    if (++contacts_ > kMostDrawn) refuse("is one contact too many: a drawing has at most 256");
     LadderPath path{Kind::Contact};
     path.contact = {LadderElement::Kind::Contact, std::move(symbol), statement_->position};
     for (const stl::Operand& operand : statement_->operands) path.contact.operands.push_back(operand_in_ladder(operand));
@@ -231,7 +231,7 @@ class NetworkDrawing {
     const bool follows = is_bare_wire(flow.path) && last_ == flow.point && after_ + 1 == op_ && !hanging.empty() &&
                          hanging.back().output && hanging.back().output->kind == LadderElement::Kind::Box;
     if (!follows) return refuse("does not come directly after a box of its branch");
-    if (++boxes_in_row_ > kMostContacts) return refuse("goes on after one box too many: a drawing has at most 256 in a row");
+    if (++boxes_in_row_ > kMostDrawn) return refuse("goes on after one box too many: a drawing has at most 256 in a row");
     hanging.back().point = last_ = points_.size();
     points_.push_back({flow.point, {}});
     flow.point = last_;

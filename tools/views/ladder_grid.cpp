@@ -159,7 +159,7 @@ Block box_block(const LadderElement& box, const std::vector<int>& power, GridPoi
 }
 
 /// A line of the drawing that is still to be laid out: contacts in series, and what they lead to.
-struct Line {
+struct DrawnLine {
   std::string begins{};  // the letter of its connector; empty: it begins at the rail
   GridPoint point = 0;
   std::vector<const LadderPath*> parts{};
@@ -183,7 +183,7 @@ class Layout {
     for (const LadderBranch& branch : network.rail.branches) {
       lines_.push_back(line_of(branch, 0));
       while (!lines_.empty()) {
-        const Line line = std::move(lines_.front());
+        const DrawnLine line = std::move(lines_.front());
         lines_.pop_front();
         lay(line);
       }
@@ -194,7 +194,7 @@ class Layout {
  private:
   // ---- lines ----
 
-  void lay(const Line& line) {
+  void lay(const DrawnLine& line) {
     Block block;
     if (!line.begins.empty()) block = incoming(line.begins, line.point);
     const int start = block.width - 1;
@@ -206,10 +206,10 @@ class Layout {
   }
 
   /// Contacts side by side that are too wide for the page: each of them is a line, and all end at one point.
-  void split(const Line& line) {
+  void split(const DrawnLine& line) {
     const std::string letter = next_letter();
     const GridPoint joined = next_point();
-    std::deque<Line> lines;
+    std::deque<DrawnLine> lines;
     for (const LadderPath& part : line.parts.front()->parts)
       lines.push_back({line.begins, line.point, parts_of(part), nullptr, letter, joined});
     lines.push_back({letter, joined, {line.parts.begin() + 1, line.parts.end()}, line.tail, line.ends, line.end});
@@ -238,7 +238,7 @@ class Layout {
 
   /// Contacts in series from column `x` on, and what they lead to. What does not fit goes on in another line. `below`: rows
   /// that what is left of it takes below it.
-  Block chain(const Line& line, int x, int below = 0) {
+  Block chain(const DrawnLine& line, int x, int below = 0) {
     Block block;
     GridPoint point = line.point;
     for (std::size_t i = 0; i < line.parts.size(); ++i) {
@@ -260,7 +260,7 @@ class Layout {
     return block;
   }
 
-  Block fold(Block block, const Line& line, std::size_t from_part, GridPoint point) {
+  Block fold(Block block, const DrawnLine& line, std::size_t from_part, GridPoint point) {
     const std::string letter = next_letter();
     block.append(outgoing(letter, point));
     lines_.push_back({letter,
@@ -342,8 +342,8 @@ class Layout {
 
   // ---- what hangs from a point ----
 
-  static Line line_of(const LadderBranch& branch, GridPoint point) {
-    Line line;
+  static DrawnLine line_of(const LadderBranch& branch, GridPoint point) {
+    DrawnLine line;
     line.point = point;
     line.parts = parts_of(branch.path);
     line.tail = &branch;
@@ -402,7 +402,7 @@ class Layout {
 
   /// A branch whose output stands in a certain column, if it has one and it fits there.
   Block aligned(const LadderBranch& branch, GridPoint point, int x, int column, int below) {
-    const Line line = line_of(branch, point);
+    const DrawnLine line = line_of(branch, point);
     if (!branch.output || !branch.more_inputs.empty()) return chain(line, x, below);
     const int before = column - lead_of(*branch.output);
     if (x + before + needs_of(branch) > columns_) return chain(line, x, below);
@@ -454,7 +454,7 @@ class Layout {
   Block input_from_rail(const LadderPath& more, GridPoint to) {
     if (width_of(more) + 24 <= columns_) return path(more, 0, to);
     const std::string letter = next_letter();
-    Line line;
+    DrawnLine line;
     line.parts = parts_of(more);
     line.ends = letter;
     line.end = to;
@@ -471,7 +471,7 @@ class Layout {
   }
 
   const int columns_;
-  std::deque<Line> lines_;
+  std::deque<DrawnLine> lines_;
   Block all_;
   int first_rung_ = 0;
   std::size_t points_ = 1, letters_ = 0;

@@ -16,7 +16,7 @@ namespace {
 // A cell of the grid in user units: a character of the font is 8 wide.
 constexpr int kCellWidth = 8, kCellHeight = 18, kMargin = 16, kRail = 56;
 
-constexpr std::string_view kStyle = R"(<style>
+constexpr std::string_view kColours = R"(<style>
 svg{background:#fff;font:13.33px ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace}
 text{fill:#1f2328;white-space:pre}
 .wire{stroke:#1f2328;stroke-width:1.5;fill:none;stroke-linecap:round}
@@ -66,7 +66,7 @@ class Picture {
     return fmt::format(
         "{4} xmlns=\"http://www.w3.org/2000/svg\" xml:space=\"preserve\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
         "height=\"{1}\">\n{2}{3}</svg>\n",
-        width_ + kMargin, top_ + kMargin, kStyle, body_, kPictureBegins);
+        width_ + kMargin, top_ + kMargin, kColours, body_, kPictureBegins);
   }
 
  private:
