@@ -265,7 +265,8 @@ class StationTracks {
     if (record.parity_error) span.error = "parity error";
     if (record.framing_error) span.error += span.error.empty() ? "framing error" : ", framing error";
     if (dropped) span.why = ignored_because(record);
-    if (!dropped || Ignored{record.code} == Ignored::NotAttached)
+    const Ignored why{record.code};
+    if (!dropped || why == Ignored::NotAttached || why == Ignored::NoRcvWaits)
       frames_[record.port].add(span, record.byte, sent, format.silence());
     NamedTrack& characters =
         tracks_.named(TrackKind::Characters, fmt::format("port {} {}", record.port, sent ? "sent" : "received"), station_);
