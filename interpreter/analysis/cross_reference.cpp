@@ -78,6 +78,8 @@ class UseCollector {
   CrossReference all() {
     for (std::uint32_t op = 0; op < facts_.effects.size(); ++op) add(op);
     join();
+    for (const Use& use : others_)
+      if (!use.access.by_pointer && first_reached(use) == end_reached(use)) own_entry(use).uses.push_back(use);
     for (const Use& use : others_) spread(use);
     for (ReferenceEntry& entry : result_.entries) finish(entry);
     std::ranges::stable_sort(result_.entries, {}, [](const ReferenceEntry& entry) {
@@ -97,8 +99,12 @@ class UseCollector {
 
   void add(std::uint32_t op) {
     if (is_unread(facts_.program.ops[op])) return result_.unread.push_back(op);
-    for (const MemoryAccess& access : named_accesses(facts_.effects[op]))
+    const bool returns = facts_.program.ops[op].instruction->structure != Structure::Call;
+    for (const MemoryAccess& access : named_accesses(facts_.effects[op])) {
+      // What a subroutine hands back to its caller's local memory is listed with the CALL.
+      if (returns && access.operand == kNoOperand && is_local(access.bits)) continue;
       (is_plain(facts_.program.ops[op], access) ? plain_ : others_).push_back({op, access});
+    }
   }
 
   /// Makes entries of the plain accesses that overlap.
@@ -117,20 +123,34 @@ class UseCollector {
 
   void begin(const Use& use) { result_.entries.push_back({use.access.bits, scope(use), {}, {}, {}, {}}); }
 
-  /// Lists an access with the entries that it may reach. One of no entry's memory is an entry of its own, if it is direct.
-  void spread(const Use& use) {
-    bool any = false;
-    const Key key{scope(use), use.access.bits.first};
+  // The entries of plain accesses are in order, so those that an access may reach stand together.
+
+  std::size_t first_reached(const Use& use) const {
     const auto joined = result_.entries.begin() + static_cast<std::ptrdiff_t>(joined_);
-    auto entry = std::lower_bound(result_.entries.begin(), joined, key, [](const ReferenceEntry& each, const Key& wanted) {
-      return Key{each.routine, each.bits.end()} <= wanted;
-    });
-    for (; entry != joined && entry->routine == key.routine && entry->bits.first < use.access.bits.end(); ++entry) {
-      entry->reached.push_back(use);
-      any = true;
+    const Key key{scope(use), use.access.bits.first};
+    const auto first =
+        std::lower_bound(result_.entries.begin(), joined, key, [](const ReferenceEntry& each, const Key& wanted) {
+          return Key{each.routine, each.bits.end()} <= wanted;
+        });
+    return static_cast<std::size_t>(first - result_.entries.begin());
+  }
+  std::size_t end_reached(const Use& use) const {
+    std::size_t entry = first_reached(use);
+    while (entry < joined_ && result_.entries[entry].routine == scope(use) &&
+           result_.entries[entry].bits.first < use.access.bits.end())
+      ++entry;
+    return entry;
+  }
+
+  /// Lists an access with the entries that it may reach.
+  void spread(const Use& use) {
+    const std::size_t end = end_reached(use);
+    for (std::size_t entry = first_reached(use); entry < end; ++entry) result_.entries[entry].reached.push_back(use);
+    for (std::size_t block = joined_; block < result_.entries.size(); ++block) {
+      ReferenceEntry& entry = result_.entries[block];
+      const bool own = !use.access.by_pointer && entry.bits == use.access.bits;
+      if (!own && entry.routine == scope(use) && entry.bits.overlaps(use.access.bits)) entry.reached.push_back(use);
     }
-    if (any || use.access.by_pointer) return;
-    own_entry(use).uses.push_back(use);
   }
 
   /// The entry of a block that is no part of another one.

@@ -2476,7 +2476,7 @@ class JsonPage(Case):
         self.addCleanup(os.close, secondary)
         plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
         yield from (["check", echo, wrong], ["check", SOURCE / "tests/programs/libraries/slave.awl", "--cpu", "224"], ["import", self.program(Files.DOCUMENT, "page.txt")],
-                    ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
+                    ["inspect", *Inspect.PUMP], ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
                     ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
                     ["inspect", self.program("LD I0.0\nLD I0.1\nCTU C5, 12\nTON T37, 5\nMOVB 16#81, SMB31\nMEND\n", "eeprom.stl"), "map"],
                     ["inspect", *Inspect.PUMP, "map"], ["inspect", EXPORTS / "races.awl", "races"], ["inspect", SLAVE, "bounds"], ["inspect", *Inspect.PUMP, "document"],
@@ -2529,7 +2529,7 @@ class Inspect(Case):
     PUMP = [EXPORTS / "pump.awl", EXPORTS / "pump_symbols.txt", EXPORTS / "pump_data.txt"]
 
     def test_views_keep_to_100_columns_and_need_no_colour(self):
-        for view in ("xref", "calls", "map", "races", "ladder", "bounds"):
+        for view in ("overview", "xref", "calls", "map", "races", "ladder", "bounds"):
             for program in ([SLAVE], self.PUMP):
                 with self.subTest(view=view, program=program):
                     shown = self.ends(FINE, "inspect", *program, view).stdout
@@ -2556,7 +2556,8 @@ class Inspect(Case):
         self.assertTrue(self.ends(FINE, "inspect", SLAVE, "ladder", "--ascii").stdout.isascii())
 
     def test_what_is_not_there_is_said_with_what_is_near(self):
-        self.assertIn("name a view of it: xref", self.ends(UNUSABLE, "inspect", SLAVE).stderr)
+        self.assertIn("there is no view 'xreff'; did you mean xref?", self.ends(UNUSABLE, "inspect", SLAVE, "xreff").stderr)
+        self.assertEqual(self.ends(FINE, "inspect", SLAVE).stdout, self.ends(FINE, "inspect", SLAVE, "overview").stdout)
         self.assertIn("SBR_63", self.ends(UNUSABLE, "inspect", SLAVE, "xref", "SBR_99").stderr)
         self.assertIn("near it the program uses", self.ends(FINE, "inspect", SLAVE, "xref", "VW3").stdout)
         self.assertIn("calls keeps to routines and networks", self.ends(UNUSABLE, "inspect", SLAVE, "calls", "VW0").stderr)

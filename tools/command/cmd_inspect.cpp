@@ -38,8 +38,9 @@ std::string view_names() { return stl::joined(inspect_views(), &InspectView::nam
 
 int run_inspect(const InspectOptions& options) {
   const InspectRequest request = inspect_request(options.words);
-  if (!request.view) {
-    print_error(fmt::format("after the PROGRAM name a view of it: {}", view_names()));
+  if (!request.slip.empty()) {
+    print_error(fmt::format("there is no view '{}'; did you mean {}? There are {}", stl::shortened(request.slip),
+                            request.meant, view_names()));
     return kUnusable;
   }
   if (!options.cpu.model()) return kUnusable;

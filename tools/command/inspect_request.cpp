@@ -1,6 +1,26 @@
 #include "tools/command/inspect_request.hpp"
 
+#include <algorithm>
+#include <string_view>
+
+#include "interpreter/base/nearest.hpp"
+
 namespace s7200::tools {
+namespace {
+
+/// The first word after the first that looks more like a view than like a file, and the view that was meant.
+void find_slip(InspectRequest& request) {
+  std::vector<std::string_view> names;
+  for (const InspectView& view : inspect_views()) names.push_back(view.name);
+  const auto slip = std::find_if(std::next(request.paths.begin()), request.paths.end(), [&](const std::string& word) {
+    return word.find_first_of("./") == std::string::npos && !nearest(word, names).empty();
+  });
+  if (slip == request.paths.end()) return;
+  request.slip = *slip;
+  request.meant = nearest(*slip, names);
+}
+
+}  // namespace
 
 InspectRequest inspect_request(const std::vector<std::string>& words) {
   InspectRequest request;
@@ -12,6 +32,9 @@ InspectRequest inspect_request(const std::vector<std::string>& words) {
     else
       request.paths.push_back(word);
   }
+  if (request.view) return request;
+  request.view = &inspect_views().front();
+  if (!request.paths.empty()) find_slip(request);
   return request;
 }
 

@@ -11,7 +11,8 @@ namespace s7200::tools {
 /// The words of the command line: files, then a view, then what it is to be about.
 struct InspectRequest {
   std::vector<std::string> paths, about;
-  const InspectView* view = nullptr;  ///< null: none is named
+  const InspectView* view = nullptr;  ///< the first of them all if none is named
+  std::string slip, meant;            ///< a word that is probably a view with a slip, and that view; empty: there is none
 };
 
 InspectRequest inspect_request(const std::vector<std::string>& words);

@@ -8,6 +8,7 @@
 #include "tools/views/document_view.hpp"
 #include "tools/views/ladder_view.hpp"
 #include "tools/views/map_view.hpp"
+#include "tools/views/overview_view.hpp"
 #include "tools/views/races_view.hpp"
 #include "tools/views/xref_view.hpp"
 
@@ -15,6 +16,8 @@ namespace s7200::tools {
 
 std::span<const InspectView> inspect_views() {
   static constexpr std::array kTable{
+      InspectView{"overview", "the first look: size, routines, inputs and outputs, what stands out", false, overview_text,
+                  overview_json},
       InspectView{"xref", "each address and constant: which instructions read and write it, also through pointers", true,
                   xref_text, xref_json},
       InspectView{"calls", "who calls whom, interrupt routines by event, routines that nothing starts", false, calls_text,

@@ -49,9 +49,27 @@ TEST(CrossReference, PointersAreListedWithWhatTheyMayReach) {
             "VW4 r3 p2; VW8 w3; VD20 w1 r2; SM0.0 r0");
 }
 
+TEST(CrossReference, PointersAndBlocksAreListedWithOtherBlocksToo) {
+  EXPECT_EQ(shown("LD SM0.0\nMOVD &VB4, VD20\nMOVW 1, *VD20\nBMB VB0, VB40, 8\nMEND\n"),
+            "VB0 to VB7 r3 p2; VD20 w1 r2; VB40 to VB47 w3; SM0.0 r0");
+}
+
 TEST(CrossReference, LocalMemoryIsAnotherOneInEachRoutine) {
   EXPECT_EQ(shown("LD I0.0\nCALL 1\nMEND\nSBR 1\nLD L0.0\n= L0.1\nRET\nSBR 2\nLD L0.0\nRET\n"),
             "I0.0 r0; L0.0 r4; L0.1 w5; L0.0 r8");
+}
+
+TEST(CrossReference, AResultInTheCallersLocalMemoryIsListedWithTheCall) {
+  const auto program = program_of(
+      "SUBROUTINE_BLOCK Work:SBR0\nVAR_OUTPUT\nout : WORD;\nEND_VAR\nBEGIN\nNetwork 1\nLD SM0.0\nMOVW 1, "
+      "#out\nEND_SUBROUTINE_BLOCK\n"
+      "ORGANIZATION_BLOCK MAIN:OB1\nVAR\ngot : WORD;\nEND_VAR\nBEGIN\nNetwork 1\nLD SM0.0\nCALL Work, #got\nMOVW #got, VW0\n"
+      "END_ORGANIZATION_BLOCK\n",
+      *find_cpu("224"));
+  for (const ReferenceEntry& entry : cross_reference(facts_of(*program)).entries)
+    if (area_of(entry.bits) == Area::L && entry.routine != 0U) {
+      EXPECT_EQ(entry.uses.size(), 1U) << "only MOVW 1, #out";
+    }
 }
 
 TEST(CrossReference, FlagsThatEveryInstructionSetsAreLeftOut) {

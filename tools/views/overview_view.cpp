@@ -1,0 +1,137 @@
+#include "tools/views/overview_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/analysis/calls.hpp"
+#include "interpreter/analysis/cross_reference.hpp"
+#include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/analysis/races.hpp"
+#include "interpreter/base/counted.hpp"
+#include "interpreter/base/joined.hpp"
+#include "interpreter/base/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Instructions that talk on a port or to another station, and those for what comes too fast for a scan.
+constexpr std::string_view kOutside[]{"XMT", "RCV", "NETR", "NETW", "HSC", "PLS", "PID", "TODR", "TODW"};
+
+std::string as_it_is(const std::string& text) { return text; }
+
+/// What there is to say, worked out once for both forms.
+struct Overview {
+  explicit Overview(const Inspection& of)
+      : inspection(of),
+        calls(calls_of(*of.program, of.facts.flow)),
+        reference(cross_reference(of.facts)),
+        races(find_races(of.facts, calls).size()) {}
+
+  const Inspection& inspection;
+  Calls calls;
+  CrossReference reference;
+  std::size_t races;
+
+  std::size_t networks() const {
+    std::size_t count = 0;
+    for (std::uint32_t op = 0; op < inspection.program->ops.size(); ++op)
+      count += inspection.facts.flow.nodes[op].network == op && inspection.facts.networks[op] != 0;
+    return count;
+  }
+
+  /// The parts of an area that the program names, with their symbols.
+  std::vector<std::string> named(Area area) const {
+    std::vector<std::string> all;
+    for (const ReferenceEntry& entry : reference.entries)
+      if (area_of(entry.bits) == area)
+        all.push_back(memory_text(entry.parts.front()) +
+                      stl::joined(
+                          entry.symbols,
+                          [](const std::string& symbol) { return fmt::format(" \"{}\"", stl::printable(symbol)); }, ""));
+    return all;
+  }
+
+  /// `XMT 3 times`
+  std::vector<std::string> outside() const {
+    std::vector<std::string> all;
+    for (const std::string_view name : kOutside) {
+      const auto count =
+          std::ranges::count_if(inspection.program->ops, [&](const Op& op) { return op.instruction->mnemonic == name; });
+      if (count != 0) all.push_back(fmt::format("{} {}", name, count == 1 ? "once" : fmt::format("{} times", count)));
+    }
+    return all;
+  }
+
+  std::vector<std::string> with_usage(Usage usage) const {
+    std::vector<std::string> all;
+    for (const ReferenceEntry& entry : reference.entries)
+      if (usage_of(*inspection.program, entry) == usage) all.push_back(memory_text(entry.parts.front()));
+    return all;
+  }
+
+  std::vector<std::string> never_executed() const {
+    std::vector<std::string> all;
+    for (std::uint32_t i = 1; i < calls.nodes.size(); ++i)
+      if (!calls.nodes[i].executed()) all.push_back(routine_text(inspection.facts.flow.routines[i]));
+    return all;
+  }
+};
+
+std::string list_text(std::string_view what, const std::vector<std::string>& all) {
+  if (all.empty()) return {};
+  return wrapped_at(fmt::format("{}: {}", what, stl::joined(all, as_it_is)), 2) + "\n";
+}
+
+std::string routine_line(const Overview& overview, std::uint32_t i) {
+  const Routine& routine = overview.inspection.facts.flow.routines[i];
+  std::string text = "  " + column(routine_in_words(overview.inspection, routine), 30) +
+                     column(counted(routine.end - routine.first, "instruction"), 20);
+  for (const std::uint8_t number : overview.calls.nodes[i].events) {
+    const InterruptEvent* event = find_event(number);
+    text += fmt::format("event {}{} ", number, event ? fmt::format(": {}", event->cause) : "");
+  }
+  if (i != 0 && !overview.calls.nodes[i].executed()) text += "never executed";
+  return std::string(stl::trim_end(text)) + "\n";
+}
+
+}  // namespace
+
+std::string overview_text(const Inspection& inspection) {
+  const Overview overview(inspection);
+  const auto& routines = inspection.facts.flow.routines;
+  std::string text = fmt::format("CPU {}: {}, {}, {}\n", inspection.program->model->name,
+                                 counted(inspection.program->ops.size(), "instruction"),
+                                 counted(overview.networks(), "network"), counted(routines.size(), "routine"));
+  for (std::uint32_t i = 0; i < routines.size(); ++i) text += routine_line(overview, i);
+  text += list_text("inputs", overview.named(Area::I)) + list_text("outputs", overview.named(Area::Q)) +
+          list_text("analog inputs", overview.named(Area::AI)) + list_text("analog outputs", overview.named(Area::AQ)) +
+          list_text("timers", overview.named(Area::T)) + list_text("counters", overview.named(Area::C)) +
+          list_text("to the outside", overview.outside());
+  text += list_text("written, never read", overview.with_usage(Usage::NeverRead)) +
+          list_text("read, never written", overview.with_usage(Usage::NeverWritten));
+  if (overview.races != 0) text += fmt::format("{}: see the view races\n", counted(overview.races, "race"));
+  return text;
+}
+
+ordered_json overview_json(const Inspection& inspection) {
+  const Overview overview(inspection);
+  return {{"instructions", inspection.program->ops.size()},
+          {"networks", overview.networks()},
+          {"routines", inspection.facts.flow.routines.size()},
+          {"inputs", overview.named(Area::I)},
+          {"outputs", overview.named(Area::Q)},
+          {"timers", overview.named(Area::T)},
+          {"counters", overview.named(Area::C)},
+          {"outside", overview.outside()},
+          {"never_executed", overview.never_executed()},
+          {"never_read", overview.with_usage(Usage::NeverRead)},
+          {"never_written", overview.with_usage(Usage::NeverWritten)},
+          {"races", overview.races}};
+}
+
+}  // namespace s7200::tools
