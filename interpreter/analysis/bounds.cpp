@@ -14,11 +14,11 @@
 namespace s7200 {
 namespace {
 
-constexpr std::int64_t kMostCounted = 255;  ///< units of an instruction that memory counts: bytes, characters, entries
+constexpr std::int64_t kMostUnits = 255;  ///< units of an instruction that memory counts: bytes, characters, entries
 constexpr std::int64_t kMostShifted = 32;
 constexpr Time kLongest = 100 * kSecond;  ///< a time above it is none
 
-Structure structure(const Op& op) { return op.instruction->structure; }
+Structure kind_of(const Op& op) { return op.instruction->structure; }
 
 /// The number in a comment such as `at most 8 times`.
 std::optional<std::int64_t> limit_in(const std::string& comment) {
@@ -32,9 +32,10 @@ std::optional<std::int64_t> limit_in(const std::string& comment) {
   return parse_decimal<std::int64_t>(digits);
 }
 
-class Builder {
+class BoundsBuilder {
  public:
-  Builder(const Facts& facts, const Calls& calls, const Program& timed) : facts_(facts), calls_(calls), timed_(timed) {}
+  BoundsBuilder(const Facts& facts, const Calls& calls, const Program& timed)
+      : facts_(facts), calls_(calls), timed_(timed) {}
 
   Bounds all() {
     for (std::uint32_t op = 0; op < timed_.ops.size(); ++op)
@@ -54,14 +55,14 @@ class Builder {
  private:
   bool is_loop(std::uint32_t op) const {
     const Op& of = timed_.ops[op];
-    return structure(of) == Structure::For || (structure(of) == Structure::Jump && of.target <= op);
+    return kind_of(of) == Structure::For || (kind_of(of) == Structure::Jump && of.target <= op);
   }
 
   // --- loops ---
 
   std::optional<std::int64_t> times_of(std::uint32_t op) const {
     if (const auto said = limit_in(timed_.statement(op).comment)) return said;
-    if (structure(timed_.ops[op]) != Structure::For) return {};
+    if (kind_of(timed_.ops[op]) != Structure::For) return {};
     const auto first = least_and_most(timed_.ops[op][1]), last = least_and_most(timed_.ops[op][2]);
     if (!first || !last) return {};
     return std::max<std::int64_t>(0, last->second - first->first + 1);
@@ -112,7 +113,7 @@ class Builder {
       const std::uint8_t count = timed_.constants[op[i].at - image::kConstants];
       return rules[i].sign == Sign::Signed ? std::abs(static_cast<std::int8_t>(count)) : count;
     }
-    return shifts ? kMostShifted : kMostCounted;
+    return shifts ? kMostShifted : kMostUnits;
   }
 
   void measure(std::uint32_t routine) {
@@ -154,7 +155,7 @@ class Builder {
     for (std::uint32_t op = to; op-- > from;) {
       const Op& now = timed_.ops[op];
       Time& time = best[op - from];
-      if (structure(now) == Structure::For && now.target <= to) {
+      if (kind_of(now) == Structure::For && now.target <= to) {
         Time leaves = after(now.target);
         for (std::uint32_t in = op + 1; in < now.target; ++in)
           for (const std::uint32_t next : facts_.flow.nodes[in].next)
@@ -165,8 +166,8 @@ class Builder {
       for (const std::uint32_t next : facts_.flow.nodes[op].next)
         if (next > op) time = std::max(time, after(next));
       time += cost(op);
-      if (structure(now) == Structure::Call) time += call(op, loops);
-      if (structure(now) == Structure::Jump && now.target <= op && now.target >= from)
+      if (kind_of(now) == Structure::Call) time += call(op, loops);
+      if (kind_of(now) == Structure::Jump && now.target <= op && now.target >= from)
         time = std::max(time, cost(op) + after(op + 1)) +
                (repeats(op, loops) - 1) * (longest(now.target, op, loops) + cost(op));
     }
@@ -323,6 +324,8 @@ class Builder {
 
 }  // namespace
 
-Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed) { return Builder(facts, calls, timed).all(); }
+Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed) {
+  return BoundsBuilder(facts, calls, timed).all();
+}
 
 }  // namespace s7200

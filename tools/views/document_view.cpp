@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kName = "document";
 
-constexpr std::string_view kStyle =
+constexpr std::string_view kDocumentStyle =
     "body{font:11pt/1.35 sans-serif;margin:2em auto;max-width:64em;padding:0 1em}"
     "pre{font:8.5pt/1.25 monospace;white-space:pre-wrap}h1,h2,h3{line-height:1.2}"
     "nav ul{margin:0}@page{margin:15mm}"
@@ -58,7 +58,7 @@ std::vector<Part> source_parts(const Inspection& inspection) {
   return files;
 }
 
-bool is_wanted(const Inspection& inspection, const Routine& routine) {
+bool is_in_document(const Inspection& inspection, const Routine& routine) {
   return inspection.selection.ops.empty() || std::ranges::any_of(inspection.selection.ops, [&](const Selection::Ops& each) {
            return each.first < routine.end && routine.first < each.end;
          });
@@ -69,7 +69,7 @@ std::vector<Part> routine_parts(const Inspection& inspection, const InspectView&
   std::vector<Part> routines;
   Inspection of_routine = inspection;
   for (const Routine& routine : inspection.facts.flow.routines) {
-    if (!is_wanted(inspection, routine)) continue;
+    if (!is_in_document(inspection, routine)) continue;
     of_routine.selection.ops = {{routine_text(routine), routine.first, routine.end}};
     routines.push_back(
         {fmt::format("ladder-{}", routine_text(routine)), routine_in_words(inspection, routine), view.text(of_routine), {}});
@@ -123,7 +123,7 @@ std::string document_text(const Inspection& inspection) {
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" "
       "content=\"default-src 'none'; style-src 'unsafe-inline'\">\n<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n"
       "<h1>{0}</h1>\n<p>{2}</p>\n<nav>\n{3}</nav>\n",
-      title, kStyle, as_markup(summary(inspection)), contents(parts));
+      title, kDocumentStyle, as_markup(summary(inspection)), contents(parts));
   for (const Part& part : parts) html += shown(part, 2);
   return html + "</body>\n</html>\n";
 }
