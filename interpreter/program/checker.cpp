@@ -309,6 +309,8 @@ class Checker {
 
   bool place_operands(const Instruction& instruction, const stl::Statement& statement) {
     const std::size_t given = statement.operands.size(), taken = instruction.rules().size();
+    auto& placed = placed_.back();
+    for (std::size_t i = 0; i < taken; ++i) placed[i].read = false;
     if (has_decimal_comma(instruction, statement)) return false;
     if (is_missing_block(instruction, statement)) return false;
     const stl::Block* called = called_block(instruction, statement);
@@ -320,7 +322,6 @@ class Checker {
       return false;
     }
     bool good = true;
-    auto& placed = placed_.back();
     const std::size_t diagnostics_before = diagnostics_.size();
     for (std::size_t i = 0; i < taken; ++i) {
       const auto operand =

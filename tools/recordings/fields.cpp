@@ -512,8 +512,8 @@ std::vector<Words> possible_runs(Words words) {
   if (!after.empty() && after.front().number != Word::Number::Yes && may_be_a_damaged_byte_after(after.front())) return {};
   if (what_is_no_byte(without_number(run)) != nullptr) return {};
   std::vector<Words> runs{run};
-  if (const Words surely = without_number(run); surely.size() < run.size()) runs.push_back(surely);
-  if (counts_bytes(run.front(), run.subspan(1))) runs.push_back(run.subspan(1));
+  if (const Words surely = without_number(run); !surely.empty() && surely.size() < run.size()) runs.push_back(surely);
+  if (run.size() > 1 && counts_bytes(run.front(), run.subspan(1))) runs.push_back(run.subspan(1));
   return runs;
 }
 
