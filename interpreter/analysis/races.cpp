@@ -15,7 +15,7 @@
 namespace s7200 {
 namespace {
 
-constexpr std::uint64_t kByte = 8, kWord = 16, kDouble = 32;
+constexpr std::uint64_t kBitsOfByte = 8, kBitsOfWord = 16, kBitsOfDouble = 32;
 constexpr std::uint32_t kFarthest = 300;  ///< ops between a read and a write that depends on it
 
 bool is_shared(const Bits& bits) {
@@ -24,7 +24,7 @@ bool is_shared(const Bits& bits) {
   return contains(kShared, area_of(bits));
 }
 
-Bits common(const Bits& a, const Bits& b) {
+Bits overlap_of(const Bits& a, const Bits& b) {
   const std::uint64_t first = std::max(a.first, b.first), end = std::min(a.end(), b.end());
   return {first, end > first ? end - first : 0};
 }
@@ -54,7 +54,7 @@ class Accesses {
 
   /// What an access through a pointer is of; nothing if that is not known.
   Bits through_pointer(std::uint32_t op, const MemoryAccess& access) const {
-    if (access.bits.count <= kDouble) return access.bits;
+    if (access.bits.count <= kBitsOfDouble) return access.bits;
     if (access.operand == kNoOperand) return {};
     const Operand& operand = facts_.program.ops[op][access.operand];
     const auto address = set_in_rung(op, operand.at);
@@ -65,7 +65,7 @@ class Accesses {
 
   /// The address that MOVD has put into the pointer at `at`, with the power flow of `op`.
   std::optional<std::uint32_t> set_in_rung(std::uint32_t op, std::uint32_t at) const {
-    const Bits pointer{at * 8u, kDouble};
+    const Bits pointer{at * 8u, kBitsOfDouble};
     for (std::uint32_t i = op; i-- > facts_.flow.routine_of(op).first;) {
       const Op& before = facts_.program.ops[i];
       if (is_unread(before) || before.instruction->structure != Structure::None) return {};
@@ -216,7 +216,7 @@ class RaceFinder {
     for (std::uint32_t op = routine.first; op < routine.end; ++op) {
       if (is_unread(facts_.program.ops[op])) continue;
       for (const MemoryAccess& access : accesses_.of(op))
-        if (access.role == Role::In && access.bits.count >= kByte && is_shared(as_named(access.bits)) &&
+        if (access.role == Role::In && access.bits.count >= kBitsOfByte && is_shared(as_named(access.bits)) &&
             writer_of(access.bits))
           follow(routine, op, access.bits);
     }
@@ -268,8 +268,8 @@ class RaceFinder {
 
   bool writes_back(std::uint32_t reader, std::uint32_t op, const Bits& shared) {
     for (const MemoryAccess& access : accesses_.of(op)) {
-      const Bits both = common(access.bits, shared);
-      if (access.role != Role::Out || both.count < kByte) continue;
+      const Bits both = overlap_of(access.bits, shared);
+      if (access.role != Role::Out || both.count < kBitsOfByte) continue;
       if (const Foreign* writer = writer_of(both)) {
         add(Race::Kind::LostUpdate, both, reader, op, writer->op);
         return true;
@@ -301,7 +301,7 @@ class RaceFinder {
     for (const Foreign& foreign : foreign_) {
       const Bits& whole = foreign.access.bits;
       const bool meant = reads ? foreign.access.writes() : foreign.access.reads();
-      if (!meant || whole.count < kWord || whole.count > kDouble) continue;
+      if (!meant || whole.count < kBitsOfWord || whole.count > kBitsOfDouble) continue;
       std::optional<std::pair<std::uint32_t, Bits>> earlier;
       for (std::uint32_t op = routine.first; op < routine.end; ++op) {
         const auto part = part_of(op, whole, reads);
@@ -319,8 +319,8 @@ class RaceFinder {
     if (first_scan_[op]) return {};
     for (const MemoryAccess& access : accesses_.of(op)) {
       const bool meant = reads ? access.role == Role::In : access.role == Role::Out;
-      const Bits both = common(access.bits, whole);
-      if (meant && access.operand != kNoOperand && both.count >= kByte && both.count < whole.count) return both;
+      const Bits both = overlap_of(access.bits, whole);
+      if (meant && access.operand != kNoOperand && both.count >= kBitsOfByte && both.count < whole.count) return both;
     }
     return {};
   }

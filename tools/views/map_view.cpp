@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string as_it_is(const std::string& text) { return text; }
+std::string map_name(const std::string& text) { return text; }
 
 /// `VB8 to VB9`, not VW8: what is free or used need not be one word.
 std::string range_text(const Bits& bits) {
@@ -53,13 +53,13 @@ std::string symbols_text(const Inspection& inspection, const Bits& bits) {
   const std::size_t more = names.size() - std::min(names.size(), kShown);
   names.resize(names.size() - more);
   if (more != 0) names.push_back(fmt::format("{} more", more));
-  return stl::joined(names, as_it_is);
+  return stl::joined(names, map_name);
 }
 
 std::string used_text(const Inspection& inspection, const MemoryMap::Used& used) {
   std::vector<std::string> by = routine_names(inspection, used);
   if (used.by_data) by.insert(by.begin(), "data block");
-  std::string text = stl::joined(by, as_it_is);
+  std::string text = stl::joined(by, map_name);
   for (const std::string& about : {meaning_text(*inspection.program->model, used.bits), symbols_text(inspection, used.bits)})
     if (!about.empty()) text += "; " + about;
   return "  " + column(range_text(used.bits), 24) + wrapped_at(text, 26, 26) + "\n";
@@ -95,7 +95,7 @@ std::string area_text(const Inspection& inspection, const CrossReference& refere
   if (area.area != Area::AC && area.area != Area::SM) text += list_text("free", area.free);
   text += list_text("retentive", area.retentive);
   const auto pointers = pointer_names(reference, area);
-  if (!pointers.empty()) text += "  " + wrapped_at("pointers may reach it: " + stl::joined(pointers, as_it_is), 4, 2) + "\n";
+  if (!pointers.empty()) text += "  " + wrapped_at("pointers may reach it: " + stl::joined(pointers, map_name), 4, 2) + "\n";
   return text + "\n";
 }
 
@@ -158,7 +158,7 @@ std::string stand_ins_text(const Inspection& inspection) {
   for (const StandIn& stand_in : stand_ins_of(inspection.program->source))
     text += "  " +
             wrapped_at(fmt::format("VB{} to VB{}: {}, for {}", stand_in.memory, stand_in.memory + stand_in.bytes - 1,
-                                   stand_in.file, stl::joined(stand_in.routines, as_it_is)),
+                                   stand_in.file, stl::joined(stand_in.routines, map_name)),
                        4, 2) +
             "\n";
   return text.empty() ? text : "Memory of stand-ins for libraries\n" + text;

@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 /// Instructions that talk on a port or to another station, and those for what comes too fast for a scan.
 constexpr std::string_view kOutside[]{"XMT", "RCV", "NETR", "NETW", "HSC", "PLS", "PID", "TODR", "TODW"};
 
-std::string as_it_is(const std::string& text) { return text; }
+std::string overview_name(const std::string& text) { return text; }
 
 /// What there is to say, worked out once for both forms.
 struct Overview {
@@ -84,7 +84,7 @@ struct Overview {
 
 std::string list_text(std::string_view what, const std::vector<std::string>& all) {
   if (all.empty()) return {};
-  return wrapped_at(fmt::format("{}: {}", what, stl::joined(all, as_it_is)), 2) + "\n";
+  return wrapped_at(fmt::format("{}: {}", what, stl::joined(all, overview_name)), 2) + "\n";
 }
 
 std::string routine_line(const Overview& overview, std::uint32_t i) {
