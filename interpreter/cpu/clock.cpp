@@ -29,7 +29,8 @@ std::chrono::year_month_day date_of(const ClockTime& t) {
   return {std::chrono::year(2000 + t.year), std::chrono::month(t.month), std::chrono::day(t.day)};
 }
 
-/// From a date of the calendar on. A century of the clock is always that from 2000 to 2099, in which each fourth year leaps.
+/// This goes on from a date of the calendar. A century of the clock is always that from 2000 to 2099, in which each fourth
+/// year leaps.
 void add_days(ClockTime& t, std::int64_t count) {
   using namespace std::chrono;
   constexpr sys_days kBegin = 2000y / January / 1, kEnd = 2100y / January / 1;

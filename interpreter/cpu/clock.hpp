@@ -23,14 +23,14 @@ using Bcd = std::array<std::uint8_t, 8>;
 Bcd bcd_now(const Core& core);
 /// Whether each of them is a figure of a time. The day is 31 at most, whatever the month.
 bool is_time(const Bcd& bytes);
-/// False for a byte that is not BCD; the clock is left alone then.
+/// Sets the clock. Returns false for a byte that is not BCD; the clock is left alone then.
 bool set_bcd(Core& core, const Bcd& to);
 
 void set(Core& core, const ClockTime& to);
 ClockTime now(const Core& core);
-/// How much of its second has passed.
+/// The part of the clock's present second that has passed.
 Time fraction(const Core& core);
-/// When it changes.
+/// The instant at which the clock changes next.
 Time next_second(const Core& core);
 
 /// TODR and TODW: `buffer` is the place of the eight bytes. Error 0091 if they run past the end of their area, 0007 if TODW

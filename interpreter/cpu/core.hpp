@@ -31,7 +31,7 @@
 
 namespace s7200 {
 
-/// What the loops of the CPU and the rest of it tell each other.
+/// The loops of the CPU and the rest of it tell each other this.
 struct Loop {
   Time until = 0;        ///< the loop looks for other work when the clock gets here
   std::uint32_t op = 0;  ///< the one being executed
@@ -43,7 +43,7 @@ struct Loop {
 /// The devices on the ports of a CPU, by number; null for those that it does not have.
 using Ports = std::array<SerialPort*, kPorts.size()>;
 
-/// Whoever is wired to the output points of a CPU.
+/// A listener is wired to the output points of a CPU.
 class OutputListener {
  public:
   /// The points of `byte` that `changed` has a 1 for are different from `at` on; `points` is what all of them are then.
@@ -107,7 +107,7 @@ class Core {
   /// Whether an operand that a pointer has led to may be used so. SMB0 to SMB29 are read-only; analog values are words at
   /// even addresses, AI is only read and AQ only written (facts 1.1).
   static bool may_be_reached(std::uint32_t at, std::uint32_t width, Role role);
-  /// From SM to AQ: where a pointer leads only on late CPUs 22x, except to S.
+  /// The areas from SM to AQ: a pointer leads there only on late CPUs 22x, except to S.
   static bool is_beyond_memory(std::uint32_t at) { return at - image::kSM < image::kT - image::kSM; }
 
   /// Whether `count` bytes from `at` are in one area of this CPU.
@@ -135,9 +135,10 @@ class Core {
 
   // --- its clock ---
 
-  /// How far the crystal is off, in millionths; positive: it is too fast. Of this piece of hardware, so it is no state.
+  /// Sets how far the crystal is off, in millionths; positive: it is too fast. It belongs to this piece of hardware, so it
+  /// is no state.
   void set_clock_error(std::int32_t millionths) { clock_error_ = millionths; }
-  /// How long that takes by the CPU's clock which takes `nominal` by an exact one.
+  /// The time that the CPU's clock takes for what an exact clock does in `nominal`.
   Time by_own_clock(Time nominal) const {
     return clock_error_ == 0 ? nominal : nominal - nominal * clock_error_ / 1'000'000;
   }

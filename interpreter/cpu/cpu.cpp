@@ -125,7 +125,7 @@ void Cpu::execute_watched(TraceSink& sink) {
   }
 }
 
-/// `operands`: a bit each.
+/// `operands` has a bit for each operand.
 inline void Cpu::look_at(const Op& op, std::uint8_t operands, InstructionRecord& record) const {
   for (std::size_t i = 0; operands >> i != 0; ++i)
     if (operands >> i & 1) record.value[i] = peek(op, i);

@@ -22,15 +22,15 @@ namespace s7200 {
 
 class Cpu {
  public:
-  /// `owner`: the CPU's number in the queue. `ports`: as many as the program's CPU has. Owns nothing but the program. The
-  /// CPU is in STOP until power_up().
+  /// `owner` is the CPU's number in the queue, and `ports` has as many as the program's CPU. A CPU owns nothing but the
+  /// program. It is in STOP until power_up().
   Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports);
 
   /// Clears all memory except what `memory` has kept, and goes to RUN (mode switch in RUN) or stays in STOP (TERM). Without
   /// `memory` the CPU is brand-new. Its clock stands at `at` then.
   void power_up(bool run = true, const RetentiveMemory* memory = nullptr, Time at = 0);
 
-  /// What would be kept if power went off now.
+  /// The memory that would be kept if power went off now.
   RetentiveMemory retentive_memory() const;
 
   /// Runs until its clock reaches `limit`, an event of the queue is due, the sink stops it, the mode changes, or (on
@@ -42,10 +42,11 @@ class Cpu {
   void use_steady_scans(SteadyScansUse use) { steady_scans_.use(use); }
   /// Simulated time in scans that were passed over so far.
   Time passed_over() const { return steady_scans_.passed_over(); }
-  /// How often it was looked whether scans can be; each costs about as much as a thousand instructions.
+  /// The number of times that the CPU has looked whether scans can be passed over; each costs about as much as a thousand
+  /// instructions.
   std::uint64_t looks_at_scans() const { return steady_scans_.looks(); }
-  /// Until when the CPU does nothing but the same scan again, unless something comes from outside; time() if that is not
-  /// known. Until then it sends nothing.
+  /// The instant until which the CPU does nothing but the same scan again, unless something comes from outside; time() if
+  /// that is not known. Until then it sends nothing.
   Time alike_until() const { return steady_scans_.alike_until(core_); }
 
   /// Whether run() stops at the end of each scan.
@@ -55,22 +56,22 @@ class Cpu {
   /// Whether run() stopped early for one of these reasons or for the sink; the next run() resets it.
   bool paused() const { return core_.loop.paused; }
 
-  /// One of the CPU's own events is due.
+  /// Handles one of the CPU's own events, which is due.
   void handle(const Event& event);
 
   /// Reports of a serial port.
   void character_received(const ReceivedCharacter& character, std::uint8_t port = 0);
   void character_sent(Time at, std::uint8_t port = 0);
 
-  /// For the trace: a character that the line brings while the receiver is off, or the PLC has no power. Nothing comes of
-  /// it, and without a sink nobody need say so.
+  /// Tells the trace of a character that the line brings while the receiver is off, or the PLC has no power. Nothing comes
+  /// of it, and without a sink nobody need say so.
   void character_missed(const ReceivedCharacter& character, std::uint8_t port, bool powered) const;
   bool traced() const { return core_.sink() != nullptr; }
 
   /// Sets an input byte; edges of I0.0–I0.3 are events 0–7, and the high-speed counters count.
   void set_input(std::uint32_t byte, std::uint8_t value, Time at);
 
-  /// How far its crystal is off, in millionths; positive: it is too fast. Before it is powered up.
+  /// Sets how far its crystal is off, in millionths; positive: it is too fast. This comes before it is powered up.
   void set_clock_error(std::int32_t millionths) { core_.set_clock_error(millionths); }
 
   /// The time of day.
@@ -82,8 +83,8 @@ class Cpu {
   const Program& program() const { return core_.program(); }
   Time time() const { return core_.s.time; }
 
-  /// When the CPU does something by itself: now, or at the end of the system's part of the scan that it is in. An event may
-  /// make it act before.
+  /// The instant at which the CPU does something by itself: now, or at the end of the system's part of the scan that it is
+  /// in. An event may make it act before.
   Time next_action() const;
 
   /// Writes memory as a programming device would. `at` is a place in the image.
@@ -95,12 +96,12 @@ class Cpu {
   /// Takes back what is forced there; whether there was anything.
   bool unforce(const MemoryRange& place);
 
-  /// What is wired to an input byte, whatever is forced.
+  /// The levels that are wired to an input byte, whatever is forced.
   std::uint8_t terminals(std::uint32_t byte) const { return core_.s.terminals[byte]; }
 
   void set_sink(TraceSink* sink) { from_outside().set_sink(sink); }
 
-  /// Who is wired to the output points; null: nobody. Not owned.
+  /// Sets who is wired to the output points; null: nobody. A listener is not owned.
   void set_output_listener(OutputListener* listener) { core_.set_output_listener(listener); }
 
   /// The value of operand `i` as the instruction would find it now; nothing for a bad pointer.
@@ -118,11 +119,11 @@ class Cpu {
   /// The logic stack, with the power flow, is another one. Nothing but a debugger can do that.
   void set_stack(LogicStack stack) { from_outside().s.stack = stack; }
 
-  /// For making one unit act on its own, as tests do.
+  /// The core is for making one unit act on its own, as tests do.
   Core& core() { return core_; }
 
  private:
-  /// For whatever is done to the CPU: after it, scans need no longer be alike (steady_scans.hpp).
+  /// Everything that is done to the CPU goes through this: after it, scans need no longer be alike (steady_scans.hpp).
   Core& from_outside();
 
   void execute_plain();

@@ -60,7 +60,7 @@ void write(Core& core, const ForcedValue& forced) {
   if (forced.width == Width::Double) core.put(operand, forced.value);
 }
 
-/// What follows at once from what is forced now.
+/// Does what follows at once from the values that are forced now.
 void take_effect(Core& core) {
   for (std::uint32_t byte = 0; byte < image::kPointBytes; ++byte) core.s.image[image::kInputs + byte] = input(core.s, byte);
   apply(core);

@@ -27,7 +27,8 @@ namespace s7200::forcing {
 /// Whether a CPU can force this: points, and values of memory as above.
 bool possible(const MemoryRange& place);
 
-/// False if there is no room for another value of memory. A value that overlaps another takes its place.
+/// Forces a value. Returns false if there is no room for another value of memory. A value that overlaps another takes its
+/// place.
 bool add(Forcing& forcing, const MemoryRange& place, std::uint32_t value);
 
 /// Points bit by bit, then values of memory.
@@ -47,7 +48,7 @@ inline std::uint8_t output(const State& s, std::uint32_t byte, std::uint8_t valu
   return s.forcing.outputs.over(byte, value);
 }
 
-/// Of memory.
+/// Writes the forced values of memory.
 void apply(Core& core);
 
 // For the table of units.

@@ -164,13 +164,13 @@ void follow_control(Core& core) {
   }
 }
 
-/// All transmitters are idle, even that of a port that the CPU does not have. The ports speak PPI.
+/// All transmitters are idle, and so is that of a port that the CPU does not have. The ports speak PPI.
 void power_up(Core& core, const RetentiveMemory*) {
   core.put_mask(sm::kInterruptStatus, sm::kPort0Idle | sm::kPort1Idle, true);
   for (std::uint8_t number = 0; number < core.port_count(); ++number) ppi::begin(core, number, core.s.time);
 }
 
-/// In STOP the port goes back to PPI (facts 2.1).
+/// The port goes back to PPI in STOP (facts 2.1).
 void enter_stop(Core& core) {
   for (std::uint8_t number = 0; number < core.port_count(); ++number) {
     Freeport& port = core.s.port[number];

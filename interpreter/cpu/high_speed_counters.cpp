@@ -12,7 +12,7 @@ constexpr std::uint32_t kInputBytes = 2;  ///< the input bytes that counters are
 bool has_reset(std::uint8_t mode) { return mode % 3 != 0; }
 bool has_start(std::uint8_t mode) { return mode % 3 == 2; }
 
-/// What the clocks of a mode are.
+/// The clocks of a mode do this.
 enum class Clocking { InternalDirection, DirectionInput, UpAndDown, Quadrature, PulseOutput };
 Clocking clocking(std::uint8_t mode) { return static_cast<Clocking>(mode / 3); }
 

@@ -11,7 +11,7 @@ namespace s7200::local_memory {
 /// The routine that runs will not go on for now: it calls another, or ends.
 void put_aside(Core& core);
 
-/// The same memory again, or that of another routine: after the level has changed.
+/// Takes up the memory of the present level: the same memory again, or that of another routine, after the level has changed.
 void take_up(Core& core);
 
 }  // namespace s7200::local_memory

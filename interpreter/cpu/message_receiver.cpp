@@ -35,7 +35,7 @@ MessageReceiver parameters(const Core& core, std::uint8_t port, std::uint32_t ta
 
 bool asks_for_silence(const MessageReceiver& m) { return (m.control & kFromIdleLine) && m.idle_time > 0; }
 
-/// Any character starts the message, so that the start condition is met when RCV is executed.
+/// The receiver takes any character as the start of the message, so that the start condition is met when RCV is executed.
 bool takes_any_character(const MessageReceiver& m) {
   return (m.control & kFromIdleLine) && m.idle_time == 0 && !(m.control & kFromStart);
 }

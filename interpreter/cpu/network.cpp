@@ -18,7 +18,8 @@ constexpr int kTries = 3;
 // Places in a table.
 constexpr std::uint32_t kStation = 1, kPointer = 2, kLength = 6, kData = 7;
 
-/// What a table asks for, as it is when the instruction is executed: the program may write to the table while the job waits.
+/// The job that a table asks for, as the table is when the instruction is executed: the program may write to it while the
+/// job waits.
 NetworkPort::Job job_of(const Core& core, std::uint32_t table, bool writes) {
   const std::uint8_t* const bytes = &core.s.image[table];
   return {.table = table,
@@ -28,7 +29,7 @@ NetworkPort::Job job_of(const Core& core, std::uint32_t table, bool writes) {
           .writes = writes};
 }
 
-/// By the top byte of a pointer to it; null for an area that has none, or that other stations do not show.
+/// The area that the top byte of a pointer means; null for an area that has no pointer, or that other stations do not show.
 const s7::WireArea* area_of(std::uint32_t pointer) {
   constexpr std::array kShown{Area::I, Area::Q, Area::M, Area::V};
   const auto found = std::ranges::find_if(s7::kWireAreas, [&](const s7::WireArea& wire) {
@@ -106,7 +107,7 @@ void end(Core& core, std::uint8_t number, std::uint8_t status) {
   core.s.network[number].status = status;
 }
 
-/// How the job ends with this answer. Its data go to the port.
+/// The status with which the job ends after this answer. Its data go to the port.
 std::uint8_t status_of(NetworkPort& port, Span pdu) {
   constexpr std::size_t kCode = s7::kAnswerHead + 2, kValue = kCode + 4;
   const NetworkPort::Job& job = port.jobs.front();
@@ -138,7 +139,7 @@ void take_reply(Core& core, std::uint8_t number, const ppi::Body& body) {
   }
 }
 
-/// When the line has been silent for long enough to ask, if nothing more comes.
+/// The instant at which the line has been silent for long enough to ask, if nothing more comes.
 Time silent_from(const Core& core, std::uint8_t number) {
   return core.s.ppi[number].heard + ppi::format_of(core.program(), number).bit_times(ppi::kBitsOfSilence);
 }

@@ -35,7 +35,7 @@ namespace s7200::network {
 /// Whether a port is in PPI master mode.
 bool is_master(const Core& core, std::uint8_t port);
 
-/// How many bytes a table asks for; 0 if it reaches beyond its area.
+/// The number of bytes that a table asks for; 0 if it reaches beyond its area.
 std::uint8_t length_of(const Core& core, std::uint32_t table);
 
 /// NETR, or NETW if it `writes`; `table` is a place in the image.
@@ -44,7 +44,7 @@ void start(Core& core, std::uint8_t port, std::uint32_t table, bool writes);
 /// A frame that is none of a master's, for this station, or E5; a reply to it may begin at `at`.
 void heard(Core& core, std::uint8_t port, std::span<const std::uint8_t> frame, Time at);
 
-/// What came in was damaged.
+/// Tells the port that damaged characters came in.
 void heard_damaged(Core& core, std::uint8_t port);
 
 /// The program has written the port's control byte.

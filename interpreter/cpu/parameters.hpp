@@ -14,7 +14,7 @@
 
 namespace s7200::parameters {
 
-/// Of one CALL, in order.
+/// The parameters of one CALL, in order.
 using Values = std::array<std::uint32_t, kMostParameters>;
 
 /// The values of the outputs when a subroutine returns, out of its local memory. `call`: the CALL that began it.

@@ -70,7 +70,7 @@ void write_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value) 
   put_output(core, byte, bit, forcing::output(core.s, byte, byte_with_bit) >> bit & 1, core.s.time);
 }
 
-/// All output points go off: the default of the output table for STOP (facts 9.1).
+/// All output points go off, which is the default of the output table for STOP (facts 9.1).
 void enter_stop(Core& core) {
   core.s.stop_outputs = {};
   write_stop_outputs(core);

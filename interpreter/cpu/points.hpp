@@ -14,7 +14,7 @@ namespace s7200::points {
 /// An input byte has a new value: the units see the points that have changed.
 void set_inputs(Core& core, std::uint32_t byte, std::uint8_t value, Time at);
 
-/// At the start of the scan: copies the input points to their image.
+/// Copies the input points to their image, at the start of the scan.
 inline void read_inputs(Core& core) {
   std::memcpy(&core.s.image[image::kI], &core.s.image[image::kInputs], image::kPointBytes);
 }
@@ -25,7 +25,7 @@ void write_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value);
 /// Writes an output point, even one with a running pulse output.
 void put_output(Core& core, std::uint32_t byte, std::uint8_t bit, bool value, Time at);
 
-/// What a programming device can set in STOP: outputs, and words of analog outputs.
+/// A programming device can set these in STOP: outputs, and words of analog outputs.
 bool can_be_set_in_stop(const MemoryRange& place);
 /// Sets it until the next change of the mode.
 void set_in_stop(Core& core, const MemoryRange& place, std::uint32_t value);

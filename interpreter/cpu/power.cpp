@@ -24,7 +24,7 @@ void up(Core& core, bool run, const RetentiveMemory* memory, Time at) {
   scan::begin(core);
 }
 
-/// What is saved to EEPROM when power goes off: MB0 to MB13, as far as they are retentive (facts 1.6).
+/// The part of a retentive range that is saved to EEPROM when power goes off: MB0 to MB13 (facts 1.6).
 static RetentiveRange saved_at_power_off(const RetentiveRange& range) {
   constexpr std::uint32_t kSavedBytes = 14;
   const bool saved = range.area == Area::M && range.first < kSavedBytes;

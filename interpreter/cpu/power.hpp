@@ -14,7 +14,7 @@ namespace s7200::power {
 /// RUN if `run`, otherwise it stays in STOP. It is `at`.
 void up(Core& core, bool run, const RetentiveMemory* memory, Time at = 0);
 
-/// What would be kept if power went off now.
+/// The memory that would be kept if power went off now.
 RetentiveMemory retentive_memory(const Core& core);
 
 // For the table of units.

@@ -74,7 +74,7 @@ void pass_by(const Core& core, std::uint8_t number, const Body& body, Time at) {
   if (asks && network::is_master(core, number)) trace(PpiUnmodelled::AnotherMaster);
 }
 
-/// Its last character has come at `at`.
+/// Takes a frame whose last character has come at `at`.
 void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> frame, Time at, Time reply_at) {
   const std::uint8_t own = core.s.station[number];
   if (const auto token = token_of(frame)) {
@@ -109,7 +109,7 @@ void take_frame(Core& core, std::uint8_t number, std::span<const std::uint8_t> f
   }
 }
 
-/// It may be the last of a frame, or show that this is none.
+/// Takes a character, which may be the last of a frame, or show that this is none.
 void take_character(Core& core, std::uint8_t number, const ReceivedCharacter& character) {
   PpiPort& port = core.s.ppi[number];
   port.frame[port.received++] = character.byte;

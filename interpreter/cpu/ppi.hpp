@@ -51,14 +51,14 @@
 
 namespace s7200::ppi {
 
-/// After so long without a word a master has given up.
+/// A master has given up after so long without a word.
 inline constexpr Time kPatienceOfMasters = 450 * kMillisecond;
 
-/// How a port is set while it speaks PPI, at the usual rate.
+/// A port that speaks PPI at the usual rate is set so.
 inline constexpr SerialFormat kFormat{
     .baud = SystemBlock{}.ppi_rates[0], .data_bits = 8, .parity = Parity::Even, .stop_bits = 1};
 
-/// The same at the rate of this port.
+/// The same format at the rate of this port.
 SerialFormat format_of(const Program& program, std::uint8_t port);
 
 /// A reply begins so long after the last character; silence ends what was being received.

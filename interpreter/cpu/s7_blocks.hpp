@@ -27,19 +27,19 @@ namespace s7200::s7_blocks {
 /// Why the block cannot be told of; None if it can.
 s7::Refusal refusal_of(const s7::BlockName& name);
 
-/// `30`, type and number of blocks, of each type.
+/// The block list: `30`, type and number of blocks, for each type.
 Bytes counts();
 
 /// Number, flags and language of each block of the type; nothing if S7 has no such type.
 std::optional<Bytes> of_type(std::uint8_t type);
 
-/// What S7 tells of DB1.
+/// The block information that S7 gives about DB1.
 Bytes information(const CpuModel& model);
 
 /// Bytes of DB1 as it is uploaded.
 std::size_t upload_length(const CpuModel& model);
 
-/// So many of them at most, from `first` on.
+/// The part of DB1 from `first` on, of `most` bytes at most.
 Bytes upload(const Core& core, std::size_t first, std::size_t most);
 
 }  // namespace s7200::s7_blocks

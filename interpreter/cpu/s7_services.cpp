@@ -18,7 +18,7 @@ namespace {
 using namespace s7;
 using Span = std::span<const std::uint8_t>;
 
-/// Where a variable is, or why it is nowhere.
+/// A place says where a variable is, or why it is nowhere.
 struct Place {
   ReturnCode code = kDone;
   Area area{};
@@ -44,7 +44,7 @@ Place find_element(const Core& core, const WireVariable& variable, const AreaInf
           .in_data = variable.count * bytes_of_element(area.area)};
 }
 
-/// All others go by bits.
+/// This is for variables in bytes; all others go by bits.
 Place find_bytes(const Core& core, const WireVariable& variable, const AreaInfo& area) {
   const std::uint32_t first = variable.address / 8;
   const auto bit = static_cast<std::uint8_t>(variable.address % 8);
@@ -76,7 +76,7 @@ Place find(const Core& core, const WireVariable& variable) {
   return area.element != 0 ? find_element(core, variable, area) : find_bytes(core, variable, area);
 }
 
-/// What a CPU is called, and its release.
+/// The name of a CPU and its release.
 Bytes identification_of(const CpuModel& model) {
   std::string text = "CPU " + std::string(model.sold_as.empty() ? model.name : model.sold_as);
   text.resize(kIdentificationName, ' ');
@@ -102,7 +102,7 @@ std::uint32_t number_in(Width width, Span value) {
   return number;
 }
 
-/// What the answer to a request has in it.
+/// An answer to a request has these parts.
 struct Reply {
   Refusal refusal = Refusal::None;
   Bytes parameters{}, data{};
@@ -261,7 +261,7 @@ class Request {
     }
   }
 
-  /// All of them are there, or nothing is written.
+  /// Writes all variables if all of them are there, and nothing otherwise.
   Reply write() {
     const std::vector<WireVariable> wanted = variables();
     const std::vector<Span> values = values_of(wanted.size());
@@ -361,7 +361,7 @@ class Request {
     return reply;
   }
 
-  /// Its next part, or its end.
+  /// Sends the next part of the upload, or its end.
   Reply go_on_with_upload() {
     constexpr std::size_t kId = 7;
     PpiPort& port = core_.s.ppi[port_];

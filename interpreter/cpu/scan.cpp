@@ -130,7 +130,8 @@ bool spend_phase(Core& core) {
   return true;
 }
 
-/// From the phase that it is in to the next program, or to where the order is another one. Most scans go through all.
+/// Advances from the phase that the scan is in to the next program, or to where the order is another one. Most scans go
+/// through all phases.
 void advance_in_order(Core& core) {
   switch (core.s.phase) {
     case Phase::Communication:

@@ -15,11 +15,11 @@
 
 namespace s7200::scan {
 
-/// As a programming device asks for it; nothing if the CPU is in that mode already.
+/// Changes the mode as a programming device asks for it; nothing happens if the CPU is in that mode already.
 void change_mode(Core& core, Mode wanted);
 
 void enter_run(Core& core);
-/// At once, from anywhere: disables interrupts, ends pulses, and switches the output points off.
+/// Enters STOP at once, from anywhere: disables interrupts, ends pulses, and switches the output points off.
 void enter_stop(Core& core);
 
 /// Starts a scan; in RUN the watchdog allows it the time of the model.
@@ -27,7 +27,7 @@ void begin(Core& core);
 /// Goes through the parts of the scan other than the program, up to the loop's `until`.
 void advance(Core& core);
 
-/// What goes on by itself over scans that are all alike.
+/// Moves on, by that time, what goes on by itself over scans that are all alike.
 void pass(const Core& core, State& s, Time by);
 
 /// END and MEND.

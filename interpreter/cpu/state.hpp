@@ -32,7 +32,7 @@ class LogicStack {
     s.bits_ = static_cast<std::uint16_t>(bits);
     return s;
   }
-  /// At the start of a subroutine or interrupt routine: S0 = 1, all others 0.
+  /// The stack at the start of a subroutine or interrupt routine: S0 = 1, all others 0.
   static LogicStack on_entry() {
     LogicStack s;
     s.push(true);
@@ -52,7 +52,7 @@ enum class Phase : std::uint8_t { ReadInputs, Program, Communication, SelfTest, 
 
 inline constexpr std::size_t kMostCalls = 9;  ///< subroutines open at a time, with the one of an interrupt routine
 
-/// Where a subroutine returns to, and its caller's logic stack and power rail.
+/// A frame says where a subroutine returns to, and has its caller's logic stack and power rail.
 struct CallFrame {
   std::uint32_t return_to = 0;
   LogicStack stack{};
@@ -79,7 +79,7 @@ struct InterruptQueue {
   bool operator==(const InterruptQueue&) const = default;
 };
 
-/// What is saved around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2), the power rail and ENO.
+/// The CPU saves these around an interrupt routine: logic stack, accumulators, SMB1 (facts 3.2), the power rail and ENO.
 struct SavedContext {
   std::uint32_t return_to = 0;
   LogicStack stack{};
@@ -101,7 +101,7 @@ constexpr Attachments nothing_attached() {
   return attached;
 }
 
-/// What a port's receive message service is doing, and the parameters that it works with: as RCV found them.
+/// The receive message service of a port: what it is doing, and the parameters that it works with, as RCV found them.
 struct MessageReceiver {
   enum class Phase : std::uint8_t { Off, Search, Message };
 
@@ -116,7 +116,7 @@ struct MessageReceiver {
   bool operator==(const MessageReceiver&) const = default;
 };
 
-/// Whose character, or break, the port is putting on the line.
+/// The sender whose character, or break, the port is putting on the line.
 enum class OnWire : std::uint8_t { Nothing, Xmt, Ppi };
 
 struct Freeport {
@@ -333,7 +333,7 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-/// What survives power off: the model's retentive ranges in RAM, the EEPROM, the clock.
+/// This memory survives power off: the model's retentive ranges in RAM, the EEPROM, the clock.
 struct RetentiveMemory {
   std::array<std::uint8_t, image::kSize> image{};  ///< only the retentive ranges count
   std::array<std::uint8_t, 10240> eeprom{};        ///< permanent V memory

@@ -11,13 +11,13 @@
 namespace s7200 {
 namespace {
 
-/// In one step, so that no time overflows in a run that nothing limits.
+/// The furthest that one step goes, so that no time overflows in a run that nothing limits.
 constexpr Time kFurthest = 24 * 3600 * kSecond;
 
 /// Instructions after which it is asked again whether a look is worth it.
 constexpr std::uint64_t kAskAgain = 1'000;
 
-/// What the parts of a scan other than the program cost the host, in instructions of the program.
+/// The cost to the host of the parts of a scan other than the program, in instructions of the program.
 constexpr std::uint64_t kBesides = 40;
 
 /// Instructions until the horizon, at the rate so far, with what the scans cost besides.
@@ -26,7 +26,7 @@ double to_come(const State& s, Time horizon) {
   return done / static_cast<double>(std::max<Time>(s.time, 1)) * static_cast<double>(horizon - s.time);
 }
 
-/// Until when scans that are alike stay alike, whatever comes from outside.
+/// The instant until which scans that are alike stay alike, whatever comes from outside.
 Time next_change(const Core& core) {
   const State& s = core.s;
   const Looks& looks = core.program().looks;

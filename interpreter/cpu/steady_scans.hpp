@@ -33,7 +33,7 @@ enum class SteadyScansUse : std::uint8_t {
   Check   ///< passes over nothing: predicts the state, runs every scan, and compares. A difference ends the process
 };
 
-/// If nothing else is asked for: the dev build checks what the release build does.
+/// The mode if nothing else is asked for: the dev build checks what the release build does.
 #ifdef S7200_CHECK_STEADY_SCANS
 inline constexpr SteadyScansUse kUsualUse = SteadyScansUse::Check;
 #else
@@ -44,17 +44,18 @@ class SteadyScans {
  public:
   void use(SteadyScansUse use);
 
-  /// At the end of the program's part of a scan. Moves the CPU on by scans that end before `limit`, and returns by how much.
+  /// Moves the CPU on, at the end of the program's part of a scan, by scans that end before `limit`. Returns by how much.
   Time pass_over(Core& core, Time limit) {
     return known_ == Known::Nothing && core.s.instructions < look_at_ ? 0 : go_on(core, limit);
   }
   /// Simulated time that was passed over so far.
   Time passed_over() const { return passed_; }
 
-  /// How often a pair of scans was looked at so far.
+  /// The number of times that a pair of scans was looked at so far.
   std::uint64_t looks() const { return looks_; }
 
-  /// Until when all scans are alike, unless something comes from outside; the CPU's time as long as that is not known.
+  /// The instant until which all scans are alike, unless something comes from outside; the CPU's time as long as that is not
+  /// known.
   Time alike_until(const Core& core) const {
     return known_ == Known::Pair && !core.touched ? std::min(change_, core.next_event()) : core.s.time;
   }

@@ -37,7 +37,8 @@ void add_ticks(State& s, std::uint32_t number, std::int64_t ticks) {
   if (timer.off_delay && reached) timer.enabled = false;
 }
 
-/// Of a timer that was like `before`. One that does not count has no such moment: its scans are alike.
+/// The instant since which a timer that was like `before` is enabled. One that does not count has no such moment: its scans
+/// are alike.
 Time enabled_since(const TimerState& before, bool enabled, Time now) {
   if (!enabled) return 0;
   return before.enabled ? before.since : now;
@@ -104,7 +105,7 @@ void clear_current_values(Core& core, const Operand& first, std::uint32_t count)
   }
 }
 
-/// Both inputs of each counter count as 1 before, so an input that is 1 at the first execution has not risen.
+/// Both inputs of each counter count as 1 before the first execution, so an input that is 1 then has not risen.
 void power_up(Core& core, const RetentiveMemory*) { core.s.counter_inputs.fill(3); }
 
 /// The time in STOP is no time of a scan.

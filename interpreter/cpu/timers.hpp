@@ -20,7 +20,7 @@ void clear_current_values(Core& core, const Operand& first, std::uint32_t count)
 
 // Over scans that are all alike.
 
-/// When the timers next change something that the program looks at; kNever if none does.
+/// The instant at which the timers next change something that the program looks at; kNever if none does.
 Time next_change(const Core& core);
 /// Moves the timers on. `last_scan`: from the begin of the program in one scan to that in the last.
 void pass(const Core& core, State& s, Time by, Time last_scan);

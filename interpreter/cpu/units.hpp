@@ -27,9 +27,9 @@ namespace units {
 void power_up(Core& core, const RetentiveMemory* memory);
 void enter_run(Core& core);
 void enter_stop(Core& core);
-/// In RUN: the inputs have been read and the program is about to start.
+/// Tells the units in RUN that the inputs have been read and the program is about to start.
 void begin_scan(Core& core);
-/// In RUN: the program has ended and the time for writing its outputs has passed.
+/// Tells the units in RUN that the program has ended and the time for writing its outputs has passed.
 void end_scan(Core& core);
 /// The points of `changed` in an input byte have changed; all points already have their new levels.
 void inputs_changed(Core& core, std::uint32_t byte, std::uint8_t changed, Time at);

@@ -43,7 +43,7 @@ enum class OperandKind : std::uint8_t {
 
 enum class Role : std::uint8_t { In, Out, InOut };
 
-/// How an instruction reads a number. Either: the result has the same bits both ways.
+/// The way in which an instruction reads a number. Either: the result has the same bits both ways.
 enum class Sign : std::uint8_t { Either, Signed, Unsigned };
 
 /// The kinds of timers that an operand may name (facts 1.1).
@@ -114,7 +114,7 @@ enum class Structure : std::uint8_t {
   Compare  ///< its errors stop the CPU
 };
 
-/// What the analyses (interpreter/analysis/) look for.
+/// The analyses (interpreter/analysis/) look for these effects.
 enum class Effect : std::uint8_t {
   None,
   LoadsBit,  ///< LD
@@ -144,7 +144,7 @@ enum class Hidden : std::uint8_t {
   SegmentBit,     ///< operand 2: the S bit of the enclosing LSCR
 };
 
-/// How many levels an instruction needs on the logic stack, and how many more it leaves there.
+/// The levels that an instruction needs on the logic stack, and how many more it leaves there.
 struct StackUse {
   std::int8_t needs = 0;
   std::int8_t change = 0;
@@ -159,7 +159,7 @@ enum class Eno : std::uint8_t {
   ErrorsAndFlags  ///< a run-time error, or a flag of SM1 that says that the box has failed
 };
 
-/// How an instruction acts in a rung, as a contact, a coil or a box.
+/// The part of an instruction in a rung, as a contact, a coil or a box.
 struct Rung {
   bool needs_power_flow = false;  ///< skipped while the top of the logic stack is 0
   StackUse stack{};
@@ -169,7 +169,7 @@ struct Rung {
   bool operator==(const Rung&) const = default;
 };
 
-/// How a contact combines with what is on the logic stack: LD, A, O.
+/// The way in which a contact combines with what is on the logic stack: LD, A, O.
 enum class Join : std::uint8_t { Load, And, Or };
 inline constexpr std::size_t kJoins = 3;
 

@@ -25,11 +25,11 @@ struct MemoryRange {
   std::uint32_t bytes() const { return width == Width::Bit ? 1 : count * bytes_of(width); }
   /// Address of object `i` of the range.
   std::string name_of(std::uint32_t i) const;
-  /// Its bytes as they lie in an image; of a bit, 00 or 01.
+  /// The bytes of the range as they lie in an image; of a bit, 00 or 01.
   std::vector<std::uint8_t> bytes_in(std::span<const std::uint8_t> image) const;
 };
 
-/// Where addresses are looked up: in the areas of a CPU, and among the symbols of its program if there is one.
+/// Addresses are looked up here: in the areas of a CPU, and among the symbols of its program if there is one.
 struct AddressSpace {
   AddressSpace(const CpuModel& of_cpu) : model(of_cpu) {}
   AddressSpace(const CpuModel& of_cpu, const std::vector<stl::Symbol>& of_program) : model(of_cpu), symbols(&of_program) {}
@@ -57,7 +57,7 @@ std::optional<Assignment> parse_assignment(std::string_view text, const AddressS
 /// The value alone, for a place that is known.
 std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view value);
 
-/// What may be written there: `a byte is -128 to 255`, `a word is -32768 to 65535, and T37 counts 100 ms`.
+/// The values that may be written there: `a byte is -128 to 255`, `a word is -32768 to 65535, and T37 counts 100 ms`.
 std::string values_text(const MemoryRange& place);
 
 }  // namespace s7200

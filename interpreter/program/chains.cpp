@@ -15,7 +15,7 @@ struct Chain {
   std::size_t contacts = 0, joins = 0, coils = 0;
 };
 
-/// What the op is in a chain. Some need a step around their body, and have no part in any.
+/// The part that the op has in a chain. Some need a step around their body, and have no part in any.
 ChainPart part_of(const Op& op) { return op.body == op.instruction->body.usual ? op.instruction->body.part : ChainPart{}; }
 
 /// The chain that begins with `part`, if the next op begins `next`.

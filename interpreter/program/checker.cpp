@@ -84,8 +84,8 @@ class Checker {
     diagnostics_.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
 
-  /// With a symbol table each undefined name has a cause of its own; without one they all have the same, but for those that
-  /// are nearly a symbol of Micro/WIN.
+  /// Gives each undefined name a cause of its own where there is a symbol table; without one they all have the same, but for
+  /// those that are nearly a symbol of Micro/WIN.
   void tell_undefined_symbols_apart() {
     for (stl::Diagnostic& diagnostic : diagnostics_) {
       if (diagnostic.cause != kUndefinedSymbols) continue;
@@ -98,7 +98,8 @@ class Checker {
     }
   }
 
-  /// `symbols.txt does not have it; the nearest are Pump_1 and Pump_2`: of a name that is in no table that was given.
+  /// The hint for a name that is in no table that was given: `symbols.txt does not have it; the nearest are Pump_1 and
+  /// Pump_2`.
   std::string hint_with_table(std::string_view written) const {
     std::vector<std::string> tables;
     for (const stl::Symbol& symbol : source_.symbols)
@@ -125,7 +126,7 @@ class Checker {
     return names;
   }
 
-  /// How many letters two names have in common that follow each other in both.
+  /// The number of letters that two names have in common, one behind the other in both.
   static std::size_t longest_common(std::string_view a, std::string_view b) {
     std::size_t longest = 0;
     for (std::size_t from = 0; from < a.size(); ++from)
@@ -210,7 +211,7 @@ class Checker {
       }
   }
 
-  /// What the parser could not read above a line of the source.
+  /// Reports what the parser could not read above a line of the source.
   void add_unread_lines(std::uint32_t above) {
     const auto end = unread_lines_.lower_bound(above);
     for (auto line = unread_lines_.begin(); line != end; ++line)
@@ -223,7 +224,7 @@ class Checker {
       if (PlacedOperand& operand = placed_.back()[i]; !operand.read) operand.operand.at = kUnread;
   }
 
-  /// What can be said only when all statements are there.
+  /// Checks what can be said only when all statements are there.
   ProgramStructure check_whole() {
     if (statements_.empty() && !has_errors(diagnostics_)) no_statement();
     if (lacks_main_program())
@@ -465,7 +466,7 @@ class Checker {
     return placed.operand.at - area.base + count * placed.operand.width <= size * std::max(1u, area.element);
   }
 
-  /// What a statement takes in program memory at least: a word, and its constants where they cannot be part of that.
+  /// The words of program memory that a statement takes at least: one, and its constants where they cannot be part of that.
   static std::size_t least_words(const CheckedStatement& s) {
     std::size_t words = 1;
     const auto rules = s.instruction->rules();
@@ -498,7 +499,7 @@ class Checker {
       error({1, 1, 1}, "the program has too many different constants (compile rule 0080)");
   }
 
-  /// Which CPU may hold the program. It may still be too large for that one: its words are not counted exactly.
+  /// A CPU that may hold the program. It may still be too large for that one: its words are not counted exactly.
   std::string larger_cpu(std::size_t words) const {
     const CpuModel* larger = smallest_cpu([&](const CpuModel& model) { return model.program_words >= words; });
     return larger ? fmt::format("{} bytes at least; CPU {} holds {}: --cpu {}", 2 * words, larger->name,
@@ -623,7 +624,7 @@ class Checker {
     return placed_[statements_[i].instruction->structure == Structure::Next ? structure.head[i] : i];
   }
 
-  /// Without what it costs.
+  /// Decodes a statement, without what it costs.
   Op decode(std::uint32_t i, const ProgramStructure& structure) {
     const Instruction& instruction = *statements_[i].instruction;
     const auto& placed = operands_of(i, structure);
@@ -651,17 +652,17 @@ class Checker {
     return op;
   }
 
-  /// From a bit to the end of its area.
+  /// The number of bits from the operand to the end of its area.
   std::uint32_t bits_left(Area area, const Operand& first) const {
     const AreaInfo& is = info(area);
     const std::uint32_t bits = model_.size_of(area) * (is.element != 0 ? 1 : 8);
     return bits - ((first.at - is.bits) * 8 + first.bit);
   }
 
-  /// In local memory, or a pointer held there.
+  /// Whether an operand is in local memory, or a pointer held there.
   static bool is_local(const Operand& operand) { return operand.at >= image::kL && operand.at < image::kConstants; }
 
-  /// In a program that reads ENO, each box sets it.
+  /// Lets each box set ENO in a program that reads it.
   static void follow_eno(Program& program) {
     const auto reads_eno = [](const Op& op) { return op.instruction->effect == Effect::ReadsEno; };
     if (std::ranges::none_of(program.ops, reads_eno)) return;
@@ -742,7 +743,7 @@ class Checker {
 
   using OperandAreas = std::array<std::optional<Area>, 3>;
 
-  /// Without what pointers add. Many statements have the same: the table is searched once for each.
+  /// The cost without what pointers add. Many statements have the same: the table is searched once for each.
   Cost cost_of(const Instruction& instruction, const OperandAreas& areas, const TimeTable& times) {
     const auto [found, added] = costs_.try_emplace({&instruction, areas});
     if (!added) return found->second;

@@ -223,7 +223,7 @@ class Printable {
     parsed_.diagnostics.push_back({stl::Severity::Error, at, std::move(message), std::move(hint), std::move(cause)});
   }
 
-  /// Of a CALL of a routine of Micro/WIN's libraries that the program itself does not have.
+  /// The name of a routine of Micro/WIN's libraries that a CALL means and the program itself does not have.
   static const stl::Name* library_routine(const stl::Statement& statement) {
     const bool calls = statement.mnemonic == "CALL" && !statement.operands.empty();
     const auto* const name = calls ? std::get_if<stl::Name>(&statement.operands[0].value) : nullptr;

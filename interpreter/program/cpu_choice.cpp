@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 3> kWordsOfRelease{"RELEASE", "REL", "V"}
 
 constexpr std::string_view kBlanks = " \t", kPunctuation = " \t:=-,./*";
 
-/// What may stand before a CPU in a line that is about nothing else: `PLC type: CPU 224`.
+/// These words may stand before a CPU in a line that is about nothing else: `PLC type: CPU 224`.
 constexpr std::array<std::string_view, 12> kWordsBefore{"FOR",  "A",      "AN",     "THE",     "PLC",     "TYPE",
                                                          "ON",   "TARGET", "SIEMENS", "SIMATIC", "S7", "200"};
 

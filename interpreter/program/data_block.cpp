@@ -83,7 +83,7 @@ class DataPlacing {
     return {};
   }
 
-  /// As they will lie in memory; nothing after a message.
+  /// The bytes of a value as they will lie in memory; nothing after a message.
   std::optional<std::string> bytes_of_value(const stl::DataLine::Value& value) {
     const auto refuse = [&](std::string message, std::string hint) {
       error(value.position, std::move(message), std::move(hint));
@@ -111,7 +111,7 @@ class DataPlacing {
     return bytes;
   }
 
-  /// False after a message.
+  /// Puts bytes at their place. Returns false after a message.
   bool put(std::string_view bytes, const stl::Position& at, const stl::DataLine& line) {
     if (next_ + bytes.size() > bytes_.size()) {
       error(at,

@@ -16,7 +16,7 @@
 
 namespace s7200 {
 
-/// What the data block of `source` puts where on `model`, in order of address; adds what is wrong to `diagnostics`.
+/// Places the data block of `source` in the memory of `model`, in order of address; adds what is wrong to `diagnostics`.
 std::vector<InitialData> place_data(const stl::Source& source, const CpuModel& model, stl::Diagnostics& diagnostics);
 
 }  // namespace s7200

@@ -21,7 +21,7 @@ struct DialectText {
   std::string_view what, hint;
 };
 
-/// By Dialect.
+/// The texts of each Dialect, in its order.
 constexpr std::array<DialectText, kDialects> kTexts{{
     {"SCL or ST (structured text)",
      "STL has one instruction in a line: LD I0.0 and = Q0.0 for Q0.0 := I0.0, MOVW VW0, VW2 for VW2 := VW0"},
@@ -123,7 +123,7 @@ bool has_function_number(const CodeLine& line) {
           word.back() == ')');
 }
 
-/// How surely a line shows a dialect. A text is in a dialect from kEnough on.
+/// A sign says how surely a line shows a dialect. A text is in a dialect from kEnough on.
 struct DialectSign {
   Dialect dialect;
   bool (*shows)(const CodeLine& line);
@@ -213,7 +213,7 @@ bool is_own(const CodeLine& line) {
          std::ranges::find(kShared, line.word(0)) == std::end(kShared);
 }
 
-/// What is said for a dialect, and where it showed first.
+/// The message for a dialect, and the place where it showed first.
 struct Evidence {
   int weight = 0, strongest = 0;
   stl::Position first{};

@@ -8,7 +8,7 @@
 
 namespace s7200 {
 
-/// What happens to programs for the S7-200 SMART.
+/// The message says this of programs for the S7-200 SMART.
 inline constexpr std::string_view kSmartProgram = "a program for the SMART runs here as CPU 226 as far as it goes";
 
 /// One message at the first line that shows it, if a text (UTF-8, plain) is STL of STEP 7 for the S7-300 and S7-400, IL or

@@ -27,7 +27,7 @@ stl::Address* address_in(stl::OperandValue& value) {
   return nullptr;
 }
 
-/// Nothing for an area with the same letters in both sets.
+/// The letters of an area; nothing for one with the same letters in both sets.
 const stl::GermanLetters* letters_of(const stl::Address& address) {
   const auto found = std::ranges::find(stl::kGermanLetters, address.area, &stl::GermanLetters::international);
   return found == stl::kGermanLetters.end() ? nullptr : &*found;
@@ -96,7 +96,7 @@ std::string plain_text(const stl::Statement& statement) {
   return fmt::format("{}{}{}", statement.mnemonic, operands.empty() ? "" : " ", fmt::join(operands, ", "));
 }
 
-/// Of the words in a line that are not of the listing's set: how the line reads in that.
+/// The message about the words in a line that are not of the listing's set: how the line reads in that.
 stl::Diagnostic stranger(const Words& words, stl::Statement statement, Set set) {
   const bool german = set == Set::German;
   if (german)

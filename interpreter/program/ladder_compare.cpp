@@ -63,7 +63,7 @@ std::vector<Network> listed_networks(const stl::Source& source) {
   return networks;
 }
 
-/// In routines, each network with what it does.
+/// The networks of each routine, each with what it does.
 std::vector<DrawnRoutine> routines_of(std::vector<Network> networks) {
   std::vector<DrawnRoutine> routines(1);
   StackBetween stack;
@@ -128,7 +128,7 @@ class Comparison {
     unequal(drawn, listed);
   }
 
-  /// How many networks on each side come before the next two with the same outputs.
+  /// The number of networks on each side that come before the next two with the same outputs.
   static std::pair<std::size_t, std::size_t> next_pair(Networks drawn, Networks listed) {
     for (std::size_t distance = 0; distance <= 2 * kLookAhead; ++distance)
       for (std::size_t i = 0; i <= distance; ++i) {
@@ -139,8 +139,8 @@ class Comparison {
     return {std::min(drawn.size(), kLookAhead), std::min(listed.size(), kLookAhead)};
   }
 
-  /// How many networks on each side have the same outputs together: usually one, but the STL may begin a network again with
-  /// LD where the drawing has a branch. 0 if the first ones have different outputs.
+  /// The number of networks on each side that have the same outputs together: usually one, but the STL may begin a network
+  /// again with LD where the drawing has a branch. It is 0 if the first ones have different outputs.
   static std::pair<std::size_t, std::size_t> same_outputs(Networks drawn, Networks listed) {
     constexpr std::size_t kMostJoined = 4;
     if (drawn.front().statements.empty()) return {0, 0};

@@ -134,7 +134,8 @@ stl::ParseResult foreign(stl::Diagnostic dialect, std::string_view text, const s
   return result;
 }
 
-/// Where the code of the first line begins, if that only names the CPU: it is no statement, but a comment without its //.
+/// The place where the code of the first line begins, if that only names the CPU: it is no statement, but a comment without
+/// its //.
 std::optional<std::size_t> place_of_cpu_line(std::string_view text) {
   constexpr std::size_t kLongest = 100;
   for (std::string_view rest = text; !rest.empty();) {
@@ -162,7 +163,7 @@ std::optional<SourceText> read_plain(std::string_view text, const std::string& n
   return SourceText{std::move(*listing), {}, SourceKind::Listing};
 }
 
-/// What is said of a text that has no statement in its first lines.
+/// The message about a text that has no statement in its first lines.
 std::string why_not_stl(std::string_view text) {
   while (!text.empty())
     if (stl::has_drawing(stl::take_line(text))) return fmt::format("{}: {}", stl::kIsDrawing, stl::kForDrawing);
@@ -174,7 +175,7 @@ bool is_code(const stl::Line& line) {
   return std::holds_alternative<stl::Statement>(line) || std::holds_alternative<stl::NetworkHead>(line);
 }
 
-/// Only comments, or headings of a table.
+/// Whether a text has only comments, or headings of a table.
 bool is_empty(const stl::ParseResult& parsed) {
   const stl::Source& source = parsed.source;
   return std::ranges::none_of(source.lines, is_code) && std::ranges::all_of(source.data, &stl::DataLine::only_comment) &&

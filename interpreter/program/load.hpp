@@ -10,7 +10,7 @@
 
 namespace s7200 {
 
-/// What is in a file.
+/// A source is one of these kinds of file.
 enum class SourceKind : std::uint8_t { Listing, Document, Blocks, SymbolTable, DataBlock, StatusChart };
 
 /// The source in a text in any of the encodings of stl/encoding.hpp.

@@ -14,7 +14,7 @@
 namespace s7200 {
 namespace {
 
-/// What a line can give the time of.
+/// A line can give the time of these.
 const std::vector<std::string_view>& timed_names() {
   static const auto kNames = [] {
     std::vector<std::string_view> names;
@@ -58,7 +58,7 @@ bool is_never_in(const std::string& name, Areas areas) {
   return first.kind == OperandKind::Memory && first.areas != 0 && (areas & first.areas) == 0;
 }
 
-/// What is wrong with the figures of `name` in a line; empty if nothing is.
+/// A message if the figures of `name` in a line are wrong; empty if they are not.
 std::string slip_in(const TimeRow& row, const std::string& name, const CpuModel& model) {
   if (name == kSum) {
     for (const std::string& part : parts_of_sum(row.form))

@@ -151,7 +151,8 @@ class LogicReader {
     return closed ? gate(Gate::Kind::Not, value) : value;
   }
 
-  /// `<=` is `>=` the other way round, and `<`, `>` and `<>` are their opposites, except for reals, which may be NaN.
+  /// The comparison that an instruction makes: `<=` is `>=` the other way round, and `<`, `>` and `<>` are their opposites,
+  /// except for reals, which may be NaN.
   std::size_t comparison(const stl::Statement& statement, const Instruction& instruction, std::string_view type,
                          std::string_view relation) {
     std::string left = operand_text(statement, &instruction, 0), right = operand_text(statement, &instruction, 1);
@@ -167,7 +168,8 @@ class LogicReader {
     return opposite ? gate(Gate::Kind::Not, value) : value;
   }
 
-  /// After how many outputs of the network that may change what a contact reads it is read; empty if there is none.
+  /// The moment at which a contact is read: after how many outputs of the network that may change what it reads; empty if
+  /// there is none.
   std::string moment(const stl::Statement& statement) const {
     constexpr std::size_t kOutputsLookedAt = 256;  // more than any network has
     std::size_t changes = 0, looked_at = 0;

@@ -21,7 +21,7 @@ struct NetworkLogic {
     bool normally_closed = false;  ///< where it is first used
     bool operator==(const Contact& other) const { return name == other.name; }
   };
-  /// What the logic stack holds, as a circuit. Operands come before the gates that use them.
+  /// A gate of the circuit that the logic stack holds. Operands come before the gates that use them.
   struct Gate {
     enum class Kind : std::uint8_t { True, Contact, Not, And, Or } kind = Kind::True;
     std::size_t a = 0, b = 0;  ///< indices of contacts or gates
@@ -38,7 +38,7 @@ struct NetworkLogic {
   std::vector<Action> actions;
 };
 
-/// What is known of the logic stack between two networks: whether its top is always 1.
+/// The state of the logic stack between two networks, as far as it is known: whether its top is always 1.
 struct StackBetween {
   bool on = false;
   std::vector<bool> loops{};  ///< the same at each FOR whose NEXT is still to come
@@ -49,7 +49,7 @@ NetworkLogic logic_of(std::span<const stl::Statement* const> statements, StackBe
 /// Whether a statement begins a network in a listing without NETWORK lines, after the statement before it.
 bool begins_network(const stl::Statement& statement, const stl::Statement* before);
 
-/// Where two networks differ.
+/// The difference between two networks.
 struct LogicDifference {
   std::size_t action = 0;                               ///< the first that differs: index in both
   bool condition = false;                               ///< both have it, but under different conditions

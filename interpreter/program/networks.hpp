@@ -26,11 +26,11 @@ class Networks {
   /// `main`, `SBR 51`, `INT 123`
   const std::string& routine_of(std::uint32_t op) const { return routine_[op]; }
 
-  /// Its first instruction; a routine begins a network too.
+  /// The first instruction of its network; a routine begins a network too.
   std::uint32_t first_of(std::uint32_t op) const { return first_[op]; }
   bool begins(std::uint32_t op) const { return first_[op] == op; }
 
-  /// Of the NETWORK line in front of a first instruction; 0 without one, or without a number.
+  /// The number in the NETWORK line in front of a first instruction; 0 without one, or without a number.
   std::uint32_t number_of(std::uint32_t first) const { return number_[first]; }
 
  private:

@@ -22,7 +22,7 @@ std::optional<OperandMemory> memory_of(const stl::Operand& operand);
 /// Whether writing `written` changes what `read` is: they overlap, or `read` goes through a pointer that is overwritten.
 bool changes(const stl::Operand& written, const stl::Operand& read);
 
-/// The same, or a pointer is involved that may point there.
+/// Whether the write may change what the read reads: the memory is the same, or a pointer is involved that may point there.
 bool may_change(const stl::Operand& written, const stl::Operand& read);
 
 }  // namespace s7200

@@ -107,7 +107,7 @@ class Placing {
                      : fmt::format("{} takes {}", of_instruction(), areas_text(rule_, model_)));
   }
 
-  /// Of LDI and its like. The I of other controllers is a closed contact.
+  /// The hint about LDI and its like. The I of other controllers is a closed contact.
   std::string immediate_hint() const {
     const std::string_view usual = instruction_.mnemonic.substr(0, instruction_.mnemonic.size() - 1);
     const std::string closed = usual.ends_with('N') ? "" : fmt::format(", or {}N {} for a closed contact", usual, text());
@@ -156,7 +156,7 @@ class Placing {
     }
   }
 
-  /// Not all counters of the numbers up to the last one.
+  /// Whether a counter exists: not all of the numbers up to the last one do.
   bool counter_exists(std::uint32_t number) {
     if (model_.counter_modes[number] != 0) return true;
     error(fmt::format("CPU {} has no high-speed counter {}", model_.name, number),
@@ -298,8 +298,8 @@ class Placing {
                        address_text(area, part, last, 0));
   }
 
-  /// What an address of the wrong width has to do with the one of the right width. That is other memory, so it is not what
-  /// to write without a thought.
+  /// The hint says what an address of the wrong width has to do with the one of the right width. That is other memory, so it
+  /// is not what to write without a thought.
   std::string width_hint(Area area, Width width, std::uint32_t number) const {
     const std::string fitting = address_text(area, rule_.width, number, 0);
     if (rule_.counted != 0 && width != Width::Bit && rule_.width != Width::Bit)

@@ -54,7 +54,7 @@ std::optional<Width> width_of(const stl::Address& address, Area area);
 /// `bit`, `byte`, `word` or `double word`.
 std::string_view name_of(Width width);
 
-/// What a pointer to an address holds; nothing of an area or a bit that none can point to.
+/// The value of a pointer to an address; nothing of an area or a bit that none can point to.
 std::optional<std::uint32_t> pointer_to(const CpuModel& model, Area area, Width width, std::uint32_t number);
 
 /// `a pointer can point to bytes of I, Q, M, V or S, or …`: what pointer_to() takes.

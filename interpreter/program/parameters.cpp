@@ -64,7 +64,7 @@ OperandRule rule_of(const stl::Variable& variable) {
   return rule;
 }
 
-/// What is written for some types stands for something else: TRUE for 1, and the address of a string for a pointer to it.
+/// The operand that is meant by what is written for some types: 1 for TRUE, and a pointer for the address of a string.
 stl::Operand as_meant(stl::Operand written, Type type) {
   if (const auto* name = std::get_if<stl::Name>(&written.value); name && type == Type::Bool) {
     const std::string upper = stl::upper_case(name->text);

@@ -19,7 +19,7 @@ namespace s7200 {
 /// The place of an operand with an error. It is met only by the search for warnings in a program that has errors.
 inline constexpr std::uint32_t kUnread = image::kSize;
 
-/// Where an operand is in the image.
+/// The place of an operand in the image.
 struct Operand {
   std::uint32_t at = 0;     ///< for a number that is part of the instruction (label, event …): the number itself
   std::uint8_t bit = 0;     ///< number of the bit in its byte
@@ -69,17 +69,17 @@ struct Contact {
 
 /// Resolves pointer operands first, so that the body finds only direct ones.
 void run_with_pointers(Core& core, const Op& op);
-/// The same if operand 0, or operand 1, is the only pointer.
+/// Runs the op where operand 0, or operand 1, is the only pointer.
 void run_with_pointer_first(Core& core, const Op& op);
 void run_with_pointer_second(Core& core, const Op& op);
-/// For an instruction that writes special memory: the port follows SMB30.
+/// Runs an instruction that writes special memory: the port follows SMB30.
 void run_with_port_control(Core& core, const Op& op);
 /// Sets ENO after a box; only in programs with AENO.
 void run_with_eno(Core& core, const Op& op);
-/// For an instruction that writes analog outputs: they have no image, so a change goes to the module at once.
+/// Runs an instruction that writes analog outputs: they have no image, so a change goes to the module at once.
 void run_with_analog_output(Core& core, const Op& op);
 
-/// For a CALL with parameters: copies them into the local memory of the subroutine. Operands 1 and 2 are not of the
+/// Runs a CALL with parameters: copies them into the local memory of the subroutine. Operands 1 and 2 are not of the
 /// instruction: they say where its parameters are in Program::parameters, and how many there are.
 void run_with_parameters(Core& core, const Op& op);
 
@@ -87,7 +87,7 @@ inline constexpr std::uint32_t kNoRoutine = 0xFFFF'FFFF;
 
 inline constexpr std::size_t kReaches = 16;  ///< pointer codes are below this
 
-/// What a pointer with a certain top byte can reach on the program's CPU.
+/// The memory that a pointer with a certain top byte can reach on the program's CPU.
 struct Reach {
   std::uint32_t base = 0;  ///< in the image
   std::uint32_t size = 0;  ///< bytes; 0: nothing
@@ -142,7 +142,7 @@ struct Program {
 
   const stl::Statement& statement(std::uint32_t op) const { return statements[op]; }
 
-  /// What survives power off: as the system block says, or as the CPU is delivered.
+  /// The ranges that survive power off: as the system block says, or as the CPU is delivered.
   const std::vector<RetentiveRange>& retentive() const {
     return system_block.retentive ? *system_block.retentive : model->retentive;
   }

@@ -9,8 +9,8 @@ namespace s7200 {
 /// are written. An end is at the last statement of its routine.
 void add_missing_ends(stl::Source& source);
 
-/// The same, and takes back what the reader of a document reported of routines without end, if the document writes no ends
-/// at all.
+/// Does so too, and takes back what the reader of a document reported of routines without end, if the document writes no
+/// ends at all.
 void add_missing_ends(stl::ParseResult& parsed);
 
 }  // namespace s7200

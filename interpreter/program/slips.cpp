@@ -61,7 +61,7 @@ std::string_view routine_at(const stl::Source& source, std::uint32_t line) {
   return {};
 }
 
-/// `printed` and nothing else.
+/// Whether a statement is `printed` and nothing else.
 bool is_printed(const stl::Statement& statement, const stl::Statement& printed) {
   return statement.mnemonic == printed.mnemonic &&
          std::ranges::equal(statement.operands, printed.operands, {}, &stl::Operand::value, &stl::Operand::value);

@@ -25,7 +25,7 @@ struct Slip {
 /// The slips of a known listing that are in `source`; none in any other.
 std::vector<Slip> find_slips(const stl::Source& source);
 
-/// Which of them to repair.
+/// The slips that are to be repaired.
 struct Repairs {
   bool all = false;
   std::set<std::string, std::less<>> ids{};
@@ -34,7 +34,7 @@ struct Repairs {
   bool operator==(const Repairs&) const = default;
 };
 
-/// `R1,R2`, `all` or `none`. Sets `why` if it is neither.
+/// Reads `R1,R2`, `all` or `none`. Sets `why` if it is neither.
 Repairs parse_repairs(std::string_view text, std::string& why);
 
 /// Repairs what is asked for, and returns all slips of the source, the repaired ones marked. Ids that the source does not

@@ -24,7 +24,7 @@ const SpecialMemory* unused_row(const CpuModel& model, const SpecialBytes& bytes
   return row == special_memory().end() ? nullptr : &*row;
 }
 
-/// How many bytes, from the first one on, the CPU makes use of.
+/// The number of bytes, from the first one on, that the CPU makes use of.
 std::uint32_t used_at_first(const CpuModel& model, const SpecialBytes& bytes) {
   std::uint32_t used = 0;
   while (used < bytes.count && is_modelled_special_memory(model, bytes.first + used)) ++used;
@@ -37,7 +37,7 @@ const stl::Integer* moved_constant(const stl::Statement& statement, std::size_t 
   return moves ? std::get_if<stl::Integer>(&statement.operands[0].value) : nullptr;
 }
 
-/// What the first bytes of a double word or word get: `0, 0`.
+/// The values that the first bytes of a double word or word get: `0, 0`.
 std::string first_bytes_of(std::int64_t value, std::uint32_t width, std::uint32_t count) {
   std::vector<std::int64_t> bytes;
   for (std::uint32_t i = 0; i < count; ++i) bytes.push_back(value >> 8 * (width - 1 - i) & 0xFF);

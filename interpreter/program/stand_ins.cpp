@@ -310,7 +310,7 @@ class Linker {
       if (const auto number = number_at_end(name->text)) numbers->take(*number);
   }
 
-  /// What the symbol in an operand stands for; a name that is not in the symbol table stays one.
+  /// The address that the symbol in an operand stands for; a name that is not in the symbol table stays one.
   stl::OperandValue resolved(const stl::OperandValue& value) const {
     const auto* name = std::get_if<stl::Name>(&value);
     if (!name || name->text.empty()) return value;
@@ -388,7 +388,7 @@ class Linker {
     return static_cast<std::uint32_t>(std::get<stl::Integer>(*stl::find_symbol(source.symbols, kMemorySize)->value).value);
   }
 
-  /// Where the program puts it, or a free place. Nothing after a message.
+  /// The address of the library's memory: where the program puts it, or a free place. Nothing after a message.
   std::optional<std::uint32_t> place_memory(const Library& library, std::uint32_t bytes, const Call& call) {
     std::optional<std::uint32_t> place;
     if (const stl::Symbol* chosen = own_symbol(library.memory)) {

@@ -59,7 +59,7 @@ bool has_stand_in(const stl::Statement& call);
 /// Whether a name is that of a routine of one of Siemens' libraries for Micro/WIN, with or without a stand-in: `USS_INIT`.
 bool is_library_routine(std::string_view name);
 
-/// What to tell about a CALL of a name that stands for no routine of the program.
+/// The message about a CALL of a name that stands for no routine of the program.
 struct MissingRoutine {
   std::string message, hint, cause;
 };
@@ -87,7 +87,7 @@ std::string stand_in_text(std::size_t number);
 /// `MBUS_INIT and MBUS_SLAVE are in no export: …`
 std::string to_text(const StandIn& stand_in);
 
-/// The same as an error, where stand-ins are not wanted.
+/// The same message as an error, where stand-ins are not wanted.
 stl::Diagnostic refusal(const StandIn& stand_in);
 
 }  // namespace s7200

@@ -97,7 +97,7 @@ class StructureCheck {
   /// A statement that could not be read may jump to any label, and call or attach any routine.
   void may_be_anything() { all_jumps_known_ = all_calls_known_ = all_attachments_known_ = false; }
 
-  /// What a statement is for the structure of its routine.
+  /// Notes what a statement means for the structure of its routine.
   void note(std::uint32_t i, const CheckedStatement& s) {
     switch (s.instruction->structure) {
       case Structure::Label:
@@ -163,7 +163,7 @@ class StructureCheck {
     entry = i;
   }
 
-  /// On a CPU 22x only of a main program without statements: the others are ended (routine_ends.hpp).
+  /// Reports a missing end; on a CPU 22x only of a main program without statements: the others are ended (routine_ends.hpp).
   void missing_end(const stl::Position& at) {
     if (model_.self & kCpu22x)
       return error(at, "the main program has no statement",
@@ -439,7 +439,7 @@ class StackCheck {
   }
 
  private:
-  /// What a statement that could not be read does to the stack, nobody knows.
+  /// Gives up on the stack: nobody knows what a statement that could not be read does to it.
   void give_up(bool at_network) {
     if (at_network) begin_rung();
     known_ = false;

@@ -17,7 +17,7 @@ struct CheckedStatement {
   bool begins_network;  ///< a NETWORK head comes directly before it
 };
 
-/// What the structure means for decoding. Each vector has an entry for each statement, 0 where there is nothing to say.
+/// The structure as decoding needs it. Each vector has an entry for each statement, 0 where there is nothing to say.
 struct ProgramStructure {
   std::vector<std::uint32_t> target;  ///< of JMP, CALL, FOR (after its NEXT), NEXT (first of its loop)
   std::vector<std::uint32_t> head;    ///< of NEXT: its FOR; of SCRT: the enclosing LSCR

@@ -39,7 +39,7 @@ std::optional<std::uint8_t> parse_station(std::string_view text, const CpuModel&
   return {};
 }
 
-/// One of each port, or two that are apart: port 0 and port 1.
+/// Calls a function for one value of each port, or for two that are apart: port 0 and port 1.
 template <class Each>
 std::optional<std::array<Each, kPorts.size()>> parse_ports(std::string_view text, const CpuModel& model, std::string& why,
                                                            std::string_view what,

@@ -18,21 +18,21 @@ namespace s7200 {
 
 struct Program;
 
-/// In baud, by port.
+/// The rates in baud, by port.
 using PpiRates = std::array<std::uint32_t, kPorts.size()>;
 
 /// Addresses on the network, by port.
 using PpiStations = std::array<std::uint8_t, kPorts.size()>;
 
-/// What becomes of a request whose master has not fetched the answer to the one before (cpu/ppi.hpp). No system block
-/// says it; it is chosen here, where ports are set.
+/// The fate of a request whose master has not fetched the answer to the one before (cpu/ppi.hpp). No system block says it;
+/// it is chosen here, where ports are set.
 enum class SecondRequest : std::uint8_t {
   Replaces,  ///< it takes the place of the one before
   Refused    ///< there is no resource, as for another master
 };
 inline constexpr std::array<std::string_view, 2> kSecondRequestWords{"replaces", "refused"};
 
-/// As a CPU is delivered, if nothing else is said (facts 10.9).
+/// The settings of a CPU as it is delivered, if nothing else is said (facts 10.9).
 struct SystemBlock {
   PpiRates ppi_rates{9600, 9600};
   PpiStations ppi_stations{2, 2};
@@ -62,10 +62,10 @@ std::vector<RetentiveRange> retainable(const CpuModel& model);
 /// `VB0:100,MB0:14,T0:32,C5`: up to six ranges of V, M, T or C, or `none`. Returns nothing and sets `why` for anything else.
 std::optional<std::vector<RetentiveRange>> parse_retentive(std::string_view text, const CpuModel& model, std::string& why);
 
-/// As they are parsed.
+/// The ranges as they are parsed.
 std::string to_text(const std::vector<RetentiveRange>& ranges);
 
-/// As they are parsed: one for both ports if they are the same.
+/// The rates as they are parsed: one for both ports if they are the same.
 std::string to_text(const PpiRates& rates);
 std::string to_text(const PpiStations& stations);
 inline std::string_view to_text(SecondRequest request) { return kSecondRequestWords[static_cast<std::size_t>(request)]; }

@@ -140,7 +140,8 @@ bool is_constant_or_symbol(std::string_view token) {
          (is_digit(token.front()) || std::string_view("'\"#").find(token.front()) != std::string_view::npos);
 }
 
-/// How many words of running text a token counts as: one for a word that is not all capitals, more for a run of ideographs.
+/// The number of words of running text that a token counts as: one for a word that is not all capitals, more for a run of
+/// ideographs.
 std::size_t words_of(std::string_view token) {
   constexpr std::string_view kPunctuation = ".,;:!?()\"'";
   const std::size_t from = std::min(token.find_first_not_of(kPunctuation), token.size());

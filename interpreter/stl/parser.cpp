@@ -347,7 +347,7 @@ constexpr std::string_view kStepsHint =
 /// Headings of networks with letters beyond ASCII.
 constexpr std::array<std::string_view, 6> kForeignHeadings{"RÉSEAU", "Réseau", "réseau", "СЕТЬ", "Сеть", "网络"};
 
-/// What else stands before =: instructions without operands in a line with two statements, and the title of a block.
+/// These also stand before =: instructions without operands in a line with two statements, and the title of a block.
 constexpr std::array<std::string_view, 10> kBeforeCoils{"NOT", "EU",  "ED",  "ALD",  "OLD",
                                                         "LPS", "LRD", "LPP", "AENO", "TITLE"};
 
