@@ -268,8 +268,8 @@ def expect_no_endless_reading(s7200):
 
 def expect_no_program_of_that_size(s7200, path):
     path.write_text("LD I0.0\n" * 600_000)
-    for verb in ("check", "run", "import", "debug", "convert"):
-        exit_code, _, error = run([s7200, verb, str(path)])
+    for verb, *options in (["check"], ["run"], ["import"], ["debug"], ["convert", "--to", "iec"]):
+        exit_code, _, error = run([s7200, verb, *options, str(path)])
         if exit_code != 2 or "it is larger than 4 MB, more than any program" not in error:
             raise Failure(f"{verb}: exit code {exit_code}: {error}")
     path.write_text("01 03 00 00 00 01 84 0a\n" * 200_000)

@@ -925,7 +925,7 @@ class Verbs(Case):
         self.assertEqual(fast - usual, 2, "0.2 s in 200 s")
         system = self.program(f"plcs: {{a: {{program: {counts}, clock_error: 1000ppm, dump: [T37]}}}}\nlines: {{l: {{stations: [a]}}}}\n", "fast.yaml")
         self.assertEqual(self.json(FINE, "run", system, "--for", "200s", "--json")["plcs"][0]["dump"]["T37"]["values"][0], fast)
-        scenario = self.program(f"program: {counts}\nclock_error: 1000ppm\nsteps: [wait: 200s, memory: {{T37: {fast}}}]\n", "fast_scenario.yaml")
+        scenario = self.program(f"program: {counts}\nclock_error: 1000ppm\nsteps: [wait: 199950ms, memory: {{T37: {fast}}}]\n", "fast_scenario.yaml")
         record = self.folder / "fast_record.yaml"
         self.ends(FINE, "test", scenario, "--record", record)
         self.assertIn("\n    clock_error: 1000ppm\n", record.read_text(encoding="utf-8"))
@@ -3154,6 +3154,12 @@ class Files(Case):
         ask, record = "send 01 03 00 0a 00 01 crc; ", f"record {self.folder / 'late.yaml'} !"
         done = self.ends(UNUSABLE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; {record}")
         self.assertIn("a request is under way: 01 03 00 0a 00 01 a4 08; 'continue' runs to its end, 'send cancel' gives it up; then record", done.stderr)
+        done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; set VW20=5; continue; display VW20; {record}")
+        self.assertIn("1 passed", self.ends(FINE, "test", self.folder / "late.yaml").stdout)
+        self.assertIn("left out: how it stands at the end, which is another without the rest: ", done.stdout)
+        self.assertRegex(done.stdout, r"left out: what was done at 10\d\.\d+ ms came while a request or its answer was under way, .*: do it before 'send', or after")
+        done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} break sent; continue; continue 1ms; set VW20=5; continue; {record}")
+        self.assertRegex(done.stdout, r"under way, .*: do it before 'send', or after the answer and the silence that ends it")
 
     def test_record_after_rwhy_says_how_the_whole_session_is_recorded(self):
         path = self.folder / "unanswered.yaml"
@@ -3163,14 +3169,8 @@ class Files(Case):
         self.ends(FINE, "debug", SLAVE, "-x", f"{session}; at end; record {path}")
         self.assertIn("expect: silence", path.read_text(encoding="utf-8"))
         self.assertIn("1 passed", self.ends(FINE, "test", path).stdout)
-        done = self.ends(FINE, "debug", SLAVE, "-x", f"{session}; at 500ms; record {path} !")
+        done = self.ends(FINE, "debug", SLAVE, "-x", f"{session}; at 500ms; expect VW20 = 0; record {path} !")
         self.assertRegex(done.stdout, r"what has run after that, up to 20\d\d\.\d+ ms, is not in it: 'at end' goes there")
-        done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} continue 3ms; set VW20=5; continue; display VW20; {record}")
-        self.assertIn("1 passed", self.ends(FINE, "test", self.folder / "late.yaml").stdout)
-        self.assertIn("left out: how it stands at the end, which is another without the rest: ", done.stdout)
-        self.assertRegex(done.stdout, r"left out: what was done at 10\d\.\d+ ms came while a request or its answer was under way, .*: do it before 'send', or after")
-        done = self.ends(FINE, "debug", SLAVE, "-x", f"continue 100ms; {ask} break sent; continue; continue 1ms; set VW20=5; continue; {record}")
-        self.assertRegex(done.stdout, r"under way, .*: do it before 'send', or after the answer and the silence that ends it")
 
     def test_what_is_done_directly_at_the_end_of_an_answer_of_a_system_is_recorded_as_a_scenario(self):
         system = self.program(f"plcs: {{s: {{program: {SLAVE}, station: 1, copies: 6}}, m: {{program: {SOURCE}/stl_programs/modbus_master.stl, cpu: 224}}}}\n"
