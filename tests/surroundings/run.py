@@ -107,13 +107,13 @@ class Case(unittest.TestCase):
         records = {"run.trace": "--trace", "outputs.csv": "--output", "line.vcd": "--capture", "line.pcap": "--capture",
                    "memory.json": "--memory"}
         return {"run": records, "send": records, "master": records, "debug": records, "dap": records, "import": {"listing.stl": "-o"},
-                "convert": {"converted.stl": "-o"}, "calibrate": {"times.csv": "-o"}, "import-capture": {"plant.yaml": "-o"},
+                "convert": {"converted.stl": "-o"}, "inspect": {"ladder.svg": "--svg"}, "calibrate": {"times.csv": "-o"}, "import-capture": {"plant.yaml": "-o"},
                 "test": {"junit.xml": "--junit", "transcript.yaml": "--record"}}.get(verb, {})
 
     def command(self, verb, out=None):
         """A command of each verb that does something; with all its files, if `out` is a folder for them."""
         files = [] if out is None else [word for name, option in self.outputs(verb).items() for word in (option, out / name)]
-        return {"check": ["check", self.echo], "import": ["import", self.page],
+        return {"check": ["check", self.echo], "inspect": ["inspect", self.echo, "ladder"], "import": ["import", self.page],
                 "convert": ["convert", self.echo, "--to", "iec"], "run": ["run", self.blinking, "--for", "2s"],
                 "send": ["send", self.echo, "ab", "cd"], "test": ["test", self.good], "decode": ["decode", self.log], "import-capture": ["import-capture", self.log], "master": ["master", SLAVE, *SESSION],
                 "debug": ["debug", self.echo, "-x", "step 3; regs"], "dap": ["dap", self.echo], "instructions": ["instructions"], "times": ["times"],

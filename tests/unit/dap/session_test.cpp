@@ -870,7 +870,7 @@ TEST(DapSession, CompletionsKnowTheAreasOfTheCpu) {
     return labels;
   };
   using Words = std::vector<std::string>;
-  EXPECT_EQ(offered("V"), (Words{"VB", "VD", "VW", "VW10"}));
+  EXPECT_EQ(offered("V"), (Words{"VB", "VD", "VW", "VW10", "values"}));
   EXPECT_EQ(offered("1 + A"), (Words{"AC", "AIW", "AQW"}));
   EXPECT_EQ(offered("1 + T"), Words{"T"});
 }
