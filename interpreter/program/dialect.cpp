@@ -71,6 +71,21 @@ bool has_blank_in_address(const CodeLine& line) {
          is_number(line.word(2)) && line.words.size() == 3;
 }
 
+/// The head of a block of STEP 7: `FUNCTION_BLOCK FB 10`, `DATA_BLOCK DB10`, `FUNCTION FC 1 : VOID`. Micro/WIN has one OB
+/// and one data block, and writes `OB1` and `DB1`.
+bool has_step7_head(const CodeLine& line) {
+  struct Head {
+    std::string_view word, block;
+  };
+  constexpr std::array kHeads{Head{"FUNCTION_BLOCK", "FB"}, Head{"FUNCTION", "FC"}, Head{"DATA_BLOCK", "DB"},
+                              Head{"ORGANIZATION_BLOCK", "OB"}, Head{"TYPE", "UDT"}};
+  if (is_among(line.word(1), {"OB1", "DB1"})) return false;
+  const auto head = std::ranges::find(kHeads, line.word(0), &Head::word);
+  if (head == kHeads.end() || !line.word(1).starts_with(head->block)) return false;
+  const std::string_view number = line.word(1).substr(head->block.size());
+  return is_number(number.empty() ? line.word(2) : number);
+}
+
 /// `S5T#2S`, `DB10.DBW0`, `P#M0.0`
 bool has_step7_operand(const CodeLine& line) {
   return std::ranges::any_of(line.words, [](std::string_view word) {
@@ -133,6 +148,7 @@ struct DialectSign {
 constexpr int kEnough = 4;
 
 constexpr DialectSign kSigns[] = {
+    {Dialect::Step7, has_step7_head, 4},
     {Dialect::Step7, has_blank_in_address, 2},
     {Dialect::Step7, has_step7_operand, 2},
     {Dialect::Step7, compares_accumulators, 2},
@@ -254,6 +270,15 @@ class Judge {
 };
 
 }  // namespace
+
+bool begins_as_step7(std::string_view text) {
+  constexpr std::size_t kLongest = 300;
+  while (!text.empty()) {
+    const CodeLine code = code_line(stl::take_line(text).substr(0, kLongest));
+    if (!code.words.empty()) return has_step7_head(code);
+  }
+  return false;
+}
 
 std::optional<stl::Diagnostic> other_dialect(std::string_view text) {
   constexpr std::size_t kLines = 300, kLongest = 300;

@@ -16,4 +16,7 @@ inline constexpr std::string_view kSmartProgram = "a program for the SMART runs 
 /// others in it, which have messages of their own. Looks at the first 300 lines of code.
 std::optional<stl::Diagnostic> other_dialect(std::string_view text);
 
+/// Whether the first line of code is the head of a block of STEP 7 for the S7-300 and S7-400: `DATA_BLOCK DB 10`.
+bool begins_as_step7(std::string_view text);
+
 }  // namespace s7200

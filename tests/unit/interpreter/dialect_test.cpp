@@ -40,10 +40,20 @@ TEST(Dialect, Step7IsKnownByItsHeads) {
             one(1, kStep7));
   EXPECT_EQ(messages("ORGANIZATION_BLOCK OB 1\nTITLE =\nVERSION : 0.1\nBEGIN\nNETWORK\n      L MW 10;\n      T MW 12;\n"
                      "END_ORGANIZATION_BLOCK\n"),
-            one(3, kStep7));
+            one(1, kStep7));
   EXPECT_EQ(
       messages("FUNCTION_BLOCK FB 7\nVAR_INPUT\nx : BOOL;\nEND_VAR\nBEGIN\nNETWORK\nU #x;\n= A 4.0;\nEND_FUNCTION_BLOCK\n"),
       one(1, kStep7));
+}
+
+TEST(Dialect, OneHeadOfABlockOfStep7IsEnough) {
+  for (const char* const text : {"FUNCTION_BLOCK FB 10\nBEGIN\nEND_FUNCTION_BLOCK\n", "DATA_BLOCK DB 10\n STRUCT\n",
+                                 "DATA_BLOCK DB12\n", "FUNCTION FC 1 : VOID\n", "TYPE UDT 3\n"}) {
+    EXPECT_EQ(messages(text), one(1, kStep7)) << text;
+    EXPECT_TRUE(begins_as_step7(std::string("\n// by Meier\n") + text)) << text;
+  }
+  for (const char* const text : {"DATA_BLOCK DB1\nVB0 1\n", "ORGANIZATION_BLOCK MAIN:OB1\n", "LD I0.0\nDATA_BLOCK DB 10\n"})
+    EXPECT_FALSE(begins_as_step7(text)) << text;
 }
 
 TEST(Dialect, Step7IsKnownByItsStatements) {
