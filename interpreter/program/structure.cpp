@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "interpreter/base/among.hpp"
 #include "interpreter/program/unread.hpp"
 #include "interpreter/program/warnings.hpp"
 
@@ -481,6 +482,14 @@ class StackCheck {
     return use;
   }
 
+  static std::string hint_for_missing_value(const Instruction& instruction, int needed) {
+    if (is_among(instruction.mnemonic, {"LPP", "LRD"}))
+      return fmt::format("an LPS is missing before it: LPS saves the value that {} takes", instruction.mnemonic);
+    return needed == 1   ? "begin the rung with LD"
+           : needed == 2 ? "load the other value with LD first"
+                         : "load the other values with LD first";
+  }
+
   void use(const CheckedStatement& s, StackUse stack) {
     if (depth_ < stack.needs && !reported_) {
       reported_ = true;
@@ -489,9 +498,7 @@ class StackCheck {
            fmt::format("{} needs {} on the logic stack and finds {} (compile rule 0081)", s.instruction->mnemonic,
                        stack.needs == 1 ? "a value" : fmt::format("{} values", stack.needs),
                        depth_ == 0 ? "none" : std::to_string(depth_)),
-           stack.needs == 1   ? "begin the rung with LD"
-           : stack.needs == 2 ? "load the other value with LD first"
-                              : "load the other values with LD first"});
+           hint_for_missing_value(*s.instruction, stack.needs)});
     }
     depth_ = std::min(std::max<int>(depth_, stack.needs) + stack.change, LevelsOfStack);
     rung_ = std::max<int>(rung_, stack.needs) + stack.change;
