@@ -33,6 +33,7 @@
 #include "interpreter/program/structure.hpp"
 #include "interpreter/program/unread.hpp"
 #include "interpreter/program/warnings.hpp"
+#include "interpreter/stl/look_alikes.hpp"
 #include "interpreter/stl/plain_text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/project.hpp"
@@ -299,6 +300,44 @@ class Checker {
     return false;
   }
 
+  /// `I0,0`: the byte and the bit of an address with a comma between them are two operands. True after a message.
+  bool has_comma_in_address(const Instruction& instruction, const stl::Statement& statement) {
+    const auto& given = statement.operands;
+    if (given.size() != instruction.rules().size() + std::size_t{1}) return false;
+    for (std::size_t i = 0; i < instruction.rules().size(); ++i) {
+      const auto* byte = std::get_if<stl::Address>(&given[i].value);
+      const auto* bit = std::get_if<stl::Integer>(&given[i + 1].value);
+      const stl::Position &whole = given[i].position, &part = given[i + 1].position;
+      const bool joined = whole.column + whole.length + 1 == part.column;
+      if (instruction.operand[i].width != Width::Bit || !byte || byte->size != stl::Size::None || !bit || !joined) continue;
+      const stl::Position both{whole.line, whole.column, whole.length + 1 + part.length};
+      std::string text = written_at(both);
+      if (text[whole.length] != ',') continue;
+      std::string hint = text;
+      hint[whole.length] = '.';
+      error(both, fmt::format("{} has a comma before its bit", text), fmt::format("write {}", hint));
+      return true;
+    }
+    return false;
+  }
+
+  /// `l0` with the small letter L: an address of L memory has a size or a bit. True after a message.
+  bool has_letter_for_one(const Instruction& instruction, const stl::Statement& statement) {
+    for (std::size_t i = 0; i < std::min(instruction.rules().size(), statement.operands.size()); ++i) {
+      const stl::Operand& given = statement.operands[i];
+      const auto* address = std::get_if<stl::Address>(&given.value);
+      const bool name = std::holds_alternative<stl::Name>(given.value);
+      const bool unfinished = address && address->area == "L" && address->size == stl::Size::None;
+      if (!instruction.operand[i].constant || !given.symbol.empty() || !(name || unfinished)) continue;
+      std::string text = written_at(given.position);
+      if (text.front() != 'l' || !std::ranges::all_of(text.substr(1), stl::is_digit)) continue;
+      error(given.position, fmt::format("{} has the letter l in place of the digit 1", text),
+            fmt::format("write 1{}", text.substr(1)), stl::kLookAlikes);
+      return true;
+    }
+    return false;
+  }
+
   static bool is_number(const stl::Operand& operand) {
     return std::holds_alternative<stl::Integer>(operand.value) || std::holds_alternative<stl::Real>(operand.value);
   }
@@ -312,7 +351,8 @@ class Checker {
     const std::size_t given = statement.operands.size(), taken = instruction.rules().size();
     auto& placed = placed_.back();
     for (std::size_t i = 0; i < taken; ++i) placed[i].read = false;
-    if (has_decimal_comma(instruction, statement)) return false;
+    if (has_decimal_comma(instruction, statement) || has_comma_in_address(instruction, statement)) return false;
+    if (has_letter_for_one(instruction, statement)) return false;
     if (is_missing_block(instruction, statement)) return false;
     const stl::Block* called = called_block(instruction, statement);
     if (given != taken && !called) {
@@ -357,10 +397,32 @@ class Checker {
     for (std::size_t i = first_diagnostic; i < diagnostics_.size(); ++i) diagnostics_[i].hint = "write " + fitting;
   }
 
+  /// The name in `CALL MeinUP:SBR3, VW0` if the program has no such block. A call without parameters may be of a listing's
+  /// subroutine, which has no name.
+  std::optional<stl::Name> missing_callee(const Instruction& instruction, const stl::Statement& statement) const {
+    if (instruction.structure != Structure::Call || statement.operands.size() < 2) return {};
+    if (called_block(instruction, statement)) return {};
+    const stl::Operand& callee = statement.operands[0];
+    if (callee.symbol.empty() || !std::holds_alternative<stl::Integer>(callee.value) || has_subroutine(callee.value))
+      return {};
+    const std::string shown = stl::shortened(callee.symbol.substr(0, callee.symbol.rfind(':')));
+    return stl::Name{callee.symbol, fmt::format("there is no subroutine {}", shown)};
+  }
+
+  /// Whether a listing has the head `SBR 3` of a routine.
+  bool has_subroutine(const stl::OperandValue& number) const {
+    return std::ranges::any_of(source_.lines, [&](const stl::Line& line) {
+      const auto* head = std::get_if<stl::Statement>(&line);
+      return head && head->mnemonic == "SBR" && !head->operands.empty() && head->operands[0].value == number;
+    });
+  }
+
   /// A CALL or ATCH of a name that stands for no routine. True after a message.
   bool is_missing_block(const Instruction& instruction, const stl::Statement& statement) {
     const bool names = instruction.structure == Structure::Call || instruction.structure == Structure::Attach;
     const auto* name = names && !statement.operands.empty() ? std::get_if<stl::Name>(&statement.operands[0].value) : nullptr;
+    const auto named = missing_callee(instruction, statement);
+    if (!name && named) name = &*named;
     if (!name || !name->reason.starts_with("there is no")) return false;
     if (instruction.structure == Structure::Attach) {
       error(statement.operands[0].position, name->reason, "give the file with its block too");
