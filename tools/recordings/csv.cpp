@@ -61,6 +61,16 @@ void find_one_for_each_direction(const std::vector<std::string>& names, Columns&
   columns.data = columns.direction = std::nullopt;
 }
 
+/// Whether a name says how many bytes there are, or which: `Byteanzahl`, `Data length`
+bool is_count(std::string_view name) {
+  return contains(name, {"ANZAHL", "COUNT", "LENGTH", "L\u00C4NGE", "L\u00E4NGE", "LAENGE", "SIZE", "INDEX", " NR", " NO"});
+}
+
+bool is_name_of_data(std::string_view name) {
+  return !is_count(name) && contains(name, {"DATA", "VALUE", "HEX", "BYTE", "FRAME", "PAYLOAD", "RESULT", "WERT", "DATEN",
+                                            "TELEGRAM", "NACHRICHT", "ZEICHEN", "TRAME", "TRAMA", "DATOS", "DATI", "DADOS"});
+}
+
 Columns columns_of(std::string_view line) {
   Columns columns{.separator = separator_of(line)};
   if (columns.separator == 0) return columns;
@@ -76,8 +86,7 @@ Columns columns_of(std::string_view line) {
         columns.unknown_unit = names[i];
     } else if (!columns.direction && contains(names[i], {"DIR", "SIDE", "CHANNEL", "PORT", "NAME"})) {
       columns.direction = i;
-    } else if (!columns.data &&
-               contains(names[i], {"DATA", "VALUE", "HEX", "BYTES", "FRAME", "PAYLOAD", "RESULT", "WERT", "DATEN"})) {
+    } else if (!columns.data && is_name_of_data(names[i])) {
       columns.data = i;
     }
   }
@@ -117,6 +126,62 @@ bool says_error(std::string_view field) {
   return std::ranges::find(kNone, stl::upper_case(stl::trim(field))) == kNone.end();
 }
 
+/// What the cells of a column are in the first rows below the names.
+struct Cells {
+  std::size_t filled = 0, with_direction = 0, with_bytes = 0, bytes = 0, marked = 0;
+
+  void take(std::string_view cell) {
+    if (cell.empty()) return;
+    ++filled;
+    with_direction += direction_of(cell) != Direction::Unknown;
+    const auto read = bytes_of_text(cell);
+    with_bytes += read.has_value();
+    bytes += read ? read->size() : 0;
+    marked += read && cell.starts_with("0x");
+  }
+  bool are_directions() const { return filled > 0 && with_direction == filled; }
+  /// Pairs of digits alone may count something.
+  bool are_bytes() const { return 2 * with_bytes > filled && (bytes > with_bytes || marked == with_bytes); }
+};
+
+/// The cells of all columns. Empty if a row has no time in the column of the times.
+std::vector<Cells> cells_below(TableRows rows, const Columns& columns) {
+  constexpr std::size_t kRows = 20;
+  std::vector<Cells> cells;
+  std::vector<std::string> fields;
+  for (std::size_t count = 0; count < kRows; ++count) {
+    const auto row = rows.next();
+    if (!row) break;
+    if (stl::trim(row->text).empty()) continue;
+    take_fields(row->text, columns.separator, fields);
+    if (columns.time && (*columns.time >= fields.size() || !time_of(stl::trim(fields[*columns.time]), columns))) return {};
+    cells.resize(std::max(cells.size(), fields.size()));
+    for (std::size_t i = 0; i < fields.size(); ++i) cells[i].take(stl::trim(fields[i]));
+  }
+  return cells;
+}
+
+/// Finds columns whose names are not known by what is in them: that with the most bytes, and that with a direction in each
+/// row. A table is known by the name of its times.
+void find_by_cells(const TableRows& rows, Columns& columns) {
+  if (!columns.time || columns.sent) return;
+  const std::vector<Cells> cells = cells_below(rows, columns);
+  if (!columns.data)
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (i != columns.time && cells[i].are_bytes() && (!columns.data || cells[i].bytes > cells[*columns.data].bytes))
+        columns.data = i;
+  if (columns.direction && *columns.direction < cells.size() && cells[*columns.direction].with_direction > 0) return;
+  const auto found = std::ranges::find_if(cells, &Cells::are_directions);
+  if (found != cells.end()) columns.direction = static_cast<std::size_t>(found - cells.begin());
+}
+
+/// The columns of a table, whose names are taken off it.
+Columns take_columns(TableRows& rows) {
+  Columns columns = columns_of(rows.next()->text);
+  find_by_cells(rows, columns);
+  return columns;
+}
+
 /// A list without times is one of bytes in its second row already.
 bool has_bytes_below(std::string_view bytes, const Columns& columns) {
   const std::size_t end = bytes.find('\n');
@@ -153,17 +218,25 @@ ColumnNotation notation_of(TableRows rows, const Columns& columns, std::string& 
 }  // namespace
 
 bool looks_like_csv(std::string_view bytes) {
-  if (!is_text(bytes)) return false;
-  const Columns columns = columns_of(first_line(bytes));
+  if (!is_text(bytes) || bytes.empty()) return false;
+  TableRows rows(bytes);
+  const Columns columns = take_columns(rows);
   if (columns.sent) return true;
   if (!columns.data || columns.time) return columns.data.has_value();
   return columns.direction && has_bytes_below(bytes, columns);
 }
 
+bool is_table_without_bytes(std::string_view bytes) {
+  if (!is_text(bytes) || bytes.empty()) return false;
+  TableRows rows(bytes);
+  const Columns columns = take_columns(rows);
+  return columns.time && !columns.data && !columns.sent && !cells_below(rows, columns).empty();
+}
+
 std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
   LineRecording recording;
   TableRows rows(bytes, choices.stop);
-  const Columns columns = columns_of(rows.next()->text);
+  const Columns columns = take_columns(rows);
   const auto [notation, characters] = notation_of(rows, columns, why);
   if (notation == nullptr) return {};
   DayCounter days;

@@ -550,9 +550,35 @@ bool is_plain_word(const Word& word) {
   return word.bytes == 0 && word.text.size() > 1 && std::ranges::all_of(word.text, is_letter) && !names_a_direction(word);
 }
 
+/// Whether words are blocks of STEP 7, not bytes: `DB 10`, `FB 10, DB 11`, `DB10`
+bool are_blocks(Words run) {
+  constexpr std::array<std::string_view, 3> kBlocks{"DB", "FB", "FC"};  // those that are hex
+  const auto has_number = [](std::string_view text) { return is_decimal(text.substr(0, text.find_first_of(",;)"))); };
+  const auto is_block = [&](std::string_view text) {
+    return std::ranges::any_of(kBlocks, [&](std::string_view block) { return text.starts_with(block); });
+  };
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const std::string_view text = run[i].text.substr(run[i].text.front() == '(' ? 1 : 0);
+    if (!is_block(text)) return false;
+    if (text.size() > 2 ? !has_number(text.substr(2)) : ++i == run.size() || !has_number(run[i].text)) return false;
+  }
+  return !run.empty();
+}
+
+/// Whether a word is one of a sentence or of a program: `Wert`, `CALL`, `FUNCTION_BLOCK`, `(siehe`
+bool is_of_prose(const Word& word) {
+  const auto is_sign = [](char c) {
+    return is_letter_of_any_language(c) || std::string_view("_().,;:!?").find(c) != std::string_view::npos;
+  };
+  return word.bytes == 0 && std::ranges::any_of(word.text, is_letter) && std::ranges::all_of(word.text, is_sign) &&
+         !names_a_direction(word);
+}
+
 /// Whether the bytes are a number at the end of words, or one of the words: `slave 10`, `waiting for 50`, `warte ab`, `de
-/// facto`
+/// facto`, or blocks among words: `CALL FB 10, DB 11`
 bool is_of_a_sentence(Words before, Words run, Words after) {
+  if (are_blocks(run) && std::ranges::none_of(before, names_a_direction))
+    return (!before.empty() && is_of_prose(before.back())) || (!after.empty() && is_of_prose(after.front()));
   if (run.size() != 1) return false;
   const std::string_view text = run.front().text;
   const bool is_number = is_decimal(text), is_word = std::ranges::all_of(text, is_letter);
@@ -691,6 +717,7 @@ constexpr std::array kWrittenUnits{WrittenUnit{"S", kSecond},
                                    WrittenUnit{"US", kMicrosecond},
                                    WrittenUnit{"\u00B5S", kMicrosecond},
                                    WrittenUnit{"\u03BCS", kMicrosecond},
+                                   WrittenUnit{"\xB5S", kMicrosecond},  // in Latin-1
                                    WrittenUnit{"NS", 1},
                                    WrittenUnit{"MILLISECONDS", kMillisecond},
                                    WrittenUnit{"MICROSECONDS", kMicrosecond},

@@ -18,6 +18,8 @@ std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoi
 /// Whether a text begins with a row that names its columns.
 bool looks_like_csv(std::string_view bytes);
 std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+/// Whether a text has a heading for its times, and no column with bytes.
+bool is_table_without_bytes(std::string_view bytes);
 
 /// Recognises libmodbus by a line that names mbpoll, or by a line that is a frame in brackets.
 bool looks_like_libmodbus(std::string_view bytes);

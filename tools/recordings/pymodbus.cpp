@@ -3,7 +3,8 @@
 //   send: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa
 //   recv: 0x1 0x3 0x2 old_data:  addr=None             what has come; after old_data:, later extra data:, what waits
 //   already recv: 0x12 0x34 0xb5 0x33 old_data: 0x1 0x3 0x2 addr=None Processing: 0x1 0x3 0x2 0x12 0x34 0xb5 0x33        the
-//   same bytes once more, as have Getting Frame - and others
+//   same bytes once more
+//   Getting Frame - 0x3 0x2 0x12 0x34                  of version 2: those between the station and the CRC once more
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,10 +68,12 @@ std::optional<std::string_view> damaged_in(std::string_view line) {
   return {};
 }
 
+/// Whether the line has bytes that another line of the log has too.
 bool says_it_again(std::string_view line) {
   const std::size_t received = std::min(line.find("recv: 0x"), line.size());
   const auto follows = [&](std::string_view waiting) { return line.find(waiting, received) != std::string_view::npos; };
-  return line.find("Processing: 0x") != std::string_view::npos || follows(" old_data:") || follows(" extra data:");
+  const auto has = [&](std::string_view words) { return line.find(words) != std::string_view::npos; };
+  return has("Processing: 0x") || has("Getting Frame - 0x") || follows(" old_data:") || follows(" extra data:");
 }
 
 /// The frame that has come so far goes on with these bytes.
@@ -82,8 +85,11 @@ bool goes_on(const LineRecording& recording, const PymodbusRow& moved, Direction
 }  // namespace
 
 bool looks_like_pymodbus(std::string_view bytes) {
-  return is_text(bytes) &&
-         std::ranges::any_of(Lines(bytes), [](std::string_view line) { return !line.empty() && says_it_again(line); });
+  if (!is_text(bytes)) return false;
+  const auto any = [&](auto says) {
+    return std::ranges::any_of(Lines(bytes), [&](std::string_view line) { return !line.empty() && says(line); });
+  };
+  return any(says_it_again) && any([](std::string_view line) { return pymodbus_row(line).has_value(); });
 }
 
 /// A log that begins with what was sent is a client's. One that begins with what has come may be a server's, or begin in the

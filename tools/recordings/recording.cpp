@@ -8,6 +8,7 @@
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/program/dialect.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
@@ -112,7 +113,7 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
     why = fmt::format("it has none of the forms {}", stl::joined(kForms, &RecordingForm::name));
     return {};
   }
-  if (form->looks_like == is_text && is_stl_program(bytes)) {
+  if (form->looks_like == is_text && (begins_as_step7(bytes) || is_stl_program(bytes))) {
     why = "it is a program in STL, not a recording; s7200 check reads it, s7200 run runs it";
     return {};
   }
@@ -127,7 +128,7 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   if (std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) {
         return frame.doubt && frame.bytes.empty() && frame.doubt->readings.empty();
       })) {
-    why = "no frame in it";
+    why = is_table_without_bytes(bytes) ? "no column found for the bytes: name it Hex" : "no frame in it";
     for (const std::string& note : recording->notes) why += "; " + note;
     return {};
   }

@@ -338,6 +338,20 @@ TEST(Recordings, ALogOfPymodbusHasEachFrameOnce) {
   EXPECT_EQ(log.frames[1].at, 19 * ms);
 }
 
+TEST(Recordings, ALogOfPymodbus2HasEachFrameOnce) {
+  const LineRecording log = recording_of(
+      "DEBUG:pymodbus.transaction:Running transaction 1\n"
+      "DEBUG:pymodbus.transaction:SEND: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa\n"
+      "DEBUG:pymodbus.transaction:RECV: 0x1 0x3 0x2 0x12 0x34 0xb5 0x33\n"
+      "DEBUG:pymodbus.framer.rtu_framer:Getting Frame - 0x3 0x2 0x12 0x34\n"
+      "DEBUG:pymodbus.factory:Factory Response[ReadHoldingRegistersResponse: 3]\n"
+      "DEBUG:pymodbus.framer.rtu_framer:Frame advanced, resetting header!!\n");
+  EXPECT_EQ(log.form, "pymodbus");
+  ASSERT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.frames[0].bytes, kRequest);
+  EXPECT_EQ(log.frames[1].bytes, kAnswer);
+}
+
 TEST(Recordings, ALogOfPymodbusMayBeAServersAndSayExtraData) {
   const LineRecording log = recording_of(
       "DEBUG:pymodbus.logging:recv: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa extra data: \n"
@@ -400,6 +414,18 @@ TEST(Recordings, TimesThatAreNotUnderstoodOrRunBackwardsAreNoted) {
             std::vector<std::string>{"line 3: its time is before that of the frame above it; no silence is known there"});
 }
 
+TEST(Recordings, BlocksOfStep7AreNoBytes) {
+  for (const char* const text : {"FUNCTION_BLOCK FB 10\nTITLE =\nBEGIN\nU E 0.0\n", "DATA_BLOCK DB 10\n STRUCT\n",
+                                 "// Station 2\nDATA_BLOCK DB12\nBEGIN\n", "FUNCTION FC 20 : VOID\nL 5\nT MW 10\n"})
+    EXPECT_TRUE(refusal_of(text).starts_with("it is a program in STL")) << text;
+  for (const char* const text : {"Hallo,\nbitte in DB 10 nachsehen.\n", "Der Wert steht in DB10 und FC 22\n",
+                                 "CALL FB 10, DB 11\n", "siehe (DB 10)\n"})
+    EXPECT_EQ(refusal_of(text),
+              "no frame in it; line 1: left out" + std::string(text[0] == 'H' ? ", and 1 more" : "") + ": no bytes in it")
+        << text;
+  EXPECT_EQ(recording_of("TX DB 10\nRX FB 10\n").frames.at(1).bytes, (Bytes{0xFB, 0x10})) << "beside a direction";
+}
+
 TEST(Recordings, CharactersWithTimesOfTheirOwnBecomeFramesBySilence) {
   std::string csv = "Time [s],Value,Parity Error,Framing Error\n";
   double at = 1.0;
@@ -421,6 +447,44 @@ TEST(Recordings, ACsvHasItsColumnsByName) {
   EXPECT_EQ(recording.frames[1].at, 25'500 * kMicrosecond) << "the comma of a decimal, in the column's unit";
   EXPECT_EQ(refusal_of("Time,Data\n0,01 03\nnever,01 03\n"), "line 3: 'never' is not a time");
   EXPECT_EQ(refusal_of("Time,Data\n0,zz\n"), "line 2: 'zz' is not bytes in hex");
+}
+
+TEST(Recordings, TheUnitOfTheTimesHoldsWhateverTheColumnOfTheBytesIsCalled) {
+  for (const char* const bytes : {"Telegramm", "Nachricht", "Zeichen", "Trame", "Datos", "Was kam", "Inhalt"})
+    for (const auto& [unit, answered] : {std::pair{"ms", 21'500 * kMicrosecond}, std::pair{"\u00B5s", Time{21'500}},
+                                         std::pair{"\xB5s", Time{21'500}}, std::pair{"us", Time{21'500}}}) {
+      const LineRecording read =
+          recording_of(fmt::format("Zeit ({});Richtung;{}\n0,000;Senden;01 03 00 00 00 01 84 0A\n"
+                                   "21,5;Empfangen;01 03 02 12 34 B5 33\n",
+                                   unit, bytes));
+      ASSERT_EQ(read.frames.size(), 2U) << bytes;
+      EXPECT_EQ(read.frames[0].bytes, kRequest);
+      EXPECT_EQ(read.frames[0].direction, Direction::Request);
+      EXPECT_EQ(read.frames[1].direction, Direction::Answer);
+      EXPECT_EQ(read.frames[1].at, answered) << bytes << ' ' << unit;
+    }
+  const LineRecording characters = recording_of("Zeit in \u00B5s;Byte\n0;01\n1146;03\n");
+  EXPECT_EQ(characters.form, "CSV");
+  EXPECT_EQ(characters.frames.at(0).times, (std::vector<Time>{0, 1'146 * kMicrosecond}));
+}
+
+TEST(Recordings, ACsvHasColumnsThatAreKnownByTheirCells) {
+  const LineRecording characters =
+      recording_of("Zeit (ms);Kanal;Zeichen;Parit\u00E4t\n0,000;TX;0x01;OK\n1,146;TX;0x03;OK\n40,0;RX;0x01;OK\n");
+  ASSERT_EQ(characters.frames.size(), 2U);
+  EXPECT_EQ(characters.frames[0].direction, Direction::Request);
+  EXPECT_EQ(characters.frames[0].bytes, (Bytes{0x01, 0x03}));
+  EXPECT_EQ(characters.frames[1].at, 40 * ms);
+  const LineRecording numbered = recording_of(
+      "Lfd. Nr.;Datum/Uhrzeit;Port;Sender;Byteanzahl;Telegramm;CRC\n"
+      "1;12.03.2009 14:23:00,100;COM3;PC;8;010300000001840A;ok\n"
+      "2;12.03.2009 14:23:00,125;COM3;SPS;7;01030212 34B533;ok\n");
+  ASSERT_EQ(numbered.frames.size(), 2U);
+  EXPECT_EQ(numbered.frames[0].bytes, kRequest);
+  EXPECT_EQ(numbered.frames[1].bytes, kAnswer);
+  EXPECT_EQ(numbered.frames[1].at, 25 * ms);
+  EXPECT_EQ(refusal_of("Zeit (ms);Kanal;Bemerkung\n0,5;TX;gesendet\n3,1;RX;empfangen\n"),
+            "no column found for the bytes: name it Hex; line 1: left out, and 2 more: no bytes in it");
 }
 
 TEST(Recordings, ACsvWithoutTimesHasItsFramesInTheirOrder) {
