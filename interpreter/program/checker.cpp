@@ -291,7 +291,7 @@ class Checker {
       if (!instruction.operand[i].real || !joined || !is_number(given[i]) || !is_number(given[i + 1])) continue;
       const stl::Position both{whole.line, whole.column, whole.length + 1 + fraction.length};
       std::string text = written_at(both);
-      if (text[whole.length] != ',') continue;
+      if (text.size() <= whole.length || text[whole.length] != ',') continue;
       std::string hint = text;
       hint[whole.length] = '.';
       error(both, fmt::format("{} has a decimal comma", text), fmt::format("write {}", hint));
@@ -312,7 +312,7 @@ class Checker {
       if (instruction.operand[i].width != Width::Bit || !byte || byte->size != stl::Size::None || !bit || !joined) continue;
       const stl::Position both{whole.line, whole.column, whole.length + 1 + part.length};
       std::string text = written_at(both);
-      if (text[whole.length] != ',') continue;
+      if (text.size() <= whole.length || text[whole.length] != ',') continue;
       std::string hint = text;
       hint[whole.length] = '.';
       error(both, fmt::format("{} has a comma before its bit", text), fmt::format("write {}", hint));
@@ -330,7 +330,7 @@ class Checker {
       const bool unfinished = address && address->area == "L" && address->size == stl::Size::None;
       if (!instruction.operand[i].constant || !given.symbol.empty() || !(name || unfinished)) continue;
       std::string text = written_at(given.position);
-      if (text.front() != 'l' || !std::ranges::all_of(text.substr(1), stl::is_digit)) continue;
+      if (!text.starts_with('l') || !std::ranges::all_of(text.substr(1), stl::is_digit)) continue;
       error(given.position, fmt::format("{} has the letter l in place of the digit 1", text),
             fmt::format("write 1{}", text.substr(1)), stl::kLookAlikes);
       return true;

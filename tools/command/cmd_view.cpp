@@ -63,7 +63,8 @@ void add_view(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* verb = app.add_subcommand("view", "see a program at work on a page in the browser: status, timeline, past");
   options->debuggee->add_program_to(*verb);
-  verb->add_option("--listen", options->listen, "the address and port of the page, on this computer [a free port of 127.0.0.1]")
+  verb->add_option("--listen", options->listen,
+                   "the address and port of the page, on this computer [a free port of 127.0.0.1]")
       ->type_name("[ADDRESS:]PORT")
       ->group(help_group::kRun);
   verb->add_option("--token-file", options->token_file,
@@ -74,9 +75,8 @@ void add_view(CLI::App& app, int& exit_code) {
       ->group(help_group::kRun);
   options->debuggee->add_plant_to(*verb);
   verb->footer(
-      "The address has a token: whoever has it can do what the prompt of 's7200 debug' can, with the files only if --files "
-      "is "
-      "given. Several windows show the same session.\n"
+      "The address has a token: whoever has it can do what the prompt of 's7200 debug' can, with files only if --files "
+      "is given. Several windows show the same session.\n"
       "Without a bridge, --realtime or --speed runs are as fast as the computer can; with one they follow the clock, and "
       "commands are carried out meanwhile.\n"
       "A system file (.yaml) instead of a PROGRAM: all its PLCs, one of them at a time.\n"
