@@ -1,6 +1,8 @@
 // What `why` says of a frame without an answer when it is not the program that has left it.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/debugger/session.hpp"
 
@@ -689,6 +691,80 @@ TEST(Why, AnAddressIsAnsweredFromItsWriterToAnInput) {
   EXPECT_TRUE(has(output, " by = M0.0 in line 2 (LD I0.3: I0.3=0)\n"));
   EXPECT_TRUE(has(session("why VW0"), "nothing has written it since power-up; MOVW 7, VW0 in line 6 could, which had no "));
   EXPECT_TRUE(has(session("why I0.3"), "it is an input, which the program does not write"));
+}
+
+/// A line of `why` each.
+std::size_t lines_of(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
+
+TEST(Why, ACoilThatHoldsItselfIsOneLineWithWhatSwitchedItOn) {
+  AtPrompt session("LD I0.0\nO Q0.0\nAN I0.1\n= Q0.0\nMEND\n");
+  session("continue 20ms; input I0.0=1; continue 20ms; input I0.0=0; continue 100ms");
+  const std::string on = session("why Q0.0");
+  EXPECT_TRUE(has(on, "\n  Q0.0 was 1: it holds itself since 2")) << on;
+  EXPECT_TRUE(has(on, ", switched on by = Q0.0 in line 4 (LD I0.0: I0.0=1; O Q0.0: Q0.0=0; AN I0.1: I0.1=0)\n")) << on;
+  EXPECT_EQ(lines_of(on), 2u) << on;
+  session("input I0.1=1; continue 20ms; input I0.1=0; continue 100ms");
+  const std::string off = session("why Q0.0");
+  EXPECT_TRUE(has(off, "\n  Q0.0 was 0: it has been so since 14")) << off;
+  EXPECT_TRUE(has(off, ", switched off by = Q0.0 in line 4 (LD I0.0: I0.0=0; O Q0.0: Q0.0=1; AN I0.1: I0.1=1)\n")) << off;
+}
+
+TEST(Why, BitsThatHoldEachOtherLeadToWhatSwitchedThemOn) {
+  AtPrompt session("LD I0.2\nO M0.1\n= M0.0\nLD M0.0\n= M0.1\nMEND\n");
+  session("continue 20ms; input I0.2=1; continue 20ms; input I0.2=0; continue 100ms");
+  const std::string text = session("why M0.1");
+  EXPECT_TRUE(has(text, "M0.1 was 1: it holds itself since 2")) << text;
+  EXPECT_TRUE(has(text, "M0.0 was 1: it holds itself since 2")) << text;
+  EXPECT_TRUE(has(text, ", switched on by = M0.0 in line 3 (LD I0.2: I0.2=1; O M0.1: M0.1=0)\n")) << text;
+}
+
+TEST(Why, ABitThatDecidesInTwoPlacesDoesNotHoldItself) {
+  AtPrompt session("LD I0.0\n= M0.0\nLD M0.0\n= M0.1\nLD M0.0\nA M0.1\n= Q0.0\nMEND\n");
+  session("continue 20ms; input I0.0=1; continue 20ms");
+  EXPECT_FALSE(has(session("why Q0.0"), "holds itself"));
+}
+
+/// CPU 224 has subroutines with parameters.
+std::shared_ptr<const Program> with_blocks(std::string_view text) {
+  return check_text(text, "test.awl", cpu224(), default_times(cpu224())).program;
+}
+
+/// SBR 0 has an input L0.0 and an output L0.1; Motor is its output.
+constexpr std::string_view kWithParameters =
+    "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD SM0.0\nCALL SBR_0, I0.0, M0.0\n"
+    "Network 2\nLD M0.0\n= Q0.0\nEND_ORGANIZATION_BLOCK\n"
+    "SUBROUTINE_BLOCK SBR_0:SBR0\nVAR_INPUT\nasked:BOOL;\nEND_VAR\nVAR_OUTPUT\nruns:BOOL;\nEND_VAR\nBEGIN\n"
+    "Network 1\nLD L0.0\nA I0.5\n= L0.1\nEND_SUBROUTINE_BLOCK\n";
+
+TEST(Why, AnOutputOfACallIsWrittenByItsReturnAlsoWithTheSameValue) {
+  AtPrompt session(with_blocks(kWithParameters));
+  session("continue 50ms");
+  const std::string text = session("why M0.0");
+  EXPECT_TRUE(has(text, "M0.0 is 0; last written at ")) << text;
+  EXPECT_TRUE(has(text, ", as an output of CALL 0, I0.0, M0.0 in line 5\n")) << text;
+  EXPECT_TRUE(has(text, "\n  L0.1 was 0: last written at ")) << text;
+  EXPECT_TRUE(has(session("who M0.0"), ", as an output of CALL 0, I0.0, M0.0 in line 5"));
+  const std::string watched = session("watch M0.0 write; continue");
+  EXPECT_TRUE(has(watched, "M0.0 write is 0 as before")) << watched;
+}
+
+TEST(Why, AnInputOfASubroutineLeadsToWhatItsCallHandedOver) {
+  const std::string program =
+      test::changed(test::changed(std::string(kWithParameters), "CALL SBR_0, I0.0,", "CALL SBR_0, M1.0,"), "A I0.5\n", "");
+  AtPrompt session(with_blocks(test::changed(program, "Network 1\nLD SM0.0\n", "Network 1\nLD I0.7\n= M1.0\nLD SM0.0\n")));
+  session("continue 50ms; input I0.7=1; continue 50ms");
+  const std::string text = session("why Q0.0");
+  EXPECT_TRUE(has(text, "\n  L0.0 was 1: last written at ")) << text;
+  EXPECT_TRUE(has(text, "\n  M1.0 was 1: last written at ")) << text;
+  EXPECT_TRUE(has(text, "= M1.0 in line 5 (LD I0.7: I0.7=1)\n")) << text;
+}
+
+TEST(Why, AnOutputOfACallThatWasNotExecutedNamesTheCallThatCould) {
+  AtPrompt session(with_blocks(test::changed(std::string(kWithParameters), "LD SM0.0\n", "LD I0.6\n")));
+  session("continue 50ms");
+  const std::string text = session("why M0.0");
+  EXPECT_TRUE(has(text, "nothing has written it since power-up; CALL 0, I0.0, M0.0 in line 5 could, which had no "))
+      << text;
 }
 
 TEST(Why, WhatIsAskedAboutAnAddressMayHaveBeenSetFromOutside) {

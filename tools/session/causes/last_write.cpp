@@ -17,7 +17,8 @@ class WriteFinder final : public Reader {
         history_(history),
         station_(station),
         range_(range),
-        bits_(bits_of(range)) {
+        bits_(bits_of(range)),
+        level_(level()) {
     for (std::uint32_t op = 0; op < cpu_.program().ops.size(); ++op)
       may_write_.push_back(may_access(cpu_, op, Access::Write, bits_));
   }
@@ -61,17 +62,39 @@ class WriteFinder final : public Reader {
     in_front_ = history_.in_front();
     note_change_between();
     writes_ = may_write_[op] && accesses(cpu_, op, Access::Write, bits_);
+    call_ = writes_ ? call_that_ends(cpu_, op) : std::nullopt;
     errors_ = cpu_.state().error_count;
     in_interrupt_ = cpu_.state().in_interrupt;
     return true;
   }
 
   void instruction(const InstructionRecord& record) override {
+    if (is_elsewhere()) return;
     const bool wrote = writes_ && record.powered && errors_ == cpu_.state().error_count;
-    if (wrote || changed()) note(record, record.end);
+    if (wrote || (changed() && !has_come_back(record.op))) note(record, record.end);
+    if (changed()) value_ = range_.bytes_in(cpu_.state().image);
   }
 
  private:
+  /// Which routine's local memory is in the image.
+  struct Level {
+    bool in_interrupt = false;
+    std::uint8_t calls = 0;
+    bool operator==(const Level&) const = default;
+  };
+  Level level() const { return {cpu_.state().in_interrupt, cpu_.state().call_depth}; }
+
+  /// Local memory is that of another routine than the one that was asked about.
+  bool is_elsewhere() const { return range_.area == Area::L && level() != level_; }
+
+  /// Local memory that is there again after a subroutine or an interrupt routine is not written by its end.
+  bool has_come_back(std::uint32_t op) const {
+    const Op& by = cpu_.program().ops[op];
+    return range_.area == Area::L && !writes_ &&
+           (returns_from_subroutine(by) || by.instruction->structure == Structure::Call ||
+            by.instruction->structure == Structure::InterruptEnd || by.instruction->effect == Effect::ConditionalEnd);
+  }
+
   bool changed() const {
     const auto& image = cpu_.state().image;
     if (range_.width == Width::Bit) return (image[range_.at] >> range_.bit & 1) != value_[0];
@@ -79,7 +102,7 @@ class WriteFinder final : public Reader {
   }
 
   void note_change_between() {
-    if (changed()) note(std::nullopt, cpu_.time());
+    if (!is_elsewhere() && changed()) note(std::nullopt, cpu_.time());
   }
 
   /// Whether it has written the value that is there. Inputs get theirs when they are read.
@@ -99,6 +122,7 @@ class WriteFinder final : public Reader {
     std::vector<std::uint8_t> value = range_.bytes_in(state.image);
     last_ = {.moment = in_front_,
              .by = by,
+             .call = {},
              .action = {},
              .planned = {},
              .at = at,
@@ -107,6 +131,7 @@ class WriteFinder final : public Reader {
              .routine = state.serving_routine,
              .before = std::exchange(value_, value),
              .after = std::move(value)};
+    if (by) last_->call = call_;
   }
 
   const Cpu& cpu_;
@@ -117,7 +142,9 @@ class WriteFinder final : public Reader {
   std::vector<bool> may_write_;  ///< by op
   std::vector<std::uint8_t> value_;
   Moment in_front_;
+  Level level_;  ///< where it was asked
   bool writes_ = false, in_interrupt_ = false;
+  std::optional<std::uint32_t> call_{};  ///< that the instruction being executed ends
   std::uint64_t errors_ = 0;
   std::optional<LastWrite> last_;
 };

@@ -14,6 +14,7 @@ struct LastWrite {
   Moment moment;                        ///< in front of the instruction or the action, or of the instruction before what
                                         ///< the system file did; otherwise of what came next
   std::optional<InstructionRecord> by;  ///< nothing: between two instructions, by the system, an action or the system file
+  std::optional<std::uint32_t> call;    ///< `by` returned to it: it is a parameter that this CALL gets back
   std::optional<std::size_t> action;    ///< its number in History::actions()
   std::optional<std::size_t> planned;   ///< what the system file did, its number in History::planned()
   Time at = 0;                          ///< end of the instruction, or when it was found changed

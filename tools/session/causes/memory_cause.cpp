@@ -7,9 +7,11 @@
 #include <iterator>
 #include <map>
 
+#include "interpreter/analysis/effects.hpp"
 #include "interpreter/trace/statement_text.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "tools/session/causes/expression.hpp"
+#include "tools/session/causes/last_turn.hpp"
 #include "tools/session/causes/last_write.hpp"
 #include "tools/session/causes/writer.hpp"
 #include "tools/session/past/access.hpp"
@@ -44,6 +46,10 @@ class RungReader final : public Reader {
   TraceReasons reasons;
 };
 
+bool is_same_bit(const MemoryRange& a, const MemoryRange& b) {
+  return a.width == Width::Bit && b.width == Width::Bit && a.at == b.at && a.bit == b.bit;
+}
+
 class MemoryInquiry {
  public:
   MemoryInquiry(History& history, std::size_t station, StopToken stop_request)
@@ -62,9 +68,25 @@ class MemoryInquiry {
     if (!write.by)
       return fmt::format("last written at {} by {}", moment_text(write.at),
                          changer_text(history_, write.action, write.planned));
-    const std::string contacts = rung_in_front_of(write);
-    return fmt::format("last written at {} by {}{}", moment_text(write.at), named_in_sentence(write.by->op, program()),
-                       contacts.empty() ? "" : fmt::format(" ({})", contacts));
+    return fmt::format("last written at {} by {}", moment_text(write.at), written_by(write, range));
+  }
+
+  /// The same of a bit that has led to itself: since when it is as it is, and what made it so.
+  std::string held_since(const MemoryRange& bit) {
+    next_.clear();
+    const bool on = is_on(here().cpu().state(), bit);
+    const TurnSearch search = find_last_turn(
+        history_, station_, [&](const State& state) { return is_on(state, bit) == on; }, stop_request_);
+    interrupted_ |= search.interrupted;
+    if (interrupted_) return {};
+    const std::string_view holds = on ? "it holds itself" : "it has been so";
+    if (!search.turn) return fmt::format("{} {}", holds, since_oldest_text(history_));
+    const std::string since = fmt::format("{} since {}", holds, moment_text(search.turn->at));
+    if (!search.turn->by) return since;
+    LastWrite write;
+    write.moment = search.turn->moment;
+    write.by = search.turn->by;
+    return fmt::format("{}, switched {} by {}", since, on ? "on" : "off", written_by(write, bit));
   }
 
   const std::vector<MemoryRange>& next() const { return next_; }
@@ -72,6 +94,44 @@ class MemoryInquiry {
  private:
   serial::Simulation& here() const { return history_.station(station_); }
   const Program& program() const { return here().cpu().program(); }
+
+  static bool is_on(const State& state, const MemoryRange& bit) { return (state.image[bit.at] >> bit.bit & 1) != 0; }
+
+  /// The instruction that wrote memory, with the contacts that decided it.
+  std::string written_by(const LastWrite& write, const MemoryRange& range) {
+    const std::string by = named_in_sentence(write.by->op, program());
+    if (write.call) {
+      history_.go_to(write.moment);
+      next_ = parameters_for(*write.call, range, true);
+      return fmt::format("{}, as an output of {}", by, named_in_sentence(*write.call, program()));
+    }
+    const std::string contacts = rung_in_front_of(write);
+    if (range.area == Area::L && program().ops[write.by->op].instruction->structure == Structure::Call)
+      next_ = parameters_for(write.by->op, range, false);
+    return fmt::format("{}{}", by, contacts.empty() ? "" : fmt::format(" ({})", contacts));
+  }
+
+  /// The local memory behind memory of the caller that a CALL gets back, or the other way round; only bits.
+  std::vector<MemoryRange> parameters_for(std::uint32_t call, const MemoryRange& range, bool local) const {
+    std::vector<MemoryRange> bits;
+    for (const Parameter& parameter : parameters_of(program(), call)) {
+      const Operand &other = local ? parameter.local : parameter.actual, &known = local ? parameter.actual : parameter.local;
+      const bool copied = parameter.role == Role::InOut || (parameter.role == Role::Out) == local;
+      if (!copied || parameter.width != Width::Bit || other.pointer) continue;
+      if (known.at == range.at && known.bit == range.bit && range.width == Width::Bit)
+        if (const auto bit = bit_of(other)) bits.push_back(*bit);
+    }
+    return bits;
+  }
+
+  /// Of memory that the program decides.
+  std::optional<MemoryRange> bit_of(const Operand& operand) const {
+    auto range = range_at(operand.at, Width::Byte, *program().model);
+    if (!range || !is_of_program(range->area)) return {};
+    range->width = Width::Bit;
+    range->bit = operand.bit;
+    return range;
+  }
 
   /// The contacts that decided an instruction; the history stands in front of it then.
   std::string rung_in_front_of(const LastWrite& write) {
@@ -92,12 +152,9 @@ class MemoryInquiry {
     for (const InstructionRecord& contact : rung_decided_by(contacts)) {
       const Op& op = program().ops[contact.op];
       if (!is_bit_contact(op) || op[0].pointer || write.by->op == contact.op) continue;
-      auto range = range_at(op[0].at, Width::Byte, *program().model);
-      if (!range || !is_of_program(range->area)) continue;
-      range->width = Width::Bit;
-      range->bit = op[0].bit;
-      if (std::ranges::none_of(bits, [&](const MemoryRange& bit) { return bit.at == range->at && bit.bit == range->bit; }))
-        bits.push_back(*range);
+      const auto bit = bit_of(op[0]);
+      if (bit && std::ranges::none_of(bits, [&](const MemoryRange& one) { return is_same_bit(one, *bit); }))
+        bits.push_back(*bit);
     }
     return bits;
   }
@@ -160,7 +217,9 @@ class MemoryInquiry {
     return (*contact.value[0] != 0) != op.instruction->mnemonic.ends_with('N');
   }
 
-  static bool is_of_program(Area area) { return area == Area::Q || area == Area::M || area == Area::V || area == Area::S; }
+  static bool is_of_program(Area area) {
+    return area == Area::Q || area == Area::M || area == Area::V || area == Area::S || area == Area::L;
+  }
 
   /// `= Q0.1 in line 3 could, which had no power flow at 9.5 ms (LD I0.0: I0.0=0)`
   std::string who_could(const MemoryRange& range) {
@@ -171,7 +230,7 @@ class MemoryInquiry {
     for (std::uint32_t op = 0; op < program().ops.size(); ++op) {
       if (program().ops[op].has_pointer)
         by_pointer |= may_access(cpu, op, Access::Write, bits);
-      else if (accesses(cpu, op, Access::Write, bits))
+      else if (accesses(cpu, op, Access::Write, bits) || gets_back(op, bits))
         writers.push_back(op);
     }
     if (range.area == Area::I || range.area == Area::AI) return "it is an input, which the program does not write";
@@ -186,6 +245,13 @@ class MemoryInquiry {
     for (std::size_t i = 0; i < std::min(kMostWriters, writers.size()); ++i) all.push_back(could_text(writers[i], reader));
     const std::size_t more = writers.size() - all.size();
     return fmt::format("{}{}", fmt::join(all, "; "), more == 0 ? "" : fmt::format("; and {} more could", more));
+  }
+
+  /// Whether it is a CALL with such an output.
+  bool gets_back(std::uint32_t op, const Bits& bits) const {
+    if (program().ops[op].instruction->structure != Structure::Call) return false;
+    return std::ranges::any_of(effects_now(program(), op, here().cpu().state().image),
+                               [&](const MemoryAccess& access) { return access.writes() && access.bits.overlaps(bits); });
   }
 
   std::string could_text(std::uint32_t op, const RungReader& reader) const {
@@ -209,6 +275,7 @@ class MemoryInquiry {
 struct Step {
   MemoryRange bit;
   Moment at;
+  std::vector<MemoryRange> way{};  ///< the bits that led to it
 };
 
 std::string value_of(const Cpu& cpu, const MemoryRange& range) {
@@ -228,10 +295,15 @@ std::optional<std::vector<std::string>> memory_cause(History& history, std::size
   MemoryInquiry inquiry(history, station, stop_request);
   std::vector<std::string> lines{inquiry.who(range)};
   std::vector<Step> steps;  // the next one last
-  const auto add_steps = [&] {
-    for (auto bit = inquiry.next().rbegin(); bit != inquiry.next().rend(); ++bit) steps.push_back({*bit, history.now()});
+  const auto times_on = [](const std::vector<MemoryRange>& way, const MemoryRange& bit) {
+    return std::ranges::count_if(way, [&](const MemoryRange& one) { return is_same_bit(one, bit); });
   };
-  add_steps();
+  const auto add_steps = [&](std::vector<MemoryRange> way, const MemoryRange& from) {
+    way.push_back(from);
+    for (auto bit = inquiry.next().rbegin(); bit != inquiry.next().rend(); ++bit)
+      if (times_on(way, *bit) < 2) steps.push_back({*bit, history.now(), way});
+  };
+  add_steps({}, range);
   const auto name = [&](const Step& step) {
     history.go_to(step.at);
     const Cpu& cpu = history.station(station).cpu();
@@ -241,8 +313,9 @@ std::optional<std::vector<std::string>> memory_cause(History& history, std::size
     const Step step = steps.back();
     steps.pop_back();
     const std::string was = name(step);
-    lines.push_back(fmt::format("{}: {}", was, inquiry.who(step.bit)));
-    add_steps();
+    const bool leads_to_itself = times_on(step.way, step.bit) > 0;
+    lines.push_back(fmt::format("{}: {}", was, leads_to_itself ? inquiry.held_since(step.bit) : inquiry.who(step.bit)));
+    add_steps(step.way, step.bit);
   }
   if (lines.size() > 1 && !steps.empty()) {
     std::vector<std::string> others;

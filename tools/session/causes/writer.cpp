@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/trace/statement_text.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "tools/session/causes/last_attachment.hpp"
 #include "tools/session/causes/last_write.hpp"
@@ -16,7 +17,8 @@ namespace {
 /// `  by INT 123 line 40 …, serving event 8 (…)  // comment`
 std::string by_text(const LastWrite& write, const History& history, const Program& program, const Listing& listing) {
   if (write.by)
-    return fmt::format("  by {} {}{}{}", listing.routine_of(write.by->op), describe(*write.by, program),
+    return fmt::format("  by {} {}{}{}{}", listing.routine_of(write.by->op), describe(*write.by, program),
+                       write.call ? fmt::format(", as an output of {}", named_in_sentence(*write.call, program)) : "",
                        write.in_interrupt ? fmt::format(", serving {}", event_text(write.event)) : "",
                        remark_on(write.by->op, program));
   return "  by " + changer_text(history, write.action, write.planned);

@@ -30,8 +30,9 @@ bool receives_later(const Instruction& instruction) {
   return instruction.effect == Effect::Receives || instruction.mnemonic == "NETR" || instruction.mnemonic == "NETW";
 }
 
-bool has_parameters(const Program& program, std::uint32_t op) {
-  return program.ops[op].instruction->structure == Structure::Call && program.statement(op).operands.size() > 1;
+bool may_copy_parameters(const Program& program, std::uint32_t number) {
+  const Op& op = program.ops[number];
+  return !program.parameters.empty() && (op.instruction->structure == Structure::Call || returns_from_subroutine(op));
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ WrittenMemory WriteMarker::nothing() const {
 }
 
 WriteMarker::Writes WriteMarker::writes_of(const Program& program, std::uint32_t number) {
-  if (has_parameters(program, number)) return Writes::Elsewhere;
+  if (may_copy_parameters(program, number)) return Writes::Elsewhere;
   const Op& op = program.ops[number];
   const auto rules = op.instruction->rules();
   Writes writes = Writes::Operands;
@@ -67,17 +68,9 @@ WriteMarker::Writes WriteMarker::writes_of(const Program& program, std::uint32_t
   return writes;
 }
 
-/// What a CALL gets back from the subroutine, when that ends.
-std::vector<Bits> WriteMarker::results_of(std::uint32_t call) const {
-  std::vector<Bits> all;
-  for (const MemoryAccess& access : effects_now(cpu_.program(), call, cpu_.state().image))
-    if (access.writes()) all.push_back(access.bits);
-  return all;
-}
-
 void WriteMarker::before(std::uint32_t op) {
   if (writes_[op] != Writes::Elsewhere) return;
-  next_ = has_parameters(cpu_.program(), op) ? results_of(op) : accessed(cpu_, op, Access::Write);
+  next_ = accessed(cpu_, op, Access::Write);
 }
 
 void WriteMarker::executed(const InstructionRecord& record, WrittenMemory& written) const {

@@ -46,7 +46,6 @@ class WriteMarker {
     Unknown     ///< entries of tables, strings
   };
   static Writes writes_of(const Program& program, std::uint32_t op);
-  std::vector<Bits> results_of(std::uint32_t op) const;
 
   const Cpu& cpu_;
   std::vector<Writes> writes_;   // by instruction
