@@ -40,6 +40,7 @@ ROOMS = {
     "tools/views": CORE,
     "tools/record": CORE + ["tools/views"],
     "tools/measuring": CORE + ["tools/views"],
+    "tools/compare": CORE + ["tools/views"],
     "tools/yaml": INTERPRETER,
     "tools/json": ["interpreter/base"],
     "tools/plan": CORE + ["tools/host", "tools/yaml"],

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|inspect|files|scenarios|input|readme|times|systems"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|inspect|compare|files|scenarios|input|readme|times|systems"""
 import contextlib
 import csv
 import html
@@ -1160,7 +1160,7 @@ class Options(Case):
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
     ANY_TEXT = ("TABLE", "DIR", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
-    BEGINNING = {"check": [SLAVE], "inspect": [SLAVE, "xref"], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
+    BEGINNING = {"check": [SLAVE], "inspect": [SLAVE, "xref"], "compare": [SLAVE, SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "decode": [LOG], "import-capture": [LOG], "debug": [SLAVE, "-x", "quit"], "view": [SLAVE], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
     @staticmethod
@@ -2476,6 +2476,8 @@ class JsonPage(Case):
         self.addCleanup(os.close, secondary)
         plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
         yield from (["check", echo, wrong], ["check", SOURCE / "tests/programs/libraries/slave.awl", "--cpu", "224"], ["import", self.program(Files.DOCUMENT, "page.txt")],
+                    ["compare", *Compare.CHANGED], ["compare", self.program("LD SM0.1\nATCH 0, 10\nENI\nMEND\nINT 0\nRETI\n", "old.stl"), SLAVE, "--cpu", "214"],
+                    ["compare", echo, self.program("// CPU 224\n" + Json.ECHO, "other.stl")],
                     ["inspect", *Inspect.PUMP], ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
                     ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
                     ["inspect", self.program("LD I0.0\nLD I0.1\nCTU C5, 12\nTON T37, 5\nMOVB 16#81, SMB31\nMEND\n", "eeprom.stl"), "map"],
@@ -2523,6 +2525,33 @@ class JsonPage(Case):
             del documented[verb]
         self.assertEqual({verb: keys - printed[verb] for verb, keys in documented.items()},
                          {verb: set() for verb in VERBS if verb not in ("debug", "view", "dap")}, "on the page, and never printed")
+
+
+class Compare(Case):
+    CHANGED = [EXPORTS / "pump.awl", EXPORTS / "pump_new.awl",
+               *(word for side, of in (("old", "pump"), ("new", "pump_new")) for part in ("symbols", "data")
+                 for word in (f"--with-{side}", EXPORTS / f"{of}_{part}.txt"))]
+
+    def test_the_exit_code_says_whether_the_cpu_gets_the_same(self):
+        self.ends(FINE, "compare", SLAVE, SLAVE)
+        self.ends(FAILED, "compare", *self.CHANGED)
+        renamed = self.program("LD I0.0 // another comment\n= Q0.0\nMEND\n", "renamed.stl")
+        self.assertIn("only what people read differs", self.ends(FINE, "compare", self.program("LD I0.0\n= Q0.0\nMEND\n", "old.stl"), renamed).stdout)
+
+    def test_it_takes_two_programs(self):
+        self.assertIn("OLD and NEW; 1 program given", self.ends(UNUSABLE, "compare", SLAVE).stderr)
+        self.assertIn("3 programs given", self.ends(UNUSABLE, "compare", SLAVE, SLAVE, SLAVE).stderr)
+        self.assertIn("missing.stl", self.ends(UNUSABLE, "compare", SLAVE, "missing.stl").stderr)
+        self.assertIn("missing.txt", self.ends(UNUSABLE, "compare", SLAVE, SLAVE, "--with-new", "missing.txt").stderr)
+
+    def test_a_program_with_errors_is_compared_as_far_as_it_goes(self):
+        done = self.ends(FAILED, "compare", self.program("LD I0.0\n= Q0.0\nMEND\n", "old.stl"), self.program("LD I0.0\n= QB0\nMEND\n", "new.stl"))
+        self.assertIn("what they are in is left out", done.stderr)
+        self.assertIn("1 changed" if "same" in done.stdout else "1 network changed", done.stdout)
+
+    def test_it_keeps_to_100_columns(self):
+        for line in self.ends(FAILED, "compare", *self.CHANGED).stdout.splitlines():
+            self.assertLessEqual(len(line), 100, line)
 
 
 class Inspect(Case):
@@ -4062,7 +4091,7 @@ class Readme(Case):
     # What is in commands that find something wrong, or get no answer: their exit code is 1, and that of all others 0.
     NOT_RIGHT = ("import --compare", "wrong_answer.yaml", "send stl_programs/modbus_slave.stl 0103000a00010000", "--baud 19200", "pointers.stl",
                  "broken.awl", "--fault flip:", "freeport_pc_protocol_zh.txt --cpu 224", "4006381333931",
-                 "--only 'wrong quantity'", "--conformance tests/conformance/tip41.yaml")
+                 "--only 'wrong quantity'", "tests/exports/pump_new.awl", "--conformance tests/conformance/tip41.yaml")
 
     PAGES = sorted((SOURCE / "docs").glob("*.md"))
 
@@ -4213,7 +4242,7 @@ class Readme(Case):
 
 
 if __name__ == "__main__":
-    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "inspect": Inspect, "files": Files, "readme": Readme, "scenarios": Scenarios,
+    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "inspect": Inspect, "compare": Compare, "files": Files, "readme": Readme, "scenarios": Scenarios,
              "input": StandardInput, "times": Times, "systems": Systems}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/program/checker.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/stand_in_options.hpp"
@@ -28,7 +29,10 @@ std::shared_ptr<const Program> decoded(const CpuOptions& options, const SourceTe
     exit_code = std::max<int>(exit_code, kCheckFailed);
     return nullptr;
   }
-  if (source.program) return source.program;
+  if (source.program) {
+    source.program->looks = looks_of(*source.program);
+    return source.program;
+  }
   exit_code = std::max<int>(exit_code, kCheckFailed);
   if (source.known)
     print_note(fmt::format("{} has errors: what they are in is left out", source.source.name));
@@ -39,14 +43,21 @@ std::shared_ptr<const Program> decoded(const CpuOptions& options, const SourceTe
 
 }  // namespace
 
+std::shared_ptr<const Program> known_program(const CpuOptions& options, ProgramFiles& file, TablesByCpu& tables,
+                                             int& exit_code) {
+  const bool repaired = repair(file.text, options.repairs);
+  const CpuModel* model = repaired ? options.model_for(file.text, file.path) : nullptr;
+  const TimeTable* times = model ? tables.of(*model) : nullptr;
+  if (!times) return exit_code = kUnusable, nullptr;
+  return decoded(options, file.text, *model, *times, exit_code);
+}
+
 std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const Question& question,
                                     TablesByCpu& tables, int& exit_code) {
-  if (!repair(file.text, options.repairs)) return exit_code = kUnusable, std::nullopt;
-  const CpuModel* model = options.model_for(file.text, file.path);
-  const TimeTable* times = model ? tables.of(*model) : nullptr;
-  if (!times) return exit_code = kUnusable, std::nullopt;
-  auto program = decoded(options, file.text, *model, *times, exit_code);
+  auto program = known_program(options, file, tables, exit_code);
   if (!program) return {};
+  const CpuModel* const model = program->model;
+  const TimeTable* const times = tables.of(*model);
   std::optional<Inspection> inspection(std::in_place, std::move(program));
   inspection->lose_word = worst_instant;
   inspection->see_times = seen_times;

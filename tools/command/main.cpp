@@ -30,6 +30,7 @@ struct Verb {
 constexpr std::array kVerbs{
     Verb{"check", add_check},
     Verb{"inspect", add_inspect},
+    Verb{"compare", add_compare},
     Verb{"import", add_import},
     Verb{"convert", add_convert},
     Verb{"run", add_run},
@@ -69,9 +70,7 @@ int run_command(int argc, char** argv) {
   app.set_version_flag("-V,--version", fmt::format("s7200 {}", version()));
   app.failure_message(usage_error);
   app.footer(
-      "Exit codes: 0 fine; 1 what was checked failed, or it was interrupted; 2 wrong usage, unreadable input, or output "
-      "that cannot be written; 3 the CPU went to STOP on a fatal error. Ctrl-C ends every wait, and what was asked for is "
-      "still written; a second one kills at once.\n"
+      "Exit codes: 0 fine; 1 what was checked failed; 2 wrong usage, input or output; 3 a CPU in STOP\n"
       "Example: s7200 send stl_programs/modbus_slave.stl --crc 01030000000a --timeline");
   app.formatter(help_layout());
   app.set_help_flag("-h,--help", "show what most users need");

@@ -1,0 +1,143 @@
+#include "tools/trials/chance.hpp"
+
+#include <algorithm>
+
+#include "serial_sim/modbus/crc.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::size_t kMostRemembered = 256, kLongestFrame = 256;
+constexpr Time kLongestPreset = 2 * 3600 * kSecond;
+
+}  // namespace
+
+Time TrialMaker::wait() {
+  switch (chance_.below(8)) {
+    case 0:
+      return 0;
+    case 1:
+    case 2:
+      return static_cast<Time>(chance_.below(20)) * kMillisecond;
+    case 3:
+    case 4:
+      return 20 * kMillisecond + static_cast<Time>(chance_.below(180)) * kMillisecond;
+    case 5:
+      return static_cast<Time>(1 + chance_.below(12)) * 100 * kMillisecond;
+    default:
+      if (words_.presets.empty()) return 300 * kMillisecond;
+      const Time preset = std::min(chance_.one_of(words_.presets), kLongestPreset);
+      return preset + (chance_.one_in(2) ? 150 * kMillisecond : static_cast<Time>(chance_.below(8)) * preset / 8);
+  }
+}
+
+std::uint32_t TrialMaker::value() {
+  if (!words_.constants.empty() && !chance_.one_in(4))
+    return static_cast<std::uint32_t>(chance_.one_of(words_.constants) + chance_.below(3) - 1);
+  const std::uint64_t any = chance_.draw();
+  return static_cast<std::uint32_t>(chance_.one_in(2) ? any % 16 : any);
+}
+
+Stimulus TrialMaker::next(const State& now) {
+  using What = Stimulus::What;
+  const Time pause = wait();
+  const std::uint64_t kinds[]{words_.inputs.empty() ? 0U : 6U, words_.analog.empty() ? 0U : 3U,
+                              words_.commands.empty() ? 0U : 3U, words_.port ? 6U : 0U};
+  std::uint64_t drawn = chance_.below(kinds[0] + kinds[1] + kinds[2] + kinds[3]);
+  if (words_.empty()) return {.wait = pause, .what = What::Input, .place = 0, .bytes = {now.terminals[0]}};
+  if (drawn < kinds[0]) {
+    const Vocabulary::Bytes& input = chance_.one_of(words_.inputs);
+    std::uint8_t value = now.terminals[input.place];
+    std::uint8_t bits = 0;
+    while ((bits & input.mask) == 0)
+      bits = chance_.one_in(3) ? chance_.byte() : static_cast<std::uint8_t>(1u << chance_.below(8));
+    value ^= bits & input.mask;
+    return {.wait = pause, .what = What::Input, .place = input.place, .bytes = {value}};
+  }
+  drawn -= kinds[0];
+  if (drawn < kinds[1] + kinds[2]) {
+    const Vocabulary::Bytes& place = drawn < kinds[1] ? chance_.one_of(words_.analog) : chance_.one_of(words_.commands);
+    const std::uint32_t number = value();
+    Stimulus stimulus{.wait = pause, .what = What::Memory, .place = place.place};
+    for (std::uint32_t i = place.count; i-- > 0;) stimulus.bytes.push_back(static_cast<std::uint8_t>(number >> 8 * i));
+    return stimulus;
+  }
+  Stimulus stimulus = frame();
+  stimulus.wait = pause;
+  return stimulus;
+}
+
+void TrialMaker::remember(const std::vector<std::uint8_t>& frame) {
+  if (remembered_.size() < kMostRemembered)
+    remembered_.push_back(frame);
+  else
+    remembered_[static_cast<std::size_t>(chance_.below(kMostRemembered))] = frame;
+}
+
+/// A field of a request is another value; then its CRC is right again.
+std::vector<std::uint8_t> TrialMaker::well_formed() {
+  std::vector<std::uint8_t> frame = chance_.one_of(words_.requests);
+  frame.resize(frame.size() - 2);
+  for (std::uint64_t changes = chance_.below(4); changes > 0; --changes) {
+    const std::size_t at = 1 + static_cast<std::size_t>(chance_.below(frame.size() - 1));
+    constexpr std::uint8_t kEdges[]{0, 1, 2, 0x7D, 0x7F, 0x80, 0xFF};
+    frame[at] = chance_.one_in(2) ? chance_.one_of(kEdges) : static_cast<std::uint8_t>(value());
+  }
+  if (chance_.one_in(4))
+    frame.resize(std::min(kLongestFrame - 2, frame.size() + static_cast<std::size_t>(chance_.below(120))));
+  modbus::add_crc(frame);
+  return frame;
+}
+
+/// What the program compares characters with, now and then ended as lines are.
+std::vector<std::uint8_t> TrialMaker::characters() {
+  std::vector<std::uint8_t> frame;
+  const std::uint64_t count = 1 + chance_.below(chance_.one_in(8) ? kLongestFrame - 1 : 12);
+  for (std::uint64_t i = 0; i < count; ++i)
+    frame.push_back(chance_.one_in(3) ? chance_.byte() : static_cast<std::uint8_t>(value()));
+  if (chance_.one_in(3)) frame.push_back('\r');
+  return frame;
+}
+
+void TrialMaker::change(std::vector<std::uint8_t>& frame) {
+  const std::size_t at = static_cast<std::size_t>(chance_.below(frame.size()));
+  switch (chance_.below(6)) {
+    case 0:
+      frame[at] ^= static_cast<std::uint8_t>(1u << chance_.below(8));
+      break;
+    case 1:
+      frame[at] = static_cast<std::uint8_t>(value());
+      break;
+    case 2:
+      frame.resize(at + 1);
+      break;
+    case 3:
+      frame.insert(frame.begin() + static_cast<std::ptrdiff_t>(at), chance_.byte());
+      break;
+    case 4:
+      frame.erase(frame.begin() + static_cast<std::ptrdiff_t>(at));
+      break;
+    default:
+      const auto other = words_.requests.empty() ? characters() : chance_.one_of(words_.requests);
+      frame.insert(frame.end(), other.begin(), other.end());
+  }
+}
+
+Stimulus TrialMaker::frame() {
+  Stimulus stimulus{.what = Stimulus::What::Frame};
+  std::vector<std::uint8_t>& bytes = stimulus.bytes;
+  const bool known = !words_.requests.empty();
+  if (known && !chance_.one_in(4))
+    bytes = well_formed();
+  else if (!remembered_.empty() && !chance_.one_in(3))
+    bytes = chance_.one_of(remembered_);
+  else
+    bytes = characters();
+  if (chance_.one_in(known ? 5 : 2)) change(bytes);
+  if (bytes.empty()) bytes.push_back(chance_.byte());
+  if (bytes.size() > kLongestFrame) bytes.resize(kLongestFrame);
+  if (chance_.one_in(12)) stimulus.gap = static_cast<Time>(chance_.below(6)) * kMillisecond;
+  return stimulus;
+}
+
+}  // namespace s7200::tools

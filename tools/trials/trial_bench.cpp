@@ -1,0 +1,149 @@
+#include "tools/trials/trial_bench.hpp"
+
+#include <algorithm>
+
+namespace s7200::tools {
+namespace {
+
+constexpr EventOwner kOwnerOfPorts{0}, kOwnerOfCpu{1}, kOwnerOfLine{2};
+constexpr std::uint8_t kCharacter = 0;
+
+}  // namespace
+
+void TrialBench::Port::configure(const SerialFormat& format, Time) { state.format = format; }
+
+void TrialBench::Port::enable_receiver(bool enabled, Time at) {
+  if (enabled && !state.listens) state.listens_since = at;
+  state.listens = enabled;
+}
+
+void TrialBench::Port::send(std::uint8_t byte, Time at) {
+  if (number == bench->number_) bench->done_.sent.push_back({at, byte, bench->transmit_op_});
+  state.sends = true;
+  state.sent_until = at + state.format.character_time();
+  bench->queue_.schedule(state.sent_until, kOwnerOfPorts, number);
+}
+
+void TrialBench::Port::send_break(int bit_times, Time at) {
+  state.sends = true;
+  state.sent_until = at + state.format.bit_times(bit_times);
+  bench->queue_.schedule(state.sent_until, kOwnerOfPorts, number);
+}
+
+TrialBench::TrialBench(std::shared_ptr<const Program> program, std::uint8_t port)
+    : cpu_(std::move(program), queue_, kOwnerOfCpu, {&port_[0], &port_[1]}), number_(port), contacts_(cpu_.program()) {
+  for (std::uint8_t i = 0; i < port_.size(); ++i) {
+    port_[i].bench = this;
+    port_[i].number = i;
+  }
+  cpu_.use_steady_scans(SteadyScansUse::On);
+  cpu_.set_sink(this);
+}
+
+void TrialBench::power_up() {
+  queue_ = EventQueue();
+  for (Port& port : port_) port.state = {};
+  done_ = {};
+  ended_ = false;
+  cpu_.power_up();
+}
+
+void TrialBench::handle_due() {
+  while (queue_.next() <= cpu_.time()) {
+    const Event event = queue_.pop();
+    if (event.owner == kOwnerOfCpu) cpu_.handle(event);
+    if (event.owner != kOwnerOfPorts) continue;
+    port_[event.what].state.sends = false;
+    cpu_.character_sent(event.at, event.what);
+  }
+}
+
+void TrialBench::run_until(Time end) {
+  cpu_.pause_at_scan_end(static_cast<bool>(look_));
+  while (cpu_.time() < end && !stopped() && !ended_) {
+    cpu_.run(end);
+    handle_due();
+    if (look_ && !look_(cpu_)) ended_ = true;
+  }
+}
+
+Time TrialBench::give(const Stimulus& frame) {
+  const SerialFormat format = port_[number_].state.format;
+  const PortState& port = port_[number_].state;
+  const Time to_report = format.half_bits(2 * (format.bits() - format.stop_bits) + 1);
+  Time start = cpu_.time();
+  for (const std::uint8_t byte : frame.bytes) {
+    queue_.schedule(start + to_report, kOwnerOfLine, kCharacter);
+    run_until(start + to_report);
+    if (stopped() || ended_) return cpu_.time();
+    const bool heard = port.listens && port.listens_since <= start;
+    const auto data = static_cast<std::uint8_t>(format.data_bits == 7 ? byte & 0x7F : byte);
+    if (heard) cpu_.character_received({.byte = data, .start = start, .end = start + to_report}, number_);
+    start += format.character_time() + frame.gap;
+  }
+  const Time end = start - frame.gap, had_sent = port.sent_until;
+  run_until(end + kPatience);
+  while (port.sent_until > had_sent && !stopped() && !ended_ &&
+         (port.sends || cpu_.time() < port.sent_until + port.format.silence()))
+    run_until(std::max(cpu_.time() + 1, port.sent_until + port.format.silence()));
+  return cpu_.time();
+}
+
+Time TrialBench::apply(const Stimulus& stimulus, Time at) {
+  run_until(at);
+  if (stopped() || ended_) return cpu_.time();
+  if (stimulus.what == Stimulus::What::Frame) return give(stimulus);
+  if (stimulus.what == Stimulus::What::Input)
+    cpu_.set_input(stimulus.place, stimulus.bytes.front(), cpu_.time());
+  else
+    cpu_.poke(stimulus.place, stimulus.bytes);
+  return cpu_.time();
+}
+
+std::vector<Time> TrialBench::apply(const Trial& trial) {
+  std::vector<Time> begun;
+  for (const Stimulus& stimulus : trial) {
+    run_until(cpu_.time() + stimulus.wait);
+    begun.push_back(cpu_.time());
+    apply(stimulus, cpu_.time());
+  }
+  return begun;
+}
+
+void TrialBench::record(const TraceRecord& record) {
+  if (record.kind == TraceKind::OutputChanged) done_.outputs.push_back({record.at, record.op, record.byte});
+  if (record.kind == TraceKind::Transmit && record.port == number_) transmit_op_ = record.op;
+}
+
+void TrialBench::instruction(const InstructionRecord& record) {
+  if (watching_) contacts_.look_at(record);
+  if (watched_mask_ == 0) return;
+  const auto value = static_cast<std::uint8_t>(cpu_.state().image[watched_place_] & watched_mask_);
+  if (value != watched_value_ || (record.powered && writers_[record.op])) last_writer_ = record.op;
+  watched_value_ = value;
+}
+
+void TrialBench::watch_writes(std::uint32_t place, std::uint8_t mask, const std::vector<std::uint32_t>& writers) {
+  watched_place_ = place;
+  watched_mask_ = mask;
+  watched_value_ = static_cast<std::uint8_t>(cpu_.state().image[place] & mask);
+  writers_.assign(cpu_.program().ops.size(), false);
+  for (const std::uint32_t op : writers) writers_[op] = true;
+  last_writer_.reset();
+}
+
+TrialBench::Snapshot TrialBench::snapshot() const {
+  Snapshot snapshot{cpu_.state(), queue_, {}, done_};
+  for (std::size_t i = 0; i < port_.size(); ++i) snapshot.port[i] = port_[i].state;
+  return snapshot;
+}
+
+void TrialBench::restore(const Snapshot& snapshot) {
+  cpu_.restore(snapshot.cpu);
+  queue_ = snapshot.queue;
+  for (std::size_t i = 0; i < port_.size(); ++i) port_[i].state = snapshot.port[i];
+  done_ = snapshot.done;
+  ended_ = false;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,39 @@
+// What a program listens to: where something from outside can reach it, and the values that mean something to it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "interpreter/analysis/facts.hpp"
+
+namespace s7200::tools {
+
+struct Vocabulary {
+  struct Bytes {
+    std::uint32_t place = 0;  ///< in the image; of input points the number of the byte
+    std::uint8_t count = 1;
+    std::uint8_t mask = 0xFF;  ///< of input points: those that it looks at
+    bool operator==(const Bytes&) const = default;
+  };
+  std::vector<Bytes> inputs;                          ///< bytes of input points
+  std::vector<Bytes> analog;                          ///< words of analog inputs
+  std::vector<Bytes> commands;                        ///< V and M that it reads, and that only its data block or nobody sets
+  std::vector<std::uint32_t> constants;               ///< that its instructions have, each once
+  std::vector<Time> presets;                          ///< of its timers, in ns
+  std::optional<std::uint8_t> port{};                 ///< at which it receives; nothing: at none
+  std::vector<std::vector<std::uint8_t>> requests{};  ///< frames that it has answered
+
+  /// Adds what another program listens to.
+  void add(const Vocabulary& other);
+  /// Whether anything from outside reaches it but time.
+  bool empty() const { return inputs.empty() && analog.empty() && commands.empty() && !port; }
+};
+
+Vocabulary vocabulary_of(const Facts& facts);
+
+/// Requests of Modbus RTU that the program answers when it is ready, a few of each function; of a program in PPI mode none.
+std::vector<std::vector<std::uint8_t>> answered_requests(std::shared_ptr<const Program> program, const Vocabulary& words);
+
+}  // namespace s7200::tools
