@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -307,8 +308,10 @@ std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation) 
 }
 
 std::string symbol_table_text(const stl::Source& source) {
+  std::vector<stl::Symbol> symbols = source.symbols;
+  std::ranges::copy(stl::names_beside_addresses(source), std::back_inserter(symbols));
   std::string text;
-  for (const stl::Symbol& symbol : source.symbols)
+  for (const stl::Symbol& symbol : symbols)
     if (symbol.value)
       text += fmt::format("{}\t{}\t{}\n", symbol.name, stl::to_text(stl::Operand{*symbol.value, {}}), symbol.comment);
   return text.empty() ? text : "Symbol\tAddress\tComment\n" + text;

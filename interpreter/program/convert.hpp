@@ -32,7 +32,8 @@ std::string notation_names();
 /// [Convert.MicroDosWritesConstantsWithKButNotLabelsAndRoutines, Convert.GermanLettersAndU]
 std::optional<std::string> convert(stl::ParseResult& parsed, Notation notation);
 
-/// The symbols of a source as a table that Micro/WIN takes: name, address and comment, with tabs between. Empty without any.
+/// The symbols of a source that convert() has read, also those with their address in the text, as a table that Micro/WIN takes:
+/// name, address and comment, with tabs between. Empty without any.
 std::string symbol_table_text(const stl::Source& source);
 
 }  // namespace s7200

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <map>
+#include <set>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -72,6 +73,13 @@ struct WrittenName {
     address = text.substr(std::min(colon + 1, text.size()));
   }
 };
+
+/// The address that a name with or without & or * stands for.
+OperandValue without_mark(const OperandValue& value) {
+  if (const auto* target = std::get_if<AddressOf>(&value)) return target->target;
+  if (const auto* pointer = std::get_if<Indirect>(&value)) return pointer->pointer;
+  return value;
+}
 
 /// Names with what they stand for. One that is written in other capitals is found too, if it can be no other.
 template <typename Thing>
@@ -237,12 +245,6 @@ class Resolver {
                                    fmt::format("{} is not {}", written.name, here)});
   }
 
-  static OperandValue without_mark(const OperandValue& value) {
-    if (const auto* target = std::get_if<AddressOf>(&value)) return target->target;
-    if (const auto* pointer = std::get_if<Indirect>(&value)) return pointer->pointer;
-    return value;
-  }
-
   static void put(Operand& operand, const OperandValue& value, char mark) {
     auto& name = std::get<Name>(operand.value);
     const auto* address = std::get_if<Address>(&value);
@@ -300,6 +302,28 @@ const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view n
   for (const Symbol& symbol : symbols) names.add(symbol.name, symbol);
   const Symbol* found = names.find(name);
   return found ? found : find_system_symbol(name);
+}
+
+std::vector<Symbol> names_beside_addresses(const Source& source) {
+  Names<Symbol> known;
+  for (const Symbol& symbol : source.symbols) known.add(symbol.name, symbol);
+  std::set<std::string, std::less<>> seen;
+  std::vector<Symbol> found;
+  for (const Line& line : source.lines) {
+    const auto* statement = std::get_if<Statement>(&line);
+    if (!statement) continue;
+    const bool names_routine = statement->mnemonic == "CALL" || statement->mnemonic == "ATCH";
+    for (std::size_t i = names_routine ? 1 : 0; i < statement->operands.size(); ++i) {
+      const Operand& operand = statement->operands[i];
+      const WrittenName written(operand.symbol);
+      const OperandValue value = without_mark(operand.value);
+      const auto* address = std::get_if<Address>(&value);
+      const bool local = written.local || (address && address->area == "L");
+      if (written.name.empty() || local || known.find(written.name) || find_system_symbol(written.name)) continue;
+      if (seen.emplace(written.name).second) found.push_back({std::string(written.name), value, operand.position, {}});
+    }
+  }
+  return found;
 }
 
 std::string symbol_of_smart(const Source& source) {

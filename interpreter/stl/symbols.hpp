@@ -32,6 +32,10 @@ const Symbol* find_symbol(const std::vector<Symbol>& symbols, std::string_view n
 /// stays, with the reason.
 void resolve_symbols(ParseResult& result);
 
+/// The names in the statements of a resolved program that have their address beside them, `Pump:Q0.0`, and that neither its
+/// tables nor the programming software define: in the order of their first place, each once. Local variables are not among them.
+std::vector<Symbol> names_beside_addresses(const Source& source);
+
 /// The first name in the statements of a program that only Micro/WIN SMART has by itself; empty if there is none. Names that
 /// the program defines do not count.
 std::string symbol_of_smart(const Source& source);

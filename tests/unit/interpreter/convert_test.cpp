@@ -222,5 +222,17 @@ TEST(Convert, KeepsNamesAmongBlocksAndTheirTable) {
   EXPECT_NE(listing->find("LD      I0.0\n"), std::string::npos) << *listing;
 }
 
+TEST(Convert, MicroWinTableHasTheNamesWithTheirAddressesInTheText) {
+  std::string why;
+  stl::ParseResult parsed = read_source(
+                                "LD Always_On:SM0.0\nA Start:I0.0\n= Lamp:Q0.0\nMOVD &Table:VB100, Next:VD20\n"
+                                "S Lamp:Q0.0, \"Two of them\":2\nMEND\n",
+                                "plant.stl", why)
+                                ->parsed;
+  ASSERT_TRUE(convert(parsed, Notation::MicroWin)) << parsed.diagnostics.front().message;
+  EXPECT_EQ(symbol_table_text(parsed.source),
+            "Symbol\tAddress\tComment\nStart\tI0.0\t\nLamp\tQ0.0\t\nTable\tVB100\t\nNext\tVD20\t\nTwo of them\t2\t\n");
+}
+
 }  // namespace
 }  // namespace s7200
