@@ -14,8 +14,8 @@
 namespace s7200 {
 namespace {
 
-enum class Dialect : std::uint8_t { Scl, Il, Melsec, Omron, Step7 };
-constexpr std::size_t kDialects = 5;
+enum class Dialect : std::uint8_t { Scl, Il, Melsec, Omron, Step7, Rockwell };
+constexpr std::size_t kDialects = 6;
 
 struct DialectText {
   std::string_view what, hint;
@@ -32,6 +32,8 @@ constexpr std::array<DialectText, kDialects> kTexts{{
     {"a program for Omron", "the STL of the S7-200 has = for OUT, LDN for LD NOT, TON for TIM, MOVW for MOV(21)"},
     {"STL of STEP 7 for the S7-300 and S7-400",
      "the S7-200 has no accumulators to load with L and T: MOVB, MOVW and MOVD move a value, and TON is a timer"},
+    {"a program for Allen-Bradley controllers",
+     "the STL of the S7-200 has LD, A and O for XIC, LDN, AN and ON for XIO, = for OTE, S and R for OTL and OTU; I0.0 for I:0/0"},
 }};
 
 /// A line of code in capitals, without its comment and a semicolon at its end.
@@ -138,6 +140,22 @@ bool has_function_number(const CodeLine& line) {
           word.back() == ')');
 }
 
+/// `XIC(Start)OTE(Motor);`, as Logix exports a rung.
+bool has_logix_rung(const CodeLine& line) {
+  return std::ranges::any_of(std::array{"XIC(", "XIO(", "OTE(", "OTL(", "OTU("},
+                             [&](std::string_view word) { return line.text.find(word) != line.text.npos; });
+}
+
+/// `I:1/0`, `B3:0/1`, `N7:10`, `T4:0/DN`: a file of the SLC 500 and its element.
+bool has_file_address(const CodeLine& line) {
+  return std::ranges::any_of(line.words, [](std::string_view word) {
+    const std::size_t colon = std::min(word.find(':'), word.size());
+    const std::string_view file = word.substr(0, colon), element = word.substr(std::min(colon + 1, word.size()));
+    return !file.empty() && std::string_view("IOSBTCRNF").find(file.front()) != file.npos &&
+           (file.size() == 1 || is_number(file.substr(1))) && !element.empty() && stl::is_digit(element.front());
+  });
+}
+
 /// A sign says how surely a line shows a dialect. A text is in a dialect from kEnough on.
 struct DialectSign {
   Dialect dialect;
@@ -157,6 +175,8 @@ constexpr DialectSign kSigns[] = {
     {Dialect::Melsec, has_melsec_output, 4},
     {Dialect::Omron, has_not_as_operand, 3},
     {Dialect::Omron, has_function_number, 2},
+    {Dialect::Rockwell, has_logix_rung, 4},
+    {Dialect::Rockwell, has_file_address, 1},
 };
 
 /// A word that a line begins with, with so many operands; -1: any number of them.
@@ -215,6 +235,11 @@ constexpr FirstWord kFirstWords[] = {
     {Dialect::Omron, "CNT",                  2, 2}, {Dialect::Omron, "KEEP",                1, 2},
     {Dialect::Omron, "DIFU",                 1, 2}, {Dialect::Omron, "DIFD",                1, 2},
     {Dialect::Omron, "AND",                  1, 1}, {Dialect::Omron, "OR",                  1, 1},
+    {Dialect::Rockwell, "XIC",              -1, 2}, {Dialect::Rockwell, "XIO",             -1, 2},
+    {Dialect::Rockwell, "OTE",              -1, 2}, {Dialect::Rockwell, "OTL",             -1, 2},
+    {Dialect::Rockwell, "OTU",              -1, 2}, {Dialect::Rockwell, "BST",             -1, 2},
+    {Dialect::Rockwell, "NXB",              -1, 2}, {Dialect::Rockwell, "BND",             -1, 2},
+    {Dialect::Rockwell, "SOR",              -1, 2}, {Dialect::Rockwell, "EOR",             -1, 2},
 };
 
 // Mnemonics of the S7-200 that other dialects have too.

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "interpreter/program/cpu_choice.hpp"
 #include "interpreter/program/dialect.hpp"
 #include "interpreter/stl/blocks.hpp"
@@ -163,10 +164,29 @@ std::optional<SourceText> read_plain(std::string_view text, const std::string& n
   return SourceText{std::move(*listing), {}, SourceKind::Listing};
 }
 
+/// The length of the mnemonic in a line without the blank after it, `LDI0.0`; 0 if it is something else.
+std::size_t mnemonic_without_blank(std::string_view code) {
+  std::string why;
+  for (std::size_t length = std::min<std::size_t>(code.size(), 6); length > 0; --length) {
+    const auto operand = find_instruction(stl::upper_case(code.substr(0, length)))
+                             ? stl::parse_operand(code.substr(length), why)
+                             : std::nullopt;
+    const auto* const address = operand ? std::get_if<stl::Address>(&operand->value) : nullptr;
+    if (address && address->size != stl::Size::None) return length;
+  }
+  return 0;
+}
+
 /// The message about a text that has no statement in its first lines.
 std::string why_not_stl(std::string_view text) {
-  while (!text.empty())
-    if (stl::has_drawing(stl::take_line(text))) return fmt::format("{}: {}", stl::kIsDrawing, stl::kForDrawing);
+  std::uint32_t number = 0;
+  while (!text.empty()) {
+    const std::string_view line = stl::take_line(text), code = stl::trim(line);
+    ++number;
+    if (stl::has_drawing(line)) return fmt::format("{}: {}", stl::kIsDrawing, stl::kForDrawing);
+    if (const std::size_t length = mnemonic_without_blank(code))
+      return fmt::format("line {}: a blank is missing between {} and its operand", number, code.substr(0, length));
+  }
   return "it is not an STL program: there is no instruction in its first lines; a symbol table has rows such as Motor = "
          "Q0.0";
 }

@@ -281,6 +281,12 @@ class DocumentReader {
     return words;
   }
 
+  /// `Network Comment`, which Micro/WIN prints below the title of a network that has no comment of its own.
+  static bool is_words_about_network(std::string_view code) {
+    const auto words = split_words(code);
+    return words.size() > 1 && upper_case(words[0]) == "NETWORK" && std::ranges::all_of(words[1], is_letter);
+  }
+
   LineReading first_look(std::string_view line) {
     LineReading reading;
     reading.clean = without_debris(line);
@@ -291,7 +297,7 @@ class DocumentReader {
       return reading;
     }
     std::string_view mnemonic = leading_mnemonic(code);
-    reading.candidate = is_known(upper_case(mnemonic)) || routine_heading(code);
+    reading.candidate = (is_known(upper_case(mnemonic)) && !is_words_about_network(code)) || routine_heading(code);
     if (!reading.candidate) mnemonic = code.substr(0, std::max<std::size_t>(1, code.find_first_of(" \t\f,;")));
     reading.mnemonic = mnemonic;
     reading.debris = is_damaged(line, reading.candidate);

@@ -374,6 +374,13 @@ std::string hint_for(const std::string& expected, std::string_view rest) {
   return {};
 }
 
+/// Whether words are no statement: neither an instruction in capitals, nor one letter case with an address behind it.
+bool reads_like_prose(std::string_view words) {
+  const std::string_view first = words.substr(0, words.find_first_of(" \t"));
+  if (first.empty() || !std::ranges::all_of(first, is_letter) || std::ranges::all_of(first, is_upper)) return false;
+  return std::ranges::any_of(first, is_upper) || std::ranges::none_of(words, is_digit);
+}
+
 bool separates_words(char c) { return is_blank(c) || c == ',' || c == ';'; }
 
 /// The word of a line that a place is in, or ends.
@@ -782,8 +789,8 @@ class LineReader {
   }
 
   void report_unexpected(Place where, std::string expected) {
-    if (report_heading(where) || report_time(where) || report_assignment() || report_look_alike(where) ||
-        report_second_statement(where))
+    if (report_heading(where) || report_time(where) || report_semicolon_comment(where) || report_assignment() ||
+        report_look_alike(where) || report_second_statement(where))
       return;
     const std::string_view rest(where, static_cast<std::size_t>(end() - where));
     const bool at_start = text_.substr(0, text_.size() - rest.size()).find_first_not_of(" \t\f") == std::string_view::npos;
@@ -852,6 +859,18 @@ class LineReader {
     std::string text(text_);
     text.replace(static_cast<std::size_t>(word.data() - text_.data()), word.size(), meant);
     LineReader({text, {}, lines_.starts}, result_).read(false);
+  }
+
+  /// Reports `LD I0.0 ; start button`. Returns true after a message.
+  bool report_semicolon_comment(Place where) {
+    const std::string_view code = text_.substr(0, comment_start(text_));
+    const std::size_t semicolon = code.substr(0, static_cast<std::size_t>(where - begin())).rfind(';');
+    if (semicolon == std::string_view::npos) return false;
+    const std::string_view words = trim(code.substr(semicolon + 1));
+    if (!reads_like_prose(words)) return false;
+    report(position(Range(words.data(), words.data() + words.size())), fmt::format("{} is no instruction", shortened(words)),
+           "a comment begins with //, not with ;", "comments after a semicolon");
+    return true;
   }
 
   /// Reports a second statement in a line: `LD I0.0 = Q0.0`, `LD I0.0; A I0.1`, `LD I0.0 AW>= VW0, 5`. Returns true after a

@@ -29,6 +29,7 @@ constexpr const char* kIl = "this is IL (instruction list) of IEC 61131-3, not S
 constexpr const char* kMelsec =
     "this is a program for Mitsubishi MELSEC, or for another make with the same mnemonics, not STL of the S7-200";
 constexpr const char* kOmron = "this is a program for Omron, not STL of the S7-200";
+constexpr const char* kRockwell = "this is a program for Allen-Bradley controllers, not STL of the S7-200";
 constexpr const char* kScl = "this is SCL or ST (structured text), not STL of the S7-200";
 
 std::string one(int line, const char* message) { return std::to_string(line) + ": " + message + "\n"; }
@@ -72,6 +73,13 @@ TEST(Dialect, MelsecAndOmronAreKnown) {
   EXPECT_EQ(messages("LD X000\nANI X001\nOUT Y000\nEND\n"), one(2, kMelsec));
   EXPECT_EQ(messages("LD M0\nOUT T0 K100\nLD T0\nSET Y1\nFEND\n"), one(2, kMelsec));
   EXPECT_EQ(messages("LD 0.00\nAND NOT 0.01\nOUT 10.00\nTIM 000 #0100\n"), one(2, kOmron));
+}
+
+TEST(Dialect, AllenBradleyIsKnown) {
+  EXPECT_EQ(messages("XIC I:0/0\nXIO I:0/1\nOTE O:0/1\n"), one(1, kRockwell));
+  EXPECT_EQ(messages("SOR XIC I:1.0/3 BST XIC B3:0/1 NXB XIC T4:0/DN BND OTE O:2.0/0 EOR\nSOR XIC N7:0/2 OTU B3:0/1 EOR\n"),
+            one(1, kRockwell));
+  EXPECT_EQ(messages("XIC(Start)XIO(Stop)OTE(Motor);\n"), one(1, kRockwell));
 }
 
 TEST(Dialect, StructuredTextIsKnown) {

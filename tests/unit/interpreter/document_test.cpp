@@ -331,6 +331,12 @@ TEST(Document, StatementsWithOnlySymbolsAreKeptInAListing) {
   EXPECT_EQ(found[1].operands.at(0).value, OperandValue(Name{"prepare"}));
 }
 
+TEST(Document, WordsAboutANetworkAreNoHeadingOfOne) {
+  const ParseResult result = read("NETWORK 1 // Network Title\nNetwork Comment\n\nLD I0.0\n= Q0.0\nMEND\n");
+  EXPECT_TRUE(result.diagnostics.empty()) << result.diagnostics.front().message;
+  EXPECT_EQ(result.left_out, std::vector<std::uint32_t>{2});
+}
+
 TEST(Document, SaysSoWhenThereIsNoStl) {
   for (const char* text : {"", "\n\n", "Only a few words about a pump.", "// a comment\n", "   ³\n   ÃÄÄÄ´\n"}) {
     const ParseResult result = read(text);

@@ -28,7 +28,15 @@ TEST(ReadSource, OtherFilesAreRefusedWithoutQuotingThem) {
         "[server]\npassword = secret\n", "TOKEN=ghp_0123456789\n", "ghp_0123456789\n", "#!/bin/sh\nset -e\nexit 0\n",
         "<!DOCTYPE html>\n<html>404</html>\n", "time_ms,address,value\n2.000000,Q0.3,1\n", "A word\n", "port 22\n",
         "SELECT name FROM users\n"})
-    EXPECT_EQ(refusal(text), "it is not an STL program: there is no instruction in its first lines; a symbol table has rows such as Motor = Q0.0") << text;
+    EXPECT_EQ(
+        refusal(text),
+        "it is not an STL program: there is no instruction in its first lines; a symbol table has rows such as Motor = Q0.0")
+        << text;
+}
+
+TEST(ReadSource, SaysThatBlanksBeforeOperandsAreMissing) {
+  EXPECT_EQ(refusal("LDI0.0\nAI0.1\n=Q0.0\n"), "line 1: a blank is missing between LD and its operand");
+  EXPECT_EQ(refusal("// pump\n\nMOVBVB0,VB1\nLDNSM0.1\n"), "line 4: a blank is missing between LDN and its operand");
 }
 
 TEST(ReadSource, OnlyTheStartOfAFileDecides) {

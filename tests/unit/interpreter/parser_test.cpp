@@ -428,7 +428,13 @@ TEST(Parser, TwoStatementsInOneLineAreNamed) {
   }
 }
 
-TEST(Parser, ACommentAfterASemicolonIsNoStatement) { EXPECT_EQ(error("LD I0.0 ; lamp").message, "unexpected 'l'"); }
+TEST(Parser, ACommentAfterASemicolonIsNoStatement) {
+  for (const char* line :
+       {"LD I0.0 ; lamp", "LD I0.0 ; start button", "= Q0.0 ; motor", "MOVB 1, VB0 ;Pump 1", "A I0.1; the level is high"}) {
+    const Diagnostic found = error(line);
+    EXPECT_EQ(found.hint, "a comment begins with //, not with ;") << line << ": " << found.message;
+  }
+}
 
 TEST(Parser, NumbersAtTheBeginningOfLinesHaveOneCause) {
   EXPECT_EQ(count_causes(parse("1\n2\n3\nLD I0.0\n", "test.stl").diagnostics), 1U);
