@@ -301,19 +301,28 @@ bool Conversation::announces_more(const Stream& stream, const RecordedFrame& fra
   return begins_echo || stream.reader->announces_more(bytes, frame.direction, open);
 }
 
-std::size_t Conversation::announced_rows(const Stream& stream, RecordedFrame whole,
-                                         std::span<const RecordedFrame> rows) const {
+bool Conversation::ends_as_announced(const Stream& stream, const RecordedFrame& frame, const Rest& rest) const {
+  if (frame.bytes.size() <= rest.begin + 1 || announces_more(stream, frame, rest)) return false;
+  RecordedFrame shorter = frame;
+  shorter.bytes.pop_back();
+  return announces_more(stream, shorter, rest);
+}
+
+Conversation::AnnouncedRows Conversation::announced_rows(const Stream& stream, RecordedFrame whole,
+                                                         std::span<const RecordedFrame> rows) const {
   constexpr std::size_t kMostRows = 32;
-  if (stamps_.exact && stream.request_of(whole) == nullptr) return 1;
+  if (stamps_.exact && stream.request_of(whole) == nullptr) return {};
   for (std::size_t count = 1; count <= std::min(rows.size(), kMostRows); ++count) {
     const Rest rest = rest_after_messages(stream, whole);
-    if (rest.begin == whole.bytes.size()) return count;
+    if (rest.begin == whole.bytes.size()) return {.count = count};
+    const bool alone = count > 1 && stream.reader->judge(rows[count - 1], nullptr).right;
+    if (count > 1 && !alone && ends_as_announced(stream, whole, rest)) return {.count = count, .right = false};
     if (count == rows.size() || !announces_more(stream, whole, rest) || !may_be_divided(rows[count - 1], rows[count]) ||
         (stamps_.exact && overlap(rows[count - 1], rows[count], stamps_)))
-      return 1;
+      return {};
     append(whole, rows[count]);
   }
-  return 1;
+  return {};
 }
 
 std::size_t Conversation::close_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const {
@@ -368,12 +377,14 @@ std::vector<ReadFrame> Conversation::take(std::span<const RecordedFrame>& rows) 
     return all;
   }
   const bool may_go_on = rows.size() > 1 && may_be_divided(rows[0], rows[1]) && !stream.reader->messages_share_frames();
-  std::size_t count = may_go_on ? announced_rows(stream, frame, rows) : 1;
+  const AnnouncedRows announced = may_go_on ? announced_rows(stream, frame, rows) : AnnouncedRows{};
+  std::size_t count = announced.right ? announced.count : 1;
   if (count == 1 && may_go_on && follows_closely(rows[0], rows[1], stamps_)) count = close_rows(stream, frame, rows);
   for (const RecordedFrame& row : rows.subspan(1, count - 1)) append(frame, row);
   rows = rows.subspan(count);
   std::vector<ReadFrame> all = add(std::move(frame));
   all.back().pieces = count;
+  if (count == 1) all.back().wrong_with_rows = announced.count - 1;
   return all;
 }
 
@@ -426,6 +437,10 @@ void ConversationNotes::add(const ReadFrame& frame) {
                                                                        : "a frame";
   if (frame.pieces > 1 && in_pieces_.count++ == 0)
     in_pieces_.first = fmt::format("{}: {} in {} pieces", frame.frame.place, kind, frame.pieces);
+  if (frame.wrong_with_rows > 0 && wrong_in_pieces_.count++ == 0)
+    wrong_in_pieces_.first =
+        fmt::format("{}: with the {} it has the length that it announces", frame.frame.place,
+                    frame.wrong_with_rows == 1 ? "row below" : fmt::format("{} rows below", frame.wrong_with_rows));
   if (!frame.ignored.empty() && ignored_.count++ == 0)
     ignored_.first = fmt::format("{}: '{}' beside the bytes", frame.frame.place, frame.ignored);
   if (frame.not_read && !frame.frame.doubt->readings.empty()) not_read_.add(frame.frame);
@@ -440,6 +455,7 @@ std::vector<std::string> ConversationNotes::list() const {
   };
   add(ignored_, "not read, as the bytes are a right frame without it");
   add(in_pieces_, "joined, as only the whole is right");
+  add(wrong_in_pieces_, "what is wrong is the check sum of the whole");
   add(echoes_, "an adapter for two wires hears what it sends; that is not an answer");
   return notes;
 }

@@ -30,6 +30,7 @@ struct ReadFrame {
   std::string ignored{};                  ///< a word beside its bytes that was not read
   bool echo = false;                      ///< the request once more, as an adapter for two wires hears itself
   std::size_t pieces = 1;                 ///< rows or packets of the recording that it was put together from
+  std::size_t wrong_with_rows = 0;        ///< so many rows below give it the length that it announces, not its check sum
   std::optional<std::size_t> other{};     ///< of an answer its request, of a request its answer: number in the conversation
   std::optional<std::size_t> repeats{};   ///< number of the request that this one repeats, or is the late echo of
   std::optional<Time> silence{};          ///< before it, as known_silence() has it
@@ -111,8 +112,8 @@ class Conversation {
   std::vector<ReadFrame> take_complete(RecordedFrame& frame);
 
   /// Reads the first of the rows, which a log may have divided. Later rows belong to it as long as it says that more of it
-  /// is to come, if the whole is right, or if they follow closely and only together they are right. `rows` is left with the
-  /// rest.
+  /// is to come, if the whole is right, or if they follow closely and only together they are right.
+  /// `rows` is left with the rest.
   std::vector<ReadFrame> take(std::span<const RecordedFrame>& rows);
 
  private:
@@ -151,9 +152,15 @@ class Conversation {
   bool is_several(const Stream& stream, const RecordedFrame& frame) const;
   Rest rest_after_messages(const Stream& stream, const RecordedFrame& frame) const;
   bool announces_more(const Stream& stream, const RecordedFrame& frame, const Rest& rest) const;
+  /// Whether a frame ends just where the beginning of its last message says, though that message is not right.
+  bool ends_as_announced(const Stream& stream, const RecordedFrame& frame, const Rest& rest) const;
   /// The number of rows that are one frame, the first of which is `whole`: by their contents, and because they follow
   /// closely.
-  std::size_t announced_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
+  struct AnnouncedRows {
+    std::size_t count = 1;
+    bool right = true;  ///< false: they have the length that the first of them announces, and a wrong check sum
+  };
+  AnnouncedRows announced_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   std::size_t close_rows(const Stream& stream, RecordedFrame whole, std::span<const RecordedFrame> rows) const;
   ReadFrame read(Stream& stream, RecordedFrame frame, bool echo);
   /// The row with its bytes if they are not in doubt, or if one reading of the row is a right frame.
@@ -201,7 +208,7 @@ class ConversationNotes {
     std::string first{};  ///< `line 2: an answer in 2 pieces`
     std::size_t count = 0;
   };
-  Frames in_pieces_{}, echoes_{}, ignored_{};
+  Frames in_pieces_{}, wrong_in_pieces_{}, echoes_{}, ignored_{};
   NamedRows not_read_{};
 };
 

@@ -87,6 +87,10 @@ std::optional<LineRecording> read_strace(std::string_view bytes, const ReadingCh
 bool looks_like_tcpdump(std::string_view bytes);
 std::optional<LineRecording> read_tcpdump(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
+/// Recognises tshark by rows of a packet with the head of IP, or by lines about packets alone, which are refused.
+bool looks_like_tshark(std::string_view bytes);
+std::optional<LineRecording> read_tshark(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
 /// Recognises JSON lines by an object in a line that has bytes.
 bool looks_like_json_lines(std::string_view bytes);
 std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices& choices, std::string& why);
@@ -94,6 +98,10 @@ std::optional<LineRecording> read_json_lines(std::string_view bytes, const Readi
 /// Recognises key-value lines by a line with several pairs, one of which has bytes.
 bool looks_like_key_values(std::string_view bytes);
 std::optional<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// Recognises pyserial's spy by a row with seconds, TX or RX, and an offset.
+bool looks_like_pyserial(std::string_view bytes);
+std::optional<LineRecording> read_pyserial(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
 /// Recognises bytes as Python shows them.
 bool looks_like_python_bytes(std::string_view bytes);

@@ -4,6 +4,8 @@
 //   recv: 0x1 0x3 0x2 old_data:  addr=None             what has come; after old_data:, later extra data:, what waits
 //   already recv: 0x12 0x34 0xb5 0x33 old_data: 0x1 0x3 0x2 addr=None Processing: 0x1 0x3 0x2 0x12 0x34 0xb5 0x33        the
 //   same bytes once more
+//   Handling data: 0x1 0x3 0x0 …                       of a server: what has come, from version 3 on once more after recv
+//   send: [ReadRegisterResponse (2)]- b'010304…'       of a server of version 2: its answer in hex
 //   Getting Frame - 0x3 0x2 0x12 0x34                  of version 2: those between the station and the CRC once more
 #include <fmt/format.h>
 
@@ -22,6 +24,7 @@ namespace {
 struct PymodbusRow {
   bool sent = false;
   Bytes bytes{}, waiting{};  ///< and what was there of the frame before
+  bool handled = false;      ///< by a server, which may have said it before
 };
 
 /// The bytes that a text begins with, `0x1 0x3 …`; they are taken off it.
@@ -44,11 +47,28 @@ std::optional<std::string_view> what_follows(std::string_view line, std::string_
   return line.substr(at + word.size());
 }
 
+/// The bytes of `[ReadRegisterResponse (2)]- b'010304…'`
+Bytes bytes_of_answer(std::string_view text) {
+  constexpr std::string_view kBefore = "]- ";
+  const std::size_t end = text.find(kBefore);
+  if (!text.starts_with('[') || end == std::string_view::npos) return {};
+  std::string_view hex = stl::trim(text.substr(end + kBefore.size()));
+  if (hex.starts_with("b'") && hex.ends_with('\'')) hex = hex.substr(2, hex.size() - 3);
+  return bytes_of_text(hex).value_or(Bytes{});
+}
+
+constexpr std::string_view kHandled = "Handling data: ";
+
 std::optional<PymodbusRow> pymodbus_row(std::string_view line) {
+  if (auto rest = what_follows(line, kHandled)) {
+    PymodbusRow moved{.bytes = take_bytes(*rest), .handled = true};
+    return moved.bytes.empty() ? std::nullopt : std::optional(std::move(moved));
+  }
   for (const std::string_view word : {"send: ", "SEND: ", "recv: ", "RECV: "}) {
     auto rest = what_follows(line, word);
     if (!rest) continue;
     PymodbusRow moved{.sent = word.front() == 's' || word.front() == 'S', .bytes = take_bytes(*rest)};
+    if (moved.bytes.empty() && moved.sent) moved.bytes = bytes_of_answer(*rest);
     if (moved.bytes.empty()) continue;
     for (const std::string_view waiting : {"old_data:", "extra data:"})
       if (rest->starts_with(waiting)) {
@@ -73,7 +93,8 @@ bool says_it_again(std::string_view line) {
   const std::size_t received = std::min(line.find("recv: 0x"), line.size());
   const auto follows = [&](std::string_view waiting) { return line.find(waiting, received) != std::string_view::npos; };
   const auto has = [&](std::string_view words) { return line.find(words) != std::string_view::npos; };
-  return has("Processing: 0x") || has("Getting Frame - 0x") || follows(" old_data:") || follows(" extra data:");
+  return has("Handling data: 0x") || has("Processing: 0x") || has("Getting Frame - 0x") || follows(" old_data:") ||
+         follows(" extra data:");
 }
 
 /// The frame that has come so far goes on with these bytes.
@@ -98,10 +119,15 @@ std::optional<LineRecording> read_pymodbus(std::string_view bytes, const Reading
   LineRecording recording;
   DayCounter days;
   std::optional<bool> is_client;
+  const bool says_received = std::ranges::any_of(Lines(bytes, choices.stop), [](std::string_view line) {
+    const auto moved = pymodbus_row(line);
+    return moved && !moved->sent && !moved->handled;
+  });
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;
     auto moved = pymodbus_row(line);
+    if (moved && moved->handled && says_received) continue;
     if (!moved) {
       if (const auto damaged = damaged_in(line))
         recording.frames.push_back(row_not_read(number, not_understood(*damaged), {}, Direction::Unknown));

@@ -8,6 +8,7 @@
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
 #include "tools/recordings/lines.hpp"
+#include "tools/recordings/marked_bytes.hpp"
 #include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
@@ -353,7 +354,9 @@ class LogReader {
 
 }  // namespace
 
-std::optional<LineRecording> read_text_log(std::string_view bytes, const ReadingChoices& choices, std::string&) {
+std::optional<LineRecording> read_text_log(std::string_view file, const ReadingChoices& choices, std::string&) {
+  const auto plain = in_plain_hex(file);
+  const std::string_view bytes = plain ? std::string_view(*plain) : file;
   constexpr std::size_t kShortestRow = 16;  // of most logs
   const auto lines = std::min(static_cast<std::size_t>(std::ranges::count(bytes, '\n')) + 1, bytes.size() / kShortestRow);
   const auto read = [&](bool joins) -> std::optional<LineRecording> {

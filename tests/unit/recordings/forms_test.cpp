@@ -430,6 +430,79 @@ TEST(Forms, TcpdumpPrintsPacketsInHex) {
             "line 3: rows before it are missing; record with tcpdump -w FILE.pcap");
 }
 
+/// The same packet with the head of Ethernet, in rows as tshark -x prints them.
+std::string rows_of_tshark(const std::string& tcpdump) {
+  Bytes packet(12, 0x11);
+  packet.insert(packet.end(), {0x08, 0x00});
+  for (std::size_t at = tcpdump.find("\t0x"); at != std::string::npos; at = tcpdump.find("\t0x", at + 1)) {
+    std::string hex = tcpdump.substr(at + 9, std::min(tcpdump.find("  ", at + 10), tcpdump.size()) - at - 9);
+    std::erase(hex, ' ');
+    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+      packet.push_back(static_cast<std::uint8_t>(std::stoul(hex.substr(i, 2), nullptr, 16)));
+  }
+  std::string text;
+  for (std::size_t i = 0; i < packet.size(); ++i) {
+    if (i % 16 == 0) text += fmt::format("{}{:04x} ", i == 0 ? "" : "   ................\n", i);
+    text += fmt::format(" {:02x}", packet[i]);
+  }
+  return text + "   ....\n\n";
+}
+
+TEST(Forms, TsharkPrintsPacketsInHex) {
+  const std::string request = rows_of_tshark(printed_packet("0", true, {0, 70, 0, 0, 0, 6, 1, 3, 0, 10, 0, 2})),
+                    answer =
+                        rows_of_tshark(printed_packet("0", false, {0, 70, 0, 0, 0, 7, 1, 3, 4, 0x12, 0x34, 0x56, 0x78}));
+  const std::string
+      first = "    1   0.000000    127.0.0.1 \u2192 127.0.0.1    Modbus/TCP 78    Query: Trans:    70; Unit:   1\n",
+      second = "    2   0.025000    127.0.0.1 \u2192 127.0.0.1    Modbus/TCP 79 Response: Trans:    70; Unit:   1\n";
+  expect_the_conversation(recording_of(first + "\n" + request + second + "\n" + answer), "tshark", 25 * ms);
+  const LineRecording untimed = recording_of(request + answer);
+  EXPECT_EQ(untimed.form, "tshark");
+  EXPECT_EQ(untimed.notes, std::vector<std::string>{"tshark -x alone prints no times; tshark -P -x does"});
+  ASSERT_EQ(untimed.frames.size(), 2U);
+  EXPECT_FALSE(untimed.frames[1].at);
+  EXPECT_EQ(refusal_of(first + second),
+            "it is the list of packets without their bytes; print them with tshark -x, or record with tshark -w FILE.pcap");
+  EXPECT_EQ(refusal_of(request.substr(0, request.find("0030  ")) + request.substr(request.find("0040  "))),
+            "line 4: rows before it are missing; record with tshark -w FILE.pcap");
+}
+
+TEST(Forms, ADumpOfASerialLineIsNoPacketOfTshark) {
+  const LineRecording dump = recording_of("0000  01 03 00 00 00 01 84 0a   ........\n");
+  EXPECT_NE(dump.form, "tshark");
+}
+
+TEST(Forms, PyserialPrintsWhatItSpies) {
+  expect_the_conversation(
+      recording_of("000000.000 Q-RX reset_input_buffer\n"
+                   "000000.000 TX   0000  01 03 00 0A 00 02 E4 09                           ........\n"
+                   "000000.025 RX   0000  01 03 04 12 34 56 78 81 07                        ....4Vx..\n"),
+      "pyserial", 25 * ms);
+  const LineRecording two_rows = recording_of(
+      "000000.000 TX   0000  00 01 02 03 04 05 06 07  08 09 0A 0B 0C 0D 0E 0F  ................\n"
+      "000000.000 TX   0010  10 11                                             ..\n");
+  ASSERT_EQ(two_rows.frames.size(), 1U);
+  EXPECT_EQ(two_rows.frames[0].bytes.size(), 18U);
+}
+
+TEST(Forms, BytesOfALogMayBeMarkedOrBinary) {
+  const Bytes request{1, 3, 0, 10, 0, 2, 0xE4, 9}, answer{1, 3, 4, 0x12, 0x34, 0x56, 0x78, 0x81, 7};
+  for (const char* format : {"{:02X}h ", "{:02x}H ", "${:02X} ", "&H{:02X} ", "16#{:02X}, ", "{:08b} ", "2#{:08b} ",
+                             "0b{:08b}, ", "{:02X} \u2013 ", "{:02X}\u00A0"}) {
+    std::string text;
+    for (const auto& [word, bytes] : {std::pair("TX: ", &request), std::pair("RX: ", &answer)}) {
+      text += word;
+      for (const std::uint8_t byte : *bytes) text += fmt::format(fmt::runtime(format), byte);
+      text = text.substr(0, text.find_last_of("0123456789ABCDEFabcdefhH") + 1) + "\n";
+    }
+    const LineRecording log = recording_of(text);
+    ASSERT_EQ(log.frames.size(), 2U) << text;
+    EXPECT_EQ(log.frames[0].bytes, request) << text;
+    EXPECT_EQ(log.frames[1].bytes, answer) << text;
+    EXPECT_EQ(log.frames[1].direction, Direction::Answer) << text;
+  }
+}
+
 // --- captures that carry a serial line ---
 
 Bytes joined(std::initializer_list<Bytes> parts) {

@@ -364,6 +364,19 @@ TEST(Recordings, ALogOfPymodbusMayBeAServersAndSayExtraData) {
   EXPECT_EQ(conversation(log, *find_recorded_protocol("modbus"))[1].direction, Direction::Answer);
 }
 
+TEST(Recordings, ALogOfPymodbusSaysWhatAServerHandles) {
+  const std::string request = "DEBUG:pymodbus.server:Handling data: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa\n";
+  for (const std::string& text : {request + "DEBUG:pymodbus.server:send: [ReadRegisterResponse (1)]- b'0103021234b533'\n",
+                                  "DEBUG:pymodbus.logging:recv: 0x1 0x3 0x0 0x0 0x0 0x1 0x84 0xa old_data:  addr=None\n" +
+                                      request + "DEBUG:pymodbus.logging:send: 0x1 0x3 0x2 0x12 0x34 0xb5 0x33\n"}) {
+    const LineRecording log = recording_of(text);
+    EXPECT_EQ(log.form, "pymodbus");
+    ASSERT_EQ(log.frames.size(), 2U) << text;
+    EXPECT_EQ(log.frames[0].bytes, kRequest);
+    EXPECT_EQ(log.frames[1].bytes, kAnswer);
+  }
+}
+
 constexpr const char* kReadAsTcp = "the frames are messages of Modbus TCP: each is shown as on a serial line, with its CRC";
 
 TEST(Recordings, ModbusTcpInALogIsReadByItsHead) {

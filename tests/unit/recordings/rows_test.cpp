@@ -83,8 +83,21 @@ TEST(RowsOfALog, RowsAreJoinedOnlyIfTheWholeIsRight) {
         "0.030 RX 01 03 02\n0.046 RX 12 34 56 78 81 07\n", "0.030 RX 01 03 04\n0.046 RX 12 34\n"}) {
     const auto frames = read(asked + rows);
     EXPECT_EQ(frames.size(), 3U) << rows;
-    EXPECT_EQ(notes(frames), std::vector<std::string>{}) << rows;
+    const bool of_its_length = std::string_view(rows).ends_with("81 08\n");
+    EXPECT_EQ(notes(frames).size(), of_its_length ? 1U : 0U) << rows;
   }
+}
+
+TEST(RowsOfALog, APieceSaysThatTheWholeHasAWrongCrc) {
+  const std::string asked = "TX 01 03 00 0a 00 02 e4 09\n", again = asked + "RX 01 03 04 12 34 56 78 81 07\n";
+  const auto two = read(asked + "RX 01 03 04\nRX 12 34 56 78 81 08\n" + again);
+  EXPECT_EQ(notes(two), std::vector<std::string>{"line 2: with the row below it has the length that it announces: "
+                                                 "what is wrong is the check sum of the whole"});
+  const auto three = read(asked + "RX 01 03 04\nRX 12 34 56\nRX 78 81 08\n" + again);
+  ASSERT_EQ(notes(three).size(), 1U);
+  EXPECT_TRUE(notes(three)[0].starts_with("line 2: with the 2 rows below it has")) << notes(three)[0];
+  const auto cut_off = read(asked + "RX 01 03 04\n" + again);
+  EXPECT_EQ(notes(cut_off), std::vector<std::string>{}) << "the request repeated is no rest of an answer";
 }
 
 TEST(RowsOfALog, AnAnswerOfPpiInSeveralRowsIsOne) {

@@ -1,0 +1,14 @@
+// Bytes in a text log that are not plain hex: `02h 03h`, `$02 $03`, `00000010 00000011`, and typographic signs between them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace s7200::tools {
+
+/// The text with its bytes in plain hex and plain blanks and dashes. Nothing if it has them already. A notation is taken for
+/// one of bytes if some line at the beginning has four such words, one after the other; then it is everywhere.
+std::optional<std::string> in_plain_hex(std::string_view text);
+
+}  // namespace s7200::tools
