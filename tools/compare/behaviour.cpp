@@ -204,7 +204,8 @@ class Pair {
     found.older = old_bench.stopped() ? "STOP" : "RUN";
     found.newer = new_bench.stopped() ? "STOP" : "RUN";
     (old_bench.stopped() ? found.older_op : found.newer_op) = stopped.cpu().state().fatal_op;
-    found.expectations = {fmt::format("  - wait: until {}\n  - mode: {}\n", exact(end_), old_bench.stopped() ? "stop" : "run")};
+    found.expectations = {
+        fmt::format("  - wait: until {}\n  - mode: {}\n", exact(end_), old_bench.stopped() ? "stop" : "run")};
     find(std::move(found));
   }
 
@@ -227,7 +228,8 @@ class Pair {
       compare(place_text(image::kAQ + word, 2), image::kAQ + word, 2);
     for (const MemoryRange& range : watched_)
       for (std::uint32_t i = 0; i < range.count; ++i)
-        if (range.width != Width::Bit) compare(range.name_of(i), range.at + i * bytes_of(range.width), bytes_of(range.width));
+        if (range.width != Width::Bit)
+          compare(range.name_of(i), range.at + i * bytes_of(range.width), bytes_of(range.width));
   }
 
   State state_;
@@ -238,7 +240,8 @@ class Pair {
 class Search {
  public:
   Search(const Inspection& older, const Inspection& newer, const BehaviourSettings& settings)
-      : settings_(settings), maker_(words_of(older, newer), settings.seed),
+      : settings_(settings),
+        maker_(words_of(older, newer), settings.seed),
         pair_(older, newer, maker_.words().port.value_or(0), settings.watched) {}
 
   BehaviourResult result() {
@@ -275,10 +278,14 @@ class Search {
     using End = BehaviourResult::End;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     const bool all = pair_.old_bench.contacts().all_both_ways() && pair_.new_bench.contacts().all_both_ways();
-    if (settings_.stop.stop_requested()) result_.end = End::Interrupted;
-    else if (result_.runs >= settings_.runs) result_.end = End::Runs;
-    else if (seconds >= settings_.seconds) result_.end = End::Seconds;
-    else if (all && result_.runs >= kLeastRuns) result_.end = End::AllContacts;
+    if (settings_.stop.stop_requested())
+      result_.end = End::Interrupted;
+    else if (result_.runs >= settings_.runs)
+      result_.end = End::Runs;
+    else if (seconds >= settings_.seconds)
+      result_.end = End::Seconds;
+    else if (all && result_.runs >= kLeastRuns)
+      result_.end = End::AllContacts;
     return result_.end != End::Differs;
   }
 
@@ -290,7 +297,8 @@ class Search {
     else
       pair_.restore(kept_[chance.one_in(2) ? kept_.size() - 1 - chance.below(recent) : chance.below(kept_.size())]);
     const Time before = pair_.old_bench.time();
-    for (std::uint64_t count = 1 + chance.below(3); count > 0 && !pair_.old_bench.stopped() && !pair_.new_bench.stopped(); --count)
+    for (std::uint64_t count = 1 + chance.below(3); count > 0 && !pair_.old_bench.stopped() && !pair_.new_bench.stopped();
+         --count)
       pair_.apply(maker_.next(pair_.old_bench.cpu().state()));
     pair_.settle();
     result_.simulated += pair_.old_bench.time() - before;

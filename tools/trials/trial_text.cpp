@@ -1,0 +1,55 @@
+#include "tools/trials/trial_text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "interpreter/model/area.hpp"
+#include "tools/trials/trial_scenario.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// What each stimulus does, in words.
+std::vector<std::string> words(const Trial& trial) {
+  std::array<std::uint8_t, image::kPointBytes> inputs{};
+  std::vector<std::string> all;
+  for (const Stimulus& stimulus : trial) {
+    std::string text;
+    if (stimulus.what == Stimulus::What::Frame) {
+      text = fmt::format("sends {:02x}", fmt::join(stimulus.bytes, " "));
+      if (stimulus.gap != 0) text += fmt::format(", {} between characters", format_duration(stimulus.gap));
+    } else if (stimulus.what == Stimulus::What::Input) {
+      const std::uint8_t value = stimulus.bytes.front();
+      for (unsigned bit = 0; bit < 8; ++bit)
+        if ((inputs[stimulus.place] ^ value) >> bit & 1)
+          text += fmt::format("{}I{}.{} = {}", text.empty() ? "" : ", ", stimulus.place, bit, value >> bit & 1);
+      inputs[stimulus.place] = value;
+    } else {
+      std::uint32_t value = 0;
+      for (const std::uint8_t byte : stimulus.bytes) value = value << 8 | byte;
+      text = fmt::format("{} = {}", place_text(stimulus.place, stimulus.bytes.size()), value);
+    }
+    all.push_back(text.empty() ? "nothing" : text);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string trial_text(const Trial& trial, const std::vector<Time>& begun) {
+  const auto does = words(trial);
+  std::string text;
+  for (std::size_t i = 0; i < trial.size(); ++i)
+    text += fmt::format("    {:>10}  {}\n", format_duration(begun[i], 3), does[i]);
+  return text;
+}
+
+nlohmann::ordered_json trial_json(const Trial& trial, const std::vector<Time>& begun) {
+  const auto does = words(trial);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < trial.size(); ++i) json.push_back({{"at_ns", begun[i]}, {"does", does[i]}});
+  return json;
+}
+
+}  // namespace s7200::tools
