@@ -87,9 +87,9 @@ class LogicReader {
     if (is_true(a)) return a;
     return is_true(b) ? b : gate(Gate::Kind::Or, a, b);
   }
-  std::size_t contact(std::string name, bool normally_closed) {
+  std::size_t contact(std::string name, bool normally_closed, const stl::Statement* statement = nullptr) {
     const auto [known, added] = known_.try_emplace(std::move(name), logic_.contacts.size());
-    if (added) logic_.contacts.push_back({known->first, normally_closed});
+    if (added) logic_.contacts.push_back({known->first, normally_closed, statement});
     return gate(Gate::Kind::Contact, known->second);
   }
 
@@ -133,7 +133,7 @@ class LogicReader {
   /// An edge is as good as an output that remembers its input, and a contact that nothing else reads.
   void edge(const stl::Statement& statement) {
     logic_.actions.push_back({&statement, statement.mnemonic, {pop()}});
-    stack_.push_back(contact(fmt::format("edge {}", ++edges_), false));
+    stack_.push_back(contact(fmt::format("edge {}", ++edges_), false, &statement));
   }
 
   std::size_t read_contact(const stl::Statement& statement, const Instruction& instruction) {
@@ -147,7 +147,7 @@ class LogicReader {
     const std::string bit = operand_text(statement, &instruction, 0);
     if (bit == "SM0.0") return closed ? gate(Gate::Kind::Not, gate(Gate::Kind::True)) : gate(Gate::Kind::True);
     const std::size_t value =
-        contact(fmt::format("{}{}{}", bit, immediate ? " read immediately" : "", moment(statement)), closed);
+        contact(fmt::format("{}{}{}", bit, immediate ? " read immediately" : "", moment(statement)), closed, &statement);
     return closed ? gate(Gate::Kind::Not, value) : value;
   }
 
@@ -163,8 +163,8 @@ class LogicReader {
       std::swap(left, right);
       if (kind == "<=") kind = ">=";
     }
-    const std::size_t value =
-        contact(fmt::format("{} {}{} {}{}", left, kind == "=" ? "==" : kind, type, right, moment(statement)), opposite);
+    const std::size_t value = contact(
+        fmt::format("{} {}{} {}{}", left, kind == "=" ? "==" : kind, type, right, moment(statement)), opposite, &statement);
     return opposite ? gate(Gate::Kind::Not, value) : value;
   }
 

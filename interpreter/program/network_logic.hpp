@@ -18,7 +18,8 @@ struct NetworkLogic {
   /// A bit or a comparison, as it is at one point of the network.
   struct Contact {
     std::string name;
-    bool normally_closed = false;  ///< where it is first used
+    bool normally_closed = false;               ///< where it is first used
+    const stl::Statement* statement = nullptr;  ///< its first use, of an edge EU or ED; null: it comes from in front
     bool operator==(const Contact& other) const { return name == other.name; }
   };
   /// A gate of the circuit that the logic stack holds. Operands come before the gates that use them.

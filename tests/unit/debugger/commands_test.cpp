@@ -45,6 +45,9 @@ TEST(Commands, AnswerProgramsToo) {
   EXPECT_EQ(session("who VW40").json["text"].get<std::string>().rfind("nothing has written VW40", 0), 0U);
   EXPECT_TRUE(session("why").json.contains("text"));
   EXPECT_EQ(session("why VW20").json["name"], "VW20");
+  EXPECT_EQ(session("why not VW20 = 8").json["whyNot"]["because"][0]["name"], "VW20");
+  EXPECT_EQ(session("until M0.0 within 1ms").json["stopped"], "limit");
+  EXPECT_EQ(session("until M0.0 within 1ms").json["whyNot"]["wanted"], "1");
   EXPECT_EQ(session("history 3").json["instructions"].size(), 3U);
   EXPECT_TRUE(session("timeline 5ms").json.contains("timeline"));
   EXPECT_EQ(session("print VW20").json["values"][0]["value"], "16#0007 (7)");

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "interpreter/base/text.hpp"
 #include "tools/session/causes/last_decision.hpp"
 #include "tools/session/causes/memory_cause.hpp"
 #include "tools/session/causes/writer.hpp"
@@ -68,6 +69,27 @@ Reply cause_of(Session& session, const MemoryRange& range, std::string_view name
   return {
       .text = fmt::format("{} is {}; {}\n{}{}", name, value, fmt::join(*lines, "\n  "), forced, forced.empty() ? "" : "\n"),
       .json = {{"name", name}, {"value", value}, {"causes", *lines}}};
+}
+
+Reply obstacles_to(Session& session, const Wish& wish) {
+  const Cpu& cpu = session.cpu();
+  const std::string name = stl::printable(wish.text);
+  Json json{{"name", name}};
+  std::string why;
+  const auto holds = holds_now(wish, cpu, why);
+  if (!holds) return wrong(fmt::format("{}: {}", name, why));
+  json["holds"] = *holds;
+  if (*holds) {
+    const std::string values = wish.bit ? "" : fmt::format(": {}", wish.condition->places_text(cpu));
+    return {.text = fmt::format("{} holds now{}\n", name, values), .json = std::move(json)};
+  }
+  const auto answer = why_not(session.history, session.focus(), wish, session.setup.stop_request);
+  if (!answer) return interrupted(session);
+  json["whyNot"] = to_json(*answer);
+  const std::string standstill = session.simulation().plc().executes()
+                                     ? ""
+                                     : fmt::format("{} executes nothing now\n", session.name_of(session.focus()));
+  return {.text = fmt::format("{}{}\n", standstill, fmt::join(lines_of(*answer), "\n")), .json = std::move(json)};
 }
 
 Reply timeline_since(Session& session, Time from, const serial::Exchange& exchange) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "tools/session/causes/why_not.hpp"
 #include "tools/session/commands/reply.hpp"
 #include "tools/session/commands/session.hpp"
 
@@ -25,6 +26,10 @@ FoundInPast last_decider(Session& session);
 
 /// Why memory is as it is: `Conveyor (Q0.1) is 0; last written at …`, and a line for each step further back.
 Reply cause_of(Session& session, const MemoryRange& range, std::string_view name);
+
+/// What is in the way of a wish: `Q0.3 is 0, must be 1`, and the tree of what holds it off; {"name": "Q0.3", "holds": false,
+/// "whyNot": {…}}.
+Reply obstacles_to(Session& session, const Wish& wish);
 
 /// What the CPU did since then: {"text": "…", "timeline": {…}}; `exchange` is what times are counted from.
 Reply timeline_since(Session& session, Time from, const serial::Exchange& exchange);

@@ -133,8 +133,11 @@ that time, which is mostly within a scan; with 'scan' it goes on to the end of t
 Ctrl-C stops it too. With a bridge, --realtime or --speed commands may be typed while it runs: they are carried out at
 once, and the run goes on after set, force, print and all others that do not move it.)",
        commands::continue_run, Takes::Nothing, true, "scan"},
-      {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n", "run to a place", "", commands::until, Takes::Places,
-       true},
+      {"until", "t", "until LINE | SBR n | INT n | LBL n | NETWORK n | CONDITION [within TIME]",
+       "run to a place, or until a condition holds",
+       R"(CONDITION: until Q0.3, until not Q0.3, until T37, until VW10 > 5. If it does not come to hold within TIME (10 s) the run
+stops there and says what blocks it, as 'why not' does. For example: until Q0.3 within 1min.)",
+       commands::until, Takes::Places, true},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
        R"(The last 64 are kept. Breakpoints and watches stay. Going forward again plays what has run, with what was done to
 the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
@@ -168,16 +171,18 @@ takes the address that the pointer holds now. 'rwho' goes there.)",
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
        commands::back_to_write, Takes::Writers, true, "event"},
-      {"why", "", "why [ADDRESS]",
+      {"why", "", "why [ADDRESS | not CONDITION]",
        "what decided that it has come here: contacts, a jump or a conditional return, without going there",
        R"(With an address: who wrote it last, which contacts decided that, and so on back to an input; or which instructions
-could write it, and what keeps them from it. Where an 'expect' or a step of a scenario has just failed, why is about
+could write it, and what keeps them from it. why not Q0.3: the rungs that write it, the fewest contacts that would have to
+change, with what each has, since when and who could change it; why not not Q0.3 what keeps it on, why not VW10 > 5 who
+writes VW10. Where an 'expect' or a step of a scenario has just failed, why is about
 the memory that was not as expected.
 Without one: the contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.
 While a master or a program waits for an answer, and where it gives up: also what has left the request without one,
 be it the program, an event that is not attached, a port in PPI mode, or the line that lost it or its answer; or that
 it was for another station. That comes first, what led to this place last.)",
-       commands::why, Takes::Addresses},
+       commands::why, Takes::Addresses, false, "not"},
       {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
        R"(Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of
 contacts: after the last of them, where S0 is what they have decided; if it stands there already, in front of

@@ -26,6 +26,13 @@ FoundInPast writer_of(Session& session, const Words& arguments, std::string_view
   return place ? last_writer(session, place->range, place->name) : FoundInPast{wrong(why)};
 }
 
+Reply why_not(Session& session, const Words& words) {
+  if (words.empty()) return wrong(expects("why not", "a bit or a condition, for example: why not Q0.3, why not VW10 > 5"));
+  std::string why;
+  const auto wish = parse_wish(joined(words), session.program(), why);
+  return wish ? obstacles_to(session, *wish) : wrong(fmt::format("why not: {}", why));
+}
+
 /// Says what was found, and goes there.
 Reply gone_back(Session& session, FoundInPast found) {
   session.said << std::exchange(found.reply.text, {});
@@ -63,6 +70,7 @@ Reply why(Session& session, const Words& arguments) {
     return failed ? std::move(*failed) : last_decider(session).reply;
   }
   std::string why;
+  if (stl::lower_case(arguments[0]) == "not") return why_not(session, {arguments.begin() + 1, arguments.end()});
   const auto place = one_range(session, arguments, "why", why);
   return place ? cause_of(session, place->range, named(session.program(), place->range)) : wrong(why);
 }

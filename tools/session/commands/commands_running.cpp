@@ -1,7 +1,10 @@
 // The commands that run forwards.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/base/text.hpp"
+#include "tools/session/commands/cause_reports.hpp"
 #include "tools/session/commands/commands.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/running.hpp"
@@ -10,6 +13,27 @@
 #include "tools/session/words/words.hpp"
 
 namespace s7200::tools::commands {
+namespace {
+
+/// To where a wish comes to hold, or to the limit, where what blocks it is said.
+Reply run_until(Session& session, const Wish& wish, Time limit) {
+  std::string why;
+  const auto holds = holds_now(wish, session.cpu(), why);
+  if (!holds || *holds) return obstacles_to(session, wish);
+  const auto is_reached = [&, cpu = &session.cpu()](const State&, std::uint32_t, const Stepper::Progress&) {
+    std::string unknown;
+    return holds_now(wish, *cpu, unknown).value_or(false);
+  };
+  Reply run = go(session, {.goal = is_reached, .limit = limit});
+  const std::string stopped = run.json.is_object() ? run.json.value("stopped", "") : "";
+  if (stopped != "limit" && stopped != "CPU") return run;
+  Reply blocked = obstacles_to(session, wish);
+  blocked.text = run.text + blocked.text;
+  blocked.json["stopped"] = stopped;
+  return blocked;
+}
+
+}  // namespace
 
 Reply step(Session& session, const Words& arguments) {
   const auto count = parse_count(arguments);
@@ -65,10 +89,26 @@ Reply continue_run(Session& session, const Words& arguments) {
 }
 
 Reply until(Session& session, const Words& arguments) {
-  std::string why;
-  const auto target = find_op(session, arguments, "until", why);
-  if (!target) return wrong(why);
-  return go(session, {.goal = goal::place(*target)});
+  Words words = arguments;
+  Time limit = RunTo::kUsualLimit;
+  if (const auto within = std::ranges::find(words, "within", stl::lower_case); within != words.end()) {
+    const auto time = parse_duration(joined({within + 1, words.end()}));
+    if (!time || *time == 0)
+      return wrong(expects(
+          "until", fmt::format("a duration above 0 in {} after within, for example: until Q0.3 within 30s", kTimeUnits)));
+    limit = *time;
+    words.erase(within, words.end());
+  }
+  std::string why, why_no_wish;
+  if (const auto target = find_op(session, words, "until", why))
+    return go(session, {.goal = goal::place(*target), .limit = limit});
+  const std::string text = joined(words);
+  const auto wish = words.empty() ? std::nullopt : parse_wish(text, session.program(), why_no_wish);
+  const bool names_memory = wish && (wish->bit || !wish->condition->places().empty());
+  if (names_memory) return run_until(session, *wish, limit);
+  const bool is_condition = text.find_first_of("<>=") != std::string::npos || stl::lower_case(text).starts_with("not ");
+  if (is_condition) return wrong(fmt::format("until: {}", why_no_wish));
+  return wrong(why.starts_with("until expects") ? why + ", or a condition, for example: until Q0.3, until VW10 > 5" : why);
 }
 
 }  // namespace s7200::tools::commands

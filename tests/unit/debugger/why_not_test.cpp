@@ -1,0 +1,352 @@
+// What `why not` and `until` say holds a bit off.
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::shared_ptr<const Program> on_cpu224(std::string_view text) {
+  return check_text(text, "test.awl", cpu224(), default_times(cpu224())).program;
+}
+
+constexpr std::string_view kRungs =
+    "NETWORK 1\n"
+    "LD I0.0\n"
+    "A I0.1\n"
+    "LD I0.2\n"
+    "AN I0.3\n"
+    "OLD\n"
+    "A I0.4\n"
+    "= Q0.0\n"
+    "NETWORK 2\n"
+    "LD I0.5\n"
+    "LPS\n"
+    "A I0.6\n"
+    "= Q0.1\n"
+    "LRD\n"
+    "LD I0.7\n"
+    "O M0.0\n"
+    "ALD\n"
+    "= Q0.2\n"
+    "LPP\n"
+    "NOT\n"
+    "= Q0.3\n"
+    "NETWORK 3\n"
+    "LD I1.0\n"
+    "S M1.0, 1\n"
+    "LD I1.1\n"
+    "O I1.2\n"
+    "R M1.0, 1\n"
+    "LD I1.3\n"
+    "JMP 5\n"
+    "LD I1.4\n"
+    "= Q0.5\n"
+    "LBL 5\n"
+    "LD I1.5\n"
+    "AENO\n"
+    "= Q0.6\n"
+    "MEND\n";
+
+TEST(WhyNot, TheFewestContactsThatWouldHaveToChangeComeFirst) {
+  AtPrompt session(on_cpu224(kRungs));
+  session("continue 20ms; input I0.2=1 I0.3=1; scan 3");
+  const std::string text = session("why not Q0.0");
+  EXPECT_TRUE(has(text,
+                  "Q0.0 is 0 since 0.000000 ms, must be 1\n"
+                  "  = Q0.0 in line 8: (I0.0=0 and I0.1=0 or I0.2=1 and not I0.3=1) and I0.4=0\n"
+                  "  2 contacts have to change:\n"
+                  "    I0.3 is 1 since 2"));
+  EXPECT_TRUE(has(text,
+                  " ms, must be 0 (AN I0.3 in line 5): an input\n"
+                  "    I0.4 is 0 since 0.000000 ms, must be 1 (A I0.4 in line 7): an input\n"
+                  "  or 3 contacts have to change:\n"
+                  "    I0.0 is 0"));
+  EXPECT_EQ(session("input I0.4=1; input I0.3=0; scan 3; why not Q0.0").find("has to change"), std::string::npos);
+  EXPECT_TRUE(has(session("why not Q0.0"), "Q0.0 holds now\n"));
+}
+
+TEST(WhyNot, BranchesOfTheLogicStackAndNotAreFollowed) {
+  AtPrompt session(on_cpu224(kRungs));
+  session("continue 20ms");
+  EXPECT_TRUE(has(session("why not Q0.2"), "= Q0.2 in line 18: I0.5=0 and (I0.7=0 or M0.0=0)\n"));
+  const std::string inverted = session("why not not Q0.3");
+  EXPECT_TRUE(has(inverted, "must be 0\n  = Q0.3 in line 21: not I0.5=0\n  1 contact has to change:\n    I0.5 is 0"))
+      << inverted;
+}
+
+TEST(WhyNot, ASetBitNeedsItsSetAndNoResetAfterIt) {
+  AtPrompt session(on_cpu224(kRungs));
+  session("continue 20ms");
+  EXPECT_TRUE(has(session("why not M1.0"), "  1 contact has to change:\n    I1.0 is 0"));
+  const std::string text = session("input I1.1=1; scan 2; why not M1.0");
+  EXPECT_TRUE(
+      has(text, "  S M1.0, 1 in line 24: I1.0=0\n  R M1.0, 1 in line 27: I1.1=1 or I1.2=0\n  2 contacts have to change:\n"))
+      << text;
+  EXPECT_TRUE(has(text, "must be 0 (LD I1.1 in line 25): an input\n"));
+}
+
+TEST(WhyNot, AJumpOverTheRungHoldsItOffToo) {
+  AtPrompt session(on_cpu224(kRungs));
+  session("continue 20ms");
+  EXPECT_TRUE(has(session("why not Q0.5"), "  1 contact has to change:\n    I1.4"));
+  const std::string text = session("input I1.3=1; scan 3; why not Q0.5");
+  EXPECT_TRUE(has(text, "= Q0.5 in line 31: I1.4=0, not executed lately\n  2 contacts have to change:\n    I1.3 is 1"))
+      << text;
+}
+
+constexpr std::string_view kTimes =
+    "NETWORK 1 // start\n"
+    "LD I0.0\n"
+    "O Q0.0\n"
+    "AN I0.1\n"
+    "= Q0.0\n"
+    "NETWORK 2\n"
+    "LD Q0.0\n"
+    "TON T37, 35\n"
+    "NETWORK 3\n"
+    "LD T37\n"
+    "A I0.5\n"
+    "AW>= VW10, 5\n"
+    "S Q0.3, 1\n"
+    "NETWORK 4\n"
+    "LD I0.6\n"
+    "EU\n"
+    "LD I0.7\n"
+    "CTU C5, 10\n"
+    "NETWORK 5\n"
+    "LD C5\n"
+    "A M0.0\n"
+    "= Q0.4\n"
+    "NETWORK 6\n"
+    "LDN I0.2\n"
+    "R Q0.3, 1\n"
+    "NETWORK 7\n"
+    "LD I1.0\n"
+    "CALL 1\n"
+    "MEND\n"
+    "SBR 1\n"
+    "LD I1.1\n"
+    "MOVW 7, VW10\n"
+    "LD I1.2\n"
+    "EU\n"
+    "= Q0.5\n"
+    "RET\n";
+
+TEST(WhyNot, ATimerThatCountsSaysHowLongStillAndOneThatDoesNotWhatItsRungNeeds) {
+  AtPrompt session(kTimes);
+  session("continue 20ms");
+  const std::string still = session("why not T37");
+  EXPECT_TRUE(has(still,
+                  "T37 is 0 since 0.000000 ms, must be 1: a timer, 0 s of 3.5 s have passed\n"
+                  "  TON T37, 35 in line 8 must have power for 3.5 s: Q0.0=0\n"
+                  "    1 contact has to change:\n"
+                  "      Q0.0 is 0"))
+      << still;
+  EXPECT_TRUE(has(session("input I0.0=1; continue 1s; why not T37"), "must be 1: in 2.5 s (1 s of 3.5 s have passed)\n"));
+}
+
+TEST(WhyNot, ACounterSaysHowManyEdgesItsInputNeeds) {
+  AtPrompt session(kTimes);
+  session("continue 20ms; input I0.6=1; scan 2; input I0.6=0; scan 2");
+  const std::string text = session("why not C5");
+  EXPECT_TRUE(has(text,
+                  "must be 1: a counter at 1 of 10\n  CTU C5, 10 in line 18 needs 9 more rising edges of its count input: "
+                  "rising edge of (I0.6=0)\n"))
+      << text;
+  EXPECT_TRUE(has(text, "EU in line 16 needs a rising edge of (I0.6=0)\n")) << text;
+  EXPECT_TRUE(has(session("input I0.7=1; scan 3; why not C5"), "its reset input must be off: I0.7=1\n"));
+}
+
+TEST(WhyNot, AnEdgeOfWhatIsOnAlreadyHasToGoOffFirst) {
+  AtPrompt session("LD I0.0\nEU\n= Q0.0\nMEND\n");
+  session("continue 20ms");
+  EXPECT_TRUE(
+      has(session("why not Q0.0"), "EU in line 2 needs a rising edge of (I0.0=0)\n      1 contact has to change:\n"));
+  EXPECT_TRUE(
+      has(session("input I0.0=1; scan 3; why not Q0.0"), "of (I0.0=1), which is on already: it has to go off first\n"));
+}
+
+TEST(WhyNot, AComparisonLeadsToWhoWritesWhatItCompares) {
+  AtPrompt session(kTimes);
+  session("continue 20ms");
+  const std::string text = session("why not Q0.3");
+  EXPECT_TRUE(has(text, "  4 contacts have to change:\n"));
+  EXPECT_TRUE(has(text,
+                  "    VW10=0 >= 5 must hold (AW>= VW10, 5 in line 12)\n      VW10 is 16#0000 (0) since 0.000000 ms\n"
+                  "        MOVW 7, VW10 in line 32: I1.1=0, not executed lately\n"))
+      << text;
+  EXPECT_TRUE(has(session("why not VW10 > 5"), "VW10 > 5 does not hold: VW10 is 0\n  VW10 is 16#0000 (0)"));
+}
+
+TEST(WhyNot, ARungOfASubroutineNeedsItsCall) {
+  AtPrompt session(kTimes);
+  session("continue 20ms");
+  EXPECT_TRUE(has(session("why not Q0.5"),
+                  "I1.0 is 0 since 0.000000 ms, must be 1 (LD I1.0 in line 27): an input\n    EU in line 34 needs"));
+}
+
+TEST(WhyNot, ABitThatNothingWritesIsChangedFromOutsideOnly) {
+  AtPrompt session(kTimes);
+  session("continue 20ms");
+  EXPECT_TRUE(has(session("why not M5.0"), "must be 1: no instruction writes it: only somebody outside can"));
+  EXPECT_TRUE(has(session("why not not SM0.0"), "always 1; the CPU writes it"));
+}
+
+TEST(WhyNot, AStepOfASequenceLeadsToTheTransitionIntoIt) {
+  AtPrompt session(
+      "LD SM0.1\n"
+      "S S0.1, 1\n"
+      "LSCR S0.1\n"
+      "LD I0.0\n"
+      "SCRT S0.2\n"
+      "SCRE\n"
+      "LSCR S0.2\n"
+      "LD I0.1\n"
+      "= Q0.0\n"
+      "SCRE\n"
+      "MEND\n");
+  session("continue 20ms");
+  const std::string text = session("why not Q0.0");
+  EXPECT_TRUE(has(text, "must be 1 (LSCR S0.2 in line 7): a step of the sequence\n      SCRT S0.2 in line 5: I0.0=0\n"))
+      << text;
+  EXPECT_TRUE(has(session("why not not S0.1"), "  SCRT S0.2 in line 5: I0.0=0\n  1 contact has to change:\n"));
+  session("input I0.0=1; scan 3");
+  EXPECT_TRUE(has(session("why not Q0.0"), "  1 contact has to change:\n    I0.1 is 0"));
+}
+
+constexpr std::string_view kOthers =
+    "LD I0.7\n"
+    "EU\n"
+    "ATCH 1, 8\n"
+    "LD SM0.1\n"
+    "MOVB 5, SMB34\n"
+    "ATCH 0, 10\n"
+    "ENI\n"
+    "RCV VB100, 0\n"
+    "MOVD &VB200, AC1\n"
+    "LDB= VB101, 5\n"
+    "= Q0.2\n"
+    "LDB= VB205, 5\n"
+    "= Q0.3\n"
+    "LD SM0.0\n"
+    "MOVB 7, *AC1\n"
+    "LD I0.3\n"
+    "MOVB VB300, QB1\n"
+    "MEND\n"
+    "INT 0\n"
+    "LD I0.0\n"
+    "= Q0.0\n"
+    "RETI\n"
+    "INT 1\n"
+    "LD I0.1\n"
+    "= Q0.1\n"
+    "RETI\n";
+
+TEST(WhyNot, AnInterruptRoutineNeedsItsEvent) {
+  AtPrompt session(on_cpu224(kOthers));
+  session("continue 20ms");
+  EXPECT_TRUE(
+      has(session("why not Q0.0"), "I0.0=0, in INT 0 at event 10 (timed interrupt 0, SMB34)\n  1 contact has to change:\n"));
+  const std::string detached = session("why not Q0.1");
+  EXPECT_TRUE(
+      has(detached,
+          "INT 1 has to run, and is attached to no event\n      ATCH 1, 8 in line 3 attaches it: rising edge of (I0.7=0)\n"))
+      << detached;
+  session("input I0.7=1; scan 3");
+  EXPECT_TRUE(has(session("why not Q0.1"), "INT 1 has to run, at event 8 (port 0: character received)\n"));
+}
+
+TEST(WhyNot, MessagesMovesAndPointersAreNamed) {
+  AtPrompt session(on_cpu224(kOthers));
+  session("continue 20ms");
+  EXPECT_TRUE(has(session("why not Q0.2"), "        RCV VB100, 0 in line 8 stores character 1 of a message there\n"));
+  EXPECT_TRUE(has(session("why not Q1.4"), "  MOVB VB300, QB1 in line 17 writes it: I0.3=0\n    V300.4 is 0"));
+  EXPECT_TRUE(has(session("why not VW200 = 3"), "MOVB 7, *AC1 in line 15 may reach it through a pointer\n"));
+}
+
+TEST(WhyNot, AForcedInputSaysHowToReleaseIt) {
+  AtPrompt session(on_cpu224(kOthers));
+  EXPECT_TRUE(
+      has(session("continue 20ms; force I0.0=0; why not Q0.0"), "an input; it is forced; 'unforce I0.0' releases it\n"));
+}
+
+TEST(WhyNot, ParametersOfASubroutineAreFollowedBothWays) {
+  AtPrompt session(
+      on_cpu224("ORGANIZATION_BLOCK MAIN:OB1\n"
+                "BEGIN\n"
+                "Network 1\n"
+                "LD SM0.0\n"
+                "CALL SBR_0, I0.0, M0.0\n"
+                "Network 2\n"
+                "LD M0.0\n"
+                "= Q0.0\n"
+                "LD I0.3\n"
+                "TOF T33, 100\n"
+                "LD T33\n"
+                "TONR T5, 20\n"
+                "LDN SM0.5\n"
+                "CTD C2, 4\n"
+                "END_ORGANIZATION_BLOCK\n"
+                "SUBROUTINE_BLOCK SBR_0:SBR0\n"
+                "VAR_INPUT\n"
+                "asked:BOOL;\n"
+                "END_VAR\n"
+                "VAR_OUTPUT\n"
+                "runs:BOOL;\n"
+                "END_VAR\n"
+                "BEGIN\n"
+                "Network 1\n"
+                "LD L0.0\n"
+                "A I0.5\n"
+                "= L0.1\n"
+                "END_SUBROUTINE_BLOCK\n"));
+  session("continue 20ms");
+  const std::string text = session("why not Q0.0");
+  EXPECT_TRUE(has(text,
+                  "      CALL 0, I0.0, M0.0 in line 5 gets it back: always\n        L0.1 is 0, must be 1\n"
+                  "          = L0.1 in line 27: L0.0=0 and I0.5=0\n"))
+      << text;
+  EXPECT_TRUE(has(text, "              CALL 0, I0.0, M0.0 in line 5 hands it over\n                I0.0 is 0")) << text;
+  EXPECT_TRUE(has(session("why not T33"), "a timer, TOF of 10 ms\n  TOF T33, 100 in line 10 must have power: I0.3=0\n"));
+  session("input I0.3=1; scan 3; input I0.3=0; scan 3");
+  EXPECT_TRUE(has(session("why not not T33"), "must be 0: in 1 s (0 s of 1 s have passed)\n"));
+}
+
+TEST(WhyNot, StandsWhereItStoodAndSaysTheSameInJson) {
+  AtPrompt session(kTimes);
+  session("continue 20ms");
+  const auto here = session.simulation.snapshot();
+  session("why not Q0.3");
+  EXPECT_EQ(session.simulation.snapshot(), here);
+}
+
+TEST(WhyNot, WhatCannotBeReadIsRefused) {
+  AtPrompt session(kTimes);
+  EXPECT_TRUE(has(session.error_of("why not"), "why not expects a bit or a condition"));
+  EXPECT_TRUE(has(session.error_of("why not XX"), "'XX' is not an address"));
+  EXPECT_TRUE(has(session.error_of("until XX"), "or a condition, for example: until Q0.3"));
+  EXPECT_TRUE(has(session.error_of("until VW10 >"), "until: 'VW10 >', column 7"));
+  EXPECT_TRUE(has(session.error_of("until Q0.0 within soon"), "after within"));
+}
+
+TEST(Until, ARunEndsInFrontOfTheInstructionThatFindsTheConditionHolding) {
+  AtPrompt session(kTimes);
+  session("continue 20ms; input I0.0=1; until Q0.0");
+  EXPECT_EQ(session.state().image[image::kQ] & 1, 1);
+  EXPECT_LT(session.state().time, 25 * kMillisecond);
+  session("until T37");
+  EXPECT_GE(session.state().time, 3500 * kMillisecond);
+  EXPECT_LT(session.state().time, 3700 * kMillisecond);
+  EXPECT_TRUE(has(session("until T37 and Q0.0"), "holds now: T37 is "));
+}
+
+TEST(Until, AConditionThatDoesNotComeToHoldIsAnsweredWithWhatBlocksIt) {
+  AtPrompt session(kTimes);
+  const std::string text = session("input I0.0=1; until Q0.3 within 6s");
+  EXPECT_TRUE(has(text, "6 s of simulated time passed"));
+  EXPECT_TRUE(
+      has(text, "Q0.3 is 0 since 0.000000 ms, must be 1\n  S Q0.3, 1 in line 13: T37=1 and I0.5=0 and VW10=0 >= 5\n"))
+      << text;
+}
+
+}  // namespace
+}  // namespace s7200::tools

@@ -1,0 +1,38 @@
+// What holds a bit off, or on: a tree of contacts with what each of them has, what it would have to be, and who could change
+// it.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/analysis/bits.hpp"
+#include "interpreter/base/time.hpp"
+
+namespace s7200::tools {
+
+/// A node of the answer. With a name it is about memory that has a value and is to have another one; otherwise its text says
+/// all.
+struct Obstacle {
+  std::string_view kind{};  ///< for machines: `rung`, `ways`, `input`, `timer` … (tools/JSON.md)
+  std::string name{}, value{}, wanted{};
+  std::string text{};                 ///< who could change it, or what is in the way
+  std::optional<std::uint32_t> op{};  ///< the instruction that looks at it, or that is meant
+  std::string place{};                ///< the same in words: `LD I0.0 in line 4`
+  Bits bits{0, 0};                    ///< of the memory; no bit of none
+  std::optional<Time> since{};        ///< since when it has its value; nothing if that is not known
+  bool since_longer = false;          ///< `since` is how far back it was looked
+  std::vector<Obstacle> because{};    ///< what in turn is in the way
+};
+
+/// Each node in a line, what is because of it below, two columns further in.
+std::vector<std::string> lines_of(const Obstacle& obstacle);
+
+/// The node and all below: its kind, what it has of name, value, wanted, since_ns, text, and `because`. `line` is that of the
+/// instruction, as `place` says it.
+nlohmann::ordered_json to_json(const Obstacle& obstacle);
+
+}  // namespace s7200::tools

@@ -1,0 +1,585 @@
+#include "tools/session/causes/obstacles.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/base/counted.hpp"
+#include "interpreter/stl/printer.hpp"
+#include "interpreter/trace/statement_text.hpp"
+#include "tools/session/causes/expression.hpp"
+#include "tools/session/causes/memory_cause.hpp"
+#include "tools/session/past/access.hpp"
+#include "tools/views/machine_text.hpp"
+#include "tools/views/memory_meaning.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::size_t kMostLevels = 4;     // bits that hold off one another
+constexpr std::size_t kMostWays = 4;       // that are shown of a bit
+constexpr std::size_t kMostWriters = 3;    // that are shown of memory
+constexpr std::size_t kLongestRung = 300;  // characters
+
+bool is_one_of(std::string_view mnemonic, std::initializer_list<std::string_view> names) {
+  return std::ranges::find(names, mnemonic) != names.end();
+}
+
+bool is_bits_of_timer(const Bits& bit) { return bit.first / 8 - image::kTBits < image::kTimers / 8; }
+bool is_bits_of_counter(const Bits& bit) { return bit.first / 8 - image::kCBits < image::kCounters / 8; }
+
+Bits bit_at(const Operand& operand) { return {std::uint64_t{operand.at} * 8 + operand.bit, 1}; }
+
+std::string timed_text(std::int64_t ticks, Time base) { return ticks == 0 ? "0 s" : format_duration(ticks * base); }
+
+}  // namespace
+
+Obstacles::Obstacles(const Cpu& cpu, const Facts& facts, const LatelyExecuted& lately, Time fresh_since)
+    : cpu_(cpu),
+      facts_(facts),
+      contacts_(cpu, lately, fresh_since),
+      has_run_(!lately.empty()),
+      ways_(facts,
+            {[this](std::uint32_t op) { return contacts_.conducts(op); }, [this](std::uint32_t op) { return runs(op); }}) {}
+
+// --- words ---
+
+std::string Obstacles::place_text(std::uint32_t op) const {
+  return fmt::format("{} in {}", short_text(program().statement(op)), line_of(op, program()));
+}
+
+std::string Obstacles::name_of(const Bits& bits) const {
+  const Bits whole = as_named(bits);
+  const auto at = static_cast<std::uint32_t>(whole.first / 8);
+  const Width width = whole.count == 16 ? Width::Word : whole.count == 32 ? Width::Double : Width::Byte;
+  auto range = range_at(at, width, *program().model);
+  if (range && whole.count == 1) {
+    range->width = Width::Bit;
+    range->bit = static_cast<std::uint8_t>(whole.first % 8);
+  }
+  return range && whole.count <= 32 ? named(program(), *range) : memory_text(whole);
+}
+
+bool Obstacles::is_on(const Bits& bit) const { return (cpu_.state().image[bit.first / 8] >> (bit.first % 8) & 1) != 0; }
+
+Obstacle Obstacles::about(std::string_view kind, const Bits& bit, bool wanted) const {
+  return {.kind = kind, .name = name_of(bit), .value = is_on(bit) ? "1" : "0", .wanted = wanted ? "1" : "0", .bits = bit};
+}
+
+std::string Obstacles::operand_text(std::uint32_t number, std::size_t operand) const {
+  const stl::Statement& statement = program().statement(number);
+  const std::string text = operand < statement.operands.size() ? stl::to_text(statement.operands[operand]) : "";
+  const Operand& of = op(number)[operand];
+  if (!of.pointer && of.at >= image::kConstants) return text;
+  const auto value = contacts_.value(number, operand);
+  if (!value) return text;
+  const OperandRule& rule = op(number).instruction->operand[operand];
+  if (rule.width == Width::Bit || rule.real || rule.text)
+    return rule.width == Width::Bit ? fmt::format("{}={}", text, *value) : text;
+  const std::int64_t signed_value = rule.width == Width::Word     ? static_cast<std::int16_t>(*value)
+                                    : rule.width == Width::Double ? static_cast<std::int32_t>(*value)
+                                                                  : std::int64_t{*value};
+  return fmt::format("{}={}", text, signed_value);
+}
+
+std::string Obstacles::contact_text(const NetworkLogic::Contact& contact, bool negated) const {
+  if (!contact.statement) return "the power flow in front";
+  const std::uint32_t number = ways_.op_of(contact);
+  const std::string_view mnemonic = op(number).instruction->mnemonic;
+  if (is_edge(op(number)))
+    return fmt::format("{}{} edge of ({})", negated ? "not " : "", mnemonic == "EU" ? "rising" : "falling",
+                       rung_text(number, 0));
+  if (op(number).instruction->effect == Effect::ReadsEno) return negated ? "not ENO" : "ENO";
+  if (!is_comparison(op(number))) return (negated ? "not " : "") + operand_text(number, 0);
+  const std::string_view relation = mnemonic.substr(mnemonic.find_first_of("<>="));
+  const std::string text = fmt::format("{} {} {}", operand_text(number, 0), relation, operand_text(number, 1));
+  return negated == contact.normally_closed ? text : fmt::format("not ({})", text);
+}
+
+std::string Obstacles::logic_text(const NetworkLogic& logic, std::size_t number, int strength) const {
+  using Kind = NetworkLogic::Gate::Kind;
+  const NetworkLogic::Gate& gate = logic.gates[number];
+  if (gate.kind == Kind::True) return "always";
+  if (gate.kind == Kind::Contact) return contact_text(logic.contacts[gate.a], false);
+  if (gate.kind == Kind::Not) {
+    const NetworkLogic::Gate& inner = logic.gates[gate.a];
+    if (inner.kind == Kind::True) return "never";
+    if (inner.kind == Kind::Contact) return contact_text(logic.contacts[inner.a], true);
+    return "not " + logic_text(logic, gate.a, 3);
+  }
+  const int own = gate.kind == Kind::And ? 2 : 1;
+  const std::string text =
+      fmt::format("{} {} {}", logic_text(logic, gate.a, own), own == 2 ? "and" : "or", logic_text(logic, gate.b, own));
+  return own < strength ? fmt::format("({})", text) : text;
+}
+
+std::string Obstacles::rung_text(std::uint32_t number, std::size_t level) const {
+  const RungLogic& rung = ways_.rung_of(number);
+  if (level >= rung.inputs.size()) return "always";
+  std::string text = logic_text(rung.logic, rung.inputs[level], 0);
+  if (text.size() > kLongestRung) text = text.substr(0, kLongestRung) + " …";
+  return text;
+}
+
+/// `, in INT 0 at event 10 (timed interrupt 0, SMB34)`; nothing of an instruction elsewhere.
+std::string Obstacles::interrupt_text(std::uint32_t number) const {
+  const Routine& routine = facts_.flow.routine_of(number);
+  if (routine.kind != Routine::Kind::Interrupt) return {};
+  const auto event = event_of_routine(cpu_.state(), routine.number);
+  return fmt::format(", in INT {}{}", routine.number, event ? " at " + event_text(*event) : "");
+}
+
+/// An interrupt routine need not run in every scan.
+bool Obstacles::runs(std::uint32_t number) const {
+  const bool in_interrupt = facts_.flow.routine_of(number).kind == Routine::Kind::Interrupt;
+  return in_interrupt ? contacts_.executed(number) : contacts_.found(number) != nullptr;
+}
+
+// --- who writes ---
+
+void Obstacles::note_writer(std::uint32_t number, const Bits& bits, bool wanted, Writers& writers) const {
+  const Op& by = op(number);
+  const std::string_view mnemonic = by.instruction->mnemonic;
+  const bool one_bit = bits.count == 1;
+  if (returns_from_subroutine(by)) return;  // its CALL is named
+  if (by.instruction->structure == Structure::Call) return writers.calls.push_back(number);
+  if (by.instruction->effect == Effect::Receives || is_one_of(mnemonic, {"NETR", "NETW"}))
+    return writers.messages.push_back(number);
+  if (one_bit && is_one_of(mnemonic, {"=", "=I"})) return writers.deciding.push_back(number);
+  if (one_bit && is_one_of(mnemonic, {"S", "SI", "R", "RI"}))
+    return ((mnemonic.front() == 'S') == wanted ? writers.deciding : writers.opposing).push_back(number);
+  if (one_bit && by.instruction->structure == Structure::SegmentTransition)
+    return ((bit_at(by[0]) == bits) == wanted ? writers.deciding : writers.opposing).push_back(number);
+  writers.others.push_back(number);
+}
+
+Obstacles::Writers Obstacles::writers_of(const Bits& bits, bool wanted, std::optional<std::uint32_t> routine) const {
+  Writers writers;
+  for (std::uint32_t number = 0; number < program().ops.size(); ++number) {
+    if (routine && facts_.flow.nodes[number].routine != *routine) continue;
+    const auto& effects = facts_.effects[number];
+    const auto direct = [&](const MemoryAccess& access) {
+      return access.writes() && !access.by_pointer && access.bits.overlaps(bits);
+    };
+    const auto led_there = [&](const MemoryAccess& access) {
+      return access.writes() && access.by_pointer && access.bits.overlaps(bits);
+    };
+    if (std::ranges::any_of(effects, direct))
+      note_writer(number, bits, wanted, writers);
+    else if (std::ranges::any_of(effects, led_there))
+      writers.pointers.push_back(number);
+  }
+  return writers;
+}
+
+// --- what is in the way ---
+
+void Obstacles::add_forced(Obstacle& obstacle, const Bits& bit) const {
+  const auto is_forced = [&](const ForcedPoints& points, std::uint32_t base) {
+    const std::uint64_t byte = bit.first / 8 - base;
+    return bit.first / 8 >= base && byte < image::kPointBytes && (points.mask[byte] >> (bit.first % 8) & 1) != 0;
+  };
+  if (!is_forced(cpu_.state().forcing.inputs, image::kI) && !is_forced(cpu_.state().forcing.outputs, image::kQ)) return;
+  obstacle.text +=
+      fmt::format("{}it is forced; 'unforce {}' releases it", obstacle.text.empty() ? "" : "; ", memory_text(bit));
+}
+
+void Obstacles::add_ways(Obstacle& to, const std::vector<Conditions>& ways) {
+  std::vector<Conditions> fewest = ways_.fewest_changes(ways);
+  if (fewest.empty()) {
+    to.because.push_back({.kind = "never", .text = "no contact can do that: it never has power flow there"});
+    return;
+  }
+  if (fewest.front().empty()) {
+    to.because.push_back(
+        {.kind = "fulfilled", .text = "nothing more is needed: it is so the next time that it is executed"});
+    return;
+  }
+  const std::size_t shown = std::min(fewest.size(), open_.size() > 1 ? std::size_t{2} : kMostWays);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::size_t count = fewest[i].size();
+    Obstacle way{.kind = "ways",
+                 .text = fmt::format("{}{} {} to change:", i == 0 ? "" : "or ", counted(count, "contact"),
+                                     count == 1 ? "has" : "have")};
+    for (const Condition& condition : fewest[i]) {
+      Obstacle one = of_condition(condition);
+      const auto is_same = [&](const Obstacle& other) {
+        return one.bits.count != 0 && other.bits == one.bits && other.wanted == one.wanted;
+      };
+      if (std::ranges::none_of(way.because, is_same)) way.because.push_back(std::move(one));
+    }
+    to.because.push_back(std::move(way));
+  }
+  if (fewest.size() > shown)
+    to.because.push_back({.kind = "more", .text = fmt::format("and {} more", counted(fewest.size() - shown, "way"))});
+}
+
+Obstacle Obstacles::of_input(std::uint32_t number, std::size_t level, bool on, std::string text) {
+  Obstacle input{.kind = "rung", .text = fmt::format("{}: {}", std::move(text), rung_text(number, level)), .op = number};
+  add_ways(input, ways_.input(number, level, on));
+  return input;
+}
+
+Obstacle Obstacles::of_condition(const Condition& condition) {
+  const Op& of = op(condition.op);
+  if (is_comparison(of)) return of_comparison(condition);
+  if (is_edge(of)) return of_edge(condition.op);
+  if (of.instruction->structure == Structure::InterruptHead) return of_interrupt(condition.op);
+  if (of.instruction->effect == Effect::ReadsEno)
+    return {.kind = "eno",
+            .text = fmt::format("{} must find ENO {}: the box before it has ended with an error", place_text(condition.op),
+                                condition.on ? 1 : 0),
+            .op = condition.op};
+  return of_contact(condition);
+}
+
+Obstacle Obstacles::of_contact(const Condition& condition) {
+  const Op& contact = op(condition.op);
+  const bool segment = contact.instruction->structure == Structure::SegmentBegin;
+  const std::string_view mnemonic = contact.instruction->mnemonic;
+  const bool closed = !segment && (mnemonic.ends_with('N') || mnemonic.ends_with("NI"));
+  const bool wanted = condition.on != closed;
+  const Bits plain = as_named(bit_at(contact[0])), bit = plain.count == 1 ? plain : bit_at(contact[0]);
+  const bool is_local = area_of(bit) == Area::L;
+  Obstacle found = is_local ? of_memory(bit, wanted, facts_.flow.nodes[condition.op].routine) : of_bit(bit, wanted);
+  found.op = condition.op;
+  found.place = place_text(condition.op);
+  if (segment) found.text += fmt::format("{}a step of the sequence", found.text.empty() ? "" : "; ");
+  if (is_local) {
+    found.value = contacts_.value(condition.op, 0).value_or(0) != 0 ? "1" : "0";
+    found.bits = {0, 0};
+  } else if (is_on(bit) == wanted) {
+    found.text = "it was not so when the program looked at it last";
+    found.because.clear();
+  }
+  return found;
+}
+
+void Obstacles::add_value_of(Obstacle& to, std::uint32_t number, std::size_t operand) {
+  const Operand& of = op(number)[operand];
+  const auto place = cpu_.place_of(of);
+  if (!place || *place >= image::kConstants) return;
+  const OperandRule& rule = op(number).instruction->operand[operand];
+  to.because.push_back(of_value(as_named({std::uint64_t{*place} * 8, std::uint64_t{bytes_of(rule.width)} * 8})));
+}
+
+Obstacle Obstacles::of_comparison(const Condition& condition) {
+  const std::string_view mnemonic = op(condition.op).instruction->mnemonic;
+  const std::string_view relation = mnemonic.substr(mnemonic.find_first_of("<>="));
+  Obstacle found{.kind = "comparison",
+                 .text = fmt::format("{} {} {} must {}hold ({})", operand_text(condition.op, 0), relation,
+                                     operand_text(condition.op, 1), condition.on ? "" : "not ", place_text(condition.op)),
+                 .op = condition.op};
+  for (std::size_t i = 0; i < 2; ++i) add_value_of(found, condition.op, i);
+  return found;
+}
+
+Obstacle Obstacles::of_edge(std::uint32_t number) {
+  const bool rising = op(number).instruction->mnemonic == "EU";
+  const RungLogic& rung = ways_.rung_of(number);
+  Obstacle found{.kind = "edge", .text = {}, .op = number};
+  found.text =
+      fmt::format("{} needs a {} edge of ({})", place_text(number), rising ? "rising" : "falling", rung_text(number, 0));
+  if (rung.inputs.empty()) return found;
+  const std::vector<Conditions> ways = ways_.input(number, 0, rising);
+  const std::vector<Conditions> fewest = ways_.fewest_changes(ways);
+  if (!fewest.empty() && fewest.front().empty())
+    found.text += fmt::format(", which is {} already: it has to go {} first", rising ? "on" : "off", rising ? "off" : "on");
+  else
+    add_ways(found, ways);
+  return found;
+}
+
+Obstacle Obstacles::of_interrupt(std::uint32_t head) {
+  const std::uint32_t number = op(head)[0].at;
+  const auto event = event_of_routine(cpu_.state(), number);
+  Obstacle found{.kind = "interrupt", .text = {}, .op = head};
+  if (event) {
+    found.text = fmt::format("INT {} has to run, at {}{}", number, event_text(*event),
+                             cpu_.state().interrupts_enabled ? "" : "; interrupts are disabled");
+    return found;
+  }
+  found.text = fmt::format("INT {} has to run, and is attached to no event", number);
+  for (const Attachment& attachment : facts_.flow.attachments)
+    if (attachment.routine && facts_.flow.routines[*attachment.routine].first == head) {
+      Obstacle by{.kind = "rung",
+                  .text = fmt::format("{} attaches it: {}", place_text(attachment.op), rung_text(attachment.op, 0)),
+                  .op = attachment.op};
+      add_ways(by, ways_.to(attachment.op, true));
+      found.because.push_back(std::move(by));
+    }
+  return found;
+}
+
+Obstacle Obstacles::of_timer(const Bits& bit, bool wanted) {
+  Obstacle found = about("timer", bit, wanted);
+  const auto number = static_cast<std::uint32_t>(bit.first - std::uint64_t{image::kTBits} * 8);
+  const Time base = timer_base(number).base;
+  const TimerState& state = cpu_.state().timer[number];
+  const auto& image = cpu_.state().image;
+  const auto now = static_cast<std::int16_t>(image[image::kT + 2 * number] << 8 | image[image::kT + 2 * number + 1]);
+  bool any = false;
+  for (std::uint32_t by = 0; by < program().ops.size(); ++by) {
+    const Instruction& instruction = *op(by).instruction;
+    if (instruction.hidden != Hidden::Number || instruction.operand[0].areas != set_of(Area::T) || op(by)[2].at != number)
+      continue;
+    any = true;
+    const bool off_delay = instruction.mnemonic == "TOF";
+    const auto preset = static_cast<std::int16_t>(contacts_.value(by, 1).value_or(0));
+    const bool counts = off_delay ? state.enabled && !state.input && !wanted : state.enabled && wanted && now < preset;
+    const std::string times = fmt::format("{} of {} have passed", timed_text(now, base), timed_text(preset, base));
+    if (counts) {
+      found.text = fmt::format("in {} ({})", timed_text(preset - now, base), times);
+      return found;
+    }
+    const std::string after = wanted == off_delay ? "" : fmt::format(" for {}", timed_text(preset, base));
+    Obstacle rung{
+        .kind = "rung",
+        .text = fmt::format("{} must {} power{}: {}", place_text(by), wanted ? "have" : "have no", after, rung_text(by, 0)),
+        .op = by};
+    add_ways(rung, ways_.to(by, wanted));
+    found.text = wanted && !off_delay ? fmt::format("a timer, {}", times)
+                                      : fmt::format("a timer, {} of {}", instruction.mnemonic, format_duration(base));
+    found.because.push_back(std::move(rung));
+  }
+  if (!any) found.text = "no instruction times it";
+  if (!wanted) add_resets(found, bit);
+  return found;
+}
+
+Obstacle Obstacles::of_counter(const Bits& bit, bool wanted) {
+  Obstacle found = about("counter", bit, wanted);
+  const auto number = static_cast<std::uint32_t>(bit.first - std::uint64_t{image::kCBits} * 8);
+  const auto& image = cpu_.state().image;
+  const auto now = static_cast<std::int16_t>(image[image::kC + 2 * number] << 8 | image[image::kC + 2 * number + 1]);
+  found.text = "no instruction counts it";
+  for (std::uint32_t by = 0; by < program().ops.size(); ++by) {
+    const Instruction& instruction = *op(by).instruction;
+    if (instruction.hidden != Hidden::Number || instruction.operand[0].areas != set_of(Area::C) || op(by)[2].at != number)
+      continue;
+    const auto preset = static_cast<std::int16_t>(contacts_.value(by, 1).value_or(0));
+    const bool down = instruction.mnemonic == "CTD";
+    const std::size_t count_level = instruction.mnemonic == "CTUD" ? 2 : 1;
+    const int left = down ? now : preset - now;
+    found.text = fmt::format("a counter at {} of {}", now, preset);
+    if (wanted) {
+      found.because.push_back(
+          of_input(by, count_level, true,
+                   fmt::format("{} needs {} of its count input", place_text(by),
+                               counted(static_cast<std::uint64_t>(std::max(left, 0)), "more rising edge"))));
+      const std::vector<Conditions> quiet = ways_.fewest_changes(ways_.input(by, 0, false));
+      if (!quiet.empty() && !quiet.front().empty())
+        found.because.push_back(of_input(by, 0, false, fmt::format("its {} input must be off", down ? "load" : "reset")));
+    } else {
+      found.because.push_back(
+          of_input(by, 0, true, fmt::format("{} must have power at its {} input", place_text(by), down ? "load" : "reset")));
+    }
+  }
+  if (!wanted) add_resets(found, bit);
+  return found;
+}
+
+/// R is one more way to reset a timer or a counter.
+void Obstacles::add_resets(Obstacle& to, const Bits& bit) {
+  Writers resets = writers_of(bit, false, {});
+  resets.others.clear();
+  if (!resets.deciding.empty()) add_ways_of_bit(to, resets, bit, false);
+}
+
+Obstacle Obstacles::of_bit(const Bits& bit, bool wanted) {
+  if (is_bits_of_timer(bit)) return of_timer(bit, wanted);
+  if (is_bits_of_counter(bit)) return of_counter(bit, wanted);
+  const Bits plain = as_named(bit);
+  switch (area_of(plain)) {
+    case Area::I: {
+      Obstacle found = about("input", plain, wanted);
+      found.text = "an input";
+      add_forced(found, plain);
+      return found;
+    }
+    case Area::SM: {
+      Obstacle found = about("system", plain, wanted);
+      found.text = meaning_text(*program().model, plain);
+      const Writers writers = writers_of(plain, wanted, {});
+      if (!writers.deciding.empty()) add_ways_of_bit(found, writers, plain, wanted);
+      return found;
+    }
+    default:
+      return of_memory(plain, wanted, {});
+  }
+}
+
+Obstacle Obstacles::of_memory(const Bits& bit, bool wanted, std::optional<std::uint32_t> routine) {
+  Obstacle found = about("bit", bit, wanted);
+  add_forced(found, bit);
+  const std::pair<Bits, bool> own{bit, wanted};
+  if (std::ranges::find(open_, own) != open_.end()) {
+    found.text = "it would have to hold itself; see above";
+    return found;
+  }
+  const Writers writers = writers_of(bit, wanted, routine);
+  if (open_.size() >= kMostLevels) {
+    std::vector<std::string> by;
+    for (const auto* list : {&writers.deciding, &writers.others, &writers.calls})
+      for (const std::uint32_t one : *list) by.push_back(place_text(one));
+    if (by.size() > kMostWriters) by.resize(kMostWriters);
+    found.text +=
+        by.empty() ? "not followed further" : fmt::format("written by {}; not followed further", fmt::join(by, " and "));
+    return found;
+  }
+  open_.push_back(own);
+  if (routine) add_arguments(found, bit, wanted, *routine);
+  add_ways_of_bit(found, writers, bit, wanted);
+  open_.pop_back();
+  return found;
+}
+
+/// What the calls of a routine hand over.
+void Obstacles::add_arguments(Obstacle& to, const Bits& local, bool wanted, std::uint32_t routine) {
+  for (const CallSite& call : facts_.flow.calls) {
+    if (call.routine != routine) continue;
+    for (const Parameter& parameter : parameters_of(program(), call.op)) {
+      if (parameter.role == Role::Out || parameter.width != Width::Bit || !(local_bits(parameter) == local)) continue;
+      Obstacle given{.kind = "call", .text = fmt::format("{} hands it over", place_text(call.op)), .op = call.op};
+      const bool is_memory = !parameter.actual.pointer && parameter.actual.at < image::kConstants;
+      if (is_memory && is_on(bit_at(parameter.actual)) != wanted)
+        given.because.push_back(of_bit(bit_at(parameter.actual), wanted));
+      to.because.push_back(std::move(given));
+    }
+  }
+}
+
+void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits& bit, bool wanted) {
+  std::vector<Conditions> ways;
+  std::vector<std::uint32_t> rungs = writers.deciding;
+  for (const std::uint32_t by : writers.deciding) {
+    const bool coil = is_one_of(op(by).instruction->mnemonic, {"=", "=I"});
+    std::vector<Conditions> own = ways_.to(by, coil ? wanted : true);
+    for (const auto* list : {&writers.deciding, &writers.opposing})
+      for (const std::uint32_t other : *list) {
+        const bool later = other > by && facts_.flow.nodes[other].routine == facts_.flow.nodes[by].routine;
+        const bool other_coil = is_one_of(op(other).instruction->mnemonic, {"=", "=I"});
+        const bool opposes = list == &writers.opposing;
+        if (!later || (!other_coil && !opposes)) continue;
+        own = ways_.both(own, other_coil ? ways_.input(other, 0, wanted) : ways_.input(other, 0, false));
+        if (opposes && std::ranges::find(rungs, other) == rungs.end()) rungs.push_back(other);
+      }
+    ways = ways_.either(std::move(ways), own);
+  }
+  std::erase_if(ways, [&](const Conditions& way) {  // it would have to be so already
+    return std::ranges::any_of(way, [&](const Condition& each) {
+      const Op& contact = op(each.op);
+      const std::string_view mnemonic = contact.instruction->mnemonic;
+      const bool is_bit =
+          !is_comparison(contact) && !is_edge(contact) && contact.is_contact && !contact.instruction->rules().empty();
+      return is_bit && bit_at(contact[0]) == bit && (each.on != mnemonic.ends_with('N')) == wanted && is_on(bit) != wanted;
+    });
+  });
+  std::ranges::sort(rungs);
+  add_rungs(to, rungs);
+  if (!writers.deciding.empty()) add_ways(to, ways);
+  for (std::size_t i = 0; i < std::min(kMostWriters, writers.others.size()); ++i)
+    to.because.push_back(of_writer(writers.others[i], bit, wanted));
+  for (std::size_t i = 0; i < std::min(kMostWriters, writers.calls.size()); ++i)
+    to.because.push_back(of_call(writers.calls[i], bit, wanted));
+  add_indirect(to, writers, bit);
+  if (to.because.empty() && to.text.empty())
+    to.text = "no instruction writes it: only somebody outside can, a panel or a programming device";
+}
+
+void Obstacles::add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writers) const {
+  for (std::size_t i = 0; i < std::min(kMostWriters, writers.size()); ++i) {
+    const std::uint32_t by = writers[i];
+    const bool idle = has_run_ && !runs(by);
+    to.because.push_back({.kind = "rung",
+                          .text = fmt::format("{}: {}{}{}", place_text(by), rung_text(by, 0), interrupt_text(by),
+                                              idle ? ", not executed lately" : ""),
+                          .op = by});
+  }
+  if (writers.size() > kMostWriters)
+    to.because.push_back(
+        {.kind = "more", .text = fmt::format("and {} more of its instructions", writers.size() - kMostWriters)});
+}
+
+void Obstacles::add_indirect(Obstacle& to, const Writers& writers, const Bits& bits) const {
+  for (const std::uint32_t by : writers.messages) {
+    const Op& receives = op(by);
+    const bool counts = receives.instruction->effect == Effect::Receives && !receives[0].pointer;
+    const std::uint64_t character = bits.first / 8 - receives[0].at;
+    to.because.push_back({.kind = "message",
+                          .text = counts && character > 0
+                                      ? fmt::format("{} stores character {} of a message there", place_text(by), character)
+                                      : fmt::format("{} lets a message be stored there", place_text(by)),
+                          .op = by});
+  }
+  if (writers.pointers.empty()) return;
+  const std::size_t more = writers.pointers.size() - 1;
+  to.because.push_back({.kind = "pointer",
+                        .text = fmt::format("{} may reach it through a pointer{}", place_text(writers.pointers.front()),
+                                            more == 0 ? "" : fmt::format(", and {}", counted(more, "other instruction"))),
+                        .op = writers.pointers.front()});
+}
+
+/// A move from memory leads to the bit that it moves there.
+Obstacle Obstacles::of_writer(std::uint32_t number, const Bits& bit, bool wanted) {
+  const Op& by = op(number);
+  Obstacle found{
+      .kind = "write", .text = fmt::format("{} writes it: {}", place_text(number), rung_text(number, 0)), .op = number};
+  const bool moves = is_one_of(by.instruction->mnemonic, {"MOVB", "MOVW", "MOVD", "MOVR"});
+  if (moves && !by[0].pointer && !by[1].pointer && by[0].at < image::kConstants && bit.count == 1) {
+    const std::uint64_t offset = bit.first - std::uint64_t{by[1].at} * 8;
+    const Bits source{std::uint64_t{by[0].at} * 8 + offset, 1};
+    const bool is_plain = area_of(source) != Area::T && area_of(source) != Area::C && area_of(source) != Area::AC &&
+                          area_of(source) != Area::L;
+    if (is_plain && is_on(source) != wanted) found.because.push_back(of_bit(source, wanted));
+  }
+  const std::vector<Conditions> fewest = ways_.fewest_changes(ways_.to(number, true));
+  if (fewest.empty() || !fewest.front().empty()) add_ways(found, ways_.to(number, true));
+  return found;
+}
+
+Obstacle Obstacles::of_call(std::uint32_t call, const Bits& bit, bool wanted) {
+  Obstacle found{
+      .kind = "call", .text = fmt::format("{} gets it back: {}", place_text(call), rung_text(call, 0)), .op = call};
+  for (const Parameter& parameter : parameters_of(program(), call)) {
+    if (parameter.role == Role::In || parameter.actual.pointer || parameter.width != Width::Bit) continue;
+    if (!(bit_at(parameter.actual) == bit)) continue;
+    Obstacle inside = of_memory(local_bits(parameter), wanted, facts_.flow.nodes[op(call).target].routine);
+    inside.bits = {0, 0};
+    inside.value = is_on(bit) ? "1" : "0";
+    found.because.push_back(std::move(inside));
+  }
+  const std::vector<Conditions> ways = ways_.to(call, true), fewest = ways_.fewest_changes(ways);
+  if (fewest.empty() || !fewest.front().empty()) add_ways(found, ways);
+  return found;
+}
+
+Obstacle Obstacles::of_value(const Bits& bits) {
+  Obstacle found{.kind = "value", .name = name_of(bits)};
+  const auto at = static_cast<std::uint32_t>(bits.first / 8);
+  const Area area = area_of(bits);
+  const Width width = bits.count == 8 ? Width::Byte : bits.count == 16 ? Width::Word : Width::Double;
+  if (auto range = range_at(at, width, *program().model)) {
+    found.value = value_text(program(), *range, range->bytes_in(cpu_.state().image));
+    if (bits.count <= 32 && area != Area::L && area != Area::AC) found.bits = bits;
+  }
+  found.text = area == Area::T || area == Area::C ? "" : meaning_text(*program().model, bits);
+  if (area == Area::I || area == Area::AI || area == Area::HC) return found;
+  const Writers writers = writers_of(bits, true, {});
+  std::vector<std::uint32_t> all = writers.deciding;
+  for (const auto* list : {&writers.opposing, &writers.others, &writers.calls})
+    all.insert(all.end(), list->begin(), list->end());
+  if (area == Area::T || area == Area::C) found.kind = area == Area::T ? "timer" : "counter";
+  std::ranges::sort(all);
+  add_rungs(found, all);
+  add_indirect(found, writers, bits);
+  if (found.because.empty() && found.text.empty())
+    found.text = "no instruction writes it: only somebody outside can, a panel or a programming device";
+  return found;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,84 @@
+// The tree of an answer of `why not`, from the state of a CPU and what its contacts found lately.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/ways.hpp"
+#include "tools/session/causes/contacts.hpp"
+#include "tools/session/causes/obstacle.hpp"
+
+namespace s7200::tools {
+
+class Obstacles {
+ public:
+  /// All must live as long as this. `fresh_since`: as of Contacts.
+  Obstacles(const Cpu& cpu, const Facts& facts, const LatelyExecuted& lately, Time fresh_since);
+
+  /// What keeps a bit from being on, or off.
+  Obstacle of_bit(const Bits& bit, bool wanted);
+
+  /// Who writes a word, or other memory that is compared.
+  Obstacle of_value(const Bits& bits);
+
+ private:
+  /// The instructions that write a bit, in the order of the program.
+  struct Writers {
+    std::vector<std::uint32_t> deciding{};  ///< make it what is wanted
+    std::vector<std::uint32_t> opposing{};  ///< make it the opposite
+    std::vector<std::uint32_t> others{};    ///< that may do either: a whole byte, a result, a block
+    std::vector<std::uint32_t> calls{};     ///< that get it back from their subroutine
+    std::vector<std::uint32_t> messages{};  ///< that let messages be stored there
+    std::vector<std::uint32_t> pointers{};  ///< through a pointer
+  };
+
+  const Program& program() const { return facts_.program; }
+  const Op& op(std::uint32_t number) const { return facts_.program.ops[number]; }
+
+  std::string place_text(std::uint32_t op) const;
+  std::string name_of(const Bits& bits) const;
+  bool is_on(const Bits& bit) const;
+  Obstacle about(std::string_view kind, const Bits& bit, bool wanted) const;
+
+  Obstacle of_condition(const Condition& condition);
+  Obstacle of_contact(const Condition& condition);
+  Obstacle of_comparison(const Condition& condition);
+  Obstacle of_edge(std::uint32_t op);
+  Obstacle of_interrupt(std::uint32_t head);
+  Obstacle of_timer(const Bits& bit, bool wanted);
+  Obstacle of_counter(const Bits& bit, bool wanted);
+  Obstacle of_memory(const Bits& bit, bool wanted, std::optional<std::uint32_t> routine);
+  Obstacle of_writer(std::uint32_t op, const Bits& bit, bool wanted);
+  Obstacle of_call(std::uint32_t call, const Bits& bit, bool wanted);
+  Obstacle of_input(std::uint32_t op, std::size_t level, bool on, std::string text);
+
+  void add_forced(Obstacle& obstacle, const Bits& bit) const;
+  Writers writers_of(const Bits& bits, bool wanted, std::optional<std::uint32_t> routine) const;
+  void note_writer(std::uint32_t op, const Bits& bits, bool wanted, Writers& writers) const;
+  void add_ways(Obstacle& to, const std::vector<Conditions>& ways);
+  void add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits& bit, bool wanted);
+  void add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writers) const;
+  void add_resets(Obstacle& to, const Bits& bit);
+  void add_arguments(Obstacle& to, const Bits& local, bool wanted, std::uint32_t routine);
+  void add_indirect(Obstacle& to, const Writers& writers, const Bits& bits) const;
+  void add_value_of(Obstacle& to, std::uint32_t op, std::size_t operand);
+
+  std::string logic_text(const NetworkLogic& logic, std::size_t gate, int strength) const;
+  std::string contact_text(const NetworkLogic::Contact& contact, bool negated) const;
+  std::string operand_text(std::uint32_t op, std::size_t operand) const;
+  std::string rung_text(std::uint32_t op, std::size_t level) const;
+  std::string interrupt_text(std::uint32_t op) const;
+  bool runs(std::uint32_t op) const;
+
+  const Cpu& cpu_;
+  const Facts& facts_;
+  Contacts contacts_;
+  bool has_run_;  ///< something was executed lately, so that what was not is known
+  Ways ways_;
+  std::vector<std::pair<Bits, bool>> open_{};  ///< bits that are being followed
+};
+
+}  // namespace s7200::tools

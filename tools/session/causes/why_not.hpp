@@ -1,0 +1,41 @@
+// Which contacts hold a bit off, or on, and who could change them.
+//
+// Works on the rungs that write it (interpreter/analysis/ways.hpp) and on what their contacts have: as the program last
+// found them, or as a memory picture has them. Followed further a few levels: to an input, a timer, a counter, a step of a
+// sequence, a message, an interrupt.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/base/stop_token.hpp"
+#include "tools/session/causes/expression.hpp"
+#include "tools/session/causes/obstacle.hpp"
+#include "tools/session/past/history.hpp"
+
+namespace s7200::tools {
+
+/// What is wished for: that a bit is on or off, or that an expression holds.
+struct Wish {
+  std::string text{};                     ///< as it was written
+  std::optional<Bits> bit{};              ///< the bit of a timer or counter, too
+  bool on = true;                         ///< of the bit
+  std::optional<Expression> condition{};  ///< without a bit
+};
+
+/// `Q0.3`, `not Q0.3`, `T37`, `VW10 > 5`. Nothing, and `why`, if it cannot be read.
+std::optional<Wish> parse_wish(std::string_view text, const Program& program, std::string& why);
+
+/// Whether it is so now; nothing, and `why`, where a pointer points nowhere.
+std::optional<bool> holds_now(const Wish& wish, const Cpu& cpu, std::string& why);
+
+/// What is in the way where the history stands, which stands there afterwards; with since when each value has been there, to
+/// the scan. Nothing after a stop request.
+std::optional<Obstacle> why_not(History& history, std::size_t station, const Wish& wish, StopToken stop_request);
+
+/// The same from the state of a CPU alone, of which nothing has run.
+Obstacle why_not(const Cpu& cpu, const Wish& wish);
+
+}  // namespace s7200::tools
