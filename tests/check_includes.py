@@ -57,6 +57,7 @@ ROOMS = {
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/measuring", "tools/yaml", "tools/plan", "tools/rig", "tools/slave"] + SESSION,
     "tools/trials": CORE + ["tools/views", "tools/scenario"],
     "tools/compare": CORE + ["tools/views", "tools/scenario", "tools/trials"],
+    "tools/fuzzing": CORE + ["tools/views", "tools/scenario", "tools/trials"] + SESSION,
     "tools/recordings": CORE + ["tools/views", "tools/json", "tools/scenario"],
     "tools/faces/files": ["interpreter/base", "tools/host", "tools/session/commands"],
     "tools/faces/console": CORE + ["tools/host", "tools/views", "tools/plan", "tools/rig"] + COMMANDS,

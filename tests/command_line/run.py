@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|inspect|compare|files|scenarios|input|readme|times|systems"""
+"""The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|inspect|compare|fuzz|files|scenarios|input|readme|times|systems"""
 import contextlib
 import csv
 import html
@@ -1160,7 +1160,7 @@ class Options(Case):
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
     ANY_TEXT = ("TABLE", "DIR", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
-    BEGINNING = {"check": [SLAVE], "inspect": [SLAVE, "xref"], "compare": [SLAVE, SLAVE], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
+    BEGINNING = {"check": [SLAVE], "inspect": [SLAVE, "xref"], "compare": [SLAVE, SLAVE], "fuzz": [SLAVE, "--runs", "1"], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "decode": [LOG], "import-capture": [LOG], "debug": [SLAVE, "-x", "quit"], "view": [SLAVE], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
     @staticmethod
@@ -2477,6 +2477,9 @@ class JsonPage(Case):
         plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
         yield from (["check", echo, wrong], ["check", SOURCE / "tests/programs/libraries/slave.awl", "--cpu", "224"], ["import", self.program(Files.DOCUMENT, "page.txt")],
                     ["compare", *Compare.CHANGED], ["compare", self.program("LD SM0.1\nATCH 0, 10\nENI\nMEND\nINT 0\nRETI\n", "old.stl"), SLAVE, "--cpu", "214"],
+                    ["compare", EXPORTS / "timer_old.stl", EXPORTS / "timer_new.stl"], ["compare", EXPORTS / "timer_old.stl", self.program("LD I0.0\n= Q0.0\nSTOP\nMEND\n", "stops.stl"), "--runs", "1"],
+                    ["compare", self.program("LD I0.0\n= Q0.0\nLD M5.0\n= M5.1\nMEND\n", "one.stl"), self.program("LD I0.0\n= Q0.0\nLD M5.0\n= M5.2\nLD M5.3\nMEND\n", "two.stl"), "--runs", "5"],
+                    ["fuzz", EXPORTS / "trusting_slave.stl", "--runs", "5000", "--seconds", "60"], ["fuzz", EXPORTS / "timer_old.stl", "--runs", "1"],
                     ["compare", echo, self.program("// CPU 224\n" + Json.ECHO, "other.stl")],
                     ["inspect", *Inspect.PUMP], ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
                     ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
@@ -2549,9 +2552,55 @@ class Compare(Case):
         self.assertIn("what they are in is left out", done.stderr)
         self.assertIn("1 changed" if "same" in done.stdout else "1 network changed", done.stdout)
 
+    def test_what_they_do_is_compared_and_written_as_a_scenario(self):
+        old, new = EXPORTS / "timer_old.stl", EXPORTS / "timer_new.stl"
+        written = self.folder / "timer.yaml"
+        for _ in range(2):  # its own file is replaced
+            self.assertIn("Q0.1: old 1, new 0", self.ends(FAILED, "compare", old, new, "--write", written).stdout)
+        self.ends(FINE, "test", written)
+        self.ends(FAILED, "test", written, "--target", new)
+        self.assertNotIn("Behaviour", self.ends(FAILED, "compare", old, new, "--structure").stdout)
+        mine = self.program("mine", "mine.yaml")
+        self.assertIn("mine.yaml", self.ends(UNUSABLE, "compare", old, new, "--write", mine).stderr)
+        self.assertIn("--watch", self.ends(UNUSABLE, "compare", old, new, "--watch", "VX").stderr)
+
     def test_it_keeps_to_100_columns(self):
         for line in self.ends(FAILED, "compare", *self.CHANGED).stdout.splitlines():
             self.assertLessEqual(len(line), 100, line)
+
+
+class Fuzz(Case):
+    TRUSTING = EXPORTS / "trusting_slave.stl"
+
+    def test_what_is_found_is_written_as_scenarios_that_fail(self):
+        found = self.folder / "found"
+        done = self.ends(FAILED, "fuzz", self.TRUSTING, "--seconds", "10", "--runs", "5000", "--write", found)
+        self.assertIn("run-time error 0006", done.stdout)
+        self.assertIn("run-time error 0091", done.stdout)
+        scenarios = sorted(found.iterdir())
+        self.assertGreaterEqual(len(scenarios), 2)
+        for scenario in scenarios:
+            self.ends(FAILED, "test", scenario)
+
+    @unittest.skipUnless(TIP.exists(), "there is no tip")
+    def test_the_faults_of_the_tip_are_found_within_ten_seconds(self):
+        done = self.ends(FAILED, "fuzz", TIP, "--seconds", "10", "--json")
+        codes = {finding["code"] for finding in json.loads(done.stdout)["findings"]}
+        self.assertLessEqual({"0006", "0092"}, codes)
+
+    def test_a_good_program_has_no_findings_and_says_what_was_tried(self):
+        good = self.program("LD I0.0\n= Q0.0\nMEND\n", "good.stl")
+        self.assertIn("Nothing was found", self.ends(FINE, "fuzz", good, "--runs", "100").stdout)
+
+    def test_rules_and_writes(self):
+        program = self.program("LD I0.0\n= Q0.0\nLD I0.1\n= Q0.1\nMOVW 1, VW100\nMEND\n", "rules.stl")
+        self.assertIn("never Q0.0 AND Q0.1", self.ends(FAILED, "fuzz", program, "--runs", "500", "--never", "Q0.0 AND Q0.1").stdout)
+        self.assertIn("--writes", self.ends(FAILED, "fuzz", program, "--runs", "500", "--writes", "VB0..VB50").stdout)
+        self.ends(FINE, "fuzz", program, "--runs", "500", "--writes", "VB0..VB50", "--writes", "VB100:2")
+        for wrong in (["--never", "Q0.0 AND"], ["--writes", "QB0"], ["--writes", "VB9..VB1"]):
+            self.assertIn(wrong[0], self.ends(UNUSABLE, "fuzz", program, *wrong).stderr)
+        self.assertIn("cannot be run", self.ends(FAILED, "fuzz", self.program("LD VB0\nMEND\n")).stderr)
+        self.ends(UNUSABLE, "fuzz", program, program)
 
 
 class Inspect(Case):
@@ -4091,7 +4140,7 @@ class Readme(Case):
     # What is in commands that find something wrong, or get no answer: their exit code is 1, and that of all others 0.
     NOT_RIGHT = ("import --compare", "wrong_answer.yaml", "send stl_programs/modbus_slave.stl 0103000a00010000", "--baud 19200", "pointers.stl",
                  "broken.awl", "--fault flip:", "freeport_pc_protocol_zh.txt --cpu 224", "4006381333931",
-                 "--only 'wrong quantity'", "tests/exports/pump_new.awl", "--conformance tests/conformance/tip41.yaml")
+                 "--only 'wrong quantity'", "tests/exports/pump_new.awl", "timer_new.stl --write", "s7200 fuzz tests", "s7200 test found", "--conformance tests/conformance/tip41.yaml")
 
     PAGES = sorted((SOURCE / "docs").glob("*.md"))
 
@@ -4242,7 +4291,7 @@ class Readme(Case):
 
 
 if __name__ == "__main__":
-    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "inspect": Inspect, "compare": Compare, "files": Files, "readme": Readme, "scenarios": Scenarios,
+    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "inspect": Inspect, "compare": Compare, "fuzz": Fuzz, "files": Files, "readme": Readme, "scenarios": Scenarios,
              "input": StandardInput, "times": Times, "systems": Systems}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

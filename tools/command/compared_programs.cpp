@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "interpreter/base/counted.hpp"
@@ -26,6 +28,13 @@ bool add_parts(ProgramFiles& program, const std::vector<std::string>& parts) {
 
 }  // namespace
 
+std::vector<std::string> ComparedFiles::all() const {
+  std::vector<std::string> paths = words;
+  paths.insert(paths.end(), old_parts.begin(), old_parts.end());
+  paths.insert(paths.end(), new_parts.begin(), new_parts.end());
+  return paths;
+}
+
 std::optional<OldAndNew> read_compared(const ComparedFiles& files) {
   int exit_code = kFine;
   auto programs = read_programs(files.words, exit_code);
@@ -34,7 +43,10 @@ std::optional<OldAndNew> read_compared(const ComparedFiles& files) {
     print_error(fmt::format("compare takes two programs, OLD and NEW; {} given", counted(programs.size(), "program")));
     return {};
   }
-  OldAndNew both{std::move(programs[0]), std::move(programs[1])};
+  OldAndNew both{std::move(programs[0]), std::move(programs[1]), {}};
+  std::ranges::copy_if(files.words, std::back_inserter(both.old_parts),
+                       [&](const std::string& path) { return path != both.older.path && path != both.newer.path; });
+  both.old_parts.insert(both.old_parts.end(), files.old_parts.begin(), files.old_parts.end());
   if (!add_parts(both.older, files.old_parts) || !add_parts(both.newer, files.new_parts)) return {};
   return both;
 }

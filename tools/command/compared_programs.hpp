@@ -10,12 +10,15 @@
 namespace s7200::tools {
 
 struct ComparedFiles {
-  std::vector<std::string> words;               ///< both programs, and parts of both projects
+  std::vector<std::string> words;                 ///< both programs, and parts of both projects
   std::vector<std::string> old_parts, new_parts;  ///< parts of one of them
+
+  std::vector<std::string> all() const;
 };
 
 struct OldAndNew {
   ProgramFiles older, newer;
+  std::vector<std::string> old_parts;  ///< paths of the other files of the old project
 };
 
 /// Reads them; nothing after a message.

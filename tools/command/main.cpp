@@ -31,6 +31,7 @@ constexpr std::array kVerbs{
     Verb{"check", add_check},
     Verb{"inspect", add_inspect},
     Verb{"compare", add_compare},
+    Verb{"fuzz", add_fuzz},
     Verb{"import", add_import},
     Verb{"convert", add_convert},
     Verb{"run", add_run},

@@ -342,6 +342,10 @@ class Search {
     watch(false);
     auto found = pair_.run(shortest);
     if (!found) return;
+    while (!found->begun.empty() && found->begun.back() > found->at && found->beside.empty()) {
+      found->begun.pop_back();
+      found->trial.pop_back();
+    }
     result_.difference = std::move(found);
     if (result_.difference->what.front() == 'Q') find_writers(*result_.difference);
   }
@@ -382,11 +386,11 @@ BehaviourResult compare_behaviour(const Inspection& older, const Inspection& new
 }
 
 std::string difference_scenario(const Inspection& older, const Inspection& newer, const BehaviourResult& result,
-                                const std::string& path, const std::string& program, std::string& why) {
+                                const std::string& path, const ScenarioOrigin& origin, std::string& why) {
   const BehaviourDifference& difference = *result.difference;
   why = "the line of a scenario has other times than the characters of the trial";
   for (const std::string& expectation : difference.expectations) {
-    TrialScenario scenario{.name = fmt::format("{} differs", difference.what), .program = program, .port = result.port};
+    TrialScenario scenario{.name = fmt::format("{} differs", difference.what), .origin = origin, .port = result.port};
     const std::size_t steps = difference.beside.empty() ? difference.trial.size() : difference.beside.size();
     for (std::size_t i = 0; i < steps && difference.begun[i] <= difference.at; ++i) {
       scenario.trial.push_back(difference.trial[i]);

@@ -18,6 +18,7 @@
 #include "interpreter/program/address.hpp"
 #include "tools/trials/contacts_seen.hpp"
 #include "tools/trials/trial.hpp"
+#include "tools/trials/trial_scenario.hpp"
 #include "tools/views/inspection.hpp"
 
 namespace s7200::tools {
@@ -60,6 +61,6 @@ nlohmann::ordered_json behaviour_json(const Inspection& older, const Inspection&
 /// A scenario that passes with the old program and fails with the new one. Empty, and `why`, if there is none. `program`:
 /// the old one's path, as it is to stand in the file at `path`.
 std::string difference_scenario(const Inspection& older, const Inspection& newer, const BehaviourResult& result,
-                                const std::string& path, const std::string& program, std::string& why);
+                                const std::string& path, const ScenarioOrigin& origin, std::string& why);
 
 }  // namespace s7200::tools

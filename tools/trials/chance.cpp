@@ -80,6 +80,13 @@ std::vector<std::uint8_t> TrialMaker::well_formed() {
   frame.resize(frame.size() - 2);
   for (std::uint64_t changes = chance_.below(4); changes > 0; --changes) {
     const std::size_t at = 1 + static_cast<std::size_t>(chance_.below(frame.size() - 1));
+    constexpr std::uint16_t kWords[]{0, 1, 0x7D, 0x7E, 0xFF, 0x100, 0x7FFF, 0x8000, 0xFFFF};
+    if (at + 1 < frame.size() && chance_.one_in(3)) {
+      const std::uint16_t word = chance_.one_of(kWords);
+      frame[at] = static_cast<std::uint8_t>(word >> 8);
+      frame[at + 1] = static_cast<std::uint8_t>(word);
+      continue;
+    }
     constexpr std::uint8_t kEdges[]{0, 1, 2, 0x7D, 0x7F, 0x80, 0xFF};
     frame[at] = chance_.one_in(2) ? chance_.one_of(kEdges) : static_cast<std::uint8_t>(value());
   }
@@ -93,8 +100,11 @@ std::vector<std::uint8_t> TrialMaker::well_formed() {
 std::vector<std::uint8_t> TrialMaker::characters() {
   std::vector<std::uint8_t> frame;
   const std::uint64_t count = 1 + chance_.below(chance_.one_in(8) ? kLongestFrame - 1 : 12);
-  for (std::uint64_t i = 0; i < count; ++i)
-    frame.push_back(chance_.one_in(3) ? chance_.byte() : static_cast<std::uint8_t>(value()));
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::uint32_t characters = chance_.one_in(3) ? chance_.byte() : value();
+    for (int byte = characters > 0xFFFF ? 3 : characters > 0xFF ? 1 : 0; byte >= 0; --byte)
+      frame.push_back(static_cast<std::uint8_t>(characters >> 8 * byte));
+  }
   if (chance_.one_in(3)) frame.push_back('\r');
   return frame;
 }

@@ -9,12 +9,16 @@ namespace {
 
 using What = Stimulus::What;
 
+constexpr std::size_t kFewCharacters = 8;
+constexpr Time kAlone = kSecond;  ///< after power-up
+
 class Shortening {
  public:
   Shortening(Trial trial, const std::function<bool(const Trial&)>& holds, std::size_t most)
       : trial_(std::move(trial)), holds_(holds), left_(most) {}
 
   Trial result() {
+    cut_out_of_frames();
     leave_out_stimuli();
     for (std::size_t i = 0; i < trial_.size(); ++i) {
       if (trial_[i].what == What::Frame) cut_frame(i);
@@ -32,6 +36,22 @@ class Shortening {
     if (!holds_(candidate)) return false;
     trial_ = std::move(candidate);
     return true;
+  }
+
+  /// A few characters of one frame alone may be enough, wherever they stand in it.
+  void cut_out_of_frames() {
+    const std::size_t kept = left_ / 2;
+    for (std::size_t length = 1; length <= kFewCharacters; ++length)
+      for (const Stimulus& frame : Trial(trial_)) {
+        if (frame.what != What::Frame) continue;
+        for (std::size_t at = 0; at + length <= frame.bytes.size() && left_ > kept; ++at) {
+          const auto first = frame.bytes.begin() + static_cast<std::ptrdiff_t>(at);
+          Stimulus alone = frame;
+          alone.bytes.assign(first, first + static_cast<std::ptrdiff_t>(length));
+          alone.wait = std::max(frame.wait, kAlone);
+          if (accept({alone})) return;
+        }
+      }
   }
 
   /// Without its time, or with it at what comes next.

@@ -7,6 +7,7 @@ namespace {
 
 constexpr EventOwner kOwnerOfPorts{0}, kOwnerOfCpu{1}, kOwnerOfLine{2};
 constexpr std::uint8_t kCharacter = 0;
+constexpr Time kSlice = 20 * kMillisecond;  ///< that is executed in one go
 
 }  // namespace
 
@@ -31,7 +32,10 @@ void TrialBench::Port::send_break(int bit_times, Time at) {
 }
 
 TrialBench::TrialBench(std::shared_ptr<const Program> program, std::uint8_t port)
-    : cpu_(std::move(program), queue_, kOwnerOfCpu, {&port_[0], &port_[1]}), number_(port), contacts_(cpu_.program()) {
+    : program_(std::move(program)),
+      cpu_(program_, queue_, kOwnerOfCpu, {&port_[0], &port_[1]}),
+      number_(port),
+      contacts_(cpu_.program()) {
   for (std::uint8_t i = 0; i < port_.size(); ++i) {
     port_[i].bench = this;
     port_[i].number = i;
@@ -61,7 +65,7 @@ void TrialBench::handle_due() {
 void TrialBench::run_until(Time end) {
   cpu_.pause_at_scan_end(static_cast<bool>(look_));
   while (cpu_.time() < end && !stopped() && !ended_) {
-    cpu_.run(end);
+    cpu_.run(end, kSlice);
     handle_due();
     if (look_ && !look_(cpu_)) ended_ = true;
   }
@@ -76,7 +80,7 @@ Time TrialBench::give(const Stimulus& frame) {
     queue_.schedule(start + to_report, kOwnerOfLine, kCharacter);
     run_until(start + to_report);
     if (stopped() || ended_) return cpu_.time();
-    const bool heard = port.listens && port.listens_since <= start;
+    const bool heard = port.listens && port.listens_since <= start && port.format == format;
     const auto data = static_cast<std::uint8_t>(format.data_bits == 7 ? byte & 0x7F : byte);
     if (heard) cpu_.character_received({.byte = data, .start = start, .end = start + to_report}, number_);
     start += format.character_time() + frame.gap;
@@ -96,7 +100,7 @@ Time TrialBench::apply(const Stimulus& stimulus, Time at) {
   if (stimulus.what == Stimulus::What::Input)
     cpu_.set_input(stimulus.place, stimulus.bytes.front(), cpu_.time());
   else
-    cpu_.poke(stimulus.place, stimulus.bytes);
+    poke(stimulus.place, stimulus.bytes);
   return cpu_.time();
 }
 

@@ -44,8 +44,11 @@ class TrialBench final : private TraceSink {
   /// Runs until then, or until the CPU is in STOP.
   void run_until(Time end);
 
-  /// Does it at `at`, or now if that is past, and returns when it is over.
+  /// Does it at `at`, or now if that is past, and returns when it is over. A frame has the format that the port has when it
+  /// begins; once the program has set the port otherwise, it hears no more of it.
   Time apply(const Stimulus& stimulus, Time at);
+
+  void poke(std::uint32_t place, const std::vector<std::uint8_t>& bytes) { cpu_.poke(place, bytes); }
 
   /// A whole trial, each stimulus `wait` after the one before was over. Returns when each was begun.
   std::vector<Time> apply(const Trial& trial);
@@ -53,7 +56,7 @@ class TrialBench final : private TraceSink {
   bool stopped() const { return cpu_.state().mode == Mode::Stop; }
   Time time() const { return cpu_.time(); }
   const Cpu& cpu() const { return cpu_; }
-  const Program& program() const { return cpu_.program(); }
+  const std::shared_ptr<const Program>& shared_program() const { return program_; }
   const Done& done() const { return done_; }
   const SerialFormat& format() const { return port_[number_].state.format; }
 
@@ -108,6 +111,7 @@ class TrialBench final : private TraceSink {
 
   EventQueue queue_;
   std::array<Port, kPorts.size()> port_{};
+  std::shared_ptr<const Program> program_;
   Cpu cpu_;
   std::uint8_t number_;
   Done done_;

@@ -40,9 +40,10 @@ std::string place_text(std::uint32_t place, std::size_t bytes) { return memory_t
 
 std::string scenario_text(const TrialScenario& scenario, const Program& program) {
   std::string text = fmt::format("name: {}\nprogram: {}\ncpu: \"{}\"\n", in_quotes(scenario.name),
-                                 in_quotes(scenario.program), program.model->name);
-  for (const std::string& file : scenario.with)
-    text += fmt::format("{}  - {}\n", &file == scenario.with.data() ? "with:\n" : "", in_quotes(file));
+                                 in_quotes(scenario.origin.program), program.model->name);
+  for (const std::string& file : scenario.origin.with)
+    text += fmt::format("{}  - {}\n", &file == scenario.origin.with.data() ? "with:\n" : "", in_quotes(file));
+  text += scenario.origin.head;
   if (scenario.port != 0) text += fmt::format("port: {}\n", scenario.port);
   text += "after: 0 ms\nsteps:\n";
   std::array<std::uint8_t, image::kPointBytes> inputs{};

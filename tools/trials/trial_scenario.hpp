@@ -11,10 +11,16 @@
 
 namespace s7200::tools {
 
-struct TrialScenario {
-  std::string name;                 ///< one line
-  std::string program;              ///< path, as it is to stand in the file
+/// What a scenario says of its program; paths as they are to stand in the file.
+struct ScenarioOrigin {
+  std::string program;
   std::vector<std::string> with{};  ///< the other files of the project
+  std::string head{};               ///< other keys of the scenario, in YAML
+};
+
+struct TrialScenario {
+  std::string name;  ///< one line
+  ScenarioOrigin origin;
   std::uint8_t port = 0;
   Trial trial{};
   std::vector<Time> begun{};          ///< when each stimulus begins, since power-up

@@ -1,0 +1,114 @@
+// What `s7200 compare` finds different in what two programs do.
+#include "tools/compare/behaviour.hpp"
+
+#include "tests/support/inspected.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using test::inspected;
+using End = BehaviourResult::End;
+
+const std::string kTimer = "LD I0.0\nTON T37, 5\nLD T37\nA I0.1\n= Q0.0\nMEND\n";
+const std::string kEcho =
+    "LD SM0.1\nMOVB 9, SMB30\nMOVB 1, VB0\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB SMB2, VB1\nXMT VB0, 0\nRETI\n";
+
+struct Behaviours {
+  Behaviours(std::string_view old_text, std::string_view new_text,
+             BehaviourSettings settings = {.runs = 3000, .seconds = 60})
+      : older(inspected(old_text, {}, *find_cpu("214"))),
+        newer(inspected(new_text, {}, *find_cpu("214"))),
+        result(compare_behaviour(older, newer, settings)) {}
+  Inspection older, newer;
+  BehaviourResult result;
+
+  std::string scenario() const {
+    std::string why;
+    return difference_scenario(older, newer, result, "difference.yaml", {.program = "old.stl"}, why);
+  }
+};
+
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+TEST(Behaviour, OneMoreTickOfATimerIsFoundWithTheShortestInputs) {
+  const Behaviours both(kTimer, replaced(kTimer, "T37, 5", "T37, 6"));
+  ASSERT_TRUE(both.result.difference);
+  EXPECT_EQ(both.result.difference->what, "Q0.0");
+  EXPECT_EQ(both.result.difference->older, "1");
+  EXPECT_EQ(both.result.difference->newer, "0");
+  EXPECT_LE(both.result.difference->trial.size(), 2U);
+  EXPECT_EQ(both.result.difference->older_op, 4U);
+  EXPECT_EQ(both.result.difference->newer_op, 4U);
+}
+
+TEST(Behaviour, TheScenarioOfADifferenceIsKnownToPassWithTheOldProgramOnly) {
+  const Behaviours both(kTimer, replaced(kTimer, "A I0.1", "AN I0.1"));
+  ASSERT_TRUE(both.result.difference);
+  const std::string scenario = both.scenario();
+  std::string why;
+  ASSERT_FALSE(scenario.empty());
+  EXPECT_TRUE(findings_of(scenario, "difference.yaml", both.older.program, why)->empty());
+  EXPECT_FALSE(findings_of(scenario, "difference.yaml", both.newer.program, why)->empty());
+}
+
+TEST(Behaviour, ProgramsThatDoTheSameInOtherWordsHaveAllContactsSeenAndNoDifference) {
+  const Behaviours both("LD I0.0\nA I0.1\n= Q0.0\nMEND\n", "LDN I0.0\nON I0.1\nNOT\n= Q0.0\nMEND\n");
+  EXPECT_FALSE(both.result.difference);
+  EXPECT_EQ(both.result.end, End::AllContacts);
+  EXPECT_EQ(both.result.both_ways[0], both.result.contacts[0]);
+  EXPECT_EQ(both.result.contacts[1], 2U);
+}
+
+TEST(Behaviour, ALongerScanAloneIsNoDifference) {
+  const std::string slow = replaced(kTimer, "MEND", "LD SM0.5\n= Q0.1\nLDN T38\nTON T38, 3\nLD T38\n= Q0.2\nMEND");
+  const Behaviours both(slow, replaced(slow, "MEND", "LD SM0.0\nFILL 0, VW1000, 200\nFILL 0, VW1000, 200\nMEND"),
+                        {.runs = 300, .seconds = 60});
+  EXPECT_FALSE(both.result.difference) << behaviour_text(both.older, both.newer, both.result);
+}
+
+TEST(Behaviour, WhatIsSentIsComparedByItsCharacters) {
+  const Behaviours both(kEcho, replaced(kEcho, "XMT", "LDB= VB1, 65\nMOVB 66, VB1\nLD SM0.0\nXMT"));
+  ASSERT_TRUE(both.result.difference);
+  EXPECT_EQ(both.result.difference->older, "41");
+  EXPECT_EQ(both.result.difference->newer, "42");
+  EXPECT_EQ(both.result.difference->trial.size(), 1U);
+  EXPECT_NE(both.scenario().find("expect: 41"), std::string::npos) << behaviour_text(both.older, both.newer, both.result);
+}
+
+TEST(Behaviour, AConstantInAComparisonIsFoundThroughTheValuesOfTheProgram) {
+  const std::string program = "LDW>= VW10, 1234\n= Q0.0\nMEND\n";
+  const Behaviours both(program, replaced(program, "1234", "1235"));
+  ASSERT_TRUE(both.result.difference);
+  EXPECT_EQ(both.result.difference->trial,
+            (Trial{{.what = Stimulus::What::Memory, .place = image::kV + 10, .bytes = {1234 >> 8, 1234 & 0xFF}}}));
+}
+
+TEST(Behaviour, AStopOfOneIsADifference) {
+  const Behaviours both("LD I0.3\n= Q0.0\nMEND\n", "LD I0.3\n= Q0.0\nLD I0.5\nSTOP\nMEND\n");
+  ASSERT_TRUE(both.result.difference);
+  EXPECT_EQ(both.result.difference->newer, both.result.difference->what == "mode" ? "STOP" : "0");
+}
+
+TEST(Behaviour, MemoryIsComparedIfItIsAskedFor) {
+  const std::string program = "LD I0.0\nMOVW 5, VW20\nMEND\n";
+  const std::string other = replaced(program, "MOVW 5", "MOVW 6");
+  EXPECT_FALSE(Behaviours(program, other, {.runs = 500, .seconds = 60}).result.difference);
+  BehaviourSettings settings{.runs = 500, .seconds = 60};
+  std::string why;
+  settings.watched.push_back(*parse_range("VW20", *find_cpu("214"), why));
+  const Behaviours both(program, other, settings);
+  ASSERT_TRUE(both.result.difference);
+  EXPECT_EQ(both.result.difference->what, "VW20");
+}
+
+TEST(Behaviour, TheSameSeedFindsTheSame) {
+  const std::string other = replaced(kTimer, "T37, 5", "T37, 6");
+  const Behaviours once(kTimer, other), again(kTimer, other);
+  EXPECT_EQ(once.scenario(), again.scenario());
+  EXPECT_EQ(once.result.runs, again.result.runs);
+}
+
+}  // namespace
+}  // namespace s7200::tools

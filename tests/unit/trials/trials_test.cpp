@@ -1,0 +1,111 @@
+// Programs tried by chance: the bench, what is seen of contacts, shorter trials.
+#include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/system/simulation.hpp"
+#include "tests/support/inspected.hpp"
+#include "tools/trials/shortened.hpp"
+#include "tools/trials/trial_bench.hpp"
+#include "tools/trials/vocabulary.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using test::inspected;
+using What = Stimulus::What;
+
+std::shared_ptr<const Program> checked(std::string_view text) { return inspected(text, {}, *find_cpu("214")).program; }
+
+TEST(TrialBench, ACharacterComesAndIsAnsweredWhenItDoesOnALine) {
+  const auto program =
+      checked("LD SM0.1\nMOVB 9, SMB30\nMOVB 1, VB0\nATCH 0, 8\nENI\nMEND\nINT 0\nMOVB SMB2, VB1\nXMT VB0, 0\nRETI\n");
+  TrialBench bench(program, 0);
+  bench.power_up();
+  bench.apply({.what = What::Frame, .bytes = {0x5A}}, 200 * kMillisecond);
+  ASSERT_EQ(bench.done().sent.size(), 1U);
+
+  serial::Simulation line(program);
+  line.power_up();
+  line.let_master_follow([](const SerialFormat& port) { return port; });
+  line.run_until(200 * kMillisecond);
+  line.master().start({.frame = serial::parse_hex_frame("5a").frame}, line.time());
+  const auto exchange = line.finish_exchange();
+  ASSERT_EQ(exchange.response_bytes(), Bytes{0x5A});
+  EXPECT_EQ(exchange.response_start, bench.done().sent[0].at);
+}
+
+TEST(TrialBench, ASnapshotGoesOnAsTheRunItIsFrom) {
+  TrialBench bench(checked("LD I0.0\nTON T37, 3\nLD T37\n= Q0.0\nMEND\n"), 0);
+  bench.power_up();
+  bench.apply({.what = What::Input, .bytes = {1}}, 50 * kMillisecond);
+  const auto snapshot = bench.snapshot();
+  bench.run_until(kSecond);
+  ASSERT_EQ(bench.done().outputs.size(), 1U);
+  const Time at = bench.done().outputs[0].at;
+  bench.restore(snapshot);
+  EXPECT_TRUE(bench.done().outputs.empty());
+  bench.run_until(kSecond);
+  ASSERT_EQ(bench.done().outputs.size(), 1U);
+  EXPECT_EQ(bench.done().outputs[0].at, at);
+}
+
+TEST(ContactsSeen, AContactCountsWhenItWasSeenClosedAndOpen) {
+  TrialBench bench(checked("LD SM0.0\nA I0.0\nAW>= VW0, 5\n= Q0.0\nMEND\n"), 0);
+  bench.watch_contacts(true);
+  bench.power_up();
+  bench.run_until(100 * kMillisecond);
+  EXPECT_TRUE(bench.contacts().add_run());
+  EXPECT_EQ(bench.contacts().contacts(), 2U);  // SM0.0 is always 1
+  EXPECT_EQ(bench.contacts().never().size(), 2U);
+  EXPECT_FALSE(bench.contacts().never()[1].open);  // I0.0 left it nothing to decide
+  bench.apply({.what = What::Input, .bytes = {1}}, 0);
+  bench.run_until(200 * kMillisecond);
+  EXPECT_TRUE(bench.contacts().add_run());
+  EXPECT_EQ(bench.contacts().both_ways(), 1U);
+  bench.apply({.what = What::Memory, .place = image::kV, .bytes = {0, 9}}, 0);
+  bench.run_until(300 * kMillisecond);
+  EXPECT_TRUE(bench.contacts().add_run());
+  EXPECT_TRUE(bench.contacts().all_both_ways());
+}
+
+TEST(Vocabulary, IsWhatReachesAProgramFromOutside) {
+  const auto inspection = inspected(
+      "LD I0.3\nAW>= AIW4, 100\nTON T37, 20\nLDW= VW6, 7\nMOVW VW8, VW10\nMOVW VW10, VW12\nMEND\n", {}, *find_cpu("214"));
+  const Vocabulary words = vocabulary_of(inspection.facts);
+  ASSERT_EQ(words.inputs.size(), 1U);
+  EXPECT_EQ(words.inputs[0].mask, 8);
+  ASSERT_EQ(words.analog.size(), 1U);
+  EXPECT_EQ(words.presets, std::vector<Time>{2 * kSecond});
+  EXPECT_EQ(words.commands.size(), 2U);  // VW6 and VW8; VW10 is the program's own
+  EXPECT_FALSE(words.port);
+}
+
+TEST(Shortened, LeavesOutWhatDoesNotMatter) {
+  Trial trial;
+  for (std::uint8_t i = 0; i < 20; ++i)
+    trial.push_back({.wait = 7 * kMillisecond, .what = What::Input, .place = i, .bytes = {0xFF}});
+  const auto holds = [](const Trial& of) {
+    bool third = false, ninth = false;
+    for (const Stimulus& stimulus : of) {
+      third |= stimulus.place == 3 && (stimulus.bytes[0] & 4) != 0;
+      ninth |= third && stimulus.place == 9 && stimulus.wait >= 3 * kMillisecond;
+    }
+    return ninth;
+  };
+  const Trial shortest = shortened(trial, holds, 2000);
+  ASSERT_EQ(shortest.size(), 2U);
+  EXPECT_EQ(shortest[0].bytes[0], 4);
+  EXPECT_EQ(shortest[0].wait, 0);
+}
+
+TEST(Shortened, AFrameKeepsItsCrcWhereThatMatters) {
+  Stimulus frame{.what = What::Frame, .bytes = {1, 3, 0x12, 0x34, 0, 9}};
+  modbus::add_crc(frame.bytes);
+  const auto holds = [](const Trial& of) {
+    return of.size() == 1 && of[0].bytes.size() >= 4 && modbus::crc_ok(of[0].bytes) && of[0].bytes[1] == 3;
+  };
+  const Trial shortest = shortened({frame}, holds, 2000);
+  EXPECT_EQ(shortest[0].bytes.size(), 4U);
+  EXPECT_TRUE(modbus::crc_ok(shortest[0].bytes));
+}
+
+}  // namespace
+}  // namespace s7200::tools
