@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 # The faces of the package, and the rooms that s7200::bridge and s7200::scenario stand on.
 set(libraries interpreter serial_sim)
-foreach(path host views record measuring yaml json plan rig session/past session/causes slave bridge scenario)
+foreach(path host views record measuring coverage yaml json plan rig session/past session/causes slave bridge scenario)
   cmake_path(GET path FILENAME room)
   cmake_path(GET path PARENT_PATH above)
   list(APPEND libraries s7200_${room})

@@ -2500,7 +2500,7 @@ class JsonPage(Case):
                     ["calibrate", MEASURE, "--each", "1s"], ["decode", LOG], ["import-capture", LOG],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["send", stopped, "01", "--times-band", "2"], ["master", stopped, "read", "40001", "--times-band", "2"],
-                    ["test", good, "--times-band", "2"], ["bench", "--each", "1ms"],
+                    ["test", good, "--times-band", "2"], ["test", good, "--coverage"], ["run", SLAVE, "--coverage"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
                     ["test", good, "--list"], ["run", self.system(), "--for", "50ms"],
                     ["send", self.alone(), "0103000a0001", "--timeline"], ["master", self.alone(), "read", "40001"])
@@ -2601,6 +2601,62 @@ class Fuzz(Case):
             self.assertIn(wrong[0], self.ends(UNUSABLE, "fuzz", program, *wrong).stderr)
         self.assertIn("cannot be run", self.ends(FAILED, "fuzz", self.program("LD VB0\nMEND\n")).stderr)
         self.ends(UNUSABLE, "fuzz", program, program)
+
+
+class Coverage(Case):
+    """What scenarios and runs have tried of a program."""
+    FOLDER = SOURCE / "tests/programs/modbus_slave"
+
+    def test_our_scenarios_try_every_contact_of_our_slave(self):
+        shown = self.json(FINE, "test", self.FOLDER, "--coverage", "--json")["coverage"]
+        self.assertEqual([one["program"] for one in shown], [str(SLAVE)])
+        for what in ("networks", "instructions", "contacts", "deciding"):
+            self.assertEqual(shown[0][what]["tried"], shown[0][what]["all"], what)
+        self.assertEqual(shown[0]["untried"], [])
+        self.assertEqual({one["why"] for one in shown[0]["constant"]}, {"SM0.0 is always 1"})
+
+    def test_a_test_with_coverage_is_the_same_test(self):
+        for arguments in (["--jobs", 1], ["--jobs", 3]):
+            records = self.folder / f"without{arguments[1]}.yaml", self.folder / f"with{arguments[1]}.yaml"
+            self.ends(FINE, "test", self.FOLDER, *arguments, "--record", records[0])
+            self.ends(FINE, "test", self.FOLDER, *arguments, "--record", records[1], "--coverage")
+            self.assertEqual(*(record.read_text(encoding="utf-8") for record in records))
+        plain, covered = (self.json(FINE, "run", SLAVE, "--for", "3s", "--json", *more) for more in ([], ["--coverage"]))
+        del covered["coverage"]
+        self.assertEqual(plain, covered)
+
+    def test_too_little_coverage_fails_like_a_test(self):
+        some = ["test", self.FOLDER, "--only", "reads holding"]
+        done = self.ends(FAILED, *some, "--coverage-at-least", "90%")
+        self.assertIn("instructions 44.7%, contacts 11.4%", done.stderr)
+        self.assertNotIn("never tried", done.stdout, "--coverage shows that")
+        self.ends(FINE, *some, "--coverage-at-least", "11")
+        self.ends(FAILED, *some, "--coverage-at-least", "12")
+        self.ends(FAILED, "run", SLAVE, "--coverage-at-least", "90%")
+        for wrong in ("90 %x", "-1", "101%", "nan", "half"):
+            self.assertIn("is not a share from 0% to 100%", self.ends(UNUSABLE, *some, "--coverage-at-least", wrong).stderr)
+        self.assertIn("leave out --against", self.ends(UNUSABLE, *some, "--coverage", "--against", SLAVE).stderr)
+
+    def test_files_are_known_and_written_again(self):
+        page, lcov, junit = (self.folder / name for name in ("page.html", "lcov.info", "junit.xml"))
+        for _ in range(2):
+            self.ends(FINE, "test", self.FOLDER, "--coverage-html", page, "--coverage-lcov", lcov, "--junit", junit)
+        self.assertIn('<span class="tried">', page.read_text(encoding="utf-8"))
+        records = lcov.read_text(encoding="utf-8")
+        self.assertIn(f"SF:{SLAVE}\n", records)
+        self.assertEqual(records.count("\nDA:"), int(re.search(r"\nLF:(\d+)\n", records)[1]))
+        self.assertEqual(records.count("\nBRDA:"), 2 * 70)
+        self.assertIn('<property name="coverage_contacts" value=', junit.read_text(encoding="utf-8"))
+        own = self.program("mine", "mine.html")
+        self.assertIn("mine.html", self.ends(UNUSABLE, "test", self.FOLDER, "--coverage-html", own).stderr)
+        self.assertEqual(own.read_text(encoding="utf-8"), "mine")
+        self.assertIn("'-' is none", self.ends(UNUSABLE, "test", self.FOLDER, "--coverage-lcov", "-").stderr)
+
+    def test_text_keeps_to_100_columns(self):
+        for program in ([SLAVE], Inspect.PUMP):
+            shown = self.ends(FINE, "run", *program, "--coverage").stdout
+            self.assertIn("never tried:", shown)
+            self.assertLessEqual(max(map(len, shown.split("\n"))), 100, shown)
 
 
 class Inspect(Case):
@@ -4291,7 +4347,7 @@ class Readme(Case):
 
 
 if __name__ == "__main__":
-    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "inspect": Inspect, "compare": Compare, "fuzz": Fuzz, "files": Files, "readme": Readme, "scenarios": Scenarios,
+    group = {"verbs": Verbs, "options": Options, "json": Json, "json_page": JsonPage, "inspect": Inspect, "coverage": Coverage, "compare": Compare, "fuzz": Fuzz, "files": Files, "readme": Readme, "scenarios": Scenarios,
              "input": StandardInput, "times": Times, "systems": Systems}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)

@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
-#include "interpreter/base/counted.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/run_options.hpp"
 #include "tools/command/progress.hpp"
 #include "tools/command/rig_output.hpp"
+#include "tools/command/run_observers.hpp"
 #include "tools/command/run_output.hpp"
 #include "tools/command/run_source.hpp"
 #include "tools/command/terminal.hpp"
@@ -57,15 +56,6 @@ Ending run_to_end(Rig& rig, const RunBridges& bridges, bool serves, const RunOpt
   return ending;
 }
 
-void note_events_to_come(Rig& rig) {
-  const Time end = rig.system().time();
-  const auto& events = rig.plan().events;
-  const auto first = std::ranges::find_if(events, [&](const EventPlan& event) { return event.at > end; });
-  if (first == events.end()) return;
-  print_note(fmt::format("the run ended before {}, the first at {}: --for says how long to run",
-                         counted(static_cast<std::size_t>(events.end() - first), "event"), format_duration(first->at)));
-}
-
 /// The error that a run has ended with; empty if it is none.
 std::string error_at_end(std::string_view reason, const Rig& rig) {
   if (reason == "endless scan")
@@ -82,6 +72,9 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   if (!bridges) return exit_code;
   const auto rig = options.rig.assemble(options.json, options.bridge.link());
   if (!rig) return options.rig.exit_code_without_rig();
+  WrittenFiles files = rig->files();
+  options.coverage.claim(files);
+  const RunObservers observers(*rig, {.coverage = options.coverage.wanted()});
   rig->power_up();
   if (is_of_one_program(rig->plan())) rig->simulation().cpu().pause_at_error(options.rig.strict());
   std::vector<Bridge*> served = bridges->of_plan;
@@ -89,14 +82,17 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   const Ending ending = run_to_end(*rig, *bridges, !served.empty(), options);
   if (ending.reason.empty()) return kUnusable;
   const bool all_written = finish(*rig);
-  (options.json ? print_json : print_text)(*rig, ending, served);
+  if (options.json)
+    print_json(*rig, ending, served, observers.json(options.coverage));
+  else
+    print_text(*rig, ending, served);
   print_notes(line_notes(*rig, [&](const serial::SharedLine* line) { return ending.collisions_on(line); }));
   if (ending.reason == "time") note_events_to_come(*rig);
   if (!all_written) return kUnusable;
   if (const std::string error = error_at_end(ending.reason, *rig); !error.empty()) return print_error(error), kCheckFailed;
   if (ending.reason == "bridge") return kUnusable;
   if (ending.reason == "interrupted" && options.has_end(!served.empty())) return kCheckFailed;
-  return exit_code_of(*rig);
+  return observers.show(options.coverage, options.json, exit_code_of(*rig));
 }
 
 }  // namespace

@@ -51,15 +51,17 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
   const auto result = suite.run(watcher, messages);
   if (!result) return nothing_run(messages, options, to.junit);
   print_messages(messages);
-  output.end(*result);
+  output.end(*result, options.coverage);
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
   bool all_written = !to.junit || write_result(to.junit, to_junit(result->reports));
+  all_written &= !options.coverage.wanted() || options.coverage.show(result->coverage, options.json);
   if (to.record) all_written &= growing->any() ? growing->complete() : write_transcript(*to.record, options, *result);
   print_interruption();
   if (!result->unreachable.empty()) print_error(result->unreachable);
   if (!all_written || !result->unreachable.empty() || (!interrupted() && !result->any_had_a_program())) return kUnusable;
-  return interrupted() || !result->passed() ? kCheckFailed : kFine;
+  const bool enough = options.coverage.is_enough(result->coverage);
+  return interrupted() || !result->passed() || !enough ? kCheckFailed : kFine;
 }
 
 int run_against(Suite& suite, const TestOptions& options) {
@@ -106,7 +108,8 @@ void add_test(CLI::App& app, int& exit_code) {
       "A SYSTEM.yaml and a westinghouse:MODEL are new for each scenario, and nothing but their line is seen; scenarios that "
       "set memory are skipped.\n"
       "With --times-band the table in use decides; the others are counted, and decide where a scenario has 'robust: 95%'.\n"
-      "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, or --against found a difference; "
+      "Exit codes: 0 all passed; 1 a scenario failed, a rule that says must is broken, --against found a difference, or too "
+      "little was covered; "
       "2 nothing could be run, or the slave cannot be reached.\n"
       "Topics: keys, targets, faults, times, westinghouse\n"
       "Example: s7200 test tests/programs/modbus_slave --jobs 2");

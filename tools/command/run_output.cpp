@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/bridge/bridge.hpp"
 #include "tools/command/progress.hpp"
 #include "tools/command/rig_output.hpp"
+#include "tools/command/terminal.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
@@ -66,7 +69,7 @@ void print_text(const Rig& rig, const Ending& ending, Bridges bridges) {
   if (is_program) fmt::print("{}{}", errors_text(rig), dump_text(rig));
 }
 
-void print_json(const Rig& rig, const Ending& ending, Bridges bridges) {
+void print_json(const Rig& rig, const Ending& ending, Bridges bridges, const nlohmann::ordered_json& more) {
   const bool is_program = is_of_one_program(rig.plan());
   auto results = results_of("run");
   results["stop_reason"] = ending.reason;
@@ -84,7 +87,17 @@ void print_json(const Rig& rig, const Ending& ending, Bridges bridges) {
     results["realtime"] = {
         {"speed", ending.pace->speed}, {"drift_ns", ending.pace->drift}, {"worst_lag_ns", ending.pace->worst_lag}};
   if (is_program && !bridges.empty()) results["bridge"] = bridges.front()->json();
+  results.update(more);
   fmt::print("{}", lines_of(results));
+}
+
+void note_events_to_come(const Rig& rig) {
+  const Time end = rig.time();
+  const auto& events = rig.plan().events;
+  const auto first = std::ranges::find_if(events, [&](const EventPlan& event) { return event.at > end; });
+  if (first == events.end()) return;
+  print_note(fmt::format("the run ended before {}, the first at {}: --for says how long to run",
+                         counted(static_cast<std::size_t>(events.end() - first), "event"), format_duration(first->at)));
 }
 
 }  // namespace s7200::tools

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string_view>
 
@@ -24,8 +25,11 @@ struct Ending {
   }
 };
 
-/// `bridges`: those of the plan, or the one that has joined a PROGRAM's line.
+/// `bridges`: those of the plan, or the one that has joined a PROGRAM's line. `more`: further results of --json.
 void print_text(const Rig& rig, const Ending& ending, Bridges bridges);
-void print_json(const Rig& rig, const Ending& ending, Bridges bridges);
+void print_json(const Rig& rig, const Ending& ending, Bridges bridges, const nlohmann::ordered_json& more);
+
+/// Says that the run ended before some of the planned events.
+void note_events_to_come(const Rig& rig);
 
 }  // namespace s7200::tools

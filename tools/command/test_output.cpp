@@ -72,17 +72,19 @@ void TestOutput::show(const Compared& compared) {
              compared.difference.text);
 }
 
-void TestOutput::end(const SuiteResult& result) {
+void TestOutput::end(const SuiteResult& result, const CoverageOptions& coverage) {
   clear_progress();
   if (streamed_) {
     auto rest = counts_json(result.reports);
     rest["not_run"] = result.not_run;
+    coverage.add_to(rest, result.coverage);
     const auto outcome = result.reports.empty() ? nlohmann::ordered_json::object() : outcome_json(result.reports.front());
     fmt::print("{}{}", streamed_->scenario.end(outcome), streamed_->results.end(rest));
   } else if (json_) {
     auto results = results_of("test");
     results.update(to_json(result.reports));
     results["not_run"] = result.not_run;
+    coverage.add_to(results, result.coverage);
     fmt::print("{}", lines_of(results));
   } else if (conformance_) {
     print_report(conformance_text(result.reports, result.tested, colour_wanted(stdout)));

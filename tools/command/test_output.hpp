@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/command/options/coverage_options.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/scenario/suite.hpp"
 #include "tools/views/streamed_results.hpp"
@@ -25,7 +26,8 @@ class TestOutput {
   void show(const Scenario& scenario, const Seen& seen);
   void show(const Compared& compared);
 
-  void end(const SuiteResult& result);
+  /// `coverage`: what is to be said of it with --json.
+  void end(const SuiteResult& result, const CoverageOptions& coverage = {});
   void end(const ComparisonResult& result);
 
  private:

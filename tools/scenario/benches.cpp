@@ -279,8 +279,10 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
     return {};
   }
   if (target.empty() && all_without_program(scenarios, messages)) return {};
-  Bench of_target{
-      .format = settings.line.over(SerialFormat{}), .exchanges_wanted = settings.exchanges_wanted, .stop = settings.stop};
+  Bench of_target{.format = settings.line.over(SerialFormat{}),
+                  .exchanges_wanted = settings.exchanges_wanted,
+                  .observed = settings.observed,
+                  .stop = settings.stop};
   switch (parsed.kind) {
     case SlaveTarget::Kind::Program:
       break;

@@ -68,6 +68,11 @@ std::string failure_message(const Report& report) {
   return more == 0 ? message : fmt::format("{}; and {}", message, counted(more, "more finding"));
 }
 
+/// ` of pump.stl`; nothing of the only program.
+std::string name_after(const CoverageOfPrograms& coverage, const ProgramCoverage& each) {
+  return coverage.programs().size() == 1 ? "" : " of " + coverage_name(each.map->program());
+}
+
 std::string properties_text(const Report& report) {
   std::string text;
   const auto property = [&](std::string_view name, const std::string& value) {
@@ -85,6 +90,17 @@ std::string properties_text(const Report& report) {
     property("tables", std::to_string(band->tables));
     property("tables_passed", std::to_string(band->passed));
     property("tables_failed_with", band->failed_with);
+  }
+  for (const ProgramCoverage& each : result.coverage.programs()) {
+    const CoverageFigures figures = figures_of(*each.map, each.tried);
+    const auto share = [&](std::string_view name, const Share& of) {
+      property(fmt::format("coverage_{}{}", name, name_after(result.coverage, each)),
+               fmt::format("{}/{}", of.tried, of.all));
+    };
+    share("networks", figures.networks);
+    share("instructions", figures.instructions);
+    share("contacts", figures.contacts);
+    share("deciding", figures.deciding);
   }
   return fmt::format("{0}<properties>\n{1}{0}</properties>\n", kInCase, text);
 }

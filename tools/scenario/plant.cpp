@@ -48,9 +48,9 @@ void InterruptCounter::record(const TraceRecord& record) {
   if (record.kind == TraceKind::EventLost) ++lost_;
 }
 
-Plant::Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop)
+Plant::Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop, const Observed& observed)
     : scenario_(scenario), stop_(stop), plan_(plan_to_run(scenario, std::move(program))), spots_(spots_of(scenario, plan_)) {
-  for (const PlcPlan& plc : plan_.plcs) watches_.push_back(std::make_unique<Watch>(plc.program));
+  for (const PlcPlan& plc : plan_.plcs) watches_.push_back(std::make_unique<Watch>(plc.program, observed));
   power_up();
 }
 
@@ -61,7 +61,10 @@ void Plant::power_up() {
   std::vector<std::string> problems;
   rig_ = Rig::assemble(plan_, {.path = scenario_.system, .spots = spots_, .stop = stop_}, problems);
   if (!rig_) throw std::logic_error(problems.empty() ? "interrupted" : problems.front());
-  for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) rig_->sinks(plc).add(&watches_[plc]->sinks);
+  for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) {
+    rig_->sinks(plc).add(&watches_[plc]->sinks);
+    watches_[plc]->observers.begin(rig_->plc(plc).cpu());
+  }
   rig_->tell_of_events(
       [this](std::size_t plc, Time at, const std::string& what) { watches_[plc]->timeline.note(at, what); });
   rig_->power_up();

@@ -12,6 +12,7 @@
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/trace/fan_out.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/coverage/observed.hpp"
 #include "tools/rig/rig.hpp"
 #include "tools/scenario/result.hpp"
 #include "tools/scenario/scenario.hpp"
@@ -40,12 +41,15 @@ class InterruptCounter final : public TraceSink {
 
 /// What is seen of one CPU.
 struct Watch {
-  explicit Watch(std::shared_ptr<const Program> program) : timeline(std::move(program), nullptr) {
+  Watch(const std::shared_ptr<const Program>& program, const Observed& observed)
+      : timeline(program, nullptr), observers(program, observed) {
     sinks.add(&timeline);
     sinks.add(&interrupts);
+    observers.add_to(sinks);
   }
   Timeline timeline;
   InterruptCounter interrupts;
+  PlcObservers observers;
   FanOut sinks;
 };
 
@@ -54,7 +58,7 @@ class Plant {
  public:
   /// Powered up, with what the head of the scenario sets. The scenario is not owned; `program` may be null if it has a
   /// system.
-  Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop);
+  Plant(const Scenario& scenario, std::shared_ptr<const Program> program, StopToken stop, const Observed& observed = {});
 
   /// Does it to the PLC that is looked at, as a programming device or the plant around it does.
   void act(Action action);
@@ -117,6 +121,11 @@ class Plant {
   /// `\n` and the errors of the CPU, a line each; empty if there are none.
   std::string why_stopped() { return why_stopped(plc_number()); }
   std::string why_stopped(std::size_t plc) const;
+
+  /// Adds what was tried of its programs so far, if that is observed.
+  void report(CoverageOfPrograms& coverage) const {
+    for (const auto& watch : watches_) watch->observers.report(coverage);
+  }
 
   std::size_t plcs() const { return watches_.size(); }
   std::size_t plc_number() const { return spots_[here_].plc; }

@@ -64,6 +64,11 @@ nlohmann::ordered_json outcome_json(const Report& report) {
                     {"passed", band->passed},
                     {"failed_with", band->failed_with},
                     {"latency_us", to_json(band->latency)}};
+  for (const ProgramCoverage& each : report.result.coverage.programs()) {
+    nlohmann::ordered_json of_program{{"program", coverage_name(each.map->program())}};
+    of_program.update(figures_json(figures_of(*each.map, each.tried)));
+    json["coverage"].push_back(std::move(of_program));
+  }
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : report.result.findings) json["findings"].push_back(finding_json(scenario, finding));
   if (const std::string command = debug_command(report); !command.empty()) json["debug"] = command;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "serial_sim/peers/requester.hpp"
+#include "tools/coverage/coverage_report.hpp"
 #include "tools/measuring/band.hpp"
 #include "tools/scenario/text.hpp"
 #include "tools/session/past/history.hpp"
@@ -74,6 +75,7 @@ struct ScenarioResult {
   Time time = 0;                        ///< on the slave's clock
   std::vector<Recording> recordings{};  ///< of one that failed on a program in simulation: to run it again, by power-up
   double host_seconds = 0;
+  CoverageOfPrograms coverage{};     ///< if it was observed; of an interrupted scenario up to then
   std::optional<BandResult> band{};  ///< all else is of the first table
 };
 

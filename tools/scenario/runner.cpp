@@ -19,7 +19,7 @@ Run::Run(const Scenario& scenario, const Bench& bench) : scenario_(scenario), be
   if (scenario.is_of_peers())
     join_lines();
   else
-    plant_ = std::make_unique<Plant>(scenario, bench.program, bench.stop);
+    plant_ = std::make_unique<Plant>(scenario, bench.program, bench.stop, bench.observed);
 }
 
 void Run::join_lines() {
@@ -47,6 +47,7 @@ ScenarioResult Run::result() {
   }
   result_.time = plant_ ? plant_->time() : slave().now() - begin_;
   if (plant_ && (bench_.recordings_wanted || !result_.findings.empty())) result_.recordings = plant_->recordings();
+  if (plant_) plant_->report(result_.coverage);
   settle_outcome();
   return std::move(result_);
 }

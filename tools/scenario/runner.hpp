@@ -6,6 +6,7 @@
 
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/program/program.hpp"
+#include "tools/coverage/observed.hpp"
 #include "tools/measuring/band.hpp"
 #include "tools/scenario/result.hpp"
 #include "tools/scenario/scenario.hpp"
@@ -23,6 +24,7 @@ struct Bench {
   /// out.
   std::function<std::unique_ptr<SlaveInSimulation>(const Scenario&)> make_slave{};
   bool exchanges_wanted = true;    ///< all of them are in the result
+  Observed observed{};             ///< of programs in simulation
   bool recordings_wanted = false;  ///< of a run that found nothing, too
   /// Is told of each exchange when it is over, in the thread that runs the scenario, and the result has none; may be left
   /// out.

@@ -159,6 +159,7 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
           BandResult band = table == 0 ? BandResult{} : of_one.band.value_or(BandResult{});
           if (banded) band.asked = benches->of[scenario].band->size();
           if (banded) add_to(band, of_table, benches->of[scenario].band->table_name(table));
+          for (const ProgramCoverage& each : of_table.coverage.programs()) result.coverage.add(each.map, each.tried);
           if (table == 0) of_one = std::move(of_table);
           if (banded) of_one.band = band;
           if (!last && !settings_.stop.stop_requested()) return true;

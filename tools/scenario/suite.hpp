@@ -21,6 +21,7 @@ struct SuiteResult {
   std::size_t not_run = 0;        ///< for an interruption, --fail-fast, or a slave that went
   std::string tested{};           ///< what they were run on
   bool live = false;              ///< that is outside simulation: times are of this computer's clock
+  CoverageOfPrograms coverage{};  ///< of all reports, if it was observed
   std::string unreachable{};      ///< why the way to the slave broke
 
   bool passed() const;

@@ -7,6 +7,7 @@
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/model/times_band.hpp"
 #include "serial_sim/peers/requester.hpp"
+#include "tools/coverage/observed.hpp"
 
 namespace s7200::tools {
 
@@ -31,6 +32,7 @@ struct SuiteSettings {
   bool exchanges_wanted = false;  ///< all of them are in the results
   bool every_scan = false;        ///< of programs: scans that are all alike are run, too
   bool no_stand_ins = false;      ///< a program that needs a stand-in for a library is refused
+  Observed observed{};            ///< of programs in simulation
   StopToken stop{};               ///< ends all that runs
 };
 

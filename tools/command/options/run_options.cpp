@@ -29,6 +29,7 @@ void RunOptions::add_to(CLI::App& app) {
         throw CLI::Success();
       },
       "print what a system file may contain, as Markdown");
+  coverage.add_to(app, help_group::kMore);
   app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
 }
 

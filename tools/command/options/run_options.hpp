@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tools/command/options/bridge_options.hpp"
+#include "tools/command/options/coverage_options.hpp"
 #include "tools/command/options/other_plc_options.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/rig_options.hpp"
@@ -15,6 +16,7 @@ struct RunOptions {
   bool json = false;
   BridgeOptions bridge;
   RigOptions rig;
+  CoverageOptions coverage;
   const Protocol* protocol = nullptr;  ///< of westinghouse:MODEL
   OtherPlcOptions other;
   std::vector<CLI::Option*> for_other_plcs;  ///< that nothing else has a use for

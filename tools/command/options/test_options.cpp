@@ -74,6 +74,7 @@ void TestOptions::add_to(CLI::App& app) {
   add_no_stand_ins_option(app, suite.no_stand_ins);
   add_no_skip_option(app, suite.every_scan);
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE")->group(help_group::kResults);
+  coverage.add_to(app, help_group::kResults);
   app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
   app.add_flag("--keys", keys, "print what a scenario may contain, as Markdown")->excludes("--json");
 }
@@ -84,6 +85,7 @@ void TestOptions::complete_suite() {
   suite.plc = other.settings();
   suite.protocol = protocol->name;
   suite.exchanges_wanted = json || !record.empty() || !against.empty();
+  suite.observed.coverage = coverage.wanted();
   suite.stop = interruption();
 }
 
@@ -108,13 +110,14 @@ void TestOptions::check() const {
   refuse_if(ignore_timing && !compared, "--ignore-timing goes with --against");
   refuse_if(tolerance != kNever && !compared && record.empty(),
             "--tolerance goes with --against or --record; a scenario has 'tolerance:'");
+  refuse_if(compared && coverage.wanted(), "--against runs two programs; coverage is of one: leave out --against");
   refuse_if(compared && (!record.empty() || !junit.empty()), "--against neither records nor writes JUnit");
   refuse_if(band.wanted() && (compared || !record.empty()),
             "--times-band runs scenarios with many tables; --against and --record are about one");
   refuse_if(record == "-" || junit == "-", "--record and --junit write files; '-' is none");
 }
 
-TestOptions::Destinations TestOptions::claim_files() const {
+TestOptions::Destinations TestOptions::claim_files() {
   Destinations to;
   WrittenFiles files;
   const auto claim = [&](std::string_view option, const std::string& path, const FileKind& kind) {
@@ -127,6 +130,7 @@ TestOptions::Destinations TestOptions::claim_files() const {
   if (to.record && to.record->replaces_content() && !force)
     throw std::invalid_argument(fmt::format("{} exists; --force overwrites it", record));
   to.junit = claim("--junit", junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)});
+  coverage.claim(files);
   return to;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/command/options/band_options.hpp"
+#include "tools/command/options/coverage_options.hpp"
 #include "tools/command/options/other_plc_options.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/scenario/suite_settings.hpp"
@@ -22,6 +23,7 @@ struct TestOptions {
   const Protocol* protocol = nullptr;  ///< of other
   std::string against, record, junit;
   BandOptions band;
+  CoverageOptions coverage;
   unsigned jobs = 0;        ///< 0: not given
   Time tolerance = kNever;  ///< kNever: not given
   bool ignore_timing = false, force = false, json = false, list = false, keys = false;
@@ -37,13 +39,13 @@ struct TestOptions {
   /// What `suite` has from the other options, and that an interruption ends it.
   void complete_suite();
 
-  /// Where --record and --junit write.
+  /// Where --record and --junit write; the files of coverage are claimed too.
   struct Destinations {
     std::optional<Destination> record{}, junit{};
   };
 
   /// Throws std::invalid_argument if one cannot write there.
-  Destinations claim_files() const;
+  Destinations claim_files();
 
  private:
   CLI::Option* of_protocol_ = nullptr;
