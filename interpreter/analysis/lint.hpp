@@ -37,8 +37,10 @@ void find_constant_contacts(const Facts& facts, stl::Diagnostics& diagnostics);
 void find_double_timers(const Facts& facts, stl::Diagnostics& diagnostics);
 void find_double_counters(const Facts& facts, stl::Diagnostics& diagnostics);
 
-/// Interrupts are disabled when the CPU enters RUN (facts 3.3).
+/// A FOR counts in its word by itself: a second one with the same word has its count.
 void find_double_loops(const Facts& facts, stl::Diagnostics& diagnostics);
+
+/// Interrupts are disabled when the CPU enters RUN (facts 3.3).
 void find_missing_eni(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// SMB30 is 0 when the CPU enters RUN: the port speaks PPI.
