@@ -37,7 +37,7 @@ void find_constant_contacts(const Facts& facts, stl::Diagnostics& diagnostics);
 void find_double_timers(const Facts& facts, stl::Diagnostics& diagnostics);
 void find_double_counters(const Facts& facts, stl::Diagnostics& diagnostics);
 
-/// A FOR counts in its word by itself: a second one with the same word has its count.
+/// A PID keeps what it needs from one execution to the next by the number of its loop.
 void find_double_loops(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// Interrupts are disabled when the CPU enters RUN (facts 3.3).
