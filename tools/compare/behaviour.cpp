@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kPoints = 8 * image::kPointBytes, kMostKept = 2000, kMostShortening = 600;
 constexpr std::uint64_t kLeastRuns = 400;
 constexpr Time kSettles = 100 * kMillisecond, kAnswers = 400 * kMillisecond, kJitter = 2 * kMillisecond;
-constexpr int kLater = 4;  ///< times that a difference is tried again with later inputs
+constexpr int kLater = 4, kLonger = 3;  ///< times that a difference is tried again with later inputs, with longer ones
 
 using Edges = std::array<std::vector<Time>, kPoints>;
 
@@ -66,7 +66,9 @@ class Pair {
     return state_;
   }
 
+  /// Nothing comes sooner than three scans after what was before: what is shorter may be seen or not.
   void apply(Stimulus stimulus) {
+    stimulus.wait = std::max(stimulus.wait, slack() - state_.settled);
     const Time at = old_bench.time() + stimulus.wait;
     stimulus.wait += state_.settled;
     state_.settled = 0;
@@ -88,15 +90,15 @@ class Pair {
     end_ = end;
   }
 
-  /// The whole trial from power-up, with everything later by `later`.
-  std::optional<BehaviourDifference> run(const Trial& trial, Time later = 0) {
+  /// The whole trial from power-up, with everything later by `later`, and every wait longer by `longer`.
+  std::optional<BehaviourDifference> run(const Trial& trial, Time later = 0, Time longer = 0) {
     power_up();
     for (Stimulus stimulus : trial) {
-      stimulus.wait += std::exchange(later, 0);
+      stimulus.wait += std::exchange(later, 0) + longer;
       apply(std::move(stimulus));
     }
     settle();
-    return difference();
+    return old_bench.done().interrupted || new_bench.done().interrupted ? std::nullopt : difference();
   }
 
   /// The first, as far as both have run.
@@ -113,6 +115,7 @@ class Pair {
     return found_;
   }
 
+  Time slack() const { return 3 * scan() + kJitter; }
   Time scan() const { return std::max(old_bench.cpu().state().longest_scan, new_bench.cpu().state().longest_scan); }
   const std::vector<Time>& begun() const { return state_.begun; }
 
@@ -121,8 +124,6 @@ class Pair {
   TrialBench old_bench, new_bench;
 
  private:
-  Time slack() const { return 3 * scan() + kJitter; }
-
   void find(BehaviourDifference difference) {
     if (!found_ || difference.at < found_->at) found_ = std::move(difference);
   }
@@ -326,6 +327,7 @@ class Search {
     watch(false);
     bool all = pair_.run(trial).has_value();
     for (int i = 1; i <= kLater && all && !trial.empty(); ++i) all = pair_.run(trial, i * pair_.scan() / kLater).has_value();
+    for (int i = 1; i <= kLonger && all && !trial.empty(); ++i) all = pair_.run(trial, 0, i * pair_.slack()).has_value();
     watch(true);
     return all;
   }

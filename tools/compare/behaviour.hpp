@@ -3,8 +3,9 @@
 // The same are outputs that go on and off in the same order, each edge within three scans of that of the other program; an
 // edge may follow from those before it, so the n-th may be n times as late. Analog outputs, and memory that is asked for,
 // have the same value when nothing has come for a while. What is sent has the same characters in the same order, whenever
-// they come. A difference counts if it is still there when all inputs come up to a scan later: otherwise it is one of
-// timing.
+// they come. A difference counts if it is still there when all inputs come up to a scan later, and when they last a
+// few scans longer: otherwise it is one of timing. No input is shorter than three scans, and a frame that a program answers
+// before its end decides nothing.
 #pragma once
 
 #include <functional>

@@ -82,6 +82,7 @@ Time TrialBench::give(const Stimulus& frame) {
     if (stopped() || ended_) return cpu_.time();
     const bool heard = port.listens && port.listens_since <= start && port.format == format;
     const auto data = static_cast<std::uint8_t>(format.data_bits == 7 ? byte & 0x7F : byte);
+    done_.interrupted |= port.sent_until > start;
     if (heard) cpu_.character_received({.byte = data, .start = start, .end = start + to_report}, number_);
     start += format.character_time() + frame.gap;
   }

@@ -29,6 +29,7 @@ struct Done {
   };
   std::vector<Output> outputs;
   std::vector<Sent> sent;
+  bool interrupted = false;  ///< it has sent something before a frame for it was over
 };
 
 class TrialBench final : private TraceSink {
