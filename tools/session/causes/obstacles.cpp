@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMostLevels = 4;     // bits that hold off one another
 constexpr std::size_t kMostWays = 4;       // that are shown of a bit
-constexpr std::size_t kMostWriters = 3;    // that are shown of memory
+constexpr std::size_t kMostOfMemory = 3;    // that are shown of memory
 constexpr std::size_t kLongestRung = 300;  // characters
 
 bool is_one_of(std::string_view mnemonic, std::initializer_list<std::string_view> names) {
@@ -426,7 +426,7 @@ Obstacle Obstacles::of_memory(const Bits& bit, bool wanted, std::optional<std::u
     std::vector<std::string> by;
     for (const auto* list : {&writers.deciding, &writers.others, &writers.calls})
       for (const std::uint32_t one : *list) by.push_back(place_text(one));
-    if (by.size() > kMostWriters) by.resize(kMostWriters);
+    if (by.size() > kMostOfMemory) by.resize(kMostOfMemory);
     found.text +=
         by.empty() ? "not followed further" : fmt::format("written by {}; not followed further", fmt::join(by, " and "));
     return found;
@@ -482,9 +482,9 @@ void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits
   std::ranges::sort(rungs);
   add_rungs(to, rungs);
   if (!writers.deciding.empty()) add_ways(to, ways);
-  for (std::size_t i = 0; i < std::min(kMostWriters, writers.others.size()); ++i)
+  for (std::size_t i = 0; i < std::min(kMostOfMemory, writers.others.size()); ++i)
     to.because.push_back(of_writer(writers.others[i], bit, wanted));
-  for (std::size_t i = 0; i < std::min(kMostWriters, writers.calls.size()); ++i)
+  for (std::size_t i = 0; i < std::min(kMostOfMemory, writers.calls.size()); ++i)
     to.because.push_back(of_call(writers.calls[i], bit, wanted));
   add_indirect(to, writers, bit);
   if (to.because.empty() && to.text.empty())
@@ -492,7 +492,7 @@ void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits
 }
 
 void Obstacles::add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writers) const {
-  for (std::size_t i = 0; i < std::min(kMostWriters, writers.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMostOfMemory, writers.size()); ++i) {
     const std::uint32_t by = writers[i];
     const bool idle = has_run_ && !runs(by);
     to.because.push_back({.kind = "rung",
@@ -500,9 +500,9 @@ void Obstacles::add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writer
                                               idle ? ", not executed lately" : ""),
                           .op = by});
   }
-  if (writers.size() > kMostWriters)
+  if (writers.size() > kMostOfMemory)
     to.because.push_back(
-        {.kind = "more", .text = fmt::format("and {} more of its instructions", writers.size() - kMostWriters)});
+        {.kind = "more", .text = fmt::format("and {} more of its instructions", writers.size() - kMostOfMemory)});
 }
 
 void Obstacles::add_indirect(Obstacle& to, const Writers& writers, const Bits& bits) const {

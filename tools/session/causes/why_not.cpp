@@ -15,7 +15,7 @@
 namespace s7200::tools {
 namespace {
 
-constexpr Time kLately = 50 * kMillisecond;  // at least; three scans if these are longer
+constexpr Time kJustBefore = 50 * kMillisecond;  // at least; three scans if these are longer
 
 /// The last execution of each instruction of a part of the past, and when its last whole scan began.
 class LastOfEach final : public Reader {
@@ -103,7 +103,7 @@ std::optional<bool> holds_now(const Wish& wish, const Cpu& cpu, std::string& why
 std::optional<Obstacle> why_not(History& history, std::size_t station, const Wish& wish, StopToken stop_request) {
   const Moment start = history.now();
   const State& state = history.station(station).cpu().state();
-  const Time lately = std::max(kLately, 2 * state.longest_scan + start.time - std::min(start.time, state.scan_begin));
+  const Time lately = std::max(kJustBefore, 2 * state.longest_scan + start.time - std::min(start.time, state.scan_begin));
   LastOfEach last(station, stop_request);
   const bool played = history.go_to(start.time - std::min(start.time, lately)) && history.play(last, start);
   history.go_to(start);
