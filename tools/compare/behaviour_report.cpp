@@ -28,7 +28,7 @@ std::string_view end_text(End end) {
 std::string never_text(const Inspection& inspection, const std::vector<ContactsSeen::Never>& never) {
   std::string text;
   for (std::size_t i = 0; i < never.size() && i < kShown; ++i) {
-    const char* const seen = never[i].open ? "never 1" : never[i].closed ? "never 0" : "never executed";
+    const char* const seen = never[i].open ? "never closed" : never[i].closed ? "never open" : "never executed";
     text += row_text(inspection, fmt::format("    {:<15}", seen), never[i].op);
   }
   if (never.size() > kShown) text += fmt::format("    … and {} more\n", never.size() - kShown);
@@ -56,8 +56,8 @@ ordered_json side_json(const Inspection& inspection, const BehaviourResult& resu
   json["never"] = ordered_json::array();
   for (const ContactsSeen::Never& never : result.never[number]) {
     ordered_json entry = place_json(inspection, never.op);
-    entry["seen_0"] = never.open;
-    entry["seen_1"] = never.closed;
+    entry["seen_open"] = never.open;
+    entry["seen_closed"] = never.closed;
     json["never"].push_back(std::move(entry));
   }
   return json;

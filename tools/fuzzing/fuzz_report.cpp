@@ -45,7 +45,7 @@ std::string contacts_text(const Inspection& inspection, const FuzzResult& result
   std::string text = fmt::format("  {} of {} seen both ways\n", result.both_ways, counted(result.contacts, "contact"));
   for (std::size_t i = 0; i < result.never.size() && i < kShown; ++i) {
     const ContactsSeen::Never& never = result.never[i];
-    const char* const seen = never.open ? "never 1" : never.closed ? "never 0" : "never executed";
+    const char* const seen = never.open ? "never closed" : never.closed ? "never open" : "never executed";
     text += row_text(inspection, fmt::format("    {:<15}", seen), never.op);
   }
   if (result.never.size() > kShown) text += fmt::format("    … and {} more\n", result.never.size() - kShown);
@@ -75,8 +75,8 @@ ordered_json fuzz_json(const Inspection& inspection, const FuzzResult& result) {
   json["never"] = ordered_json::array();
   for (const ContactsSeen::Never& never : result.never) {
     ordered_json entry = place_json(inspection, never.op);
-    entry["seen_0"] = never.open;
-    entry["seen_1"] = never.closed;
+    entry["seen_open"] = never.open;
+    entry["seen_closed"] = never.closed;
     json["never"].push_back(std::move(entry));
   }
   json["findings"] = ordered_json::array();

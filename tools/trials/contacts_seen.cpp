@@ -1,14 +1,9 @@
 #include "tools/trials/contacts_seen.hpp"
 
 #include <bit>
-#include <string_view>
-
-#include "interpreter/model/special_memory.hpp"
 
 namespace s7200::tools {
 namespace {
-
-bool is_always_on(const Op& op) { return !op[0].pointer && op[0].at == image::kSM && op[0].bit == 0; }
 
 /// Orders of magnitude of a count: 1, 2, 3, 4 to 7, 8 to 15, 16 to 31, 32 to 127, and more.
 std::uint8_t magnitude(std::uint16_t count) {
@@ -19,18 +14,12 @@ std::uint8_t magnitude(std::uint16_t count) {
 
 }  // namespace
 
-ContactsSeen::ContactsSeen(const Program& program)
-    : kinds_(program.ops.size()), counts_(2 * program.ops.size()), seen_(2 * program.ops.size()) {
-  for (std::uint32_t op = 0; op < program.ops.size(); ++op) {
-    const Op& of = program.ops[op];
-    const std::string_view name = of.instruction->mnemonic;
-    if (!of.is_contact || of.instruction->rules().empty() || name == "LPS" || name.starts_with("LDS")) continue;
-    const bool bit = of.instruction->rules().front().width == Width::Bit;
-    kinds_[op] = bit              ? Kind::Bit
-                 : name[0] == 'A' ? Kind::ComparisonAnd
-                 : name[0] == 'O' ? Kind::ComparisonOr
-                                  : Kind::Comparison;
-    if (!bit || !is_always_on(of)) contacts_.push_back(op);
+ContactsSeen::ContactsSeen(const Cpu& cpu)
+    : cpu_(cpu), counts_(2 * cpu.program().ops.size()), seen_(2 * cpu.program().ops.size()) {
+  for (const Op& op : cpu.program().ops) {
+    forms_.push_back(contact_form(op));
+    if (forms_.back().is_contact() && why_constant(op, forms_.back()).empty())
+      contacts_.push_back(static_cast<std::uint32_t>(forms_.size() - 1));
   }
 }
 

@@ -2,28 +2,28 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
 #include <vector>
 
 #include "interpreter/cpu/cpu.hpp"
+#include "tools/coverage/contacts.hpp"
 
 namespace s7200::tools {
 
-/// A contact is a bit, which is 0 or 1, or a comparison, which holds or not. Of a comparison in series or in parallel with
-/// others it is known only where these leave it the decision. Contacts of SM0.0 do not count: it is always 1.
+/// Contacts are those of tools/coverage: a contact counts as closed or open whatever reaches it from the left, and one that
+/// cannot change does not count.
 class ContactsSeen {
  public:
-  explicit ContactsSeen(const Program& program);
+  /// The CPU is not owned.
+  explicit ContactsSeen(const Cpu& cpu);
 
   void look_at(const InstructionRecord& record) {
-    const Kind kind = kinds_[record.op];
-    bool state = kind == Kind::Other ? record.powered : record.top;
-    bool known = true;
-    if (kind == Kind::Bit && record.value[0]) state = *record.value[0] != 0;
-    if (kind == Kind::ComparisonAnd) known = top_before_;
-    if (kind == Kind::ComparisonOr) known = !top_before_;
-    top_before_ = record.top;
-    if (!known) return;
+    const ContactForm& form = forms_[record.op];
+    bool state = record.powered;
+    if (form.is_contact()) {
+      const auto through = lets_through(cpu_, cpu_.program().ops[record.op], form, record);
+      if (!through) return;
+      state = *through;
+    }
     std::uint16_t& count = counts_[2 * record.op + state];
     if (count == 0) touched_.push_back(2 * record.op + state);
     count = static_cast<std::uint16_t>(count + (count < 0xFFFF));
@@ -48,14 +48,12 @@ class ContactsSeen {
   std::vector<Never> never() const;
 
  private:
-  enum class Kind : std::uint8_t { Other, Bit, Comparison, ComparisonAnd, ComparisonOr };
-
-  std::vector<Kind> kinds_;              // by op
+  const Cpu& cpu_;
+  std::vector<ContactForm> forms_;       // by op
   std::vector<std::uint32_t> contacts_;  // ops
   std::vector<std::uint16_t> counts_;    // of this run: by op, twice: open or without power flow, closed or with it
   std::vector<std::uint8_t> seen_;       // the same of all runs: a bit for each order of magnitude
   std::vector<std::uint32_t> touched_;   // indices of counts_ that are not 0
-  bool top_before_ = false;
 };
 
 }  // namespace s7200::tools

@@ -35,7 +35,7 @@ TrialBench::TrialBench(std::shared_ptr<const Program> program, std::uint8_t port
     : program_(std::move(program)),
       cpu_(program_, queue_, kOwnerOfCpu, {&port_[0], &port_[1]}),
       number_(port),
-      contacts_(cpu_.program()) {
+      contacts_(cpu_) {
   for (std::uint8_t i = 0; i < port_.size(); ++i) {
     port_[i].bench = this;
     port_[i].number = i;

@@ -58,7 +58,7 @@ TEST(Behaviour, ProgramsThatDoTheSameInOtherWordsHaveAllContactsSeenAndNoDiffere
   EXPECT_FALSE(both.result.difference);
   EXPECT_EQ(both.result.end, End::AllContacts);
   EXPECT_EQ(both.result.both_ways[0], both.result.contacts[0]);
-  EXPECT_EQ(both.result.contacts[1], 2U);
+  EXPECT_EQ(both.result.contacts[1], 3U);
 }
 
 TEST(Behaviour, ALongerScanAloneIsNoDifference) {
