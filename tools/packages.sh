@@ -12,7 +12,6 @@ needed_to_build=(
   /usr/include/boost/spirit/home/x3.hpp:libboost-dev
   /usr/include/fmt/format.h:libfmt-dev
   /usr/include/histedit.h:libedit-dev
-  /usr/include/pcap/pcap.h:libpcap-dev
   /usr/include/zlib.h:zlib1g-dev
   /usr/include/curses.h:libncurses-dev
   /usr/include/CLI/CLI.hpp:libcli11-dev
@@ -24,6 +23,15 @@ needed_to_build=(
 needed_to_build_tests=(
   /usr/include/gtest/gtest.h:libgtest-dev
   /usr/include/benchmark/benchmark.h:libbenchmark-dev
+)
+
+# What s7200.exe needs besides, and the package that it goes into.
+needed_to_build_windows=(
+  x86_64-w64-mingw32-g++-posix:g++-mingw-w64-x86-64-posix
+  /usr/x86_64-w64-mingw32/include/zlib.h:libz-mingw-w64-dev
+  zip:zip
+  node:nodejs
+  npm:npm
 )
 
 # What cpack needs for the Debian package besides.

@@ -17,8 +17,8 @@ namespace s7200::tools {
 /// Until a client sets something, its characters are as the PLC's port is set: each setting it makes holds from its next
 /// character on. What a port of an S7-200 cannot do (5 data bits, mark parity …) stays as it is, and the answer says so, as
 /// RFC 2217 has it. DTR, RTS and flow control are noted and answered; an RS-485 line has none of them.
-/// Not documented, modelled so: a break lasts as long as the client holds it, but at least HostCharacter::kBreakBits, since TCP
-/// may bring both of its ends at once. [HostPort.ABreakLastsAsLongAsItIsHeld, HostPort.ABreakIsLongerThanAnyCharacter]
+/// Not documented, modelled so: a break lasts as long as the client holds it, but at least HostCharacter::kBreakBits, since
+/// TCP may bring both of its ends at once. [HostPort.ABreakLastsAsLongAsItIsHeld, HostPort.ABreakIsLongerThanAnyCharacter]
 class ComPort {
  public:
   static constexpr std::size_t kMostOfCommand = 64;  ///< bytes of a subnegotiation; no command of RFC 2217 has more than 10

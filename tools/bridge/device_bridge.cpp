@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/posix/stream_descriptor.hpp>
 #include <optional>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
+#include "tools/bridge/device_input.hpp"
 #include "tools/host/serial_device.hpp"
 
 namespace s7200::tools {
@@ -29,15 +29,14 @@ class DeviceBridge final : public Bridge {
       return false;
     }
     device_.emplace(std::move(*device));
-    descriptor_.emplace(context, device_->fd());
+    input_ = wait_for_device(context, *device_);
     await_input();
     line.messages().serving(fmt::format("connected to {}", path_));
     return true;
   }
 
   void stop() override {
-    if (descriptor_) descriptor_->release();  // the device closes it
-    descriptor_.reset();
+    input_.reset();
     device_.reset();
   }
 
@@ -83,9 +82,9 @@ class DeviceBridge final : public Bridge {
 
   void await_input() {
     awaiting_input_ = true;
-    descriptor_->async_wait(asio::posix::descriptor_base::wait_read, [this](const boost::system::error_code& error) {
+    input_->wait([this](bool there) {
       awaiting_input_ = false;
-      if (error) return;  // tried again in the next turn
+      if (!there) return;  // tried again in the next turn
       line_->catch_up();
       read();
       if (failure_.empty() && line_->has_room()) await_input();
@@ -127,7 +126,7 @@ class DeviceBridge final : public Bridge {
   std::string path_, failure_;
   LiveLine* line_ = nullptr;
   std::optional<SerialDevice> device_;
-  std::optional<asio::posix::stream_descriptor> descriptor_;
+  std::unique_ptr<DeviceInput> input_;
   std::vector<std::uint8_t> output_;
   bool awaiting_input_ = false;
   std::uint64_t in_ = 0, out_ = 0, overrun_ = 0, errors_ = 0;

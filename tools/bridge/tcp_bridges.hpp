@@ -13,8 +13,8 @@ namespace s7200::tools {
 /// sends goes out in the order of its arrival, what the line says goes to all.
 std::unique_ptr<Bridge> make_tcp_bridge(const ListenAddress& address);
 
-/// A serial port as RFC 2217 has it, see ComPort. Clients share the line; each has settings of its own, in which its characters
-/// go out, and the line is heard as who spoke or came last is set. What `line` says holds whatever a client sets.
+/// A serial port as RFC 2217 has it, see ComPort. Clients share the line; each has settings of its own, in which its
+/// characters go out, and the line is heard as who spoke or came last is set. What `line` says holds whatever a client sets.
 std::unique_ptr<Bridge> make_rfc2217_bridge(const ListenAddress& address, const serial::LineSettings& line);
 
 /// RTU frames. What a client sends is a frame when its CRC is right. With a wrong one it is passed on too: 20 ms after its

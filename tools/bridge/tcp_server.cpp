@@ -1,25 +1,21 @@
 #include "tools/bridge/tcp_server.hpp"
 
 #include <fmt/format.h>
-#include <netinet/tcp.h>
-#include <poll.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "tools/host/server_rules.hpp"
+#include "tools/host/sockets.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -31,59 +27,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kMostNotes = 20;
 
-void keep_alive(tcp::socket& socket) {
+NativeSocket native(tcp::socket& socket) { return static_cast<NativeSocket>(socket.native_handle()); }
+
+void prepare(tcp::socket& socket) {
   Error ignored;
   socket.set_option(tcp::no_delay(true), ignored);
   socket.set_option(asio::socket_base::keep_alive(true), ignored);
-  const auto set = [&](int option, int value) {
-    setsockopt(socket.native_handle(), IPPROTO_TCP, option, &value, sizeof value);
-  };
-  set(TCP_KEEPIDLE, 30);
-  set(TCP_KEEPINTVL, 10);
-  set(TCP_KEEPCNT, 3);
-  set(TCP_USER_TIMEOUT, 60'000);
-}
-
-/// An end of a connection as /proc/net/tcp writes it: words of 32 bits in the order of this computer.
-std::string end_text(const asio::ip::address& address, std::uint16_t port) {
-  std::string text;
-  const auto add = [&](const auto& bytes) {
-    for (std::size_t i = 0; i < bytes.size(); i += 4)
-      text += fmt::format("{:08X}",
-                          std::bit_cast<std::uint32_t>(std::array{bytes[i], bytes[i + 1], bytes[i + 2], bytes[i + 3]}));
-  };
-  if (address.is_v4())
-    add(address.to_v4().to_bytes());
-  else
-    add(address.to_v6().to_bytes());
-  return fmt::format("{}:{:04X}", text, port);
-}
-
-asio::ip::address plain(const asio::ip::address& address) {
-  if (!address.is_v6() || !address.to_v6().is_v4_mapped()) return address;
-  return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
-}
-
-/// The bytes that a program of this computer left to its system to send when it closed its end of a connection. Nothing if
-/// its end is open, or not on this computer. An end that no program has open any more has no inode (proc(5), /proc/net/tcp).
-std::optional<std::size_t> left_behind(const tcp::socket& socket) {
-  Error gone;
-  const tcp::endpoint its = socket.remote_endpoint(gone), ours = socket.local_endpoint(gone);
-  if (gone) return {};
-  const asio::ip::address address = plain(its.address());
-  const std::string ends = end_text(address, its.port()) + ' ' + end_text(plain(ours.address()), ours.port());
-  std::ifstream table(address.is_v4() ? "/proc/net/tcp" : "/proc/net/tcp6");
-  for (std::string line; std::getline(table, line);) {
-    const std::size_t place = line.find(ends);
-    if (place == std::string::npos) continue;
-    std::istringstream rest(line.substr(place + ends.size()));
-    std::string state, queues, timer, retries, user, timeout;
-    std::uint64_t inode = 1;
-    rest >> state >> queues >> timer >> retries >> user >> timeout >> inode;
-    if (inode != 0) return {};
-    return std::stoul(queues, nullptr, 16);
-  }
-  return {};
+  keep_alive(native(socket));
 }
 
 struct Connection {
@@ -110,7 +60,7 @@ class Server final : public TcpServer {
     Error error;
     const tcp::endpoint endpoint(asio::ip::make_address(address.host, error), address.port);
     if (!error) acceptor_.open(endpoint.protocol(), error);
-    if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) allow_next_listener(static_cast<NativeSocket>(acceptor_.native_handle()));
     if (!error) acceptor_.set_option(asio::socket_base::receive_buffer_size(kReceiveBuffer), error);
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
@@ -198,7 +148,7 @@ class Server final : public TcpServer {
       close(silent_longest->first, fmt::format("there are {} clients, and it was silent longest", kMostClients));
     }
     socket.non_blocking(true, error);
-    keep_alive(socket);
+    prepare(socket);
     const auto connection =
         std::make_shared<Connection>(std::move(socket), to_text({from.address().to_string(), from.port()}));
     const Client client = ++counts_.clients;
@@ -223,13 +173,13 @@ class Server final : public TcpServer {
     for (const Client client : clients()) {
       const auto connection = connections_.at(client);
       if (connection->reading || connection->ended) continue;
-      pollfd state{connection->socket.native_handle(), POLLRDHUP, 0};
-      ::poll(&state, 1, 0);
-      if ((state.revents & (POLLERR | POLLHUP)) != 0)
+      const NativeSocket socket = native(connection->socket);
+      const Peer peer = look_at_peer(socket);
+      if (peer == Peer::Gone)
         close(client, "");
-      else if (const auto left = look_closer ? left_behind(connection->socket) : std::nullopt)
+      else if (const auto left = look_closer ? left_behind(socket) : std::nullopt)
         close(client, "", *left);
-      else if ((state.revents & POLLRDHUP) != 0)
+      else if (peer == Peer::SaidLastWord)
         said_last_word(*connection);
     }
   }

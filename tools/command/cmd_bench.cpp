@@ -15,6 +15,7 @@
 #include "tools/command/saved_programs.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/host/process.hpp"
 #include "tools/measuring/measure.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -82,7 +83,7 @@ int run_bench(const BenchOptions& options) {
     add(measure_mixed(effort));
     add(measure_files(effort));
   }
-  add(measure_start("/proc/self/exe", effort));
+  add(measure_start(own_executable(), effort));
   print_figures(options, how, figures, *before);
   print_interruption();
   return interrupted() ? kCheckFailed : kFine;

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -49,7 +48,7 @@ int run_dap(const CLI::App& verb, const DapOptions& options) {
   if (!options.listen.empty()) {
     exit_code = serve_clients({options.listen, options.token_file}, settings, stop_request);
   } else if (const std::string wrong =
-                 dap::serve(STDIN_FILENO, write_standard_output, settings, stop_request, interruption());
+                 dap::serve(standard_input(), write_standard_output, settings, stop_request, interruption());
              !wrong.empty()) {
     print_error(fmt::format("standard input {}", wrong));
     exit_code = kUnusable;

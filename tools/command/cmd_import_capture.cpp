@@ -24,7 +24,7 @@ namespace {
 std::string seen_from(const std::string& path, const ImportCaptureOptions& options) {
   if (path.empty() || !options.to_file()) return path;
   const auto folder = std::filesystem::absolute(options.output).parent_path();
-  return std::filesystem::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal()).string();
+  return std::filesystem::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal()).generic_string();
 }
 
 /// False after a message: `test` could not run it.

@@ -1,8 +1,5 @@
 #include "tools/command/console.hpp"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <array>
 #include <chrono>
 #include <iostream>
@@ -10,6 +7,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/line_editor.hpp"
 #include "tools/command/screen.hpp"
+#include "tools/host/input_stream.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
@@ -36,12 +34,10 @@ std::optional<std::string> read_line(LineEditor& editor, std::string& last) {
 /// A line that was typed while nobody reads one: the terminal hands over whole lines then. Nothing if there is none.
 std::optional<std::string> typed_line() {
   constexpr std::size_t kLongest = 4096;  // of a line of a terminal
-  pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-  if (poll(&input, 1, 0) != 1 || (input.revents & POLLIN) == 0) return {};
   std::array<char, kLongest> line{};
-  const ssize_t length = read(STDIN_FILENO, line.data(), line.size());
-  if (length <= 0) return {};
-  const std::string_view typed(line.data(), static_cast<std::size_t>(length));
+  const InputStream::Reading reading = standard_input().read(line, std::chrono::milliseconds(0));
+  if (reading.came != InputStream::Came::Bytes) return {};
+  const std::string_view typed(line.data(), reading.count);
   return std::string(typed.substr(0, typed.find_last_not_of("\r\n") + 1));
 }
 

@@ -24,7 +24,7 @@ std::string symbols_of(const ConvertOptions& options, const SourceText& source) 
 /// Beside the program: `plant.awl` has its symbols in `plant_symbols.txt`.
 std::string table_path(const ConvertOptions& options) {
   const std::filesystem::path program(options.output);
-  return (program.parent_path() / (program.stem().string() + "_symbols.txt")).string();
+  return (program.parent_path() / (program.stem().string() + "_symbols.txt")).generic_string();
 }
 
 void print_json(const ConvertOptions& options, const SourceText& source, const std::string& text) {

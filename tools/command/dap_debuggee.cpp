@@ -120,7 +120,7 @@ std::string as_written(const std::string& value, const std::string& type, const 
   if ((type != "FILE" && type != "LINK" && type != "DEVICE" && !is_table) || is_standard_input(value)) return value;
   const std::string path = dap::path_of(value);
   std::error_code gone;
-  return folder.empty() ? path : (fs::absolute(dap::path_of(folder), gone) / path).lexically_normal().string();
+  return folder.empty() ? path : (fs::absolute(dap::path_of(folder), gone) / path).lexically_normal().generic_string();
 }
 
 std::string word_of(const Json& value, std::string_view type) {

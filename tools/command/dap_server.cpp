@@ -1,7 +1,6 @@
 #include "tools/command/dap_server.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "tools/command/exit_code.hpp"
 #include "tools/command/server_token.hpp"
@@ -22,13 +21,12 @@ int serve_clients(const DapServer& server, const dap::SessionSettings& settings,
   fmt::print(stderr, "listening on {}, for clients with {}\n", to_text(listener->address()),
              server.token_file.empty() ? fmt::format("\"token\": \"{}\"", token) : "the token of --token-file");
   while (!interrupted()) {
-    const int client = listener->accept(why);
-    if (client < 0 && !interrupted()) return print_error(fmt::format("--listen {}: {}", server.listen, why)), kUnusable;
-    if (client < 0) break;
-    const auto write = [client](std::string_view bytes) { return send_all(client, bytes) == 0; };
-    const std::string wrong = dap::serve(client, write, settings, stop_request, interruption(), token);
+    const auto client = listener->accept(why);
+    if (!client && !interrupted()) return print_error(fmt::format("--listen {}: {}", server.listen, why)), kUnusable;
+    if (!client) break;
+    const auto write = [&client](std::string_view bytes) { return client->send(bytes); };
+    const std::string wrong = dap::serve(*client, write, settings, stop_request, interruption(), token);
     if (!wrong.empty()) print_note(fmt::format("a client {}", wrong));
-    close(client);
   }
   return kFine;
 }

@@ -1,13 +1,13 @@
 #include "tools/command/debug_script.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <iostream>
 #include <sstream>
 
 #include "tools/command/console.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/console.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -33,7 +33,7 @@ bool run_given(Prompt& debugger, const std::string& script, const DebugOptions& 
 }  // namespace
 
 bool run_commands(Prompt& debugger, const std::string& script, const DebugOptions& options) {
-  const bool terminal = isatty(STDIN_FILENO) != 0;
+  const bool terminal = is_terminal(Standard::Input);
   if (!options.given() && terminal) std::cout << "'help' lists the commands.\n";
   debugger.show_place();
   if (options.given() && !run_given(debugger, script, options)) return false;

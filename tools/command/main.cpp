@@ -18,6 +18,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/command/usage.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/host/process.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools {
@@ -64,10 +65,11 @@ void add_verbs(CLI::App& app, std::string_view asked, int& exit_code) {
   _exit(kCheckFailed);
 }
 
-int run_command(int argc, char** argv) {
+int run_command(const std::vector<std::string>& words) {
   CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their ports on simulated lines."};
   app.name("s7200");
   app.require_subcommand(1);
+  app.allow_windows_style_options(false);  // /name is a path, on every system
   app.set_version_flag("-V,--version", fmt::format("s7200 {}", version()));
   app.failure_message(usage_error);
   app.footer(
@@ -78,14 +80,15 @@ int run_command(int argc, char** argv) {
   app.set_help_all_flag("--help-all", "show all options");
 
   int exit_code = kFine;
-  add_verbs(app, argc > 1 ? argv[1] : "", exit_code);
+  add_verbs(app, words.size() > 1 ? words[1] : "", exit_code);
   derive_help(app, exit_code);
   derive_manual(app, exit_code);
   derive_complete(app, exit_code);
   refuse_empty_values(app);
 
   try {
-    std::vector<std::string> arguments = as_options(app, {argv + 1, argv + argc});
+    std::vector<std::string> arguments =
+        as_options(app, {words.begin() + std::min<std::ptrdiff_t>(1, std::ssize(words)), words.end()});
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
@@ -107,5 +110,5 @@ int main(int argc, char** argv) {
   using namespace s7200::tools;
   open_standard_streams();
   end_at_interruption(end_interrupted);
-  return close_standard_streams(run_command(argc, argv));
+  return close_standard_streams(run_command(words_of_command_line(argc, argv)));
 }

@@ -1,23 +1,17 @@
 #include "tools/command/polling_table.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "tools/host/console.hpp"
 #include "tools/host/host_time.hpp"
 
 namespace s7200::tools {
 namespace {
 
 constexpr Time kRedraw = 50 * kMillisecond;
-
-std::size_t rows_of_terminal() {
-  winsize size{};
-  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_row : 0;
-}
 
 }  // namespace
 
@@ -72,7 +66,7 @@ std::string PollingTable::table(const std::string& footer) const {
 
 void PollingTable::draw() {
   const auto height = static_cast<std::size_t>(std::ranges::count(to_draw_, '\n'));
-  const std::size_t rows = rows_of_terminal();
+  const std::size_t rows = terminal_size().rows;
   const bool fits = drawn_ < rows && height < rows;  // else the lines above cannot be reached any more
   // ECMA-48: cursor up, erase to the end of the screen; lines that are too long are cut instead of wrapped.
   if (fits && drawn_ > 0) fmt::print("\x1b[{}A", drawn_);

@@ -1,11 +1,11 @@
 #include "tools/command/progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <utility>
 
 #include "interpreter/base/counted.hpp"
+#include "tools/host/console.hpp"
 #include "tools/host/host_time.hpp"
 
 namespace s7200::tools {
@@ -15,7 +15,7 @@ Progress::Progress(std::function<Time()> now, const RunLimits& limits)
 
 void Progress::operator()() {
   const Time now = host_time();
-  if (now <= next_ || !isatty(STDERR_FILENO)) return;
+  if (now <= next_ || !is_terminal(Standard::Error)) return;
   next_ = now + kSecond;
   const std::string goal = limits_.end == kNever ? counted(limits_.scans, "scan") : format_duration(limits_.end);
   fmt::print(stderr, "\r{} of {} simulated", format_duration(now_()), goal);

@@ -21,7 +21,7 @@ namespace s7200::tools {
 int save_programs(const std::string& folder) {
   std::map<std::string, std::function<std::string()>> texts;
   const auto path = [&](std::string_view kind, std::uint32_t length) {
-    return (std::filesystem::path(folder) / fmt::format("{}_{}.stl", kind, length)).string();
+    return (std::filesystem::path(folder) / fmt::format("{}_{}.stl", kind, length)).generic_string();
   };
   for (const std::uint32_t instructions : kMixedLengths)
     texts[path("mixed", instructions)] = [instructions] { return mixed_program(instructions); };

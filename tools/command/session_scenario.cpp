@@ -138,7 +138,7 @@ void add_faults(SessionSteps& session, const std::vector<serial::Fault>& faults)
 }
 
 std::string input_text(const std::string& path) {
-  return path.empty() ? "" : fmt::format("input: {}\n", in_quotes(std::filesystem::absolute(path).string()));
+  return path.empty() ? "" : fmt::format("input: {}\n", in_quotes(std::filesystem::absolute(path).generic_string()));
 }
 
 std::string repairs_text(const Repairs& repairs) {
@@ -159,7 +159,7 @@ struct SessionSource {
 std::string scenario_text(const SessionSource& source) {
   const std::string head =
       source.is_system()
-          ? fmt::format("system: {}\n", in_quotes(std::filesystem::absolute(source.path()).string()))
+          ? fmt::format("system: {}\n", in_quotes(std::filesystem::absolute(source.path()).generic_string()))
           : fmt::format("cpu: \"{}\"\n{}", source.program->model->name, input_text(source.options.rig.settings().input));
   return fmt::format("name: {}\n{}after: 0 ms\nsteps:\n{}", in_quotes("a session with " + source.name()), head,
                      steps_text(source.session));

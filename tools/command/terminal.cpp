@@ -1,20 +1,18 @@
 #include "tools/command/terminal.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <cstdlib>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/base/wrapped.hpp"
+#include "tools/host/console.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 namespace {
 
-/// Of the streams of standard_streams.hpp, which have no descriptor of their own.
-bool is_terminal(std::FILE* stream) { return isatty(stream == stderr ? STDERR_FILENO : STDOUT_FILENO) != 0; }
+Standard standard(std::FILE* stream) { return stream == stderr ? Standard::Error : Standard::Output; }
 
 KeptMessages* kept = nullptr;
 
@@ -35,21 +33,17 @@ bool colour_wanted(std::FILE* stream) {
   return can_redraw(stream) && !(no_color && *no_color);
 }
 
-bool can_redraw(std::FILE* stream) {
-  const char* type = std::getenv("TERM");
-  return is_terminal(stream) && type && *type && std::string_view(type) != "dumb";
-}
+bool can_redraw(std::FILE* stream) { return knows_control_sequences(standard(stream)); }
 
 std::size_t output_width() {
-  winsize size{};
-  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : stl::kUsualWidth;
+  const std::size_t columns = terminal_size().columns;
+  return columns > 0 ? columns : stl::kUsualWidth;
 }
 
 void print_report(std::string_view text) { fmt::print("{}", stl::wrapped(text, output_width())); }
 
 void print_file(std::string_view text) {
-  fmt::print("{}", is_terminal(stdout) ? stl::printable_lines(text) : std::string(text));
+  fmt::print("{}", is_terminal(Standard::Output) ? stl::printable_lines(text) : std::string(text));
 }
 
 void print_error(std::string_view message) { print_message("error", message); }

@@ -1,7 +1,6 @@
 #include "tools/command/test_output.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +8,7 @@
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/console.hpp"
 #include "tools/scenario/junit.hpp"
 #include "tools/scenario/report_json.hpp"
 #include "tools/views/results_json.hpp"
@@ -25,7 +25,7 @@ void print_heading(const Scenario& scenario, const stl::SourceLines*& last) {
 }  // namespace
 
 TestOutput::TestOutput(std::size_t all, bool json, bool conformance)
-    : all_(all), json_(json), conformance_(conformance), progress_wanted_(isatty(STDERR_FILENO)) {}
+    : all_(all), json_(json), conformance_(conformance), progress_wanted_(is_terminal(Standard::Error)) {}
 
 void TestOutput::show_progress(std::size_t done) {
   if (!progress_wanted_ || std::chrono::steady_clock::now() - begin_ < std::chrono::seconds(2)) return;

@@ -1,22 +1,12 @@
 #include "tools/host/listen_address.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-
-#include <array>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "tools/host/sockets.hpp"
 
 namespace s7200::tools {
-namespace {
-
-bool is_address(int family, const std::string& host) {
-  std::array<unsigned char, sizeof(in6_addr)> address{};
-  return inet_pton(family, host.c_str(), address.data()) == 1;
-}
-
-}  // namespace
 
 std::optional<ListenAddress> parse_listen_address(const std::string& text, std::string& why) {
   ListenAddress address;
@@ -25,10 +15,10 @@ std::optional<ListenAddress> parse_listen_address(const std::string& text, std::
   std::string host = colon == std::string::npos ? "" : text.substr(0, colon);
   if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
     host = host.substr(1, host.size() - 2);
-    if (!is_address(AF_INET6, host)) why = fmt::format("'{}' is not an IPv6 address", stl::shortened(host));
+    if (!is_ip_address(host, IpVersion::Six)) why = fmt::format("'{}' is not an IPv6 address", stl::shortened(host));
   } else if (host.find(':') != std::string::npos) {
     why = fmt::format("write an IPv6 address in brackets, as [{}]:{}", host, port);
-  } else if (!host.empty() && !is_address(AF_INET, host)) {
+  } else if (!host.empty() && !is_ip_address(host, IpVersion::Four)) {
     why = fmt::format("'{}' is not an IP address", stl::shortened(host));
   }
   const auto number = parse_decimal<std::uint16_t>(port);

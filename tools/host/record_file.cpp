@@ -1,18 +1,13 @@
 #include "tools/host/record_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <streambuf>
 #include <utility>
 
-#include "tools/host/interruption.hpp"
 #include "tools/host/write_all.hpp"
 
 namespace s7200::tools {
@@ -54,22 +49,6 @@ class RecordFile::Buffer final : public std::streambuf {
   std::array<char, 65536> bytes_{};
 };
 
-namespace {
-
-/// A pipe or a device, which must be there; -1 and errno.
-int open_stream(const std::string& path) {
-  int fd = -1;
-  do fd = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
-  while (fd < 0 && errno == EINTR && !interrupted());
-  struct stat status {};
-  if (fd < 0 || fstat(fd, &status) != 0 || S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode)) return fd;
-  close(fd);
-  errno = EEXIST;
-  return -1;
-}
-
-}  // namespace
-
 RecordFile::RecordFile() = default;
 RecordFile::~RecordFile() = default;
 
@@ -89,7 +68,7 @@ bool RecordFile::claim(WrittenFiles& files, std::string_view option, const std::
 
 /// A pipe without a reader that Ctrl-C ends is not a mistake: there is nothing to say but that it was interrupted.
 bool RecordFile::check(int error, std::string& why) const {
-  if (error != 0) why = error == EINTR ? "" : fmt::format("cannot write {}: {}", destination_.path, std::strerror(error));
+  if (error != 0) why = error == EINTR ? "" : fmt::format("cannot write {}: {}", destination_.path, error_text(error));
   return error == 0;
 }
 
@@ -98,7 +77,7 @@ std::ostream* RecordFile::open(std::string& why) {
   int error = 0;
   if (!destination_.stream)
     error = file_.create(destination_);
-  else if (const int fd = open_stream(destination_.path); fd >= 0)
+  else if (const int fd = file_system::open_stream(destination_.path); fd >= 0)
     file_.take(fd);
   else
     error = errno;
@@ -126,7 +105,7 @@ bool RecordFile::close(std::string& why) {
   stream_.reset();
   buffer_.reset();
   if (const int at_close = file_.close(); error == 0) error = at_close;
-  if (error != 0) why = fmt::format("cannot write all of {}: {}", destination_.path, std::strerror(error));
+  if (error != 0) why = fmt::format("cannot write all of {}: {}", destination_.path, error_text(error));
   return error == 0;
 }
 

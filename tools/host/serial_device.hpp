@@ -1,22 +1,32 @@
-// A serial device of this computer: /dev/ttyS0, a USB adapter, or the far side of a pty.
+// A serial device of this computer: /dev/ttyS0, a USB adapter, or the far side of a pty; on Windows a COM port.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "interpreter/base/serial_format.hpp"
 
 namespace s7200::tools {
 
+/// Whether a word names a serial device rather than anything else: /dev/tty…, the far side of a pty, COM3, \\.\COM12.
+bool names_serial_device(const std::string& word);
+
+/// How help texts name one: `/dev/ttyUSB0, or a pty by its link`, `COM3`.
+std::string_view example_of_serial_device();
+
 class SerialDevice {
  public:
   struct Character {
     std::uint8_t byte = 0;
-    bool error = false;  ///< wrong parity, no stop bit, or a break: Linux does not say which
+    /// Wrong parity, no stop bit, or a break: the systems do not say which. Windows does not say at which character either:
+    /// it is the last of those that had come in when the error was told.
+    bool error = false;
     bool operator==(const Character&) const = default;
   };
 
@@ -35,8 +45,19 @@ class SerialDevice {
   bool set(const SerialFormat& format, std::string& why);
   const SerialFormat& format() const { return format_; }
 
-  /// The descriptor for poll(2); it never blocks.
-  int fd() const { return fd_; }
+  /// What a loop waits for: a descriptor for poll(2) that never blocks; on Windows the handle of an event that is set while
+  /// there is something to read.
+  std::intptr_t native() const;
+
+  /// Whether there is something to read, the end too, or room to write, within that time.
+  bool wait_for_input(std::chrono::nanoseconds at_most) const;
+  bool wait_for_room(std::chrono::nanoseconds at_most) const;
+
+  /// Drives DTR. Returns false where there is none.
+  bool drive_dtr(bool high);
+
+  /// Returns when what was written is on its way.
+  void drain();
 
   /// Appends what has come in, at most kMostAtOnce characters: a side that never stops sending blocks nothing. Returns false
   /// and sets `why` when the device is gone.
@@ -51,16 +72,12 @@ class SerialDevice {
   void discard_input();
 
  private:
-  struct Settings;  // as they were found
+  struct System;  // the device as the system sees it
 
-  SerialDevice(int fd, std::unique_ptr<Settings> found);
-  void take(std::uint8_t byte, std::vector<Character>& characters);
+  SerialDevice();
 
-  int fd_;
-  std::unique_ptr<Settings> found_;
+  std::unique_ptr<System> system_;
   SerialFormat format_;
-  /// Characters with errors come as FF 00 and the character, FF itself as FF FF (PARMRK, termios(3)).
-  enum class Mark : std::uint8_t { None, Begun, Error } mark_ = Mark::None;
 };
 
 }  // namespace s7200::tools

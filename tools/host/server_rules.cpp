@@ -1,13 +1,11 @@
 #include "tools/host/server_rules.hpp"
 
 #include <fmt/format.h>
-#include <sys/random.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
+
+#include "tools/host/random_bytes.hpp"
 
 namespace s7200::tools {
 
@@ -23,11 +21,7 @@ bool is_web_request(std::string_view first_bytes) {
 
 std::string new_token() {
   std::array<unsigned char, 16> bytes{};
-  for (std::size_t got = 0; got < bytes.size();) {
-    const ssize_t count = getrandom(bytes.data() + got, bytes.size() - got, 0);
-    if (count < 0 && errno != EINTR) throw std::runtime_error(std::string("no random numbers: ") + std::strerror(errno));
-    if (count > 0) got += static_cast<std::size_t>(count);
-  }
+  fill_with_random_bytes(bytes);
   std::string token;
   for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
   return token;

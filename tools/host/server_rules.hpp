@@ -1,5 +1,6 @@
-// The rules that hold for every server of ours, one place for all of them: what `s7200 view`, `s7200 dap --listen` and the bridges keep,
-// each as far as its protocol allows. tests/surroundings (servers) tries each rule with each server that the help lists.
+// The rules that hold for every server of ours, one place for all of them: what `s7200 view`, `s7200 dap --listen` and the
+// bridges keep, each as far as its protocol allows. tests/surroundings (servers) tries each rule with each server that the
+// help lists.
 //
 // - It is closed until it is opened: without an address it serves this computer only. `dap` serves no other at all.
 // - Any page that a browser shows can send requests to a port of this computer. So the first bytes must be the protocol's,

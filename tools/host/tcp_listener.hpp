@@ -4,10 +4,30 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "tools/host/input_stream.hpp"
 #include "tools/host/listen_address.hpp"
+#include "tools/host/sockets.hpp"
 
 namespace s7200::tools {
+
+/// The connection of a client, until its end.
+class TcpClient final : public InputStream {
+ public:
+  explicit TcpClient(NativeSocket socket) : socket_(socket) {}
+  ~TcpClient() override;
+  TcpClient(const TcpClient&) = delete;
+  TcpClient& operator=(const TcpClient&) = delete;
+
+  Reading read(std::span<char> into, std::chrono::milliseconds at_most) override;
+
+  /// Sends all bytes. False if that fails, or the client has not read for kMostSilence.
+  bool send(std::string_view bytes);
+
+ private:
+  NativeSocket socket_;
+};
 
 class TcpListener {
  public:
@@ -20,20 +40,19 @@ class TcpListener {
   /// The address with the actual port.
   const ListenAddress& address() const { return address_; }
 
-  /// The descriptor of the port, which stays this one's.
-  int descriptor() const { return fd_; }
+  /// Gives the port away to one that will close it; accept() is not called any more.
+  NativeSocket release() { return std::exchange(socket_, kNoSocket); }
 
-  /// The descriptor of the next client, to be closed by the caller. -1 after an interruption, or for `why`.
-  int accept(std::string& why);
+  /// The next client. Null after an interruption, or for `why`.
+  std::unique_ptr<TcpClient> accept(std::string& why);
 
  private:
-  TcpListener(int fd, ListenAddress address) : fd_(fd), address_(std::move(address)) {}
+  TcpListener(NativeSocket socket, ListenAddress address) : socket_(socket), address_(std::move(address)) {}
 
-  int fd_;
+  static constexpr std::string_view kOnlyThisComputer = "only this computer itself is served: 127.0.0.1 or [::1]";
+
+  NativeSocket socket_;
   ListenAddress address_;
 };
-
-/// Sends all bytes to a client that accept() returned. 0 or the error: EAGAIN for one that has not read for kMostSilence.
-int send_all(int client, std::string_view bytes);
 
 }  // namespace s7200::tools

@@ -1,7 +1,6 @@
 #include "tools/host/web_server.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -62,7 +61,7 @@ class WebServer::Served : public std::enable_shared_from_this<Served> {
 
   void start() {
     const bool six = listener_->address().host.find(':') != std::string::npos;
-    acceptor_.assign(six ? tcp::v6() : tcp::v4(), ::dup(listener_->descriptor()));
+    acceptor_.assign(six ? tcp::v6() : tcp::v4(), static_cast<asio::detail::socket_type>(listener_->release()));
     accept();
     tick();
     thread_ = std::thread([this] { io_.run(); });

@@ -1,85 +1,43 @@
 #include "tools/host/written_files.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 
+#include "tools/host/file_name.hpp"
 #include "tools/host/write_all.hpp"
 
 namespace s7200::tools {
 namespace {
 
 namespace fs = std::filesystem;
+using file_system::Found;
+using file_system::look_at;
+using file_system::look_behind;
 
 std::string folder_of(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   return folder.empty() ? "." : folder.string();
 }
 
-FileIdentity identity(const struct stat& status) { return {status.st_dev, status.st_ino}; }
-
-/// The file that a name stands for, without following a link.
-std::optional<struct stat> look_at(const std::string& path) {
-  struct stat status {};
-  if (lstat(path.c_str(), &status) != 0) return {};
-  return status;
-}
-
-bool begins_with(const std::string& path, const std::string& beginning) {
-  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  std::string first(beginning.size(), '\0');
-  const bool read_all = file >= 0 && read(file, first.data(), first.size()) == static_cast<ssize_t>(first.size());
-  if (file >= 0) close(file);
-  return read_all && first == beginning;
-}
-
-bool is_stream(const struct stat& status) { return S_ISFIFO(status.st_mode) || S_ISCHR(status.st_mode); }
-
 /// Why nothing can be written under a name that stands for this; empty if a record can go there as it is.
-std::string why_not(const std::string& path, const struct stat& found, const FileKind& kind) {
-  struct stat target {};
-  const bool leads_somewhere = stat(path.c_str(), &target) == 0;
-  if (leads_somewhere && is_stream(target))
+std::string why_not(const std::string& path, const Found& found, const FileKind& kind) {
+  const auto target = look_behind(path);
+  if (target && target->is_stream())
     return kind.record ? "" : fmt::format("cannot write {}: it is a device or a pipe, not a file", path);
-  if (S_ISLNK(found.st_mode)) return fmt::format("{} is a link; it is left alone, and so is what it leads to", path);
-  return fmt::format("cannot write {}: it is {}", path, S_ISDIR(found.st_mode) ? "a folder" : "not a file");
+  if (found.kind == Found::Kind::Link)
+    return fmt::format("{} is a link; it is left alone, and so is what it leads to", path);
+  return fmt::format("cannot write {}: it is {}", path, found.kind == Found::Kind::Folder ? "a folder" : "not a file");
 }
 
 /// Whether what is there now, maybe hours after it was claimed, may be replaced.
-bool may_replace(const Destination& destination, const struct stat& found) {
-  if (!S_ISREG(found.st_mode)) return false;
+bool may_replace(const Destination& destination, const Found& found) {
+  if (found.kind != Found::Kind::File) return false;
   const auto& replaced = destination.replaced;
-  if (replaced && identity(found) == replaced->file && (!replaced->empty || found.st_size == 0)) return true;
+  if (replaced && found.identity == replaced->file && (!replaced->empty || found.size == 0)) return true;
   const std::string& beginning = destination.kind.beginning;
-  return !beginning.empty() && begins_with(destination.path, beginning);
-}
-
-/// Whether a file is being written: its writer holds a lock on it while it is open. File systems without locks know no
-/// writer.
-bool is_being_written(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  close(file);
-  return locked;
-}
-
-/// Unlike rename(2) it replaces nothing. File systems that cannot do it in one step may know hard links; FAT does not.
-int rename_to_new_name(const std::string& from, const std::string& to) {
-  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
-  if (errno != EINVAL && errno != ENOSYS) return errno;
-  if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0 ? 0 : errno;
-  if (errno != EPERM && errno != EOPNOTSUPP) return errno;
-  if (look_at(to)) return EEXIST;
-  return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+  return !beginning.empty() && file_system::begins_with(destination.path, beginning);
 }
 
 }  // namespace
@@ -87,23 +45,22 @@ int rename_to_new_name(const std::string& from, const std::string& to) {
 // --- claims ---
 
 WrittenFiles::WrittenFiles(std::ostream* standard_output) : standard_output_(standard_output) {
-  for (const auto& [fd, name] : {std::pair(STDOUT_FILENO, "standard output"), std::pair(STDERR_FILENO, "standard error")}) {
-    struct stat status {};
-    if (fstat(fd, &status) == 0 && !S_ISCHR(status.st_mode)) places_.push_back({name, identity(status), {}, {}});
+  for (const auto& [fd, name] : {std::pair(1, "standard output"), std::pair(2, "standard error")}) {
+    const auto found = file_system::look_at_descriptor(fd);
+    if (found && found->kind != Found::Kind::Device) places_.push_back({name, found->identity, {}, {}});
   }
 }
 
 WrittenFiles::Place WrittenFiles::place_of(std::string user, const std::string& path) {
   Place place{std::move(user), {}, {}, fs::path(path).filename().string()};
-  struct stat status {};
-  if (stat(path.c_str(), &status) == 0) place.file = identity(status);
-  if (stat(folder_of(path).c_str(), &status) == 0) place.folder = identity(status);
+  if (const auto found = look_behind(path)) place.file = found->identity;
+  if (const auto found = look_behind(folder_of(path))) place.folder = found->identity;
   return place;
 }
 
 void WrittenFiles::reads(const std::string& path) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) places_.push_back(place_of("", path));
+  const auto found = look_behind(path);
+  if (found && found->kind == Found::Kind::File) places_.push_back(place_of("", path));
 }
 
 void WrittenFiles::links(std::string_view option, const std::string& path) {
@@ -116,14 +73,15 @@ std::optional<Destination> WrittenFiles::claim(std::string_view option, const st
     why = std::move(message);
     return std::nullopt;
   };
+  if (const std::string reason = why_no_name_of_a_file(path); !reason.empty())
+    return refuse(fmt::format("cannot write {}: {}", path, reason));
   Destination destination{.path = path, .kind = std::move(kind)};
-  const auto found = look_at(path);
-  struct stat target {};
-  const bool device = stat(path.c_str(), &target) == 0 && S_ISCHR(target.st_mode);
+  const auto found = look_at(path), target = look_behind(path);
+  const bool device = target && target->kind == Found::Kind::Device;
   const Place here = place_of(std::string(option), path);
   for (const Place& other : places_) {
     const bool same_file = here.file && here.file == other.file;
-    const bool same_name = here.folder && here.folder == other.folder && here.name == other.name;
+    const bool same_name = here.folder && here.folder == other.folder && file_system::is_same_name(here.name, other.name);
     if (device || !(same_file || same_name)) continue;
     return refuse(other.user.empty()
                       ? fmt::format("{} {}: the command reads this file; name another", option, path)
@@ -131,20 +89,20 @@ std::optional<Destination> WrittenFiles::claim(std::string_view option, const st
   }
   places_.push_back(here);
 
-  if (found && !S_ISREG(found->st_mode)) {
+  if (found && found->kind != Found::Kind::File) {
     if (std::string reason = why_not(path, *found, destination.kind); !reason.empty()) return refuse(std::move(reason));
     destination.stream = true;
     return destination;
   }
-  const bool holds_something = found && found->st_size != 0;
-  if (holds_something && replace == Replace::Own && !begins_with(path, destination.kind.beginning))
+  const bool holds_something = found && found->size != 0;
+  if (holds_something && replace == Replace::Own && !file_system::begins_with(path, destination.kind.beginning))
     return refuse(fmt::format("{} exists and is not {}; it is left alone", path, destination.kind.name));
   if (holds_something && replace == Replace::Never) return refuse(fmt::format("{} exists", path));
-  if (found && is_being_written(path))
+  if (found && file_system::is_being_written(path))
     return refuse(fmt::format("{} {}: another command is still writing it; name another", option, path));
-  if (access(folder_of(path).c_str(), W_OK | X_OK) != 0)
-    return refuse(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
-  if (found) destination.replaced = {identity(*found), found->st_size == 0};
+  if (const int error = file_system::why_no_new_file(folder_of(path)); error != 0)
+    return refuse(fmt::format("cannot write {}: {}", path, error_text(error)));
+  if (found) destination.replaced = {found->identity, found->size == 0};
   return destination;
 }
 
@@ -152,39 +110,36 @@ std::optional<Destination> WrittenFiles::claim(std::string_view option, const st
 
 NewFile::~NewFile() {
   close();
-  if (!beside_.empty()) unlink(beside_.c_str());
+  if (!beside_.empty()) file_system::remove(beside_);
 }
 
 /// Creates the new file with the rights of the file that it is to replace.
 int NewFile::create(const Destination& destination) {
-  const std::string beside = fmt::format("{}.{}.new", destination.path, getpid());
-  fd_ = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const std::string beside = fmt::format("{}.{}.new", destination.path, file_system::process_number());
+  fd_ = file_system::create_new(beside, destination.path);
   if (fd_ < 0) return errno;
   beside_ = beside;
-  flock(fd_, LOCK_EX | LOCK_NB);  // see is_being_written
-  const auto old = look_at(destination.path);
-  return old && S_ISREG(old->st_mode) && fchmod(fd_, old->st_mode & 07777) != 0 ? errno : 0;
+  return 0;
 }
 
 int NewFile::put(const Destination& destination) {
   const auto found = look_at(destination.path);
   if (found && !may_replace(destination, *found)) return EEXIST;
-  const int error = !found ? rename_to_new_name(beside_, destination.path)
-                    : std::rename(beside_.c_str(), destination.path.c_str()) == 0 ? 0
-                                                                                  : errno;
+  const int error = found ? file_system::rename_over(beside_, destination.path)
+                          : file_system::rename_to_new_name(beside_, destination.path);
   if (error == 0) beside_.clear();
   return error;
 }
 
 int NewFile::close() {
   if (fd_ < 0) return 0;
-  const int error = ::close(fd_) == 0 ? 0 : errno;
+  const int error = file_system::close(fd_);
   fd_ = -1;
   return error;
 }
 
 bool GrowingResult::check(int error, std::string& why) const {
-  if (error != 0) why = fmt::format("cannot write {}: {}", destination_.path, std::strerror(error));
+  if (error != 0) why = fmt::format("cannot write {}: {}", destination_.path, error_text(error));
   return error == 0;
 }
 
@@ -196,15 +151,12 @@ bool GrowingResult::begin(const Destination& destination, std::string& why) {
 bool GrowingResult::add(std::string_view text, std::string& why) { return check(write_all(file_.fd(), text), why); }
 
 bool GrowingResult::complete(std::string& why) {
-  int error = fsync(file_.fd()) != 0 ? errno : 0;
+  int error = file_system::write_through(file_.fd());
   if (error == 0) error = file_.close();
   if (error == 0) error = file_.put(destination_);
   if (!check(error, why)) return false;
-  // The new name itself on the disk as well; not every file system knows how, and the content is safe already.
-  if (const int folder = open(folder_of(destination_.path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); folder >= 0) {
-    fsync(folder);
-    close(folder);
-  }
+  // The new name itself on the disk as well; the content is safe already.
+  file_system::write_names_through(folder_of(destination_.path));
   return true;
 }
 

@@ -16,13 +16,13 @@
 // All names are looked at before anything is written: a command that is refused has changed nothing.
 #pragma once
 
-#include <sys/types.h>
-
 #include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "tools/host/file_system.hpp"
 
 namespace s7200::tools {
 
@@ -38,12 +38,6 @@ enum class Replace : std::uint8_t {
   Own,     ///< files that the option wrote
   Never,   ///< no existing file
   Judged,  ///< any: --force, or the caller has read the file
-};
-
-struct FileIdentity {
-  dev_t device = 0;
-  ino_t inode = 0;
-  bool operator==(const FileIdentity&) const = default;
 };
 
 struct ReplacedFile {

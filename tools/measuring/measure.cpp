@@ -1,19 +1,14 @@
 #include "tools/measuring/measure.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cerrno>
 #include <chrono>
-#include <fstream>
+#include <ostream>
 #include <stdexcept>
-#include <system_error>
+#include <streambuf>
 
 #include "interpreter/analysis/check.hpp"
 #include "interpreter/analysis/looks.hpp"
@@ -22,6 +17,7 @@
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
+#include "tools/host/process.hpp"
 #include "tools/measuring/long_listing.hpp"
 #include "tools/measuring/mixed_program.hpp"
 #include "tools/views/check_report.hpp"
@@ -29,15 +25,10 @@
 namespace s7200::tools {
 namespace {
 
-/// Processor time of this process: what else the machine does does not count.
 struct HostClock {
   using duration = std::chrono::nanoseconds;
 
-  static duration now() {
-    timespec used{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-    return std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec);
-  }
+  static duration now() { return processor_time(); }
 };
 
 constexpr EventOwner kUart{0}, kCpu{1};
@@ -233,11 +224,27 @@ double polled_minute(serial::Simulation& simulation) {
   return kPolls;
 }
 
+/// Takes what is written a block at a time, as a file does.
+class Nowhere final : public std::streambuf {
+ public:
+  Nowhere() { setp(block_.data(), block_.data() + block_.size()); }
+
+ protected:
+  int_type overflow(int_type c) override {
+    setp(block_.data(), block_.data() + block_.size());
+    return traits_type::not_eof(c);
+  }
+
+ private:
+  std::array<char, 8192> block_{};
+};
+
 /// Measures `work` while a trace of it is written and thrown away.
 template <class Work>
 double traced(serial::Simulation& simulation, const std::shared_ptr<const Program>& program, TraceDetail detail,
               const Effort& effort, Work work) {
-  std::ofstream out("/dev/null");
+  Nowhere nowhere;
+  std::ostream out(&nowhere);
   TextTrace trace(out, program, detail);
   simulation.cpu().set_sink(&trace);
   const double rate = best_rate(effort, [&] { return timed([&] { return work(simulation); }); });
@@ -385,51 +392,6 @@ std::vector<Figure> measure_files(const Effort& effort) {
   return figures;
 }
 
-namespace {
-
-/// A started process; the destructor waits for its end.
-class Started {
- public:
-  explicit Started(const std::string& command) {
-    std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-    out_ = ends[0];
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_addclose(&actions, ends[0]);
-    posix_spawn_file_actions_addclose(&actions, ends[1]);
-    std::string name = command, verb = "instructions", mnemonic = "LD";
-    std::array<char*, 4> arguments{name.data(), verb.data(), mnemonic.data(), nullptr};
-    const int error = posix_spawn(&process_, command.c_str(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    if (error == 0) return;
-    ::close(out_);
-    throw std::system_error(error, std::generic_category(), command);
-  }
-  Started(const Started&) = delete;
-  Started& operator=(const Started&) = delete;
-  ~Started() {
-    ::close(out_);
-    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
-  }
-
-  /// Waits for output. Returns false if the process ends without any.
-  bool wait_for_output() const {
-    char first = 0;
-    ssize_t count = 0;
-    while ((count = read(out_, &first, 1)) < 0 && errno == EINTR) continue;
-    return count > 0;
-  }
-
- private:
-  int out_ = -1;
-  pid_t process_ = 0;
-};
-
-}  // namespace
-
 std::vector<Figure> measure_start(const std::string& command, const Effort& effort) {
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::duration<double, std::milli>;
@@ -437,7 +399,7 @@ std::vector<Figure> measure_start(const std::string& command, const Effort& effo
   const auto end = Clock::now() + std::chrono::nanoseconds(effort.each);
   do {
     const auto begin = Clock::now();
-    const Started started(command);
+    const StartedProcess started({command, "instructions", "LD"});
     if (!started.wait_for_output() && !effort.stop.stop_requested())
       throw std::runtime_error(command + " was started and printed nothing");
     best = std::min<Milliseconds>(best, Clock::now() - begin);

@@ -1,17 +1,16 @@
-// Captures of serial lines and of Modbus TCP, read by libpcap.
+// Captures of serial lines and of Modbus TCP.
 #include <fmt/format.h>
-#include <pcap/pcap.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <memory>
+#include <set>
 #include <utility>
 
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
+#include "tools/recordings/capture_file.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/serial_links.hpp"
@@ -77,11 +76,11 @@ Data ip_of(Data packet, int link_type) {
     return ether_type == 0x0800 || ether_type == 0x86DD ? packet.subspan(head) : Data{};
   };
   switch (link_type) {
-    case DLT_EN10MB:
+    case link_types::kEthernet:
       return after(14, 12);
-    case DLT_LINUX_SLL:
+    case link_types::kLinuxCooked:
       return after(16, 14);
-    case DLT_LINUX_SLL2:
+    case link_types::kLinuxCooked2:
       return after(20, 0);
     default:
       return packet;
@@ -226,208 +225,44 @@ class PacketFrames {
   std::size_t others_ = 0, broken_ = 0;
 };
 
-/// The part of a capture that libpcap reads at once: it refuses a pcapng whose interfaces have several link types.
-struct CapturePart {
-  std::string_view bytes;
-  std::vector<std::size_t> numbers{};  ///< of its packets in the whole file; empty: all of them, from 1 on
-  std::string own_bytes{};             ///< of a part that is not the whole file
-};
-
-/// Numbers in the order of bytes that a section has.
-class PcapNgNumbers {
- public:
-  explicit PcapNgNumbers(std::string_view file) : file_(file) {}
-  std::uint32_t get(std::size_t at, std::size_t bytes) const {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < bytes; ++i)
-      value = value << 8 | static_cast<std::uint8_t>(file_[at + (big_endian ? i : bytes - 1 - i)]);
-    return value;
-  }
-  void put(std::string& block, std::size_t at, std::uint32_t value) const {
-    for (std::size_t i = 0; i < 4; ++i) block[at + i] = static_cast<char>(value >> 8 * (big_endian ? 3 - i : i));
-  }
-  bool big_endian = false;
-
- private:
-  std::string_view file_;
-};
-
-/// A pcapng by the link types of its interfaces, with their packets. Any other file, or one that is broken, is one part.
-std::vector<CapturePart> parts_of(std::string_view file) {
-  constexpr std::uint32_t kSection = 0x0A0D0D0A, kInterface = 1, kSimplePacket = 3, kPacket = 6;
-  constexpr std::size_t kHead = 8, kShortest = 16;
-  std::map<std::uint32_t, CapturePart> by_link;
-  std::map<std::uint32_t, std::uint32_t> interfaces;        // of a link type's part: how many so far
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> of;  // interface of the section: link type, number in its part
-  std::string_view section;
-  std::size_t number = 0;
-  PcapNgNumbers numbers(file);
-  std::vector<CapturePart> whole;
-  whole.push_back({.bytes = file});
-  for (std::size_t at = 0; at < file.size();) {
-    if (at + kShortest > file.size()) return whole;
-    const bool begins = numbers.get(at, 4) == kSection;
-    if (begins) numbers.big_endian = file[at + kHead] == '\x1A';
-    const std::uint32_t type = numbers.get(at, 4), length = numbers.get(at + 4, 4);
-    if ((type == kInterface || type == kPacket) && length < kShortest + 4) return whole;
-    if (length < 12 || length > file.size() - at) return whole;
-    const std::string_view block = file.substr(at, length);
-    if (begins) {
-      if (!section.empty()) return whole;  // libpcap reads several, if they are alike
-      section = block;
-    } else if (type == kInterface) {
-      const std::uint32_t link = numbers.get(at + kHead, 2);
-      of.emplace_back(link, interfaces[link]++);
-      by_link[link].own_bytes += block;
-    } else if (type == kPacket || type == kSimplePacket) {
-      ++number;
-      const std::uint32_t interface = type == kPacket ? numbers.get(at + kHead, 4) : 0;
-      if (interface >= of.size()) return whole;
-      const auto& [link, place] = of[interface];
-      std::string& bytes = by_link[link].own_bytes;
-      bytes += block;
-      if (type == kPacket) numbers.put(bytes, bytes.size() - block.size() + kHead, place);
-      by_link[link].numbers.push_back(number);
-    }
-    at += length;
-  }
-  if (by_link.size() < 2 || section.empty()) return whole;
-  std::vector<CapturePart> parts;
-  for (auto& [link, part] : by_link) {
-    part.own_bytes.insert(0, section);
-    if (!part.numbers.empty()) parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
 bool is_known(int link_type) {
-  return SerialLinks::carry(link_type) || link_type == DLT_EN10MB || link_type == DLT_LINUX_SLL ||
-         link_type == DLT_LINUX_SLL2 || link_type == DLT_RAW || link_type == DLT_IPV4 || link_type == DLT_IPV6;
-}
-
-/// The packets of a part, one after the other.
-class CaptureReader {
- public:
-  struct Packet {
-    std::size_t number = 0;
-    Time at = 0;
-    Data data{};  ///< until the next one is read
-  };
-
-  /// Opens a part. Null with `why` set if it is not a capture.
-  static std::unique_ptr<CaptureReader> open(CapturePart part, std::string& why) {
-    auto reader = std::unique_ptr<CaptureReader>(new CaptureReader(std::move(part)));
-    return reader->open_file(why) ? std::move(reader) : nullptr;
-  }
-
-  int link_type() const { return link_type_; }
-  /// The error that ended the reading of the part; empty if there was none.
-  const std::string& error() const { return error_; }
-  /// The present packet; nothing at the end.
-  const std::optional<Packet>& packet() const { return packet_; }
-
-  /// Reads the next packet. Returns false and sets `why` if its time is one that no recording has.
-  bool read_next(std::string& why) {
-    pcap_pkthdr* head = nullptr;
-    const u_char* data = nullptr;
-    const int result = pcap_next_ex(capture_.get(), &head, &data);
-    packet_.reset();
-    if (result == PCAP_ERROR)
-      error_ = fmt::format("after packet {} the file cannot be read: {}", last_, pcap_geterr(capture_.get()));
-    if (result != 1) return true;
-    last_ = read_ < part_.numbers.size() ? part_.numbers[read_] : read_ + 1;
-    ++read_;
-    if (std::abs(head->ts.tv_sec) >= kFurthestTime / kSecond) {
-      why = fmt::format("packet {}: {} s since 1970 is not a time of a recording", last_, head->ts.tv_sec);
-      return false;
-    }
-    packet_ = {.number = last_, .at = head->ts.tv_sec * kSecond + head->ts.tv_usec, .data = Data(data, head->caplen)};
-    return true;
-  }
-
- private:
-  explicit CaptureReader(CapturePart part) : part_(std::move(part)) {
-    if (!part_.own_bytes.empty()) part_.bytes = part_.own_bytes;
-  }
-
-  bool open_file(std::string& why) {
-    std::array<char, PCAP_ERRBUF_SIZE> error{};
-    std::FILE* file = ::fmemopen(const_cast<char*>(part_.bytes.data()), part_.bytes.size(), "rb");
-    if (file == nullptr) return why = "out of memory", false;
-    capture_.reset(pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, error.data()));
-    if (!capture_) {
-      std::fclose(file);
-      why = error.data();
-      return false;
-    }
-    link_type_ = pcap_datalink(capture_.get());
-    return true;
-  }
-
-  struct Close {
-    void operator()(pcap_t* capture) const { pcap_close(capture); }
-  };
-
-  CapturePart part_;
-  std::unique_ptr<pcap_t, Close> capture_;
-  int link_type_ = 0;
-  std::size_t read_ = 0, last_ = 0;
-  std::optional<Packet> packet_;
-  std::string error_;
-};
-
-using CaptureReaders = std::vector<std::unique_ptr<CaptureReader>>;
-
-/// The part whose packet is the next one of the file; null at its end.
-CaptureReader* next_part(const CaptureReaders& parts) {
-  CaptureReader* next = nullptr;
-  for (const auto& part : parts)
-    if (part->packet() && (next == nullptr || part->packet()->number < next->packet()->number)) next = part.get();
-  return next;
+  using namespace link_types;
+  constexpr std::array kOfIp{kEthernet, kLinuxCooked, kLinuxCooked2, kRawIp, kRawIpOnce, kRawIpOfOpenBsd, kIp4, kIp6};
+  return SerialLinks::carry(link_type) || std::ranges::find(kOfIp, link_type) != kOfIp.end();
 }
 
 }  // namespace
 
-bool looks_like_pcap(std::string_view bytes) {
-  using namespace std::string_view_literals;
-  for (const std::string_view magic :
-       {"\xA1\xB2\xC3\xD4"sv, "\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\x3C\x4D"sv, "\x4D\x3C\xB2\xA1"sv, "\x0A\x0D\x0D\x0A"sv})
-    if (bytes.starts_with(magic)) return true;
-  return false;
-}
-
 std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
-  CaptureReaders parts;
-  std::vector<int> unknown_link_types;
-  for (CapturePart& each : parts_of(bytes)) {
-    auto part = CaptureReader::open(std::move(each), why);
-    if (!part) return {};
-    if (!is_known(part->link_type()))
-      unknown_link_types.push_back(part->link_type());
-    else if (part->read_next(why))
-      parts.push_back(std::move(part));
-    else
+  auto capture = CaptureFile::open(bytes, why);
+  if (!capture) return {};
+  PacketFrames reader(choices);
+  std::set<int> with_packets;
+  while (const auto packet = capture->next()) {
+    with_packets.insert(packet->link_type);
+    if (!is_known(packet->link_type)) continue;
+    if (std::abs(packet->seconds) >= kFurthestTime / kSecond) {
+      why = fmt::format("packet {}: {} s since 1970 is not a time of a recording", packet->number, packet->seconds);
       return {};
+    }
+    reader.take(packet->number, packet->seconds * kSecond + packet->nanoseconds, packet->link_type, packet->data);
   }
-  if (parts.empty() && !unknown_link_types.empty()) {
+  std::set<int> unknown = with_packets.empty() ? capture->link_types() : with_packets;
+  const bool only_unknown = !unknown.empty() && std::ranges::none_of(unknown, is_known);
+  std::erase_if(unknown, is_known);
+  if (only_unknown) {
     why = fmt::format(
         "link type {} is not one of 147 to 162 (serial), 250 (RTAC serial), 189, 220 and 249 (USB), Ethernet, "
         "Linux cooked or raw IP",
-        unknown_link_types.front());
+        *unknown.begin());
     return {};
   }
-  PacketFrames reader(choices);
-  while (CaptureReader* const part = next_part(parts)) {
-    reader.take(part->packet()->number, part->packet()->at, part->link_type(), part->packet()->data);
-    if (!part->read_next(why)) return {};
-  }
-  const auto broken = std::ranges::find_if(parts, [](const auto& part) { return !part->error().empty(); });
-  if (broken != parts.end()) reader.cut_off();
+  if (!capture->error().empty()) reader.cut_off();
   auto recording = reader.finish(why);
   if (!recording) return {};
-  for (const int link_type : unknown_link_types)
+  for (const int link_type : unknown)
     recording->notes.push_back(fmt::format("what has link type {} was left out", link_type));
-  if (broken != parts.end()) recording->notes.push_back((*broken)->error());
+  if (!capture->error().empty()) recording->notes.push_back(capture->error());
   return recording;
 }
 

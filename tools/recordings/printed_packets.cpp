@@ -1,11 +1,11 @@
 #include "tools/recordings/printed_packets.hpp"
 
 #include <fmt/format.h>
-#include <pcap/dlt.h>
 
 #include <algorithm>
 #include <array>
 
+#include "tools/recordings/capture_file.hpp"
 #include "tools/recordings/forms.hpp"
 
 namespace s7200::tools {
@@ -16,9 +16,9 @@ struct Link {
   int type;
   std::size_t head, protocol;
 };
-/// LINKTYPE_RAW, 101, which has no head: files have another number for it than DLT_RAW.
-/// The others: IEEE 802.3, and LINKTYPE_LINUX_SLL of the list of link types of tcpdump.org.
-constexpr std::array kLinks{Link{101, 0, 0}, Link{DLT_EN10MB, 14, 12}, Link{DLT_LINUX_SLL, 16, 14}};
+/// Raw IP has no head. The others: IEEE 802.3, and LINKTYPE_LINUX_SLL of the list of link types of tcpdump.org.
+constexpr std::array kLinks{Link{link_types::kRawIp, 0, 0}, Link{link_types::kEthernet, 14, 12},
+                            Link{link_types::kLinuxCooked, 16, 14}};
 
 /// The length in bytes that an IP packet states; 0 if it is not an IP packet.
 std::size_t length_of_ip(const Bytes& packet) {

@@ -1,7 +1,6 @@
 #include "tools/scenario/collection.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include "tools/host/files.hpp"
 #include "tools/plan/program_cpu.hpp"
 #include "tools/scenario/conformance_suite.hpp"
+#include "tools/scenario/name_pattern.hpp"
 #include "tools/scenario/reader.hpp"
 #include "tools/scenario/steps/random_traffic.hpp"
 #include "tools/yaml/yaml.hpp"
@@ -76,7 +76,7 @@ class Collector {
     std::vector<std::string> found;
     for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, error), end;
          it != end && !error; it.increment(error))
-      if (is_yaml_file(it->path()) && it->path().filename() != kFolderSettings) found.push_back(it->path().string());
+      if (is_yaml_file(it->path()) && it->path().filename() != kFolderSettings) found.push_back(it->path().generic_string());
     if (error) return fail(fmt::format("cannot read {}: {}", path, error.message()));
     if (found.empty()) return fail(fmt::format("there is no .yaml file in {}", path));
     std::sort(found.begin(), found.end());
@@ -122,7 +122,7 @@ class Collector {
     if (settings_.only.empty()) return true;
     const std::string anywhere = "*" + settings_.only + "*";
     for (const std::string& text : {scenario.name, scenario.source->name, scenario.rule.id})
-      if (fnmatch(anywhere.c_str(), text.c_str(), FNM_CASEFOLD) == 0) return true;
+      if (matches_pattern(text, anywhere)) return true;
     return false;
   }
 

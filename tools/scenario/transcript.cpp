@@ -111,7 +111,7 @@ void TranscriptWriter::line(int indent, const std::string& content) {
 std::string TranscriptWriter::near(const std::string& path) const {
   if (is_standard_input(path)) return in_quotes(path);
   const auto top = [](const std::filesystem::path& p) { return std::filesystem::absolute(p).lexically_normal(); };
-  return in_quotes(top(path).lexically_relative(top(folder_ / "x").parent_path()).string());
+  return in_quotes(top(path).lexically_relative(top(folder_ / "x").parent_path()).generic_string());
 }
 
 void TranscriptWriter::head(const Scenario& scenario) {

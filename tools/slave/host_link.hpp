@@ -1,7 +1,9 @@
 // Characters to and from a slave outside this process, over a serial device or a TCP connection.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +14,7 @@
 #include "interpreter/base/time.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/serial_device.hpp"
+#include "tools/host/sockets.hpp"
 
 namespace s7200::tools {
 
@@ -58,15 +61,18 @@ class HostLink {
   bool stop_requested() const { return stop_.stop_requested(); }
 
  protected:
-  /// Whether `events` come before `until`; errors and hang-ups count, reading or writing then tells.
-  bool wait_for(int fd, short events, Time until) const;
-
-  virtual int fd() const = 0;
+  /// Whether there is something to read, or room to write, within that time; the end counts, reading or writing then tells.
+  virtual bool has_input(std::chrono::nanoseconds at_most) const = 0;
+  virtual bool has_room(std::chrono::nanoseconds at_most) const = 0;
 
   /// Writes some bytes. Returns how many were taken; 0 when none can be just now.
   virtual std::size_t write_some(std::span<const std::uint8_t> bytes) = 0;
 
   StopToken stop_;
+
+ private:
+  /// Whether `comes` says so before `until` and before a stop; it is asked again and again.
+  bool wait_until(Time until, const std::function<bool(std::chrono::nanoseconds at_most)>& comes) const;
 };
 
 class SerialLink final : public HostLink {
@@ -83,7 +89,8 @@ class SerialLink final : public HostLink {
   void read(std::vector<Character>& characters) override;
 
  private:
-  int fd() const override { return device_->fd(); }
+  bool has_input(std::chrono::nanoseconds at_most) const override { return device_->wait_for_input(at_most); }
+  bool has_room(std::chrono::nanoseconds at_most) const override { return device_->wait_for_room(at_most); }
   std::size_t write_some(std::span<const std::uint8_t> bytes) override;
   [[noreturn]] void gone(const std::string& why);
 
@@ -96,23 +103,23 @@ class TcpLink final : public HostLink {
  public:
   /// A name or address, and a port by number or name.
   TcpLink(std::string host, std::string port, StopToken stop);
-  ~TcpLink() override { close(); }
 
   /// Tries each address of the host for 5 s.
   void open() override;
-  void close() override;
-  bool is_open() const override { return fd_ >= 0; }
+  void close() override { connection_.reset(); }
+  bool is_open() const override { return connection_ != nullptr; }
   std::string name() const override;
   Time character_time() const override { return 0; }
   void read(std::vector<Character>& characters) override;
 
  private:
-  int fd() const override { return fd_; }
+  bool has_input(std::chrono::nanoseconds at_most) const override { return connection_->wait_for_input(at_most); }
+  bool has_room(std::chrono::nanoseconds at_most) const override { return connection_->wait_for_room(at_most); }
   std::size_t write_some(std::span<const std::uint8_t> bytes) override;
   [[noreturn]] void gone(const std::string& why);
 
   std::string host_, port_;
-  int fd_ = -1;
+  std::unique_ptr<TcpConnection> connection_;
 };
 
 }  // namespace s7200::tools

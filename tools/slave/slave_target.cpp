@@ -70,10 +70,9 @@ SlaveTarget parse_slave_target(const std::string& text) {
     if (is_host_and_port(text) && !std::filesystem::exists(text, error))
       throw std::invalid_argument(fmt::format("'{}' is not a file: for a slave over TCP write {}{} (Modbus RTU) or {}{}",
                                               stl::shortened(text), kTcp, text, kModbusTcp, text));
-    const bool device = text.starts_with("/dev/tty") || std::filesystem::is_character_file(text, error);
-    target.kind = device                 ? SlaveTarget::Kind::Device
-                  : is_system_file(text) ? SlaveTarget::Kind::System
-                                         : SlaveTarget::Kind::Program;
+    target.kind = names_serial_device(text) ? SlaveTarget::Kind::Device
+                  : is_system_file(text)    ? SlaveTarget::Kind::System
+                                            : SlaveTarget::Kind::Program;
     target.path = text;
   }
   return target;
@@ -83,7 +82,7 @@ bool is_other_plc(std::string_view text) { return text.starts_with(kOtherPlc); }
 
 std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without, std::string_view device) {
   using enum SlaveTarget::Kind;
-  const std::string device_row = fmt::format("  /dev/ttyUSB0, or a pty by its link    {}\n", device);
+  const std::string device_row = fmt::format("  {:38}{}\n", example_of_serial_device(), device);
   const std::pair<SlaveTarget::Kind, std::string_view> rows[] = {
       {Program, "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"},
       {System, "  SYSTEM.yaml                           PLCs and lines, in simulation; --at says where the master joins\n"},

@@ -19,7 +19,7 @@ void Complaints::add(const YamlNode& node, std::string message, std::string hint
 
 std::string beside(const std::string& file, const std::string& path) {
   if (is_standard_input(path)) return path;
-  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+  return (std::filesystem::path(file).parent_path() / path).lexically_normal().generic_string();
 }
 
 void YamlValues::wrong(const YamlNode& node, std::string message, std::string hint) {

@@ -1,5 +1,5 @@
 // Programs that open and set the far side of a pty as they would a serial port.
-#include "tools/host/pty.hpp"
+#include "tools/host/posix/pty.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

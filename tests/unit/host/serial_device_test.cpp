@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "tools/host/termios2.hpp"
+#include "tools/host/posix/termios2.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -41,8 +41,7 @@ class SerialDeviceTest : public testing::Test {
     std::vector<SerialDevice::Character> characters;
     std::string why;
     while (characters.size() < count) {
-      pollfd ready{device.fd(), POLLIN, 0};
-      if (poll(&ready, 1, 10'000) != 1 || !device.read(characters, why)) break;
+      if (!device.wait_for_input(std::chrono::seconds(10)) || !device.read(characters, why)) break;
     }
     EXPECT_EQ(why, "");
     return characters;

@@ -1,7 +1,6 @@
 #include "tools/command/options/band_options.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/console.hpp"
 #include "tools/host/host_time.hpp"
 
 namespace s7200::tools {
@@ -55,7 +55,8 @@ std::string band_title(const CpuModel& model, const std::string& times_table, co
                      counted(settings.random, "random table"), names.size() == 1 ? "it" : "them", settings.seed);
 }
 
-BandProgress::BandProgress(std::size_t all) : all_(all), from_(host_time() + 2 * kSecond), wanted_(isatty(STDERR_FILENO)) {}
+BandProgress::BandProgress(std::size_t all)
+    : all_(all), from_(host_time() + 2 * kSecond), wanted_(is_terminal(Standard::Error)) {}
 
 void BandProgress::operator()(std::size_t done) {
   if (!wanted_ || host_time() < from_) return;

@@ -1,7 +1,6 @@
 #include "tools/command/options/master_options.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/line_options.hpp"
 #include "tools/command/options/number_option.hpp"
+#include "tools/host/console.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -146,7 +146,7 @@ void MasterOptions::refuse_what_does_not_fit(Kind kind) const {
     throw std::invalid_argument(
         "--times-band does all actions once with each table: give no --every, --continuous, --count or --verbose");
   // In simulation nothing but the reader slows down what would be written for ever.
-  const bool floods = open_ended() && (polls() || json || verbose) && !isatty(STDOUT_FILENO);
+  const bool floods = open_ended() && (polls() || json || verbose) && !is_terminal(Standard::Output);
   if ((kind == Kind::Program || kind == Kind::System || kind == Kind::Peer) && floods)
     throw std::invalid_argument(
         fmt::format("{} without --count never ends, and a simulation writes as fast as it can: say how often with --count N",
@@ -206,7 +206,7 @@ bool MasterOptions::wants_menu() const {
   if (json || polls() || continuous || count != 0 || verbose || band.wanted())
     throw std::invalid_argument(
         "menu shows everything itself: give no --json, --every, --continuous, --count, --verbose or --times-band");
-  if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0)
+  if (!is_terminal(Standard::Input) || !is_terminal(Standard::Output))
     throw std::invalid_argument("menu needs a terminal for input and output; elsewhere give actions, such as read 40001:2");
   return true;
 }

@@ -1,13 +1,9 @@
 #include "tools/faces/dap/serve.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <thread>
 
 #include "interpreter/base/text.hpp"
@@ -19,14 +15,14 @@
 namespace s7200::tools::dap {
 namespace {
 
-constexpr int kLookAgain = 100;  // ms, for an interruption, which ends a run
+constexpr std::chrono::milliseconds kLookAgain{100};  // for an interruption, which ends a run
 
 using Clock = std::chrono::steady_clock;
 
 /// Reads in a thread of its own: a run is to be ended from outside.
 class Reader {
  public:
-  Reader(int in, Inbox& inbox, const Admission& admission, bool may_be_anyone, StopToken end)
+  Reader(InputStream& in, Inbox& inbox, const Admission& admission, bool may_be_anyone, StopToken end)
       : in_(in), inbox_(inbox), admission_(admission), may_be_anyone_(may_be_anyone), end_(end), thread_([this] {
           read_all();
         }) {}
@@ -44,18 +40,17 @@ class Reader {
       if (end_.stop_requested()) return inbox_.close();
       if (may_be_anyone_ && is_too_silent()) return inbox_.close(fmt::format("said nothing for {} s", kMostSilence.count()));
       if (!inbox_.has_room()) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(kLookAgain));
+        std::this_thread::sleep_for(kLookAgain);
         heard_ = Clock::now();
         continue;
       }
-      pollfd readable{in_, POLLIN, 0};
-      if (poll(&readable, 1, kLookAgain) <= 0) continue;
-      const ssize_t count = read(in_, bytes.data(), bytes.size());
-      if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-      if (count < 0) return inbox_.close(fmt::format("cannot be read: {}", std::strerror(errno)));
-      if (count == 0) return inbox_.close(frames_.is_amid() ? "has ended within a message" : wrong_so_far_);
+      const InputStream::Reading reading = in_.read(bytes, kLookAgain);
+      if (reading.came == InputStream::Came::Nothing) continue;
+      if (reading.came == InputStream::Came::Failure) return inbox_.close(fmt::format("cannot be read: {}", reading.why));
+      if (reading.came == InputStream::Came::End)
+        return inbox_.close(frames_.is_amid() ? "has ended within a message" : wrong_so_far_);
       heard_ = Clock::now();
-      const std::string_view come(bytes.data(), static_cast<std::size_t>(count));
+      const std::string_view come(bytes.data(), reading.count);
       if (may_be_anyone_ && !any_message_ && !is_our_protocol(come)) return;
       frames_.add(come);
       if (!hand_over()) return;
@@ -104,7 +99,7 @@ class Reader {
     }
   }
 
-  int in_;
+  InputStream& in_;
   Inbox& inbox_;
   const Admission& admission_;
   bool may_be_anyone_;  ///< it has come over a port
@@ -120,7 +115,7 @@ class Reader {
 
 }  // namespace
 
-std::string serve(int in, const Write& write, const SessionSettings& settings, std::atomic<bool>& stop_request,
+std::string serve(InputStream& in, const Write& write, const SessionSettings& settings, std::atomic<bool>& stop_request,
                   StopToken end, const std::string& token) {
   Inbox inbox(stop_request);
   Admission admission(token);

@@ -31,7 +31,7 @@ std::optional<std::string> HostFiles::read(const std::string& path, std::string&
 
 bool HostFiles::begins(const std::string& path, std::string_view beginning) const {
   std::string first(beginning.size(), '\0');
-  std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
+  std::ifstream(fs::path(path), std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
   return first == beginning;
 }
 

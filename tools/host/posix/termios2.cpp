@@ -1,4 +1,4 @@
-#include "tools/host/termios2.hpp"
+#include "tools/host/posix/termios2.hpp"
 
 #include <sys/ioctl.h>
 

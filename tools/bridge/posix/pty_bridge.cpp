@@ -12,7 +12,7 @@
 
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
-#include "tools/host/pty.hpp"
+#include "tools/host/posix/pty.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "interpreter/base/text.hpp"
-#include "tools/command/line_history.hpp"
+#include "tools/command/posix/line_history.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 

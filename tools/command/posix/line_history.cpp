@@ -1,4 +1,4 @@
-#include "tools/command/line_history.hpp"
+#include "tools/command/posix/line_history.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

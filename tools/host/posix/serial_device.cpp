@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -11,9 +12,9 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <utility>
+#include <filesystem>
 
-#include "tools/host/termios2.hpp"
+#include "tools/host/posix/termios2.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -44,47 +45,71 @@ std::string error_text() { return std::strerror(errno); }
 
 }  // namespace
 
-struct SerialDevice::Settings {
-  termios2 value;
-};
-
-SerialDevice::SerialDevice(int fd, std::unique_ptr<Settings> found) : fd_(fd), found_(std::move(found)) {}
-
-SerialDevice::SerialDevice(SerialDevice&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), found_(std::move(other.found_)), format_(other.format_), mark_(other.mark_) {}
-
-SerialDevice::~SerialDevice() {
-  if (fd_ < 0) return;
-  if (found_) write_settings(fd_, found_->value);
-  ioctl(fd_, TIOCNXCL);
-  close(fd_);
+bool names_serial_device(const std::string& word) {
+  std::error_code none;
+  return word.starts_with("/dev/tty") || std::filesystem::is_character_file(word, none);
 }
 
+std::string_view example_of_serial_device() { return "/dev/ttyUSB0, or a pty by its link"; }
+
+struct SerialDevice::System {
+  explicit System(int descriptor) : fd(descriptor) {}
+  ~System() {
+    if (fd < 0) return;
+    if (found) write_settings(fd, *found);
+    ioctl(fd, TIOCNXCL);
+    close(fd);
+  }
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+  bool wait_for(short events, std::chrono::nanoseconds at_most) const {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(at_most);
+    const timespec timeout{seconds.count(), static_cast<long>((at_most - seconds).count())};
+    pollfd waiting{fd, events, 0};
+    return ppoll(&waiting, 1, &timeout, nullptr) > 0;
+  }
+
+  void take(std::uint8_t byte, std::vector<Character>& characters);
+
+  const int fd;
+  std::optional<termios2> found;  // the settings
+  /// Characters with errors come as FF 00 and the character, FF itself as FF FF (PARMRK, termios(3)).
+  enum class Mark : std::uint8_t { None, Begun, Error } mark = Mark::None;
+};
+
+SerialDevice::SerialDevice() = default;
+SerialDevice::SerialDevice(SerialDevice&& other) noexcept = default;
+SerialDevice::~SerialDevice() = default;
+
 std::optional<SerialDevice> SerialDevice::open(const std::string& path, const SerialFormat& format, std::string& why) {
-  SerialDevice device(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC), nullptr);
-  if (device.fd_ < 0) {
+  SerialDevice device;
+  device.system_ = std::make_unique<System>(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  const int fd = device.system_->fd;
+  if (fd < 0) {
     why = errno == EBUSY ? "another program has it open" : error_text();
     return {};
   }
   termios2 found{};
-  if (!read_settings(device.fd_, found)) {
+  if (!read_settings(fd, found)) {
     why = "it is not a serial device";
     return {};
   }
-  if (flock(device.fd_, LOCK_EX | LOCK_NB) != 0) {
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
     why = "another program has locked it";
     return {};
   }
-  ioctl(device.fd_, TIOCEXCL);
-  device.found_ = std::make_unique<Settings>(Settings{found});
+  ioctl(fd, TIOCEXCL);
+  device.system_->found = found;
   if (!device.set(format, why)) return {};
   device.discard_input();
   return device;
 }
 
 bool SerialDevice::set(const SerialFormat& format, std::string& why) {
+  const int fd = system_->fd;
   termios2 before{}, wanted{}, taken{};
-  if (!read_settings(fd_, before)) {
+  if (!read_settings(fd, before)) {
     why = error_text();
     return false;
   }
@@ -93,15 +118,15 @@ bool SerialDevice::set(const SerialFormat& format, std::string& why) {
   put_format(wanted, format);
   wanted.c_iflag |= PARMRK;
   // A pty shows that there is parity by this flag only; a device reports bad stop bits with it too.
-  const bool checked = format.parity != Parity::None || !is_pty(fd_);
+  const bool checked = format.parity != Parity::None || !is_pty(fd);
   wanted.c_iflag = checked ? wanted.c_iflag | INPCK : wanted.c_iflag & ~tcflag_t{INPCK};
-  if (!write_settings(fd_, wanted) || !read_settings(fd_, taken)) {
+  if (!write_settings(fd, wanted) || !read_settings(fd, taken)) {
     why = error_text();
     return false;
   }
-  why = refusal(wanted, taken, is_pty(fd_));
+  why = refusal(wanted, taken, is_pty(fd));
   if (!why.empty()) {
-    write_settings(fd_, before);
+    write_settings(fd, before);
     return false;
   }
   format_ = format;
@@ -111,38 +136,51 @@ bool SerialDevice::set(const SerialFormat& format, std::string& why) {
 bool SerialDevice::read(std::vector<Character>& characters, std::string& why) {
   std::array<std::uint8_t, kMostAtOnce> bytes{};
   ssize_t count = -1;
-  do count = ::read(fd_, bytes.data(), bytes.size());
+  do count = ::read(system_->fd, bytes.data(), bytes.size());
   while (count < 0 && errno == EINTR);
   if (count == 0 || (count < 0 && errno != EAGAIN)) {
     why = count == 0 ? "it was hung up" : error_text();
     return false;
   }
-  for (ssize_t i = 0; i < count; ++i) take(bytes[static_cast<std::size_t>(i)], characters);
+  for (ssize_t i = 0; i < count; ++i) system_->take(bytes[static_cast<std::size_t>(i)], characters);
   return true;
 }
 
-void SerialDevice::take(std::uint8_t byte, std::vector<Character>& characters) {
-  switch (mark_) {
+void SerialDevice::System::take(std::uint8_t byte, std::vector<Character>& characters) {
+  switch (mark) {
     case Mark::None:
       if (byte == 0xFF)
-        mark_ = Mark::Begun;
+        mark = Mark::Begun;
       else
         characters.push_back({byte, false});
       return;
     case Mark::Begun:
-      mark_ = byte == 0 ? Mark::Error : Mark::None;
+      mark = byte == 0 ? Mark::Error : Mark::None;
       if (byte != 0) characters.push_back({byte, false});
       return;
     case Mark::Error:
-      mark_ = Mark::None;
+      mark = Mark::None;
       characters.push_back({byte, true});
       return;
   }
 }
 
+std::intptr_t SerialDevice::native() const { return system_->fd; }
+
+bool SerialDevice::wait_for_input(std::chrono::nanoseconds at_most) const { return system_->wait_for(POLLIN, at_most); }
+
+bool SerialDevice::wait_for_room(std::chrono::nanoseconds at_most) const { return system_->wait_for(POLLOUT, at_most); }
+
+bool SerialDevice::drive_dtr(bool high) {
+  const int lines = TIOCM_DTR;
+  return ioctl(system_->fd, high ? TIOCMBIS : TIOCMBIC, &lines) == 0;
+}
+
+void SerialDevice::drain() { ioctl(system_->fd, TCSBRK, 1); }
+
 std::optional<std::size_t> SerialDevice::write(std::span<const std::uint8_t> bytes, std::string& why) {
   for (;;) {
-    const ssize_t count = ::write(fd_, bytes.data(), bytes.size());
+    const ssize_t count = ::write(system_->fd, bytes.data(), bytes.size());
     if (count >= 0) return static_cast<std::size_t>(count);
     if (errno == EAGAIN) return 0;
     if (errno == EINTR) continue;
@@ -152,8 +190,8 @@ std::optional<std::size_t> SerialDevice::write(std::span<const std::uint8_t> byt
 }
 
 void SerialDevice::discard_input() {
-  ioctl(fd_, TCFLSH, TCIFLUSH);
-  mark_ = Mark::None;
+  ioctl(system_->fd, TCFLSH, TCIFLUSH);
+  system_->mark = System::Mark::None;
 }
 
 }  // namespace s7200::tools

@@ -1,4 +1,4 @@
-#include "tools/host/pty.hpp"
+#include "tools/host/posix/pty.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 #include <filesystem>
 #include <numeric>
 
-#include "tools/host/termios2.hpp"
+#include "tools/host/posix/termios2.hpp"
 
 namespace s7200::tools {
 namespace fs = std::filesystem;

@@ -1,0 +1,62 @@
+#include "tools/command/standard_streams.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <io.h>
+
+#include <cstdio>
+#include <iostream>
+#include <streambuf>
+#include <string>
+
+#include "tools/command/exit_code.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/host/console.hpp"
+#include "tools/host/file_system.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// What std::cout has for a console: fmt::print writes UTF-8 there as it is to be seen, and the runtime does not.
+class ConsoleBuffer final : public std::streambuf {
+ public:
+  explicit ConsoleBuffer(std::FILE* file) : file_(file) {}
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (traits_type::eq_int_type(c, traits_type::eof())) return sync() == 0 ? traits_type::not_eof(c) : c;
+    text_ += traits_type::to_char_type(c);
+    return c == '\n' && sync() != 0 ? traits_type::eof() : c;
+  }
+
+  int sync() override {
+    if (!text_.empty()) fmt::print(file_, "{}", text_);
+    text_.clear();
+    return 0;
+  }
+
+ private:
+  std::FILE* file_;
+  std::string text_;
+};
+
+}  // namespace
+
+/// Lines end as they do elsewhere, also in files that output is directed to: programs of Windows read both.
+void open_standard_streams() {
+  _setmode(0, _O_BINARY);
+  _setmode(1, _O_BINARY);
+  _setmode(2, _O_BINARY);
+  if (!is_terminal(Standard::Output)) std::setvbuf(stdout, nullptr, _IOFBF, 1 << 16);
+  if (knows_control_sequences(Standard::Output) || is_terminal(Standard::Output)) std::cout.rdbuf(new ConsoleBuffer(stdout));
+  if (knows_control_sequences(Standard::Error) || is_terminal(Standard::Error)) std::cerr.rdbuf(new ConsoleBuffer(stderr));
+}
+
+int close_standard_streams(int exit_code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  print_error(fmt::format("cannot write to standard output: {}", error_text(errno)));
+  return kUnusable;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,91 @@
+#include "tools/host/process.hpp"
+
+#include <array>
+#include <system_error>
+
+#include "tools/host/windows/native_text.hpp"
+
+// After the types of Windows.
+#include <shellapi.h>
+
+namespace s7200::tools {
+namespace {
+
+/// A word as CommandLineToArgvW takes it apart again.
+std::wstring quoted(const std::string& word) {
+  std::wstring text = L"\"";
+  std::size_t backslashes = 0;
+  for (const wchar_t c : wide(word)) {
+    if (c == L'"') text.append(backslashes + 1, L'\\');
+    backslashes = c == L'\\' ? backslashes + 1 : 0;
+    text += c;
+  }
+  return text.append(backslashes, L'\\') + L"\"";
+}
+
+}  // namespace
+
+/// The words that the runtime hands to main() are in the code page of the system, which lacks most characters.
+std::vector<std::string> words_of_command_line(int, char**) {
+  int count = 0;
+  LPWSTR* const words = CommandLineToArgvW(GetCommandLineW(), &count);
+  std::vector<std::string> result;
+  for (int i = 0; i < count; ++i) result.push_back(utf8(words[i]));
+  LocalFree(words);
+  return result;
+}
+
+std::string own_executable() {
+  std::array<wchar_t, 32'768> path{};
+  return utf8({path.data(), GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()))});
+}
+
+std::chrono::nanoseconds processor_time() {
+  FILETIME created{}, ended{}, kernel{}, user{};
+  GetProcessTimes(GetCurrentProcess(), &created, &ended, &kernel, &user);
+  const auto hundreds_of_ns = [](const FILETIME& time) {
+    return std::int64_t{time.dwHighDateTime} << 32 | std::int64_t{time.dwLowDateTime};
+  };
+  return std::chrono::nanoseconds(100 * (hundreds_of_ns(kernel) + hundreds_of_ns(user)));
+}
+
+struct StartedProcess::Handles {
+  Handle out, process;
+};
+
+StartedProcess::StartedProcess(const std::vector<std::string>& words) : handles_(std::make_unique<Handles>()) {
+  const auto check = [&words](BOOL done) {
+    if (done == 0) throw std::system_error(static_cast<int>(GetLastError()), std::system_category(), words[0]);
+  };
+  SECURITY_ATTRIBUTES inherited{sizeof inherited, nullptr, TRUE};
+  HANDLE read = nullptr, write = nullptr;
+  check(CreatePipe(&read, &write, &inherited, 0));
+  handles_->out = Handle(read);
+  const Handle its_end(write);
+  SetHandleInformation(read, HANDLE_FLAG_INHERIT, 0);
+  std::wstring line;
+  for (const std::string& word : words) line += quoted(word) + L' ';
+  STARTUPINFOW start{};
+  start.cb = sizeof start;
+  start.dwFlags = STARTF_USESTDHANDLES;
+  start.hStdInput = GetStdHandle(STD_INPUT_HANDLE);
+  start.hStdOutput = write;
+  start.hStdError = GetStdHandle(STD_ERROR_HANDLE);
+  PROCESS_INFORMATION started{};
+  check(CreateProcessW(wide(words[0]).c_str(), line.data(), nullptr, nullptr, TRUE, 0, nullptr, nullptr, &start, &started));
+  CloseHandle(started.hThread);
+  handles_->process = Handle(started.hProcess);
+}
+
+StartedProcess::~StartedProcess() {
+  handles_->out = Handle();
+  WaitForSingleObject(handles_->process.get(), INFINITE);
+}
+
+bool StartedProcess::wait_for_output() const {
+  char first = 0;
+  DWORD count = 0;
+  return ReadFile(handles_->out.get(), &first, 1, &count, nullptr) != 0 && count > 0;
+}
+
+}  // namespace s7200::tools
