@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "tools/host/file_name.hpp"
+#include "tools/host/file_obstacles.hpp"
 #include "tools/host/write_all.hpp"
 
 namespace s7200::tools {
@@ -73,7 +73,7 @@ std::optional<Destination> WrittenFiles::claim(std::string_view option, const st
     why = std::move(message);
     return std::nullopt;
   };
-  if (const std::string reason = why_no_name_of_a_file(path); !reason.empty())
+  if (const std::string reason = why_not_to_be_written(path); !reason.empty())
     return refuse(fmt::format("cannot write {}: {}", path, reason));
   Destination destination{.path = path, .kind = std::move(kind)};
   const auto found = look_at(path), target = look_behind(path);

@@ -9,12 +9,12 @@
 #include <cstdio>
 #include <cstring>
 
-#include "tools/host/file_name.hpp"
+#include "tools/host/file_obstacles.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {
 
-std::string why_no_name_of_a_file(const std::string&) { return {}; }
+std::string why_not_to_be_written(const std::string&) { return {}; }
 
 std::string error_text(int error) { return std::strerror(error); }
 

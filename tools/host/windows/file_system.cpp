@@ -10,14 +10,18 @@
 #include <cstring>
 #include <filesystem>
 
-#include "tools/host/file_name.hpp"
+#include "tools/host/file_obstacles.hpp"
 #include "tools/host/windows/native_text.hpp"
 
 namespace s7200::tools {
 
-/// What goes to NUL is thrown away, and a record may be.
-std::string why_no_name_of_a_file(const std::string& path) {
-  return is_device_name(path) && !is_null_device(path) ? "it is the name of a device of Windows; name another" : "";
+/// What goes to NUL is thrown away, and a record may be. A file that one of our commands writes may be read.
+std::string why_not_to_be_written(const std::string& path) {
+  if (is_null_device(path)) return {};
+  if (is_device_name(path)) return "it is the name of a device of Windows; name another";
+  const Handle file(CreateFileW(native_path(path).c_str(), GENERIC_READ,
+                                FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr, OPEN_EXISTING, 0, nullptr));
+  return !file && GetLastError() == ERROR_SHARING_VIOLATION ? words_of(ERROR_SHARING_VIOLATION) : "";
 }
 
 std::string error_text(int error) {

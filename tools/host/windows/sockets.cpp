@@ -235,7 +235,7 @@ Addresses look_up(const std::string& host, const std::string& port, StopToken st
 /// Waits for a slice. Not by WSAPoll(), which before version 2004 of Windows 10 did not tell that it has failed.
 bool has_connected_or_failed(SOCKET socket) {
   fd_set done{1, {socket}}, failed{1, {socket}};
-  const timeval slice{0, static_cast<long>(std::chrono::microseconds(kSlice).count())};
+  timeval slice{0, static_cast<long>(std::chrono::microseconds(kSlice).count())};
   return select(0, nullptr, &done, &failed, &slice) > 0;
 }
 
