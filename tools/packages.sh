@@ -30,6 +30,7 @@ needed_to_build_windows=(
   x86_64-w64-mingw32-g++-posix:g++-mingw-w64-x86-64-posix
   /usr/x86_64-w64-mingw32/include/zlib.h:libz-mingw-w64-dev
   zip:zip
+  unzip:unzip
   node:nodejs
   npm:npm
 )

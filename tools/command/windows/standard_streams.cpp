@@ -47,6 +47,7 @@ void open_standard_streams() {
   _setmode(0, _O_BINARY);
   _setmode(1, _O_BINARY);
   _setmode(2, _O_BINARY);
+  std::setvbuf(stderr, nullptr, _IONBF, 0);
   if (!is_terminal(Standard::Output)) std::setvbuf(stdout, nullptr, _IOFBF, 1 << 16);
   if (knows_control_sequences(Standard::Output) || is_terminal(Standard::Output)) std::cout.rdbuf(new ConsoleBuffer(stdout));
   if (knows_control_sequences(Standard::Error) || is_terminal(Standard::Error)) std::cerr.rdbuf(new ConsoleBuffer(stderr));
