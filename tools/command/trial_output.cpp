@@ -1,12 +1,12 @@
 #include "tools/command/trial_output.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 
 #include "interpreter/base/counted.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/host/console.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/scenario/transcript_writer.hpp"
 
@@ -20,7 +20,7 @@ TrialProgress::~TrialProgress() {
 
 void TrialProgress::operator()(std::uint64_t runs) {
   const Time now = host_time();
-  if (now <= next_ || !isatty(STDERR_FILENO)) return;
+  if (now <= next_ || !is_terminal(Standard::Error)) return;
   next_ = now + kSecond;
   shown_ = true;
   fmt::print(stderr, "\r{}", counted(runs, "run"));
