@@ -192,7 +192,7 @@ std::optional<Scenario> scenario_of(const SessionSource& source, const std::stri
 }
 
 /// A scenario as it was run.
-struct Trial {
+struct TriedScenario {
   std::optional<Scenario> scenario;
   ScenarioResult result{};
 };
@@ -213,9 +213,9 @@ std::string why_left_out(const SessionSteps::Step& step, const Finding& finding)
 }
 
 /// Runs the session as a scenario, and again without what came too late. Nothing, and `why`, if it cannot be run.
-std::optional<Trial> tried(const SessionSource& source, SessionSteps& session, const std::string& path, std::string& why) {
+std::optional<TriedScenario> tried(const SessionSource& source, SessionSteps& session, const std::string& path, std::string& why) {
   for (;;) {
-    Trial trial{.scenario = scenario_of(source, path, why)};
+    TriedScenario trial{.scenario = scenario_of(source, path, why)};
     if (!trial.scenario) return {};
     trial.result = run_scenario(*trial.scenario, {.program = source.program, .stop = interruption()});
     if (interrupted()) return why = interruption_text(), std::nullopt;
@@ -231,7 +231,7 @@ std::optional<Trial> tried(const SessionSource& source, SessionSteps& session, c
 constexpr std::string_view kNotTheSame = "as a scenario it does not run the same way";
 
 /// In what the scenario went another way than the session; empty if in nothing.
-std::string difference(const SessionSteps& session, const Trial& trial) {
+std::string difference(const SessionSteps& session, const TriedScenario& trial) {
   const ScenarioResult& result = trial.result;
   if (const Finding* const bad = bad_finding(result))
     return fmt::format("{}: {}", kNotTheSame, finding_line(*trial.scenario, *bad));

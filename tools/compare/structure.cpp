@@ -143,10 +143,10 @@ std::vector<SettingChange> setting_changes(const Program& older, const Program& 
     if (o != n) all.push_back({setting, o, n});
   };
   compare("CPU", std::string(older.model->name), std::string(newer.model->name));
-  compare("PPI rate", to_text(older.system_block.ppi_rates), to_text(newer.system_block.ppi_rates));
-  compare("PPI station", to_text(older.system_block.ppi_stations), to_text(newer.system_block.ppi_stations));
+  compare("PPI rate", s7200::to_text(older.system_block.ppi_rates), s7200::to_text(newer.system_block.ppi_rates));
+  compare("PPI station", s7200::to_text(older.system_block.ppi_stations), s7200::to_text(newer.system_block.ppi_stations));
   if (older.model == newer.model || older.system_block.retentive || newer.system_block.retentive)
-    compare("retentive memory", to_text(older.retentive()), to_text(newer.retentive()));
+    compare("retentive memory", s7200::to_text(older.retentive()), s7200::to_text(newer.retentive()));
   return all;
 }
 

@@ -34,9 +34,9 @@ std::string address_text(const stl::Symbol& symbol) {
   return symbol.value ? stl::to_text(stl::Operand{.value = *symbol.value}) : "no address";
 }
 
-class Report {
+class StructureText {
  public:
-  Report(const Inspection& older, const Inspection& newer, const StructureDifference& difference)
+  StructureText(const Inspection& older, const Inspection& newer, const StructureDifference& difference)
       : older_(older), newer_(newer), difference_(difference) {}
 
   std::string text() const {
@@ -207,7 +207,7 @@ ordered_json bytes_json(const std::vector<std::optional<std::uint8_t>>& bytes) {
 }  // namespace
 
 std::string structure_text(const Inspection& older, const Inspection& newer, const StructureDifference& difference) {
-  return Report(older, newer, difference).text();
+  return StructureText(older, newer, difference).text();
 }
 
 ordered_json structure_json(const Inspection& older, const Inspection& newer, const StructureDifference& difference) {

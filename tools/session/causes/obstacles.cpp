@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMostLevels = 4;     // bits that hold off one another
 constexpr std::size_t kMostWays = 4;       // that are shown of a bit
-constexpr std::size_t kMostOfMemory = 3;    // that are shown of memory
+constexpr std::size_t kMostOfMemory = 3;   // that are shown of memory
 constexpr std::size_t kLongestRung = 300;  // characters
 
 bool is_one_of(std::string_view mnemonic, std::initializer_list<std::string_view> names) {
