@@ -3,19 +3,12 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "interpreter/cpu/cpu.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/plan/plc_settings.hpp"
 
 namespace s7200::tools {
-
-/// JSON: `"ram"` and `"eeprom"` have the bytes that are not 0, in hex, by the address of the first.
-std::string memory_to_json(const RetentiveMemory& memory, const CpuModel& model);
-
-/// Returns nothing and sets `why` if the text is not such a memory, or that of another CPU.
-std::optional<RetentiveMemory> memory_from_json(std::string_view json, const CpuModel& model, std::string& why);
 
 /// A file of retentive memory. Each function returns false and sets `why` if the file cannot be used.
 class MemoryFile {

@@ -135,6 +135,73 @@ TEST(History, StateAtEveryEventOfASessionIsThatOfARunThatOnlyWentForward) {
 }
 
 /// S7200_WALKS sets how many.
+/// The deeds with their moments, and what else a report carries of it.
+Recording recording_of_a_session() {
+  Recorded session(slave(), {.interval = 20 * kMillisecond});
+  session.live_through_it();
+  return session.history->recording();
+}
+
+TEST(History, AnAdoptedRecordingIsPlayedOnlyAsFarAsOneGoes) {
+  const Recording recording = recording_of_a_session();
+  Recorded adopted(slave(), {.interval = 20 * kMillisecond});
+  adopted.history->adopt(recording);
+  EXPECT_EQ(adopted.history->now().time, 0);
+  EXPECT_TRUE(adopted.history->in_the_past());
+  EXPECT_EQ(adopted.history->newest(), recording.end);
+  EXPECT_EQ(adopted.history->usage().checkpoints, 1U);
+  adopted.history->go_to(100 * kMillisecond);
+  const std::size_t some = adopted.history->usage().checkpoints;
+  EXPECT_GE(some, 4U);
+  EXPECT_LE(some, 6U);
+}
+
+TEST(History, AnAdoptedRecordingHasTheStatesOfTheRunInAnyOrder) {
+  Recorded session(slave(), {.interval = 20 * kMillisecond});
+  session.live_through_it();
+  Recorded adopted(slave(), {.interval = 20 * kMillisecond});
+  adopted.history->adopt(session.history->recording());
+  const Time end = session.history->newest().time;
+  for (const Time time : {end / 2, end, end / 7, end - 1, Time{0}, end / 3}) {
+    session.history->go_to(time);
+    adopted.history->go_to(time);
+    EXPECT_EQ(adopted.history->now(), session.history->now()) << time;
+    EXPECT_EQ(adopted.simulation.cpu().state(), session.simulation.cpu().state()) << time;
+  }
+}
+
+TEST(History, AnAdoptedRecordingKnowsWhoWroteLast) {
+  Recorded session(slave(), {.interval = 20 * kMillisecond});
+  session.live_through_it();
+  Recorded adopted(slave(), {.interval = 20 * kMillisecond});
+  adopted.history->adopt(session.history->recording());
+  session.history->go_to(session.history->newest());
+  adopted.history->go_to(adopted.history->newest());
+  std::string why;
+  for (const char* const name : {"VB100", "VW20", "MB31", "VB4095"}) {
+    const auto range = parse_range(name, cpu214(), why);
+    const auto expected = find_last_write(*session.history, 0, *range, StopToken()).write;
+    const auto found = find_last_write(*adopted.history, 0, *range, StopToken()).write;
+    ASSERT_EQ(found.has_value(), expected.has_value()) << name;
+    EXPECT_TRUE(!found || found->at == expected->at) << name;
+  }
+}
+
+TEST(History, FromAnAdoptedRecordingANewBranchBeginsAnywhere) {
+  Recorded adopted(slave(), {.interval = 20 * kMillisecond});
+  adopted.history->adopt(recording_of_a_session());
+  const Time then = adopted.history->newest().time / 2;
+  adopted.history->go_to(then);
+  adopted.history->act(assignment("VW30=77"));
+  EXPECT_FALSE(adopted.history->in_the_past());
+  const std::uint64_t here = adopted.simulation.cpu().state().instructions;
+  adopted.run_to(here + 3000);
+  const State after = adopted.simulation.cpu().state();
+  adopted.history->go_to(then / 2);
+  adopted.history->go_to(adopted.history->newest());
+  EXPECT_EQ(adopted.simulation.cpu().state(), after);
+}
+
 /// One that was replayed knows nothing of what was written where, and plays everything.
 TEST(History, PartsThatCannotHoldALastWriteAreNotPlayedForItAndItIsTheSame) {
   const auto program = slave();

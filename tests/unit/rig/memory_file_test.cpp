@@ -2,6 +2,7 @@
 #include "tools/rig/memory_file.hpp"
 
 #include "tests/support/plc.hpp"
+#include "tools/rig/memory_json.hpp"
 
 namespace s7200::test {
 namespace {

@@ -9,10 +9,9 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
-#include "interpreter/cpu/forcing.hpp"
-#include "serial_sim/line/frame.hpp"
 #include "tools/json/json.hpp"
-#include "tools/rig/memory_file.hpp"
+#include "tools/rig/memory_json.hpp"
+#include "tools/session/commands/action_json.hpp"
 #include "tools/session/past/digest.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -26,9 +25,7 @@ constexpr std::string_view kFormat = "s7200 session 5";
 /// Of JSON from outside, which may hold what is not UTF-8.
 std::string sum_of(const Json& json) { return digest_of(in_one_line(json)); }
 
-constexpr Between<Time> kAnyMoment{0, kNever}, kAnyDuration{0, kLongestDuration};
-
-// --- moments and formats ---
+constexpr Between<Time> kAnyMoment{0, kNever};
 
 Json json_of(const Moment& moment) {
   return {moment.instructions, moment.actions, moment.settled, moment.stopped, moment.time};
@@ -42,179 +39,12 @@ Moment moment_from(const Json& json) {
           .stopped = truth_of(json.at(3))};
 }
 
-Json json_of(const SerialFormat& format) {
-  return {format.baud, format.data_bits, word_of(format.parity), format.stop_bits};
-}
-
-SerialFormat format_from(const Json& json) {
-  SerialFormat format{.baud = number_of<std::uint32_t>(json.at(0)),
-                      .data_bits = number_of<std::uint8_t>(json.at(1)),
-                      .stop_bits = number_of<std::uint8_t>(json.at(3))};
-  const std::string word = text_of(json.at(2));
-  for (std::size_t parity = 0; parity < kParityWords.size(); ++parity)
-    if (kParityWords[parity] == word) format.parity = static_cast<Parity>(parity);
-  if (format.baud == 0 || format.data_bits < 7 || format.data_bits > 8 || format.stop_bits < 1 || format.stop_bits > 2)
-    throw std::runtime_error("a format of characters that there is not");
-  return format;
-}
-
-// --- actions ---
-
-/// In their order: a place may stand there again, or lie in another one.
-Json json_of(const std::vector<Assignment>& assignments) {
-  Json all = Json::array();
-  for (const Assignment& assignment : assignments) all.push_back({assignment.place.name_of(0), assignment.value});
-  return all;
-}
-
-struct ToJson {
-  Json operator()(const SetMemory& set) const { return {{"set", json_of(set.assignments)}}; }
-  Json operator()(const Force& force) const { return {{"force", json_of(force.assignments)}}; }
-  Json operator()(const Unforce& unforce) const {
-    Json places = Json::array();
-    for (const MemoryRange& place : unforce.places)
-      places.push_back(place.name_of(0) + (place.count > 1 ? fmt::format(":{}", place.count) : ""));
-    return {{"unforce", places}};
-  }
-  Json operator()(const Jump& jump) const { return {{"goto", jump.to}}; }
-  Json operator()(const InjectFault& inject) const {
-    Json json{{"fault", inject.fault ? serial::to_text(*inject.fault) : "none"}};
-    if (!inject.of.empty()) json["of"] = inject.of;
-    return json;
-  }
-  Json operator()(const SetStack& set) const { return {{"stack", set.stack.bits()}}; }
-  Json operator()(const SendFrame& send) const {
-    Json json{{"send", serial::to_hex(send.request.frame)},
-              {"format", json_of(send.format)},
-              {"timeout", send.request.timeout},
-              {"gap", send.request.gap},
-              {"sync", send.request.sync}};
-    if (send.request.silence) json["silence"] = *send.request.silence;
-    return json;
-  }
-  Json operator()(const CancelRequest& cancel) const {
-    return {{"cancel",
-             {{"sent", cancel.sent},
-              {"waited", cancel.waited},
-              {"sent_until", cancel.sent_until},
-              {"answering", cancel.answering}}}};
-  }
-  /// `save` refuses a session that has one.
-  Json operator()(const SystemEvent& event) const { return {{"event", event.words}}; }
-  Json operator()(const SetPower& power) const { return {{"power", power.on ? "on" : "off"}}; }
-  Json operator()(const SetMode& set) const { return {{"mode", set.mode == Mode::Run ? "run" : "stop"}}; }
-  Json operator()(const serial::HostCall& call) const {
-    Json characters = Json::array();
-    for (const serial::HostCharacter& c : call.characters)
-      characters.push_back({c.byte, static_cast<int>(c.fault), c.sender, json_of(c.format)});
-    return {{"host", static_cast<int>(call.what)},
-            {"format", json_of(call.format)},
-            {"characters", characters},
-            {"sender", call.sender},
-            {"lasts", call.lasts}};
-  }
-};
-
-MemoryRange place_from(const std::string& text, const CpuModel& model) {
-  std::string why;
-  const auto place = parse_range(text, model, why);
-  if (!place) throw std::runtime_error(why);
-  return *place;
-}
-
-std::vector<Assignment> assignments_from(const Json& json, const CpuModel& model) {
-  std::vector<Assignment> all;
-  for (const Json& assignment : json)
-    all.push_back({place_from(text_of(assignment.at(0)), model), number_of<std::uint32_t>(assignment.at(1))});
-  return all;
-}
-
-SendFrame send_from(const Json& json) {
-  const serial::ParsedFrame parsed = serial::parse_hex_frame(text_at(json, "send"));
-  if (!parsed.ok()) throw std::runtime_error(parsed.errors[0].message);
-  SendFrame send{.format = format_from(json.at("format")),
-                 .request = {.frame = parsed.frame,
-                             .timeout = number_at<Time>(json, "timeout", kAnyDuration),
-                             .gap = number_at<Time>(json, "gap", kAnyDuration),
-                             .silence = {},
-                             .sync = truth_at(json, "sync")}};
-  if (json.contains("silence")) send.request.silence = number_at<Time>(json, "silence", kAnyDuration);
-  return send;
-}
-
-serial::HostCall call_from(const Json& json) {
-  using Call = serial::HostCall;
-  using Fault = serial::HostCharacter::Fault;
-  const int what = number_at<int>(json, "host", {0, static_cast<int>(Call::What::EndBreak)});
-  Call call{.what = static_cast<Call::What>(what),
-            .format = format_from(json.at("format")),
-            .characters = {},
-            .sender = number_at<std::uint64_t>(json, "sender"),
-            .lasts = number_at<Time>(json, "lasts", kAnyDuration, 0)};
-  for (const Json& c : json.at("characters")) {
-    const int fault = number_of<int>(c.at(1), {0, static_cast<int>(Fault::Break)});
-    call.characters.push_back({number_of<std::uint8_t>(c.at(0)), format_from(c.at(3)), static_cast<Fault>(fault),
-                               number_of<std::uint64_t>(c.at(2))});
-  }
-  return call;
-}
-
-InjectFault fault_from(const Json& json) {
-  const std::string text = text_at(json, "fault");
-  if (text == "none") return {};
-  const serial::ParsedFault parsed = serial::parse_fault(text);
-  if (!parsed.ok()) throw std::runtime_error(parsed.error->message);
-  return {parsed.fault, text_at(json, "of", "")};
-}
-
-SetMode mode_from(const std::string& text) {
-  if (text != "run" && text != "stop") throw std::runtime_error("an unknown mode");
-  return {text == "run" ? Mode::Run : Mode::Stop};
-}
-
-CancelRequest cancel_from(const Json& json) {
-  return {.sent = number_at<std::size_t>(json, "sent"),
-          .waited = number_at<Time>(json, "waited", kAnyMoment),
-          .sent_until = number_at<Time>(json, "sent_until", kAnyMoment),
-          .answering = truth_at(json, "answering")};
-}
-
-SetPower power_from(const std::string& text) {
-  if (text != "on" && text != "off") throw std::runtime_error("an unknown state of power");
-  return {text == "on"};
-}
-
-Action action_from(const Json& json, const CpuModel& model) {
-  if (json.contains("set")) return SetMemory{assignments_from(json.at("set"), model)};
-  if (json.contains("send")) return send_from(json);
-  if (json.contains("cancel")) return cancel_from(json.at("cancel"));
-  if (json.contains("power")) return power_from(text_at(json, "power"));
-  if (json.contains("host")) return call_from(json);
-  if (json.contains("goto")) return Jump{number_at<std::uint32_t>(json, "goto")};
-  if (json.contains("fault")) return fault_from(json);
-  if (json.contains("mode")) return mode_from(text_at(json, "mode"));
-  if (json.contains("stack"))
-    return SetStack{LogicStack::from_bits(number_at<std::uint64_t>(json, "stack") & LogicStack::kAll)};
-  if (json.contains("force")) {
-    Force force{assignments_from(json.at("force"), model)};
-    for (const Assignment& assignment : force.assignments)
-      if (!forcing::possible(assignment.place)) throw std::runtime_error("something that cannot be forced");
-    return force;
-  }
-  if (!json.contains("unforce")) throw std::runtime_error("an unknown action");
-  Unforce unforce;
-  for (const Json& place : json.at("unforce")) unforce.places.push_back(place_from(text_of(place), model));
-  return unforce;
-}
-
 using Models = std::span<const CpuModel* const>;
 
 RetentiveMemory retentive_from(const Json& json, const CpuModel& model) {
-  std::string why;
-  auto memory = memory_from_json(json.at("memory").dump(), model, why);
-  if (!memory) throw std::runtime_error(why);
-  memory->ram_lost = truth_at(json, "memory_lost");
-  memory->power_off = number_at<Time>(json, "power_off", kAnyDuration);
+  JsonTaker taker;
+  const auto memory = take_kept_memory(taker, json, model);
+  if (!taker.fine()) throw std::runtime_error(taker.why());
   return *memory;
 }
 
@@ -238,7 +68,9 @@ Recording recording_from(const Json& json, Models models) {
     if (station >= models.size() && !of_bridge) throw std::runtime_error("something was done to a station that it has not");
     recording.moments.push_back(moment_from(action.at("at")));
     recording.stations.push_back(station);
-    recording.actions.push_back(action_from(action, *models[of_bridge ? 0 : station]));
+    JsonTaker taker;
+    recording.actions.push_back(take_action(taker, action, *models[of_bridge ? 0 : station]));
+    if (!taker.fine()) throw std::runtime_error(taker.why());
   }
   recording.end = moment_from(json.at("end"));
   recording.now = moment_from(json.at("now"));
@@ -299,9 +131,7 @@ Json json_of(const SessionFile::Station& station) {
 void add_memory(Json& json, const SessionFile& file, std::size_t number) {
   if (file.recording.memory.empty()) return;
   const RetentiveMemory& memory = file.recording.memory[number];
-  json["memory"] = Json::parse(memory_to_json(memory, *find_cpu(file.stations[number].cpu)));
-  json["memory_lost"] = memory.ram_lost;
-  json["power_off"] = memory.power_off;
+  add_kept_memory(json, memory, *find_cpu(file.stations[number].cpu));
 }
 
 /// Why it is not of the PLCs that are here; empty if it is.
@@ -344,7 +174,7 @@ std::string to_text(const SessionFile& file) {
   }
   json["actions"] = Json::array();
   for (std::size_t i = 0; i < recording.actions.size(); ++i) {
-    Json action = std::visit(ToJson{}, recording.actions[i]);
+    Json action = json_of(recording.actions[i]);
     if (!one) action["station"] = recording.stations[i];
     action["at"] = json_of(recording.moments[i]);
     json["actions"].push_back(std::move(action));

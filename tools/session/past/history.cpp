@@ -434,6 +434,7 @@ void History::restore(const Checkpoint& checkpoint) {
 }
 
 void History::go_to(const Moment& moment) {
+  if (!explore(moment.time)) return;
   const Checkpoint& checkpoint = checkpoint_before(moment);
   if (const Moment here = now(); comes_before(moment, here) || comes_before(here, checkpoint.moment)) restore(checkpoint);
   advance(moment);
@@ -445,11 +446,12 @@ bool History::go_to(Time time) {
     go_to(newest());
     return true;
   }
+  const bool explored = explore(time);
   const auto& all = branch_->checkpoints;
   const auto after =
       std::upper_bound(all.begin() + 1, all.end(), time, [](Time t, const CheckpointPtr& c) { return t < c->moment.time; });
   restore(**(after - 1));
-  if (!play_to(time)) {
+  if (!explored || !play_to(time)) {
     go_to(start);
     return false;
   }
@@ -475,9 +477,25 @@ bool History::play_to(Time time) {
   return true;
 }
 
+/// Plays what was recorded elsewhere on from its last checkpoint, and keeps checkpoints up to `time`. False after a stop
+/// request. What is written there is unknown.
+bool History::explore(Time time) {
+  const auto next = [this] { return branch_->checkpoints.back()->moment.time + branch_->interval; };
+  const Time end = std::min(time, branch_->end.time);
+  if (!branch_->unexplored || next() >= end) return true;
+  restore(*branch_->checkpoints.back());
+  while (next() < end) {
+    if (!play_to(next())) return false;
+    keep_checkpoint();
+    for (WrittenMemory& written : branch_->written.back()) written.unknown = true;
+  }
+  return true;
+}
+
 /// To the moment `ahead` of `end`, or to the checkpoint before `end` if that is later.
 Moment History::go_to_before(const Moment& end, Time ahead) {
   const Time time = end.time - std::min(ahead, end.time);
+  explore(end.time);
   const auto& all = branch_->checkpoints;
   const auto after = std::lower_bound(all.begin() + 1, all.end(), end,
                                       [](const CheckpointPtr& c, const Moment& m) { return c->moment < m; });
@@ -598,6 +616,7 @@ void History::fork() {
   branch->moments.resize(actions_ - branch->forgotten);
   branch->log_bytes = bytes_of(branch->actions);
   branch->end = here;
+  branch->unexplored = false;
   branches_.push_back(branch);
   branch_ = std::move(branch);
 }
@@ -655,6 +674,19 @@ Recording History::recording() const {
 }
 
 bool History::replay(Recording recording) {
+  const Moment end = recording.end, then = recording.now;
+  adopt(std::move(recording));
+  if (!explore(end.time)) return false;
+  branch_->unexplored = false;
+  go_to(end);
+  if (!stands_at(end)) return false;
+  branch_->end = now();
+  branch_->log_bytes = bytes_of(branch_->actions);  // not before: where it stood must not be forgotten on the way
+  go_to(then);
+  return stands_at(then);
+}
+
+void History::adopt(Recording recording) {
   system().restore(origin_->state);
   power_up_stations(recording.memory);
   attach_hosts_of(recording);
@@ -664,18 +696,8 @@ bool History::replay(Recording recording) {
   branch_->stations = std::move(recording.stations);
   branch_->moments = std::move(recording.moments);
   branch_->end = recording.end;
-  for (Time time = this->time() + branch_->interval; time < recording.end.time; time += branch_->interval) {
-    if (!play_to(time)) return false;
-    keep_checkpoint();
-  }
-  for (std::vector<WrittenMemory>& part : branch_->written)
-    for (WrittenMemory& written : part) written.unknown = true;
-  go_to(recording.end);
-  if (!stands_at(recording.end)) return false;
-  branch_->end = now();
-  branch_->log_bytes = bytes_of(branch_->actions);  // not before: where it stood must not be forgotten on the way
-  go_to(recording.now);
-  return stands_at(recording.now);
+  branch_->unexplored = true;
+  for (WrittenMemory& written : branch_->written.back()) written.unknown = true;
 }
 
 void History::begin_with(serial::Simulation::Snapshot state) {

@@ -262,6 +262,11 @@ class History final {
   /// has_hosts_of() must hold.
   bool replay(Recording recording);
 
+  /// A new branch that stands at the beginning of a recording of one PLC: all of it is past and can be gone to. It is played
+  /// when one goes there, and checkpoints are kept on the way, so that no time is spent on what nobody looks at. Unlike
+  /// replay() it does not look whether it comes to the same end. has_hosts_of() must hold.
+  void adopt(Recording recording);
+
   /// Those that are not forgotten.
   const std::vector<Action>& actions() const;
   /// When each of them was done.
@@ -350,6 +355,7 @@ class History final {
   bool do_next_action();
   const LineStation* station_of_fault(const Action& action, std::size_t station) const;
   bool play_to(Time time);
+  bool explore(Time time);
   Moment passed_over(Moment end, const MayHold& may_hold) const;
   void note_unknown_writes(std::size_t station);
   std::vector<WrittenMemory> nothing_written() const;
@@ -405,6 +411,7 @@ struct History::Branch {
   std::vector<Moment> moments;        ///< of the actions
   std::size_t forgotten = 0;          ///< actions before these
   std::size_t log_bytes = 0;          ///< of the actions
+  bool unexplored = false;            ///< it was recorded elsewhere, and has no checkpoints after its last one
   Moment end;
   Time interval = 0;
   std::vector<RetentiveMemory> memory{};      ///< by station: it begins with power coming back

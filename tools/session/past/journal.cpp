@@ -4,14 +4,16 @@
 
 namespace s7200::tools {
 
-Journal::Journal(serial::Simulation& simulation, std::vector<RetentiveMemory> memory)
-    : simulation_(simulation), is_alone_(simulation.system().plcs() == 1 && !simulation.system().has_schedule()) {
+Journal::Journal(serial::Simulation& simulation, std::vector<RetentiveMemory> memory, std::size_t most)
+    : simulation_(simulation),
+      most_(most),
+      is_alone_(simulation.system().plcs() == 1 && !simulation.system().has_schedule()) {
   recording_.memory = std::move(memory);
 }
 
 void Journal::note(Action action, std::size_t station) {
   if (over_) return;
-  if (recording_.actions.size() == kMostActions) {
+  if (recording_.actions.size() == most_) {
     recording_.end = now();
     over_ = true;
     return;

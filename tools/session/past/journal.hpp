@@ -10,12 +10,13 @@ namespace s7200::tools {
 
 class Journal {
  public:
-  /// How many actions a journal keeps, so that a run of any length needs constant memory.
+  /// How many actions a journal keeps if no other number is given, so that a run of any length needs constant memory.
   static constexpr std::size_t kMostActions = 1000;
 
   /// The simulation has just been powered up, with `memory` if it is not empty. It must live as long as this. Of a system it
   /// is any of its PLCs.
-  explicit Journal(serial::Simulation& simulation, std::vector<RetentiveMemory> memory = {});
+  explicit Journal(serial::Simulation& simulation, std::vector<RetentiveMemory> memory = {},
+                   std::size_t most = kMostActions);
 
   /// Whether more has been done than is kept: the run can be played again only up to there.
   bool is_over() const { return over_; }
@@ -31,6 +32,7 @@ class Journal {
 
  private:
   serial::Simulation& simulation_;
+  std::size_t most_;
   bool is_alone_;  ///< nothing but the PLC's own clock tells one moment from another
   Recording recording_{};
   bool over_ = false;

@@ -1,0 +1,22 @@
+// A recording of one PLC as JSON of little size: what a report carries. It knows no files and throws nothing.
+//
+// `actions` has each different action once; `done` has a column for each part of what was done when: the number of the
+// action among them, the host port, the nanoseconds and the instructions since what was done before. A column that is left
+// out is 0 throughout.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "tools/session/past/history.hpp"
+
+namespace s7200::tools {
+
+/// The recording is complete.
+nlohmann::ordered_json json_of(const Recording& recording, const CpuModel& model);
+
+/// Returns nothing and sets `why` if the JSON is not a recording of that CPU.
+std::optional<Recording> recording_from(const nlohmann::ordered_json& json, const CpuModel& model, std::string& why);
+
+}  // namespace s7200::tools
