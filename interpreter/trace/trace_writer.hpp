@@ -26,6 +26,9 @@ class TraceWriter : public TraceSink {
   /// Writes what is done to the PLC from outside, in words.
   virtual void note(Time at, std::string_view what) = 0;
 
+  /// The run is over: writes what ends the file, if its form has that.
+  virtual void finish() {}
+
   bool wants_instructions() const override { return detail_ != TraceDetail::Events; }
   Watch watch() const override { return has_instructions() ? Watch::Values : Watch::Flow; }
   bool wants_scans() const override { return has_instructions(); }

@@ -158,6 +158,17 @@ class Sigrok(Case):
         self.assertEqual(done.returncode, 0, done.stderr)
         return [frame["bytes"] for frame in json.loads(done.stdout)["frames"]]
 
+    def test_bits_of_a_trace_of_signals_are_read_as_they_were(self):
+        program = self.folder / "blinks.stl"
+        program.write_text("LD SM0.0\nINCW VW10\nLDW>= VW10, 3\n= Q0.0\nLDW>= VW10, 5\nR Q0.0, 1\nMEND\n", encoding="utf-8")
+        done = run(S7200, "run", program, "--scans", "8", "--trace", self.vcd, "--signals", "Q0.0,INT")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = run("sigrok-cli", "-I", "vcd:downsample=1000", "-i", self.vcd, "-O", "csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        levels = [line.split(b",")[0] for line in done.stdout.splitlines() if line[:1] in b"01"]
+        changes = [level for i, level in enumerate(levels) if i == 0 or level != levels[i - 1]]
+        self.assertEqual(changes[:3], [b"0", b"1", b"0"])
+
     def test_levels_in_the_files_of_sigrok_are_read_as_what_was_sent(self):
         """Our receiver at the end of: our sender, our VCD, sigrok's file."""
         exchanges = self.send(SLAVE, "--timeout", "100ms", *map(with_crc, TALK[:8]))

@@ -77,6 +77,13 @@ WrongValueOfKey take_power_off(PlcSettings& settings, std::string_view text, con
   return {why};
 }
 
+WrongValueOfKey take_signals(PlcSettings& settings, std::string_view text, const AddressSpace* space) {
+  std::string why;
+  const auto signals = space ? parse_signals(text, *space, why) : std::nullopt;
+  if (signals) settings.signals.insert(settings.signals.end(), signals->begin(), signals->end());
+  return {why};
+}
+
 WrongValueOfKey take_dump(PlcSettings& settings, std::string_view text, const AddressSpace* space) {
   std::string why;
   const auto range = space ? parse_range(text, *space, why) : std::nullopt;
@@ -192,7 +199,7 @@ std::vector<PlcKey> rows() {
      .option = {"TIME", "how long power was off since --memory was written [0s]", Group::More, "memory", "ram_lost"},
      .take = take_power_off},
     {.name = "trace", .stage = Stage::Program, .shape = Shape::Written, .of_system = true, .form = "PATH", .meaning = "interrupts, characters, attachments and errors are written there",
-     .option = {"FILE", "write what happens in the CPU; interrupts, characters, attachments, errors and the main program's way; - is standard output", Group::Results},
+     .option = {"FILE", "write what happens in the CPU, as text, .jsonl or .json; --signals as .vcd or .csv; - is standard output", Group::Results},
      .take = take_path<&PlcSettings::trace>, .text = path_text<&PlcSettings::trace>},
     {.name = "trace_instructions", .stage = Stage::Program, .shape = Shape::Flag, .of_system = true, .form = "true, false", .meaning = "every instruction is traced too; `false` if left out",
      .option = {"", "trace every instruction too, with its operand values: its line has the time of its begin, below what it did", Group::More, "trace"},
@@ -200,6 +207,10 @@ std::vector<PlcKey> rows() {
     {.name = "trace_events", .stage = Stage::Program, .shape = Shape::Flag,
      .option = {"", "leave out the way of the main program, why a frame got no answer and how long an instruction took: faster", Group::More, "trace", "trace_instructions"},
      .take = take_as<&PlcSettings::trace_detail, TraceDetail::Events>},
+    {.name = "signals", .stage = Stage::Program, .shape = Shape::List,
+     .example = "[Q0.0, VW20, INT]",
+     .option = {"SIGNAL,…", "what a trace as .vcd, .csv or .json shows over time: addresses, symbols, INT123, or INT for every interrupt routine (repeatable)", Group::More, "trace"},
+     .take = take_signals},
     {.name = "output", .stage = Stage::Program, .shape = Shape::Written, .of_system = true, .form = "PATH", .meaning = "each change of an output is written there: CSV, or waves if it ends in .vcd",
      .option = {"FILE", "write each change of an output (Q, AQ): CSV, or waves in FILE.vcd; - is standard output", Group::Memory},
      .take = take_path<&PlcSettings::output>, .text = path_text<&PlcSettings::output>},

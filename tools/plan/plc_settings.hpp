@@ -10,6 +10,7 @@
 #include "interpreter/cpu/state.hpp"
 #include "interpreter/program/address.hpp"
 #include "interpreter/program/system_block.hpp"
+#include "interpreter/trace/signals.hpp"
 #include "interpreter/trace/text_trace.hpp"
 #include "serial_sim/field/field_script.hpp"
 
@@ -33,6 +34,7 @@ struct PlcSettings {
   MemorySettings memory{};           ///< read at power-up, written at the end
   std::string trace{};
   TraceDetail trace_detail = TraceDetail::Way;
+  std::vector<Signal> signals{};     ///< in a trace of them
   std::string output{};              ///< changes of outputs, as CSV; to FILE.vcd as a Value Change Dump
   std::vector<MemoryRange> dumps{};  ///< shown at the end
   std::vector<std::string> dump_names{};

@@ -57,6 +57,14 @@ std::string json_note(Time at, std::string_view station, std::string_view what) 
   return ended(line);
 }
 
+ordered_json members_of(const TraceRecord& record, const Program& program) {
+  const TraceRow& row = row_of(record.kind);
+  ordered_json members = ordered_json::object();
+  if (row.of_port) members["port"] = record.port;
+  for (const TraceField& field : row.fields) add(members, field, record, program);
+  return members;
+}
+
 JsonTrace::JsonTrace(TakeLine take, std::shared_ptr<const Program> program, TraceDetail detail, std::string station)
     : TraceWriter(detail),
       take_(std::move(take)),
@@ -69,10 +77,8 @@ JsonTrace::JsonTrace(TakeLine take, std::shared_ptr<const Program> program, Trac
 
 void JsonTrace::record(const TraceRecord& record) {
   if (has(record)) {
-    const TraceRow& row = row_of(record.kind);
-    ordered_json line = begun(record.at, station_, row.name);
-    if (row.of_port) line["port"] = record.port;
-    for (const TraceField& field : row.fields) add(line, field, record, *program_);
+    ordered_json line = begun(record.at, station_, row_of(record.kind).name);
+    line.update(members_of(record, *program_));
     fmt::memory_buffer text;
     lines_.append_to(text, record);
     line["text"] = fmt::to_string(text);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace s7200::tools {
 /// The line of a note: what is done to a PLC or a line from outside, or what the records before it mean together. `station`:
 /// empty where there is one PLC.
 std::string json_note(Time at, std::string_view station, std::string_view what);
+
+/// What a record says besides its instant and kind, by the names of trace_rows().
+nlohmann::ordered_json members_of(const TraceRecord& record, const Program& program);
 
 class JsonTrace final : public TraceWriter {
  public:

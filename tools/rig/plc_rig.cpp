@@ -22,10 +22,12 @@ bool PlcRig::claim(WrittenFiles& files, std::string& why) {
   const auto trace = [this, &format](std::ostream& out) {
     out << format.first_line;
     const auto take = [&out](Time, std::string_view line) { out << line; };
-    auto made = format.writer(take, program_, settings_.trace_detail, {});
+    const auto state = [this] { return plc_ && plc_->powered() ? &plc_->cpu().state() : nullptr; };
+    auto made = format.writer({take, program_, settings_.trace_detail, {}, signals_of(settings_.signals, *program_), state});
     trace_ = made.get();
     return made;
   };
+  if (why = settings_.trace.empty() ? "" : why_not_signals(format, settings_.signals); !why.empty()) return false;
   const bool waves = stl::lower_case(std::filesystem::path(settings_.output).extension().string()) == ".vcd";
   const FileKind rows{"a record of outputs", fmt::format("{}\n", OutputRecord::kFirstLine)};
   const FileKind dump{"a dump of outputs", std::string(OutputWaves::kBeginning)};
@@ -41,9 +43,10 @@ bool PlcRig::claim(WrittenFiles& files, std::string& why) {
 bool PlcRig::read_memory(std::string& why) { return memory_.read(*program_->model, why); }
 
 void PlcRig::power_up(serial::Plc& plc, Time at) {
+  plc_ = &plc;
   if (plc.powered() && !sinks().empty()) plc.cpu().set_sink(&sinks());  // without sinks, another watcher may be set by now
   plc.cpu().set_clock_error(settings_.clock_error);
-  plc.power_up(kept_ ? &*kept_ : memory_.memory(), at);
+  plc.power_up(kept(), at);
   if (settings_.clock) plc.cpu().set_clock(*settings_.clock);
   for (const Assignment& assignment : settings_.set) assign(plc.cpu(), assignment);
 }

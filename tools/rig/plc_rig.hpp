@@ -35,11 +35,17 @@ class PlcRig {
     if (trace_) trace_->note(at, what);
   }
 
+  /// The memory with which the PLC powers up first; null if nothing was kept.
+  const RetentiveMemory* kept() const { return kept_ ? &*kept_ : memory_.memory(); }
+
   /// The sinks that watch the CPU; others may be added.
   FanOut& sinks() { return traces_.sinks(); }
 
   void flush() { traces_.flush(); }
-  void close(std::vector<std::string>& problems) { traces_.close(problems); }
+  void close(std::vector<std::string>& problems) {
+    if (trace_) trace_->finish();
+    traces_.close(problems);
+  }
   void keep_memory(const Cpu& cpu, std::vector<std::string>& problems) const;
 
  private:
@@ -48,7 +54,8 @@ class PlcRig {
   std::optional<RetentiveMemory> kept_;
   MemoryFile memory_;
   TraceFiles traces_;
-  TraceWriter* trace_ = nullptr;  // null: none is written
+  TraceWriter* trace_ = nullptr;      // null: none is written
+  const serial::Plc* plc_ = nullptr;  // null before it is powered up
 };
 
 }  // namespace s7200::tools

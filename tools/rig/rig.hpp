@@ -90,6 +90,11 @@ class Rig final {
   /// The sinks that watch a CPU; others may be added.
   FanOut& sinks(std::size_t plc = 0) { return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->sinks(); }
 
+  /// The memory with which a PLC powers up first; null if nothing was kept.
+  const RetentiveMemory* kept_memory(std::size_t plc = 0) const {
+    return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->kept();
+  }
+
   /// Writes the records so far to their files, for readers who follow a run in real time. A trace of a system is a second
   /// behind.
   void flush_records();

@@ -66,6 +66,11 @@ SystemTrace::~SystemTrace() = default;
 
 bool SystemTrace::claim(WrittenFiles& files, const std::string& path, std::string& why) {
   format_ = &trace_format_of(path);
+  if (!format_->note) {
+    why = fmt::format("--trace {}: a trace of a whole system is text or .jsonl; the key 'trace' of one PLC takes the others",
+                      path);
+    return false;
+  }
   return file_.claim(files, "--trace", path, {"a trace of a system", std::string(format_->first_line_of_system)}, why);
 }
 
@@ -75,7 +80,8 @@ bool SystemTrace::open(std::string& why) {
   *out_ << format_->first_line_of_system;
   for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) {
     const auto take = [this, plc](Time at, std::string_view line) { add(plan_.plcs[plc].name, at, line); };
-    stations_.push_back(format_->writer(take, plan_.plcs[plc].program, detail_, plan_.plcs[plc].name));
+    stations_.push_back(format_->writer(
+        {.take = take, .program = plan_.plcs[plc].program, .detail = detail_, .station = plan_.plcs[plc].name}));
   }
   return true;
 }

@@ -33,6 +33,7 @@ const std::map<std::string_view, std::string> kValues{{"ppi_baud", "19200,187500
                                                       {"trace", "plc.trace"},
                                                       {"trace_instructions", "true"},
                                                       {"trace_events", "true"},
+                                                      {"signals", "Q0.0,VW20"},
                                                       {"output", "outputs.csv"},
                                                       {"dump", "VB0:16"}};
 

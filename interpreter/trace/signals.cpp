@@ -1,0 +1,68 @@
+#include "interpreter/trace/signals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/program.hpp"
+
+namespace s7200 {
+namespace {
+
+constexpr std::string_view kInterrupts = "INT";
+
+/// `INT123` or `INT 123`; nothing for another name.
+std::optional<Signal> interrupt_of(const std::string& name) {
+  const std::string upper = stl::upper_case(name);
+  if (!upper.starts_with(kInterrupts)) return {};
+  const std::string_view number = stl::trim(std::string_view(upper).substr(kInterrupts.size()));
+  if (number.empty()) return Signal{.kind = Signal::Kind::Interrupts, .name = name};
+  const auto routine = parse_decimal<std::uint8_t>(number);
+  if (!routine) return {};
+  return Signal{.kind = Signal::Kind::Interrupt, .name = fmt::format("INT{}", *routine), .routine = *routine};
+}
+
+std::optional<Signal> signal_of(const std::string& name, const AddressSpace& space, std::string& why) {
+  if (auto interrupt = interrupt_of(name)) return interrupt;
+  const auto place = parse_range(name, space, why);
+  if (!place) return {};
+  if (place->count == 1) return Signal{.kind = Signal::Kind::Memory, .name = name, .place = *place};
+  why = fmt::format("{} is several values; name each", stl::shortened(name));
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::vector<Signal>> parse_signals(std::string_view text, const AddressSpace& space, std::string& why) {
+  std::vector<Signal> signals;
+  while (!text.empty()) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const auto signal = signal_of(std::string(stl::trim(text.substr(0, comma))), space, why);
+    if (!signal) return {};
+    signals.push_back(*signal);
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  if (!signals.empty()) return signals;
+  why = "there is no signal; name some, for example Q0.0,VW20,INT";
+  return {};
+}
+
+std::vector<Signal> signals_of(const std::vector<Signal>& wanted, const Program& program) {
+  std::vector<Signal> all;
+  for (const Signal& one : wanted) {
+    if (one.kind != Signal::Kind::Interrupts) {
+      all.push_back(one);
+      continue;
+    }
+    for (std::size_t number = 0; number < program.interrupt.size(); ++number)
+      if (program.interrupt[number] != kNoRoutine)
+        all.push_back({.kind = Signal::Kind::Interrupt,
+                       .name = fmt::format("INT{}", number),
+                       .routine = static_cast<std::uint8_t>(number)});
+  }
+  return all;
+}
+
+}  // namespace s7200
