@@ -48,6 +48,7 @@ struct Conversation::Seen {
 Conversation::Conversation(History& history, PageSettings settings, Post post)
     : settings_(std::move(settings)), post_(std::move(post)), session_(history, settings_.session, *this) {
   session_.stepper.pause_when(settings_.pause);
+  session_.failed = {session_.focus(), session_.history.now(), settings_.failed};
 }
 
 Conversation::Seen Conversation::seen() const {

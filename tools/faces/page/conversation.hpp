@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/session/commands/reply.hpp"
 #include "tools/session/commands/session.hpp"
@@ -28,6 +29,7 @@ struct PageSettings {
   SessionSetup session{};
   std::string program{};  ///< the name of what is shown
   bool live = false;      ///< a run follows the clock
+  std::vector<MemoryRange> failed{};  ///< that was not as expected where the session stands, which `why` is about there
   /// Ends a run that follows the clock when it becomes true, so that what was asked meanwhile can be carried out; null if
   /// nobody asks.
   const std::atomic<bool>* pause = nullptr;
