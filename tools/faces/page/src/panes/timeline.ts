@@ -5,6 +5,7 @@ import { ns_at, type Scale } from '../timeline/scale';
 import * as search from '../timeline/search';
 import * as timeline from '../timeline/view';
 import { go_to } from '../session';
+import { compare_futures, difference_text, run_second, shown_spans } from '../futures';
 import { icon } from '../icons';
 import { changed, state } from '../state';
 import { duration_text } from '../words';
@@ -19,7 +20,7 @@ let told = '';
 function theme_of(node: HTMLElement): Theme {
   const style = getComputedStyle(node);
   const names = ['pane', 'text', 'line', 'grid', 'ruler', 'received', 'sent', 'interrupts', 'scans', 'networks', 'routines', 'events', 'errors', 'value',
-    'trouble', 'wait', 'future', 'measure', 'now', 'cursor', 'on-colour'];
+    'trouble', 'comment', 'wait', 'future', 'measure', 'now', 'cursor', 'on-colour'];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }
 
@@ -30,7 +31,7 @@ function scale_of(width: number): Scale {
 function paint(node: HTMLCanvasElement): void {
   canvas = node;
   const tracks = node.parentElement!.parentElement!;
-  const rows = rows_of(state.spans, tracks.scrollTop);
+  const rows = rows_of(shown_spans(), tracks.scrollTop);
   const width = Math.max(100, tracks.clientWidth - kLabels), height = tracks.clientHeight;
   const ratio = devicePixelRatio || 1;
   if (node.width !== Math.round(width * ratio) || node.height !== Math.round(height * ratio)) {
@@ -42,7 +43,7 @@ function paint(node: HTMLCanvasElement): void {
   const context = node.getContext('2d', { alpha: false })!;
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   shown = { scale: scale_of(width), rows, width, height, now_ns: state.past?.now_ns ?? 0, newest_ns: state.past?.newest_ns ?? 0,
-    cursors: state.cursors, selected: state.selected_span };
+    cursors: state.cursors, marks: state.marks, selected: state.selected_span };
   draw(context, shown, theme_of(node));
 }
 
@@ -109,9 +110,9 @@ function measured(): string {
 }
 
 function labels(): Part[] {
-  return rows_of(state.spans, 0).map((row, i) => h('div', { class: 'track-name', key: i, style: { top: `${row.top}px`, height: `${row.height}px` }, title: row.track.name },
-    h('span', {}, row.track.station ? `${row.track.station} ${row.track.name}` : row.track.name),
-    row.track.kind === 'value' ? h('button', { class: 'plain', 'aria-label': `Remove ${row.track.name}`, onclick: () => timeline.unwatch(watched_as(row.track.name)) }, icon('close')) : null));
+  return rows_of(shown_spans(), 0).map((row, i) => h('div', { class: `track-name${row.track.before ? ' before' : ''}`, key: i, style: { top: `${row.top}px`, height: `${row.height}px` }, title: row.track.before ? `${row.track.name}: the first future` : row.track.name },
+    h('span', {}, row.track.before ? 'first future' : row.track.station ? `${row.track.station} ${row.track.name}` : row.track.name),
+    row.track.kind === 'value' && !row.track.before ? h('button', { class: 'plain', 'aria-label': `Remove ${row.track.name}`, onclick: () => timeline.unwatch(watched_as(row.track.name)) }, icon('close')) : null));
 }
 
 function watched_as(name: string): string {
@@ -134,12 +135,14 @@ export function timeline_pane(): Part {
       tool('next-unanswered', 'Next unanswered request (u)', () => void search.find_unanswered(), 'unanswered'),
       h('form', { class: 'condition', onsubmit: (event: Event) => { event.preventDefault(); void search.find_condition((event.target as HTMLElement).querySelector('input')!.value); } },
         h('input', { id: 'condition', placeholder: 'next time VW20 > 5', 'aria-label': 'Go to the next time that this comes to hold', title: 'A condition in STL terms (x)', autocomplete: 'off', spellcheck: 'false' })),
+      tool('compare', 'Two futures: keep this one, change something, compare (c)', () => void compare_futures(), state.first_future ? 'End comparison' : 'What if?'),
+      state.first_future ? tool('second', 'Run as far as the first future goes', () => void run_second(), icon('run')) : null,
       tool('a', 'Cursor A here ([)', () => timeline.set_cursor('a'), 'A'), tool('b', 'Cursor B here (])', () => timeline.set_cursor('b'), 'B'),
-      h('span', { class: 'readout', role: 'status' }, state.computing ? 'computing …' : measured() || told || `${duration_text(to_ns - from_ns)} in view`),
+      h('span', { class: 'readout', role: 'status' }, state.computing ? 'computing …' : (state.first_future ? difference_text() : '') || measured() || told || `${duration_text(to_ns - from_ns)} in view`),
       state.cursors.a_ns !== null ? h('button', { class: 'plain', 'aria-label': 'Remove cursors', onclick: timeline.clear_cursors }, icon('close')) : null,
       state.spans?.left_out?.length ? h('span', { class: 'small', title: 'Zoom in to 10 s or less' }, `zoom in for ${state.spans.left_out.join(', ')}`) : null),
     h('div', { class: 'tracks', onscroll: changed },
-      h('div', { class: 'track-names', style: { height: `${height_of(rows_of(state.spans, 0))}px` } }, labels()),
+      h('div', { class: 'track-names', style: { height: `${height_of(rows_of(shown_spans(), 0))}px` } }, labels()),
       h('div', { class: 'track-canvas' }, h('canvas', { id: 'timeline', tabindex: '0', role: 'img', 'aria-label': 'Timeline: plus and minus zoom, arrows move, e finds the next error', ref: paint,
         onwheel: on_wheel, onpointerdown: on_down, onpointermove: on_move, onpointerup: on_up, onpointercancel: () => { drag = null; },
         onpointerleave: () => { if (told !== '') { told = ''; changed(); } } }))));

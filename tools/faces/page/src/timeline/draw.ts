@@ -49,6 +49,7 @@ export interface View {
   now_ns: number;
   newest_ns: number;
   cursors: { a_ns: number | null; b_ns: number | null };
+  marks: number[];
   selected: Span | null;
 }
 
@@ -83,7 +84,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
   const { scale } = view, { track, top, height } = row;
   const columns = new Float64Array(Math.ceil(view.width) + 1);
   const per_pixel = (scale.to_ns - scale.from_ns) / (scale.right - scale.left);
-  const trouble: [number, number][] = [];
+  const trouble: [number, number][] = [], differs: [number, number][] = [];
   const waited: Span[] = [];
   for (let i = first_after(track.spans, scale.from_ns); i < track.spans.length; ++i) {
     const one = track.spans[i]!;
@@ -92,6 +93,7 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
     const width = end - x, several = (one.count ?? 1) > 1;
     const wrong = one.error !== undefined || (one.errors ?? 0) > 0;
     if (wrong) trouble.push([x, Math.max(2, several ? 2 : width)]);
+    if (one.differs) differs.push([x, Math.max(2, width)]);
     if (one.occurred_ns !== undefined && !several && one.at_ns > one.occurred_ns) waited.push(one);
     if (one.end_ns === one.at_ns) {
       c.fillStyle = colour_of(track, one, theme);
@@ -123,6 +125,20 @@ function draw_spans(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
   for (const one of waited) draw_wait(c, view, row, one, theme);
   c.fillStyle = theme['trouble']!;
   for (const [x, width] of trouble) c.fillRect(Math.min(x, scale.right - 2), top, width <= 2 ? 2 : width, width <= 2 ? height : 3);
+  draw_differences(c, row, differs, theme);
+}
+
+/** A line below what only one of two futures has. */
+function draw_differences(c: CanvasRenderingContext2D, row: Row, parts: [number, number][], theme: Theme): void {
+  c.fillStyle = theme['cursor']!;
+  for (const [x, width] of parts) c.fillRect(x, row.top + row.height, width, kGap - 1);
+}
+
+/** The first of two futures stands back. */
+function draw_band(c: CanvasRenderingContext2D, view: View, row: Row, theme: Theme): void {
+  if (!row.track.before) return;
+  c.fillStyle = theme['future']!;
+  c.fillRect(view.scale.left, row.top - kGap, view.scale.right - view.scale.left, row.height + kGap);
 }
 
 const kLeastBit = 7;  // pixels from which on single bits are drawn
@@ -180,6 +196,9 @@ function draw_value(c: CanvasRenderingContext2D, view: View, row: Row, theme: Th
     least = Math.min(least, one.least ?? one.value ?? 0);
     most = Math.max(most, one.most ?? one.value ?? 0);
   }
+  const differs: [number, number][] = track.spans.slice(first, last).filter((one) => one.differs)
+    .map((one) => [Math.max(scale.left, x_of(scale, one.at_ns)), Math.max(2, x_of(scale, one.end_ns) - x_of(scale, one.at_ns))]);
+  draw_differences(c, row, differs, theme);
   const bit = is_bit(track);
   if (bit) { least = 0; most = 1; }
   const y = (value: number): number => top + height - 2 - (most === least ? 0.5 : (value - least) / (most - least)) * (height - 4);
@@ -258,7 +277,7 @@ function draw_line_at(c: CanvasRenderingContext2D, view: View, ns: number, colou
     c.moveTo(x - 5, 0); c.lineTo(x + 5, 0); c.lineTo(x, 8);
     c.fill();
   } else {
-    c.fillRect(x, 1, 13, 13);
+    c.fillRect(x, 1, 6 + 7 * name.length, 13);
     c.fillStyle = '#fff';
     c.fillText(name, x + 3, 8);
   }
@@ -273,6 +292,7 @@ export function draw(c: CanvasRenderingContext2D, view: View, theme: Theme): voi
   draw_grid(c, view, theme);
   for (const row of view.rows) {
     if (row.top + row.height < kRuler || row.top > view.height) continue;
+    draw_band(c, view, row, theme);
     if (row.track.kind === 'value') draw_value(c, view, row, theme);
     else draw_spans(c, view, row, theme);
   }
@@ -288,6 +308,7 @@ export function draw(c: CanvasRenderingContext2D, view: View, theme: Theme): voi
     c.fillStyle = theme['measure']!;
     c.fillRect(Math.max(scale.left, x), kRuler, Math.min(scale.right, end) - Math.max(scale.left, x), view.height);
   }
+  view.marks.forEach((ns, i) => draw_line_at(c, view, ns, theme['comment']!, String(i + 1)));
   draw_line_at(c, view, view.now_ns, theme['now']!, '');
   if (a_ns !== null) draw_line_at(c, view, a_ns, theme['cursor']!, 'A');
   if (b_ns !== null) draw_line_at(c, view, b_ns, theme['cursor']!, 'B');

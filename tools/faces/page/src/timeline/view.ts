@@ -34,12 +34,21 @@ const seen = new Seen(async () => {
   const length = to_ns - from_ns;
   const first = Math.max(past.oldest_ns, from_ns - length / 4), last = Math.min(past.newest_ns, to_ns + length / 4);
   if (last <= first) return;
+  if (is_in_picture(first, last)) {
+    state.spans = state.picture;
+    return;
+  }
   const late = setTimeout(() => { state.computing = true; changed(); }, kLate);
   const spans = await spans_between(first, last, kElements, state.watched);
   clearTimeout(late);
   state.computing = false;
   if (spans) state.spans = spans;
 });
+
+/** Whether all of the run of a report is seen, of which there is a picture. */
+function is_in_picture(from_ns: number, to_ns: number): boolean {
+  return state.picture !== null && state.watched.length === 0 && from_ns <= state.picture.from_ns && to_ns === state.picture.to_ns;
+}
 
 const kExchanges = 60e9;  // ns before the present whose exchanges are listed
 

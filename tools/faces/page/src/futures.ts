@@ -1,0 +1,104 @@
+// Two futures: the one that has been is kept from a moment on, something is changed there, and what comes then stands above it,
+// with what differs marked.
+import { changed, notice, state } from './state';
+import { go_to, move } from './session';
+import { first_after } from './timeline/scale';
+import { spans_between } from './timeline/view';
+import { moment_text, moment_word } from './words';
+import type { Span, Spans, SpanTrack } from './protocol';
+
+const kElements = 3000;
+const kLeastAhead = 200e6;  // ns
+
+/** What is to be compared reaches as far as the timeline shows, at least. */
+function end_of_first(now_ns: number, newest_ns: number): number {
+  return Math.max(newest_ns, now_ns + kLeastAhead, state.window?.to_ns ?? 0);
+}
+
+/** Keeps what comes after the present moment, which is run if it has not been yet; ends the comparison if there is one. */
+export async function compare_futures(): Promise<void> {
+  if (state.first_future) {
+    state.first_future = null;
+    changed();
+    return;
+  }
+  const past = state.past;
+  if (!past) return;
+  const at_ns = past.now_ns, until_ns = end_of_first(at_ns, past.newest_ns);
+  if (past.newest_ns < until_ns) {
+    if (past.in_the_past) await move('at end');
+    await move(`continue ${moment_word(until_ns - past.newest_ns)}`);
+  }
+  const spans = await spans_between(at_ns, until_ns, kElements, state.watched);
+  await go_to(at_ns);
+  if (!spans) return;
+  state.first_future = { at_ns, until_ns, spans };
+  notice('This future is kept, below each track. Now switch an input, write a value or send a frame, and Run: what differs is marked.');
+}
+
+/** Runs as far as the first future goes, so that both can be compared. */
+export async function run_second(): Promise<void> {
+  const first = state.first_future, past = state.past;
+  if (!first || !past) return;
+  if (past.in_the_past) await move('at end');
+  const newest = state.past!.newest_ns;
+  if (newest < first.until_ns) await move(`continue ${moment_word(first.until_ns - newest)}`);
+}
+
+function key_of(one: Span): string {
+  return `${one.at_ns} ${one.end_ns} ${one.text} ${one.value ?? ''} ${one.error ?? ''} ${one.count ?? 1}`;
+}
+
+/** The value of a watched address at a moment. */
+function value_at(track: SpanTrack, ns: number): number | undefined {
+  const one = track.spans[first_after(track.spans, ns)];
+  return one && one.at_ns <= ns ? one.value : undefined;
+}
+
+/** The elements of a track, those of a part of the time marked that the other one does not have. Where several are in one, that cannot be told. */
+function marked(track: SpanTrack, other: SpanTrack | undefined, from_ns: number, to_ns: number): Span[] {
+  if (other && !(track.exact && other.exact)) return track.spans;
+  const known = new Set((other?.spans ?? []).map(key_of));
+  const differs = (one: Span): boolean => (track.kind === 'value' && other
+    ? one.end_ns > from_ns && one.at_ns < to_ns && value_at(other, Math.max(one.at_ns, from_ns)) !== one.value
+    : one.at_ns > from_ns && one.end_ns < to_ns && !known.has(key_of(one)));
+  return track.spans.map((one) => (differs(one) ? { ...one, differs: true } : one));
+}
+
+function both(spans: Spans, first: NonNullable<typeof state.first_future>): Spans {
+  const newest = state.past?.newest_ns ?? 0, from = first.at_ns, to = Math.min(first.until_ns, newest, spans.to_ns);
+  const names = new Set(spans.tracks.map((one) => `${one.station ?? ''} ${one.name}`));
+  const same = (a: SpanTrack) => (b: SpanTrack): boolean => a.name === b.name && a.station === b.station;
+  const lower = (track: SpanTrack, upper: SpanTrack | undefined): SpanTrack => ({ ...track, before: true, spans: marked(track, upper, from, to) });
+  const tracks = spans.tracks.flatMap((track) => {
+    const kept = first.spans.tracks.find(same(track));
+    return [{ ...track, spans: marked(track, kept, from, to) }, ...(kept ? [lower(kept, track)] : [])];
+  });
+  const gone = first.spans.tracks.filter((one) => !names.has(`${one.station ?? ''} ${one.name}`)).map((one) => lower(one, undefined));
+  return { ...spans, tracks: [...tracks, ...gone] };
+}
+
+let of_spans: Spans | null = null, of_first: unknown = null, shown: Spans | null = null;
+
+/** What the timeline shows: of two futures each track twice. */
+export function shown_spans(): Spans | null {
+  if (!state.first_future || !state.spans) return state.spans;
+  if (of_spans !== state.spans || of_first !== state.first_future) {
+    of_spans = state.spans;
+    of_first = state.first_future;
+    shown = both(state.spans, state.first_future);
+  }
+  return shown;
+}
+
+/** When both futures part, if that is in view. */
+export function first_difference(): number | null {
+  if (!state.first_future) return null;
+  const all = (shown_spans()?.tracks ?? []).flatMap((track) => track.spans.filter((one) => one.differs).map((one) => Math.max(one.at_ns, state.first_future!.at_ns)));
+  return all.length === 0 ? null : Math.min(...all);
+}
+
+export function difference_text(): string {
+  const at = first_difference();
+  return at === null ? 'both futures are the same so far' : `both futures part at ${moment_text(at)}`;
+}
