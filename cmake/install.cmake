@@ -24,6 +24,9 @@ install(TARGETS ${libraries} EXPORT s7200-targets)
 install(FILES tools/pipelines/ctest/S7200Test.cmake DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200/cmake COMPONENT command)
 install(DIRECTORY stl_programs tools/conformance DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200 COMPONENT command)
 
+install(FILES ${PROJECT_BINARY_DIR}/share/s7200/page.html DESTINATION ${CMAKE_INSTALL_DATADIR}/s7200
+  COMPONENT command OPTIONAL)  # the target page_file makes it
+
 set(pages ${PROJECT_BINARY_DIR}/manual_pages)
 install(CODE "execute_process(
   COMMAND ${CMAKE_COMMAND} -DS7200=$<TARGET_FILE:s7200> -DINTO=${pages} -P ${PROJECT_SOURCE_DIR}/cmake/manual_pages.cmake

@@ -35,6 +35,17 @@ needed_to_build_windows=(
   npm:npm
 )
 
+# What the page with its engine in one file needs besides, which --report fills in: the target page_file.
+needed_for_page_file=(
+  clang++-19:clang-19
+  wasm-ld-19:lld-19
+  llvm-ar-19:llvm-19
+  /usr/include/wasm32-wasi/stdio.h:wasi-libc
+  /usr/lib/llvm-19/lib/wasm32-wasi/libc++.a:libc++-19-dev-wasm32
+  /usr/lib/llvm-19/lib/wasm32-wasi/libc++abi.a:libc++abi-19-dev-wasm32
+  /usr/lib/llvm-19/lib/clang/19/lib/wasi/libclang_rt.builtins-wasm32.a:libclang-rt-19-dev-wasm32
+)
+
 # What cpack needs for the Debian package besides.
 needed_to_package=(
   dpkg-shlibdeps:dpkg-dev
@@ -45,6 +56,7 @@ needed_to_package=(
 # completes its command lines and runs it in the pipelines of others.
 needed_to_test=(
   "${needed_to_build_tests[@]}"
+  "${needed_for_page_file[@]}"
   "${needed_to_package[@]}"
   /usr/include/modbus/modbus.h:libmodbus-dev
   /usr/lib/python3/dist-packages/pymodbus:python3-pymodbus
@@ -63,13 +75,6 @@ needed_to_test=(
   chromium:chromium
   node:nodejs
   npm:npm
-  clang++-19:clang-19
-  wasm-ld-19:lld-19
-  llvm-ar-19:llvm-19
-  /usr/include/wasm32-wasi/stdio.h:wasi-libc
-  /usr/lib/llvm-19/lib/wasm32-wasi/libc++.a:libc++-19-dev-wasm32
-  /usr/lib/llvm-19/lib/wasm32-wasi/libc++abi.a:libc++abi-19-dev-wasm32
-  /usr/lib/llvm-19/lib/clang/19/lib/wasi/libclang_rt.builtins-wasm32.a:libclang-rt-19-dev-wasm32
   x86_64-w64-mingw32-g++-posix:g++-mingw-w64-x86-64-posix
   /usr/lib/wine/wine64:wine64
 )

@@ -11,13 +11,13 @@
 namespace s7200 {
 namespace {
 
-constexpr std::string_view kInterrupts = "INT";
+constexpr std::string_view kAnyRoutine = "INT";
 
 /// `INT123` or `INT 123`; nothing for another name.
 std::optional<Signal> interrupt_of(const std::string& name) {
   const std::string upper = stl::upper_case(name);
-  if (!upper.starts_with(kInterrupts)) return {};
-  const std::string_view number = stl::trim(std::string_view(upper).substr(kInterrupts.size()));
+  if (!upper.starts_with(kAnyRoutine)) return {};
+  const std::string_view number = stl::trim(std::string_view(upper).substr(kAnyRoutine.size()));
   if (number.empty()) return Signal{.kind = Signal::Kind::Interrupts, .name = name};
   const auto routine = parse_decimal<std::uint8_t>(number);
   if (!routine) return {};

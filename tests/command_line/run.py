@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The `s7200` command as its users meet it: run.py S7200 SOURCE_DIR verbs|options|json|json_page|inspect|compare|fuzz|files|scenarios|input|readme|times|systems"""
+import base64
 import contextlib
 import csv
 import html
@@ -22,6 +23,7 @@ import termios
 import time
 import unittest
 import xml.etree.ElementTree
+import zlib
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from modbus_crc import framed  # noqa: E402
@@ -3354,6 +3356,92 @@ class Files(Case):
         self.assertIn("--cpu is about a program", self.ends(UNUSABLE, "debug", scenarios, "--cpu", "214", "-x", "regs").stderr)
         self.assertIn("--only is about a file of scenarios", self.ends(UNUSABLE, "debug", program, "--only", "x", "-x", "regs").stderr)
 
+    PLACE_OF_REPORT = '<script id="report" type="text/plain">'
+
+    def command_with_page(self, page):
+        """A copy of the command with that page beside it, as an installed one has it."""
+        (self.folder / "bin").mkdir()
+        (self.folder / "share/s7200").mkdir(parents=True)
+        shutil.copy(S7200, self.folder / "bin/s7200")
+        if page is not None:
+            (self.folder / "share/s7200/page.html").write_text(page, encoding="utf-8")
+        return self.folder / "bin/s7200"
+
+    def report_of(self, path):
+        """What a report carries."""
+        text = path.read_text(encoding="utf-8")
+        packed = text.split(self.PLACE_OF_REPORT)[1].split("</script>")[0]
+        return json.loads(zlib.decompress(base64.b64decode(packed)))
+
+    def test_a_report_has_the_program_and_what_came_from_outside(self):
+        beginning = "<!DOCTYPE html>\n<!-- s7200: the page with its engine -->\n"
+        command = self.command_with_page(f"{beginning}<body>{self.PLACE_OF_REPORT}</script></body>\n")
+        out = self.folder / "report.html"
+
+        def run(*words):
+            done = subprocess.run([command, *words, "--report", out], capture_output=True, text=True, check=False, timeout=120)
+            self.assertLess(done.returncode, UNUSABLE, done.stderr)
+            return self.report_of(out)
+
+        report = run("run", SLAVE, "--for", "50ms", "--set", "VW20=5", "--clock", "2026-11-21 10:00:00")
+        (only,) = report["runs"]
+        self.assertEqual((report["verb"], only["options"]["set"], only["options"]["clock"]), ("run", ["VW20=5"], "2026-11-21 10:00:00"))
+        self.assertEqual(report["programs"][0][0]["text"], pathlib.Path(SLAVE).read_text(encoding="utf-8"))
+        self.assertEqual((only["recordings"][0]["count"], only["recordings"][0]["end"][2] // 1_000_000), (0, 50))
+        report = run("send", SLAVE, "--crc", "0103000a0002", "0103000a0002", "--set", "VW20=5")
+        recording = report["runs"][0]["recordings"][0]
+        self.assertEqual((recording["count"], [action["send"] for action in recording["actions"]]), (2, ["01 03 00 0a 00 02 e4 09"]))
+        report = run("master", SLAVE, "read", "40001", "--every", "1s", "--count", "3", "--fault", "parity:exchange=2")
+        self.assertEqual((report["runs"][0]["recordings"][0]["count"], len(report["runs"][0]["options"]["fault"])), (3, 1))
+        report = run("debug", SLAVE, "-x", "continue 20ms; set VW20=7; continue 20ms")
+        self.assertEqual(report["runs"][0]["recordings"][0]["actions"], [{"set": [["VW20", 7]]}])
+        scenarios = self.program(f"program: {SLAVE}\nscenarios:\n- {{name: fine, steps: [wait: 1ms]}}\n"
+                                 "- {name: red, steps: [wait: 1ms, memory: {VW20: 5}]}\n", "both.yaml")
+        report = run("test", scenarios)
+        self.assertEqual([one["outcome"] for one in report["runs"]], ["passed", "failed"])
+        self.assertEqual(len(report["programs"]), 1, "the program of both is there once")
+        self.assertEqual((report["runs"][1]["findings"][0]["recording"], report["runs"][1]["findings"][0]["line"]), (0, 4))
+        out.write_text("mine", encoding="utf-8")
+        done = subprocess.run([command, "run", SLAVE, "--report", out], capture_output=True, text=True, check=False, timeout=120)
+        self.assertEqual((done.returncode, out.read_text(encoding="utf-8")), (UNUSABLE, "mine"))
+
+    def test_a_report_without_the_page_says_what_makes_it(self):
+        command = self.command_with_page(None)
+        out = self.folder / "report.html"
+
+        def refused(*words):
+            done = subprocess.run([command, *words, "--report", out], capture_output=True, text=True, check=False, timeout=120)
+            self.assertEqual((done.returncode, out.exists()), (UNUSABLE, False))
+            return done.stderr
+
+        self.assertIn("share/s7200/page.html", refused("run", SLAVE))
+        self.assertIn("the package of s7200 has it", refused("run", SLAVE))
+        (self.folder / "CMakeCache.txt").write_text("", encoding="utf-8")
+        self.assertIn(f"make it with: cmake --build {self.folder} --target page_file", refused("run", SLAVE))
+        self.assertIn("--report carries the run of one PROGRAM", refused("run", SOURCE / "stl_programs/systems/gateway.yaml"))
+        self.assertIn("--report excludes --times-band", refused("send", SLAVE, "01", "--times-band", "2"))
+
+    def test_signals_over_time_are_written_as_waves_and_tables(self):
+        program = self.program("LD SM0.0\nINCW VW10\nLDW>= VW10, 3\n= Q0.0\nMEND\n")
+        waves, table, events = self.folder / "a.vcd", self.folder / "a.csv", self.folder / "a.json"
+        run = ["run", program, "--scans", "5"]
+        self.ends(FINE, *run, "--trace", waves, "--signals", "Q0.0,VW10")
+        self.assertRegex(waves.read_text(encoding="utf-8"), r"(?s)\$var wire 1 ! Q0\.0 \$end\n\$var wire 16 \" VW10 \$end\n.*\n1!\n")
+        self.ends(FINE, *run, "--trace", table, "--signals", "VW10", "--signals", "Q0.0")
+        first, *rows = table.read_text(encoding="utf-8").splitlines()
+        self.assertEqual(first, "time_ms,VW10,Q0.0")
+        self.assertEqual([row.split(",")[1:] for row in rows], [["0", "0"], ["1", "0"], ["2", "0"], ["3", "0"], ["3", "1"], ["4", "1"], ["5", "1"]])
+        self.ends(FINE, *run, "--trace", events, "--signals", "VW10")
+        counters = [event["args"]["value"] for event in json.loads(events.read_text(encoding="utf-8")) if event["ph"] == "C"]
+        self.assertEqual(counters, [0, 1, 2, 3, 4, 5])
+        for words, why in ((["--trace", waves], "a trace as .vcd shows signals: name some"),
+                           (["--trace", self.folder / "a.txt", "--signals", "VW10"], "--signals are shown by a trace as .vcd, .csv or .json"),
+                           (["--trace", waves, "--signals", "VB0:4"], "VB0:4 is several values; name each"),
+                           (["--signals", "VW10"], "--signals requires --trace")):
+            self.assertIn(why, self.ends(UNUSABLE, *run, *words).stderr)
+        system = SOURCE / "stl_programs/systems/gateway.yaml"
+        self.assertIn("a trace of a whole system is text or .jsonl", self.ends(UNUSABLE, "run", system, "--for", "1s", "--trace", events).stderr)
+
     def test_a_mistake_in_a_scenario_is_written_for_continuous_integration(self):
         out = self.folder / "results.xml"
         typo = self.program(f"program: {SLAVE}\nsteps:\n  - {{reed: holding 0}}\n", "typo.yaml")
@@ -3544,7 +3632,7 @@ class Files(Case):
         (self.folder / "sub").mkdir()
         self.assertIn("twice", self.ends(UNUSABLE, "run", path, "--capture", vcd, "--capture", twice).stderr)
         self.assertIn("cannot write", self.ends(UNUSABLE, "run", path, "--capture", self.folder / "no/line.vcd").stderr)
-        self.assertIn("twice", self.ends(UNUSABLE, "run", path, "--trace", vcd, "--capture", vcd).stderr)
+        self.assertIn("twice", self.ends(UNUSABLE, "run", path, "--trace", vcd, "--signals", "M0.0", "--capture", vcd).stderr)
 
     def test_captures_do_not_depend_on_slices(self):
         path, captures = self.program(Json.ECHO), []

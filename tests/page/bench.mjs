@@ -1,6 +1,9 @@
 // Figures of the page, the median of several rounds each; tests/page/bench starts it.
+import { spawnSync } from 'node:child_process';
+import { statSync } from 'node:fs';
+import path from 'node:path';
 import { test } from 'node:test';
-import { browser, end, open, view } from './support.mjs';
+import { browser, end, kDesktop, open, view } from './support.mjs';
 
 const kRounds = 9;
 const median = (all) => [...all].sort((a, b) => a - b)[Math.floor(all.length / 2)];
@@ -62,4 +65,31 @@ test('figures', async () => {
   say('the slowest frame but 5 in 100', [...gaps].sort((a, b) => a - b)[Math.floor(gaps.length * 0.95)], 'ms');
   await chrome.close();
   await end(plc.server);
+});
+
+/** A report of a day in which a master asks each second: 86 400 exchanges. */
+test('figures of a report', { skip: process.env.REPORTS ? false : 'there is no engine' }, async () => {
+  const file = path.join(process.env.REPORTS, 'day.html');
+  const written = await milliseconds(() => spawnSync(process.env.S7200, ['master', 'stl_programs/modbus_slave.stl', 'read', '40011:2', '--every', '1s', '--count', '86400', '--report', file],
+    { cwd: process.env.SOURCE, stdio: 'ignore' }));
+  say('a day polled each second, with its report', written, 'ms');
+  say('size of the report', statSync(file).size / 1000, 'kB');
+  say('of that the page with its engine', statSync(path.join(process.env.REPORTS, 'share/s7200/page.html')).size / 1000, 'kB');
+  const chrome = await browser();
+  const opened = [], far = [], seeks = [];
+  for (let i = 0; i < 5; ++i) {
+    const page = await chrome.newPage({ viewport: kDesktop });
+    page.setDefaultTimeout(120000);
+    opened.push(await milliseconds(async () => {
+      await page.goto(`file://${file}`);
+      await page.waitForSelector('.row');
+    }));
+    far.push(await milliseconds(() => go_to(page, 86000e3)));
+    for (let k = 0; k < kRounds; ++k) seeks.push(await milliseconds(() => go_to(page, 1000e3 + 9389e3 * ((k * 5) % kRounds))));
+    await page.close();
+  }
+  say('opens within', median(opened), 'ms');
+  say('goes to the end of the day, computed for the first time', median(far), 'ms');
+  say('goes to a moment of that day within', median(seeks), 'ms');
+  await chrome.close();
 });

@@ -1,4 +1,6 @@
 // The pictures of docs/page.md, from real runs; tests/page/pictures starts it.
+import { spawnSync } from 'node:child_process';
+import { writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
 import { browser, end, open, view } from './support.mjs';
@@ -88,3 +90,33 @@ test('a forced output, a new value and a trend', () => drawn(kPump, async (page)
   await page.waitForSelector('tr.forced');
   await page.locator('.side').screenshot({ path: docs('page_chart.png') });
 }));
+
+const kScenarios = `program: ${path.join(process.env.SOURCE, 'stl_programs/modbus_slave.stl')}
+scenarios:
+- name: a register that was written is read
+  steps:
+  - {write: holding 10, value: 5, expect: accepted}
+  - {read: holding 10, expect: [5]}
+- name: a request with a parity error gets no answer
+  steps:
+  - send: 01 03p 00 0a 00 01 a4 08
+    expect: silence
+- name: a register keeps what was written
+  steps:
+  - {write: holding 10, value: 5, expect: accepted}
+  - set: {VW20: 6}
+  - {read: holding 10, expect: [5]}
+`;
+
+test('a report of scenarios', async () => {
+  const report = path.join(process.env.REPORTS, 'report.html'), scenarios = path.join(process.env.REPORTS, 'registers.yaml');
+  writeFileSync(scenarios, kScenarios);
+  spawnSync(process.env.S7200, ['test', 'registers.yaml', '--report', report], { cwd: process.env.REPORTS, stdio: 'inherit' });
+  const chrome = await browser();
+  const page = await chrome.newPage({ viewport: kViewport });
+  await page.goto(`file://${report}`);
+  await page.waitForSelector('.findings .link');
+  await page.waitForTimeout(1500);
+  await page.screenshot({ path: docs('page_report.png') });
+  await chrome.close();
+});

@@ -67,7 +67,7 @@ class Container(Case):
         log = (self.folder / "log").read_text(encoding="utf-8").splitlines()
         asked = [line for line in log if not line.startswith("apt-get")]
         self.assertEqual(asked[:2], ["cmake --preset release -DBUILD_TESTING=OFF", "cmake --preset release"])
-        self.assertRegex(asked[2], r"^cmake --build --preset release --parallel \d+ --target s7200$")
+        self.assertRegex(asked[2], r"^cmake --build --preset release --parallel \d+ --target s7200 page_file$")
         self.assertEqual(asked[3:], ["cpack --config build/release/CPackConfig.cmake"])
 
     def test_what_is_copied_can_be_configured(self):

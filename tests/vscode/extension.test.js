@@ -93,10 +93,10 @@ test("each attribute of a launch is an option of debug, or one of the session", 
   }
 });
 
-test("each option of debug is an attribute of a launch, but for where commands come from and which scenario", () => {
+test("each option of debug is an attribute of a launch, but for where commands come from, which scenario, and a report", () => {
   const { properties } = manifest.contributes.debuggers[0].configurationAttributes.launch;
   for (const [, option] of s7200("debug", "--help-all").matchAll(/^ +(?:-.,)?--([a-z-]+) /gm)) {
-    if (["help", "help-all", "commands", "execute", "interactive", "only", "target"].includes(option)) continue;
+    if (["help", "help-all", "commands", "execute", "interactive", "only", "target", "report"].includes(option)) continue;
     assert.ok(option.replace(/-[a-z]/g, (letter) => letter[1].toUpperCase()) in properties, option);
   }
 });

@@ -11,8 +11,10 @@
 #include "tools/command/debug_session.hpp"
 #include "tools/command/debuggee_run.hpp"
 #include "tools/command/exit_code.hpp"
+#include "tools/command/opened_scenario.hpp"
 #include "tools/command/options/debug_options.hpp"
 #include "tools/command/rig_output.hpp"
+#include "tools/command/run_recorder.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/faces/console/prompt.hpp"
 #include "tools/faces/files/host_files.hpp"
@@ -41,12 +43,13 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
   if (!options.bridge.prepare()) return kUnusable;
   auto bridges = bridges_of(options);
   if (!bridges) return kUnusable;
+  if (!options.report.prepare_for(options.rig.plan())) return kUnusable;
   const auto rig = options.rig.assemble(false, options.bridge.link());
   if (!rig) return options.rig.exit_code_without_rig();
   if (!has_room_for_bridge(options, *rig)) return kUnusable;
   rig->power_up();
   rig->simulation().stop_when({});  // the debugger looks itself, in front of each instruction
-  bool good = false, in_the_past = false, expectation_failed = false;
+  bool good = false, all_written = false, in_the_past = false, expectation_failed = false;
   {
     std::atomic<bool> pause = false;
     DebuggeeRun live(*rig, options, std::move(*bridges), print_live_messages(), StopToken(pause));
@@ -61,12 +64,14 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
     expectation_failed = !good && debugger.expectation_failed();
     good &= live.failure().empty();
     in_the_past = debugger.in_the_past();
+    all_written = options.report.write("debug", {reported_run(*rig, debugger.recording(), options.program.repairs)});
   }
   fmt::print("{}", dump_text(*rig));
   const std::vector<std::string> notes = fault_notes(*rig);
   print_notes(notes);
   if (in_the_past && !notes.empty()) print_note("faults are counted up to where the session stands, in the past");
-  if (!finish(*rig)) return kUnusable;
+  all_written &= finish(*rig);
+  if (!all_written) return kUnusable;
   if (std::ferror(stdin) != 0 && !interrupted()) return print_error("cannot read standard input"), kUnusable;
   print_interruption();
   if (interrupted() || expectation_failed) return kCheckFailed;

@@ -10,6 +10,7 @@
 #include "tools/command/rig_output.hpp"
 #include "tools/command/run_observers.hpp"
 #include "tools/command/run_output.hpp"
+#include "tools/command/run_recorder.hpp"
 #include "tools/command/run_source.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
@@ -70,18 +71,20 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   int exit_code = kFine;
   const auto bridges = load_run(verb, options, exit_code);
   if (!bridges) return exit_code;
+  if (!options.report.prepare_for(options.rig.plan())) return kUnusable;
   const auto rig = options.rig.assemble(options.json, options.bridge.link());
   if (!rig) return options.rig.exit_code_without_rig();
   WrittenFiles files = rig->files();
   options.coverage.claim(files);
   const RunObservers observers(*rig, {.coverage = options.coverage.wanted()});
   rig->power_up();
+  const auto recorder = options.report.wanted() ? std::make_unique<RunRecorder>(*rig) : nullptr;
   if (is_of_one_program(rig->plan())) rig->simulation().cpu().pause_at_error(options.rig.strict());
   std::vector<Bridge*> served = bridges->of_plan;
   if (bridges->joined) served.push_back(bridges->joined);
   const Ending ending = run_to_end(*rig, *bridges, !served.empty(), options);
   if (ending.reason.empty()) return kUnusable;
-  const bool all_written = finish(*rig);
+  const bool all_written = write_report(options.report, "run", recorder.get(), options.program.repairs) & finish(*rig);
   if (options.json)
     print_json(*rig, ending, served, observers.json(options.coverage));
   else

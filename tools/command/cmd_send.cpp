@@ -2,12 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "serial_sim/peers/quiet_time.hpp"
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/command/options/help_groups.hpp"
-#include "tools/command/options/line_options.hpp"
-#include "tools/command/options/number_option.hpp"
 #include "tools/command/rig_output.hpp"
 #include "tools/command/send_band.hpp"
 #include "tools/command/send_slave.hpp"
@@ -30,9 +26,11 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   std::string why;
   const auto frames = options.frames.read(why);
   if (!frames) return print_error(why), kUnusable;
+  if (!options.report.prepare_for(options.rig.plan())) return kUnusable;
   const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
+  const auto recorder = options.report.wanted() ? std::make_unique<RunRecorder>(*rig) : nullptr;
   const std::size_t line = options.rig.line();
   const serial::Requester& master = rig->requester(line)->requester();
   const auto failed_strictly = [&] { return !options.rig.without_s7200() && options.rig.failed_strictly(rig->cpu()); };
@@ -41,7 +39,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
 
   StreamedResults results(results_of("send"), "exchanges");
   bool ready = false;
-  const std::unique_ptr<SlaveInSimulation> slave = slave_to_send_to(options, *rig, ready, unanswered.get());
+  const std::unique_ptr<SlaveInSimulation> slave = slave_to_send_to(options, *rig, ready, unanswered.get(), recorder.get());
   std::size_t answered = 0, damaged = 0, foreign = 0;
   for (const serial::Frame& frame : *frames) {
     if (!ready || interrupted() || failed_strictly()) break;
@@ -67,7 +65,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     }
     slave->wait(options.pause == kNever ? slave->pause() : options.pause);
   }
-  const bool all_written = finish(*rig);
+  const bool all_written = write_report(options.report, "send", recorder.get(), options.program.repairs) & finish(*rig);
   const UnansweredRequests why_none = unanswered ? unanswered->explained(options.master.timeout) : UnansweredRequests{};
   fmt::print("{}", options.json ? results.end(with_why(rig_json(*rig), why_none)) : why_text(why_none) + dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
@@ -92,20 +90,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
 void add_send(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SendOptions>();
   CLI::App* verb = app.add_subcommand("send", "put request frames on the line of a running program, print the answers");
-  options->program.add_to(*verb);
-  options->frames.add_to(*verb);
-  const std::string quiet = serial::default_quiet_text();
-  add_duration(*verb, "--after", options->after,
-               fmt::format("when to send the first frame [after the first scan and {} of silence]", quiet));
-  add_duration(*verb, "--pause", options->pause, fmt::format("pause between an answer and the next frame [{}]", quiet));
-  add_master_options(*verb, options->master);
-  options->rig.add_to(*verb);
-  options->rig.add_place_to(*verb);
-  options->band.add_to(*verb);
-  verb->add_flag("--timeline", options->timeline, "show what the CPU did during each exchange: characters, interrupts, XMT")
-      ->excludes(verb->get_option("--times-band"))
-      ->group(help_group::kResults);
-  verb->add_flag("--json", options->json, "print the exchanges and the results as JSON")->group(help_group::kResults);
+  options->add_to(*verb);
   verb->footer(
       "A system file (.yaml) instead of a PROGRAM: the frames go onto one of its lines, beside everybody who is there.\n"
       "Exit code 1 if a frame was not answered, or with parity or framing errors or a wrong CRC; what an answer says is "

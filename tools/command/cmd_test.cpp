@@ -10,6 +10,7 @@
 #include "tools/command/options/test_options.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/test_output.hpp"
+#include "tools/command/test_report.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/scenario/junit.hpp"
 #include "tools/scenario/keys.hpp"
@@ -54,7 +55,7 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
   output.end(*result, options.coverage);
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
-  bool all_written = !to.junit || write_result(to.junit, to_junit(result->reports));
+  bool all_written = write_reports(options, to.junit, result->reports);
   all_written &= !options.coverage.wanted() || options.coverage.show(result->coverage, options.json);
   if (to.record) all_written &= growing->any() ? growing->complete() : write_transcript(*to.record, options, *result);
   print_interruption();
@@ -79,12 +80,10 @@ int run_against(Suite& suite, const TestOptions& options) {
 }
 
 int run_test(TestOptions& options) {
-  if (options.keys) {
-    fmt::print("{}", scenario_keys_markdown());
-    return kFine;
-  }
+  if (options.keys) return fmt::print("{}", scenario_keys_markdown()), kFine;
   options.check();
   const TestOptions::Destinations to = options.claim_files();
+  if (!options.report.prepare()) return kUnusable;
   options.complete_suite();
   catch_interruption();  // from here on there is something to complete
   Messages messages;

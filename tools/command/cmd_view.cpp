@@ -11,6 +11,7 @@
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/server_token.hpp"
 #include "tools/command/terminal.hpp"
+#include "tools/command/view_scenario.hpp"
 #include "tools/faces/page/server/serve.hpp"
 #include "tools/host/interruption.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 struct ViewOptions {
   std::shared_ptr<DebuggeeOptions> debuggee = std::make_shared<DebuggeeOptions>();
   std::string listen = "0", token_file;
+  std::string only, target;  ///< of a file of scenarios
   bool files = false;
 };
 
@@ -42,17 +44,24 @@ int run_view(const CLI::App& verb, const ViewOptions& options) {
   const auto address = parse_listen_address(options.listen, why);
   auto listener = address ? TcpListener::open(*address, why) : nullptr;
   if (!listener) return print_error(fmt::format("--listen {}: {}", options.listen, why)), kUnusable;
+  page::PageServer server{.listener = std::move(listener), .token = token, .ready = print_address, .note = print_note};
   page::PageFlags flags;
   int exit_code = kFine;
+  if (is_scenario_file(options.debuggee->program.path))
+    return view_scenario(verb, {options.debuggee->program.path, options.only, options.target}, options.files,
+                         std::move(server), flags);
+  for (const auto& [option, given] : {std::pair("--only", &options.only), std::pair("--target", &options.target)})
+    if (!given->empty())
+      return print_error(fmt::format("{} is about a file of scenarios, and this is none", option)), kUnusable;
   const auto debuggee =
       make_debuggee(verb, options.debuggee, StopToken(flags.pause), exit_code, {.may_use_files = options.files});
   if (!debuggee) return exit_code;
   catch_interruption();
   SessionSetup setup = debuggee->setup();
-  setup.why_no_files = "this page lets no command read or write files; s7200 view --files does";
+  setup.why_no_files = kWhyNoFiles;
   page::PageSettings settings{.session = std::move(setup), .program = debuggee->source(), .live = debuggee->follows_clock()};
-  page::serve({.listener = std::move(listener), .token = token, .ready = print_address, .note = print_note},
-              debuggee->history(), std::move(settings), flags, [&](auto say) { debuggee->when_saying(std::move(say)); });
+  page::serve(std::move(server), debuggee->history(), std::move(settings), flags,
+              [&](auto say) { debuggee->when_saying(std::move(say)); });
   print_notes(debuggee->finish());
   return kFine;
 }
@@ -73,13 +82,18 @@ void add_view(CLI::App& app, int& exit_code) {
       ->group(help_group::kRun);
   verb->add_flag("--files", options->files, "commands of the page may read and write files: save, load, record")
       ->group(help_group::kRun);
+  verb->add_option("--only", options->only,
+                   "of a file of scenarios: the first that fails with PATTERN in its name; * is anything")
+      ->type_name("PATTERN");
+  verb->add_option("--target", options->target, "of a file of scenarios: the program to run it on")->type_name("PROGRAM");
   options->debuggee->add_plant_to(*verb);
   verb->footer(
       "The address has a token: whoever has it can do what the prompt of 's7200 debug' can, with files only if --files "
       "is given. Several windows show the same session.\n"
       "Without a bridge, --realtime or --speed runs are as fast as the computer can; with one they follow the clock, and "
       "commands are carried out meanwhile.\n"
-      "A system file (.yaml) instead of a PROGRAM: all its PLCs, one of them at a time.\n"
+      "A system file (.yaml) instead of a PROGRAM: all its PLCs, one of them at a time. A file of scenarios: the first of "
+      "them that fails, or that of --only, where it failed.\n"
       "Topics: bridges, debugger, faults, files, models, programs, systems\n"
       "Example: s7200 view stl_programs/modbus_slave.stl");
   verb->callback([options, &exit_code, verb] { exit_code = run_view(*verb, *options); });

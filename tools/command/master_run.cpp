@@ -10,6 +10,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/master_menu.hpp"
 #include "tools/command/rig_output.hpp"
+#include "tools/command/run_recorder.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/unanswered.hpp"
 #include "tools/host/interruption.hpp"
@@ -146,9 +147,11 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   options.program.path = options.target;
   if (!options.rig.load(verb, options.program, exit_code)) return exit_code;
   options.master = options.rig.on_line(options.master);
+  if (!options.report.prepare_for(options.rig.plan())) return kUnusable;
   const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
+  const auto recorder = options.report.wanted() ? std::make_unique<RunRecorder>(*rig) : nullptr;
   if (options.rig.without_s7200()) return run_on_line(options, *rig, actions);
   Unanswered unanswered(*rig, options.rig.spot());
   UnansweredRequests why_none;
@@ -159,6 +162,7 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   SimulatedSlave slave(rig->simulation(), options.master, options.rig.target(),
                        somebody_answers_in_stop(*rig, options.rig.line(), *options.protocol));
   unanswered.listen_to(slave);
+  if (recorder) recorder->listen_to(slave);
   MasterSession session(slave, actions, options.session(true));
   MasterOutput output(options.output(), slave.name());
   std::string why;
@@ -190,7 +194,7 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
     if (options.json) output.end(session.statistics(), "the program was not ready for the first request", plant());
     exit_code = kCheckFailed;
   }
-  const bool all_written = finish(*rig);
+  const bool all_written = write_report(options.report, "master", recorder.get(), options.program.repairs) & finish(*rig);
   if (ready && !options.json) fmt::print("{}{}", why_text(why_none), dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
   const bool fatal = exit_code_of(*rig) == kCpuFatal, stopped = rig->cpu().state().mode == Mode::Stop;

@@ -8,7 +8,7 @@
 namespace s7200::tools {
 
 std::unique_ptr<SlaveInSimulation> slave_to_send_to(const SendOptions& options, Rig& rig, bool& ready,
-                                                    Unanswered* unanswered) {
+                                                    Unanswered* unanswered, RunRecorder* recorder) {
   if (options.rig.without_s7200()) {
     auto others = std::make_unique<LineOfOtherPlcs>(rig, options.rig.line(), options.master, options.rig.target());
     ready = others->wait_until_ready(options.after);
@@ -17,6 +17,7 @@ std::unique_ptr<SlaveInSimulation> slave_to_send_to(const SendOptions& options, 
   // In STOP its port speaks PPI.
   auto program = std::make_unique<SimulatedSlave>(rig.simulation(), options.master, options.rig.target(), true);
   if (unanswered) unanswered->listen_to(*program);
+  if (recorder) recorder->listen_to(*program);
   if (options.after == kNever) run_first_scans(rig, kReadyWithin);
   std::string why;
   ready = program->wait_until_ready(options.after, why);

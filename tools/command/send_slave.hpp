@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "tools/command/run_recorder.hpp"
 #include "tools/command/send_band.hpp"
 #include "tools/command/unanswered.hpp"
 #include "tools/rig/rig.hpp"
@@ -11,8 +12,8 @@
 namespace s7200::tools {
 
 /// The program, or the line of a system without an S7-200; and whether the first frame can be sent: if not, after messages.
-/// `unanswered`, which may be null, listens to the program.
+/// `unanswered` and `recorder`, which may be null, listen to the program.
 std::unique_ptr<SlaveInSimulation> slave_to_send_to(const SendOptions& options, Rig& rig, bool& ready,
-                                                    Unanswered* unanswered);
+                                                    Unanswered* unanswered, RunRecorder* recorder);
 
 }  // namespace s7200::tools

@@ -282,6 +282,7 @@ std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, cons
   Bench of_target{.format = settings.line.over(SerialFormat{}),
                   .exchanges_wanted = settings.exchanges_wanted,
                   .observed = settings.observed,
+                  .recordings_wanted = settings.runs_wanted,
                   .stop = settings.stop};
   switch (parsed.kind) {
     case SlaveTarget::Kind::Program:

@@ -73,7 +73,7 @@ std::string name_after(const CoverageOfPrograms& coverage, const ProgramCoverage
   return coverage.programs().size() == 1 ? "" : " of " + coverage_name(each.map->program());
 }
 
-std::string properties_text(const Report& report) {
+std::string properties_text(const Report& report, const std::string& link) {
   std::string text;
   const auto property = [&](std::string_view name, const std::string& value) {
     if (!value.empty())
@@ -85,6 +85,7 @@ std::string properties_text(const Report& report) {
   property("simulated_time_ns", result.outcome == Outcome::Skipped ? "" : std::to_string(result.time));
   property("checks", std::to_string(result.checks));
   property("skipped_steps", std::to_string(result.skipped_steps));
+  property("report", link);
   if (const auto& band = result.band) {
     property("tables_asked", std::to_string(band->asked));
     property("tables", std::to_string(band->tables));
@@ -124,7 +125,7 @@ std::string outcome_xml(const Report& report) {
                      xml(findings_text(report, false, kFindingsShown) + debug_line(report)), failed ? "failure" : "skipped");
 }
 
-std::string case_xml(const Report& report) {
+std::string case_xml(const Report& report, const std::string& link) {
   const Scenario& scenario = *report.scenario;
   const std::string& file = scenario.source->name;
   const bool has_place = !scenario.source->text.empty();
@@ -132,7 +133,7 @@ std::string case_xml(const Report& report) {
       has_place ? attribute("file", file) + attribute("line", std::to_string(scenario.position.line)) : "";
   return fmt::format("{0}<testcase{1}{2}{3}{4}>\n{5}{6}{0}</testcase>\n", kOneCase, attribute("classname", class_name(file)),
                      attribute("name", case_name(scenario)), place,
-                     attribute("time", fmt::format("{:.3f}", report.result.host_seconds)), properties_text(report),
+                     attribute("time", fmt::format("{:.3f}", report.result.host_seconds)), properties_text(report, link),
                      outcome_xml(report));
 }
 
@@ -149,7 +150,7 @@ std::string totals_xml(std::span<const Report> reports) {
 
 }  // namespace
 
-std::string to_junit(const std::vector<Report>& reports) {
+std::string to_junit(const std::vector<Report>& reports, const std::function<std::string(std::size_t number)>& link) {
   std::string text = fmt::format("{}<testsuites name=\"s7200 test\"{}>\n", kJunitBeginning, totals_xml(reports));
   for (std::size_t from = 0; from < reports.size();) {
     std::size_t to = from;
@@ -157,7 +158,7 @@ std::string to_junit(const std::vector<Report>& reports) {
     const auto suite = std::span(reports).subspan(from, to - from);
     text += fmt::format("{}<testsuite{}{}>\n", kOneSuite, attribute("name", suite.front().scenario->source->name),
                         totals_xml(suite));
-    for (const Report& report : suite) text += case_xml(report);
+    for (std::size_t number = from; number < to; ++number) text += case_xml(reports[number], link ? link(number) : "");
     text += fmt::format("{}</testsuite>\n", kOneSuite);
     from = to;
   }

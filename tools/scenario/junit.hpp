@@ -1,6 +1,7 @@
 // How scenarios went, for continuous integration.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,8 @@ inline constexpr std::string_view kJunitBeginning =
 
 /// The XML that continuous integration reads: a suite for each file, a case for each scenario. A rule that says should and
 /// is broken counts as skipped there, which has no third way.
-std::string to_junit(const std::vector<Report>& reports);
+/// `link`: a page about a scenario by its number, a property of its case; none without it.
+std::string to_junit(const std::vector<Report>& reports, const std::function<std::string(std::size_t number)>& link = {});
 
 /// Of what kept scenarios from being run: an error for each mistake in a file, at its place.
 std::string to_junit(const Messages& messages);

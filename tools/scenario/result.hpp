@@ -1,6 +1,7 @@
 // How a scenario went.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,6 +75,7 @@ struct ScenarioResult {
   std::size_t skipped_steps = 0;        ///< that look inside, or cannot go this way, on a slave that is not a program
   Time time = 0;                        ///< on the slave's clock
   std::vector<Recording> recordings{};  ///< of one that failed on a program in simulation: to run it again, by power-up
+  std::shared_ptr<const Program> program{};  ///< of those, that ran it; null of a system
   double host_seconds = 0;
   CoverageOfPrograms coverage{};     ///< if it was observed; of an interrupted scenario up to then
   std::optional<BandResult> band{};  ///< all else is of the first table

@@ -30,6 +30,7 @@ struct SuiteSettings {
   BandSettings band{};            ///< of execution times, for all scenarios on programs; none: for those that ask for it
   bool fail_fast = false;         ///< ends at the first failure
   bool exchanges_wanted = false;  ///< all of them are in the results
+  bool runs_wanted = false;       ///< all of them can be run again, also those that found nothing
   bool every_scan = false;        ///< of programs: scans that are all alike are run, too
   bool no_stand_ins = false;      ///< a program that needs a stand-in for a library is refused
   Observed observed{};            ///< of programs in simulation

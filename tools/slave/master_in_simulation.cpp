@@ -18,7 +18,7 @@ serial::Exchange MasterInSimulation::exchange(const serial::Request& request) {
     throw std::invalid_argument("a byte with wrong parity (p) needs a format with parity");
   run_exchange();  // what Ctrl-C has left under way
   remark_ = ignored_text(serial::bytes_of(requester().heard()));
-  if (asked_) asked_(format, request);
+  for (const auto& told : asked_) told(format, request);
   configure(format);
   requester().start(request, now());
   serial::Exchange exchange = finish();

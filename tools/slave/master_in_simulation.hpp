@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "serial_sim/peers/requester.hpp"
 #include "tools/slave/slave.hpp"
@@ -12,9 +13,9 @@ namespace s7200::tools {
 
 class MasterInSimulation : public SlaveInSimulation {
  public:
-  /// Lets `told` be called before each request, with the format in which it is sent.
+  /// Lets `told` be called before each request, with the format in which it is sent; after those that are told already.
   void when_asked(std::function<void(const SerialFormat& format, const serial::Request& request)> told) {
-    asked_ = std::move(told);
+    asked_.push_back(std::move(told));
   }
 
   /// Runs an exchange, on a CPU in STOP too. After Ctrl-C the result is its part so far, and no further exchange can begin.
@@ -39,7 +40,7 @@ class MasterInSimulation : public SlaveInSimulation {
   serial::Exchange finish();
 
   std::string name_, remark_;
-  std::function<void(const SerialFormat&, const serial::Request&)> asked_{};
+  std::vector<std::function<void(const SerialFormat&, const serial::Request&)>> asked_{};
 };
 
 }  // namespace s7200::tools

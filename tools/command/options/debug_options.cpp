@@ -38,6 +38,7 @@ void DebugOptions::add_to(CLI::App& app) {
       ->group(help_group::kCommands);
   app.add_option("--target", target, "of a file of scenarios: the program to run it on")->type_name("PROGRAM");
   add_plant_to(app);
+  report.add_to(app, "a page for browsers that computes the session again; any moment of it, without s7200");
 }
 
 }  // namespace s7200::tools

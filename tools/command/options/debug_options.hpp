@@ -6,6 +6,7 @@
 
 #include "tools/command/options/bridge_options.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/options/report_option.hpp"
 #include "tools/command/options/rig_options.hpp"
 
 namespace s7200::tools {
@@ -25,6 +26,7 @@ struct DebugOptions : DebuggeeOptions {
   std::string commands_file;
   std::vector<std::string> commands;
   bool interactive = false;
+  ReportOption report;
   std::string only, target;  ///< of a file of scenarios
 
   void add_to(CLI::App& app);

@@ -111,6 +111,7 @@ void MasterOptions::add_to(CLI::App& app) {
     program.add_parts_to(app);
     program.CpuOptions::add_to(app);
     rig.add_to(app);
+    report.add_to(app, "a page for browsers that computes the session again; any moment of it, without s7200");
     rig.add_place_to(app);
     band.add_to(app);
     add_duration(app, "--after", after,

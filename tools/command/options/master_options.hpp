@@ -10,6 +10,7 @@
 #include "tools/command/options/band_options.hpp"
 #include "tools/command/options/other_plc_options.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/options/report_option.hpp"
 #include "tools/command/options/rig_options.hpp"
 #include "tools/slave/slave_target.hpp"
 
@@ -35,6 +36,7 @@ struct MasterOptions {
   ProgramOptions program;
   RigOptions rig;
   BandOptions band;
+  ReportOption report;
 
   void add_to(CLI::App& app);
 

@@ -20,6 +20,8 @@ void RunOptions::add_to(CLI::App& app) {
       ->group(help_group::kRun);
   bridge.add_to(app);
   rig.add_to(app);
+  app.get_option("--strict")->group(help_group::kMore);
+  report.add_to(app, "a page for browsers that computes this run again; any moment of it, without s7200");
   for_other_plcs = {add_protocol_option(app, protocol, protocols_of_other_plcs(), "what westinghouse:MODEL speaks"),
                     other.add_to(app)};
   app.add_flag_callback(

@@ -5,6 +5,7 @@
 #include "tools/command/options/coverage_options.hpp"
 #include "tools/command/options/other_plc_options.hpp"
 #include "tools/command/options/program_options.hpp"
+#include "tools/command/options/report_option.hpp"
 #include "tools/command/options/rig_options.hpp"
 
 namespace s7200::tools {
@@ -17,6 +18,7 @@ struct RunOptions {
   BridgeOptions bridge;
   RigOptions rig;
   CoverageOptions coverage;
+  ReportOption report;
   const Protocol* protocol = nullptr;  ///< of westinghouse:MODEL
   OtherPlcOptions other;
   std::vector<CLI::Option*> for_other_plcs;  ///< that nothing else has a use for

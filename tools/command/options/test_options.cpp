@@ -75,6 +75,7 @@ void TestOptions::add_to(CLI::App& app) {
   add_no_skip_option(app, suite.every_scan);
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE")->group(help_group::kResults);
   coverage.add_to(app, help_group::kResults);
+  report.add_to(app, "a page for browsers of the results, that computes each run again; the JUnit file links to it");
   app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
   app.add_flag("--keys", keys, "print what a scenario may contain, as Markdown")->excludes("--json");
 }
@@ -84,6 +85,7 @@ void TestOptions::complete_suite() {
   suite.jobs = jobs > 0 ? jobs : band.wanted() ? band.jobs() : 1;
   suite.plc = other.settings();
   suite.protocol = protocol->name;
+  suite.runs_wanted = report.wanted();
   suite.exchanges_wanted = json || !record.empty() || !against.empty();
   suite.observed.coverage = coverage.wanted();
   suite.stop = interruption();
@@ -114,6 +116,8 @@ void TestOptions::check() const {
   refuse_if(compared && (!record.empty() || !junit.empty()), "--against neither records nor writes JUnit");
   refuse_if(band.wanted() && (compared || !record.empty()),
             "--times-band runs scenarios with many tables; --against and --record are about one");
+  refuse_if(report.wanted() && (compared || is_random_alone()),
+            "--report is about scenarios; --against compares two of them, and --random alone has none");
   refuse_if(record == "-" || junit == "-", "--record and --junit write files; '-' is none");
 }
 

@@ -7,6 +7,7 @@
 #include "tools/command/options/band_options.hpp"
 #include "tools/command/options/coverage_options.hpp"
 #include "tools/command/options/other_plc_options.hpp"
+#include "tools/command/options/report_option.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/scenario/suite_settings.hpp"
 
@@ -24,6 +25,7 @@ struct TestOptions {
   std::string against, record, junit;
   BandOptions band;
   CoverageOptions coverage;
+  ReportOption report;
   unsigned jobs = 0;        ///< 0: not given
   Time tolerance = kNever;  ///< kNever: not given
   bool ignore_timing = false, force = false, json = false, list = false, keys = false;

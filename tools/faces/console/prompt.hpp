@@ -88,6 +88,9 @@ class Prompt final : private Onlooker {
   /// Where it stands, things have happened after that.
   bool in_the_past() const { return history_.in_the_past(); }
 
+  /// All that has run on the branch where it stands, to be run again.
+  Recording recording() const { return history_.recording(); }
+
   /// The last line, if it makes sense to give it again: `step`, `over`, `continue` … Empty otherwise.
   const std::string& repeatable() const { return repeatable_; }
 

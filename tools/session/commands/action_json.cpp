@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr Between<Time> kAnyInstant{0, kNever}, kAnyLength{0, kLongestDuration};
 
-Json format_json(const SerialFormat& format) {
+Json serial_format_json(const SerialFormat& format) {
   return {format.baud, format.data_bits, word_of(format.parity), format.stop_bits};
 }
 
@@ -58,7 +58,7 @@ struct ToJson {
   Json operator()(const SetStack& set) const { return {{"stack", set.stack.bits()}}; }
   Json operator()(const SendFrame& send) const {
     Json json{{"send", serial::to_hex(send.request.frame)},
-              {"format", format_json(send.format)},
+              {"format", serial_format_json(send.format)},
               {"timeout", send.request.timeout},
               {"gap", send.request.gap},
               {"sync", send.request.sync}};
@@ -79,9 +79,9 @@ struct ToJson {
   Json operator()(const serial::HostCall& call) const {
     Json characters = Json::array();
     for (const serial::HostCharacter& c : call.characters)
-      characters.push_back({c.byte, static_cast<int>(c.fault), c.sender, format_json(c.format)});
+      characters.push_back({c.byte, static_cast<int>(c.fault), c.sender, serial_format_json(c.format)});
     return {{"host", static_cast<int>(call.what)},
-            {"format", format_json(call.format)},
+            {"format", serial_format_json(call.format)},
             {"characters", characters},
             {"sender", call.sender},
             {"lasts", call.lasts}};

@@ -9,7 +9,10 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/cpu_choice.hpp"
 #include "interpreter/program/load.hpp"
+#include "interpreter/program/slips.hpp"
+#include "tools/faces/page/engine/surroundings.hpp"
 #include "tools/json/json_text.hpp"
+#include "tools/session/commands/recording_json.hpp"
 #include "tools/views/check_report.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/results_json.hpp"
@@ -17,23 +20,13 @@
 namespace s7200::tools::page {
 namespace {
 
-constexpr Client kPage = 1;  // there is one
+constexpr Client kPage = 1;                            // there is one
+constexpr std::size_t kBytesOfCheckpoints = 64 << 20;  // a page has less memory than a computer
 
 /// A text, or nothing if it is another value or left out.
 const std::string* text_at(const Json& map, const char* key) {
   const auto found = map.is_object() ? map.find(key) : map.end();
   return found == map.end() ? nullptr : found->get_ptr<const std::string*>();
-}
-
-/// A text, or a list of them; others are left out.
-std::vector<std::string> texts_at(const Json& map, const char* key) {
-  std::vector<std::string> texts;
-  if (const std::string* const one = text_at(map, key)) texts.push_back(*one);
-  const auto found = map.is_object() ? map.find(key) : map.end();
-  if (found != map.end() && found->is_array())
-    for (const Json& one : *found)
-      if (const auto* const text = one.get_ptr<const std::string*>()) texts.push_back(*text);
-  return texts;
 }
 
 const Json& member_or_null(const Json& map, const char* key) {
@@ -58,40 +51,28 @@ std::optional<SourceText> read_sources(const Json& sources, std::string& why) {
 
 /// The CPU that is asked for, else that of the program's head, else the first one that can run it. Null if there is no such.
 const CpuModel* model_for(const SourceText& text, const Json& options, std::string& why) {
-  if (const std::string* const name = text_at(options, "cpu")) {
-    const CpuModel* const model = find_cpu(*name);
-    if (!model) why = fmt::format("there is no model of CPU '{}'", stl::shortened(*name));
-    return model;
-  }
+  const auto asked = cpu_of_options(options, why);
+  if (!asked || *asked) return asked.value_or(nullptr);
   const CpuModel* const named = cpu_in_head(text.parsed.source);
   return named ? named : &first_cpu_for(text.parsed);
 }
 
-/// The options of a message. Nothing, and `why`, if one of them is not known here, or wrong.
-std::optional<Surroundings> read_options(const Json& options, const Program& program, std::string& why) {
-  Surroundings read;
-  for (const auto& [key, value] : options.items()) {
-    if (key != "cpu" && key != "port" && key != "set" && key != "input" && key != "fault")
-      return why =
-                 fmt::format("there is no option '{}' here; there are cpu, port, set, input and fault", stl::shortened(key)),
-             std::nullopt;
-    for (const std::string& text : texts_at(options, key.c_str())) {
-      if (key == "port" && text != "0" && text != "1") why = "a port is 0 or 1";
-      if (key == "port" && text == "1") read.port = 1;
-      if (key == "port" && read.port >= program.model->ports)
-        why = fmt::format("a CPU {} has one port", program.model->name);
-      if (key == "set" || key == "input")
-        if (const auto assignment = parse_assignment(text, program, why)) read.set.push_back(*assignment);
-      if (key == "fault") {
-        if (const serial::ParsedFault fault = serial::parse_fault(text); fault.error)
-          why = fault.error->message;
-        else
-          read.faults.push_back(fault.fault);
-      }
-      if (!why.empty()) return why = fmt::format("{}: {}", key, why), std::nullopt;
-    }
-  }
-  return read;
+/// Repairs the slips that the options name. False, and `why`, if the listing does not have one of them.
+bool repair_slips(SourceText& text, const Json& options, std::string& why) {
+  const auto repairs = repairs_of_options(options, why);
+  std::vector<std::string> unknown;
+  if (repairs) repair(text.parsed.source, *repairs, unknown);
+  if (!unknown.empty()) why = fmt::format("repair: there is no slip {} in it", stl::shortened(unknown.front()));
+  return why.empty();
+}
+
+/// As a rig powers up the PLC of a program.
+void power_up(serial::Simulation& simulation, const Surroundings& around) {
+  simulation.cpu().set_clock_error(around.plc.clock_error);
+  simulation.power_up(around.kept ? &*around.kept : nullptr);
+  if (around.plc.clock) simulation.cpu().set_clock(*around.plc.clock);
+  for (const Assignment& one : around.plc.set) assign(simulation.cpu(), one);
+  for (const serial::Fault& fault : around.faults) simulation.inject(fault);
 }
 
 }  // namespace
@@ -111,31 +92,38 @@ void Engine::take(std::string_view text) {
 void Engine::open(const Json& message) {
   const Json &wanted = member_or_null(message, "open"), &id = member_or_null(message, "id");
   std::string why;
-  const auto text = read_sources(member_or_null(wanted, "sources"), why);
+  auto text = read_sources(member_or_null(wanted, "sources"), why);
   const Json& options = member_or_null(wanted, "options");
-  const CpuModel* const model = text ? model_for(*text, options, why) : nullptr;
-  if (!model) return send_(line_of({{"id", id}, {"error", why}}));
-  const CheckResult result = check(text->parsed, *model, default_times(*model));
+  const bool repaired = text && repair_slips(*text, options, why);
+  const CpuModel* const model = repaired ? model_for(*text, options, why) : nullptr;
+  const auto times = model ? times_of_options(options, *model, why) : std::nullopt;
+  if (!times) return send_(line_of({{"id", id}, {"error", why}}));
+  CheckResult result = check(text->parsed, *model, *times);
   const std::vector<const CpuModel*> others = fine_for(*text, result, *model);
   Json report = check_json(text->parsed.source.name, *text, result, *model, others);
   report["text"] = stl::render(result.diagnostics, result.source, false) + check_summary(*text, result, *model, others);
   report["opened"] = result.program != nullptr;
-  const auto around = result.program ? read_options(options, *result.program, why) : std::nullopt;
+  if (result.program) begin(std::move(result.program), wanted, why);
   if (!why.empty()) return send_(line_of({{"id", id}, {"error", why}}));
-  if (around) begin(result.program, *around);
-  send_(line_of({{"id", id}, {"text", report["text"]}, {"json", report}, {"moved", result.program != nullptr}}));
-  if (talk_ && result.program) talk_->greet(kPage);
+  send_(line_of({{"id", id}, {"text", report["text"]}, {"json", report}, {"moved", report["opened"]}}));
+  if (talk_ && report["opened"] == true) talk_->greet(kPage);
 }
 
-void Engine::begin(std::shared_ptr<const Program> program, const Surroundings& around) {
+void Engine::begin(std::shared_ptr<const Program> program, const Json& wanted, std::string& why) {
+  const auto around = surroundings_of_options(member_or_null(wanted, "options"), *program, why);
+  if (!around) return;
+  const Json& recorded = member_or_null(wanted, "recording");
+  auto recording = recorded.is_null() ? std::nullopt : recording_from(recorded, *program->model, why);
+  if (!why.empty()) return void(why = "recording: " + why);
   talk_.reset();
   history_.reset();
   const std::string name = program->source.name;
-  simulation_ = std::make_unique<serial::Simulation>(std::move(program), serial::FieldScript{}, around.port);
-  simulation_->power_up();
-  for (const Assignment& one : around.set) assign(simulation_->cpu(), one);
-  for (const serial::Fault& fault : around.faults) simulation_->inject(fault);
-  history_ = std::make_unique<History>(*simulation_, History::Settings{});
+  if (around->plc.system_block != SystemBlock{}) program = with_system_block(*program, around->plc.system_block);
+  simulation_ = std::make_unique<serial::Simulation>(std::move(program), around->field, around->port);
+  power_up(*simulation_, *around);
+  history_ = std::make_unique<History>(*simulation_, History::Settings{.bound = kBytesOfCheckpoints});
+  if (recording && !history_->has_hosts_of(*recording)) return void(why = "recording: it has a bridge that is not here");
+  if (recording) history_->adopt(std::move(*recording));
   talk_ = std::make_unique<Conversation>(*history_, PageSettings{.program = name},
                                          Post{[this](Client, std::string reply) { send_(std::move(reply)); }, send_});
 }

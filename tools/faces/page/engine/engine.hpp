@@ -10,19 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/program/address.hpp"
-#include "serial_sim/faults/fault.hpp"
+#include "interpreter/program/program.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/faces/page/conversation.hpp"
 
 namespace s7200::tools::page {
-
-/// What surrounds the PLC of a page.
-struct Surroundings {
-  std::uint8_t port = 0;  ///< that is on the line with the master
-  std::vector<Assignment> set{};
-  std::vector<serial::Fault> faults{};
-};
 
 class Engine {
  public:
@@ -34,7 +26,7 @@ class Engine {
 
  private:
   void open(const Json& message);
-  void begin(std::shared_ptr<const Program> program, const Surroundings& around);
+  void begin(std::shared_ptr<const Program> program, const Json& wanted, std::string& why);
 
   std::function<void(std::string)> send_;
   std::unique_ptr<serial::Simulation> simulation_{};

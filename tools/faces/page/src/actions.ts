@@ -4,8 +4,11 @@ import { command, go_to, move } from './session';
 import { pause, run } from './running';
 import { ask_why } from './causes';
 import { address_of } from './files';
+import { compare_futures } from './futures';
+import { next_mark, toggle_mark } from './marks';
 import { can_open } from './playground';
 import { remember, remembered } from './memory';
+import { run_in_link } from './report';
 import { link_of, moment_from } from './words';
 import * as search from './timeline/search';
 import * as timeline from './timeline/view';
@@ -33,6 +36,12 @@ function step(words: string): () => void {
   };
 }
 
+function go_to_mark(direction: 1 | -1): void {
+  const mark = next_mark(direction);
+  if (mark === undefined) notice(direction > 0 ? 'No mark after this moment' : 'No mark before this moment');
+  else void go_to(mark);
+}
+
 function focus_field(which: string): void {
   const field = document.querySelector<HTMLInputElement>(which);
   field?.focus();
@@ -47,8 +56,8 @@ export function go_to_typed(text: string): void {
 
 /** This moment in the address; of the playground its program too, if it is small. */
 async function copy_link(): Promise<void> {
-  const moment = link_of(state.past?.now_ns ?? 0);
-  const program = can_open() ? await address_of(state.sources) : undefined;
+  const moment = link_of(state.past?.now_ns ?? 0) + run_in_link();
+  const program = can_open() && !state.report ? await address_of(state.sources) : undefined;
   history.replaceState(null, '', program ? `${moment}&${program}` : moment);
   const what = program ? 'Link to this program and moment' : 'Link to this moment';
   navigator.clipboard?.writeText(location.href).then(
@@ -129,11 +138,17 @@ export const kActions: Action[] = [
   { id: 'condition', group: 'Timeline', title: 'Next time that a condition holds', keys: ['x'], does: () => focus_field('#condition') },
   { id: 'longest', group: 'Timeline', title: 'Longest answer', keys: ['Shift+L'], does: () => void search.find_longest() },
 
+  { id: 'mark', group: 'Timeline', title: 'Mark this moment, or take the mark away', keys: ['m'], does: toggle_mark },
+  { id: 'next-mark', group: 'Timeline', title: 'Next mark', keys: ['>'], does: () => go_to_mark(1) },
+  { id: 'previous-mark', group: 'Timeline', title: 'Previous mark', keys: ['<'], does: () => go_to_mark(-1) },
+  { id: 'compare', group: 'Timeline', title: 'Two futures: keep this one, change something, compare', keys: ['c'], does: () => void compare_futures() },
+
   { id: 'pane-program', group: 'Page', title: 'Program status', keys: ['1'], does: () => focus_pane('program') },
   { id: 'pane-chart', group: 'Page', title: 'Status chart', keys: ['2'], does: () => focus_pane('chart') },
   { id: 'pane-line', group: 'Page', title: 'Line', keys: ['3'], does: () => focus_pane('line') },
   { id: 'pane-causes', group: 'Page', title: 'Why', keys: ['4'], does: () => focus_pane('causes') },
   { id: 'pane-timeline', group: 'Page', title: 'Timeline', keys: ['5'], does: () => focus_pane('timeline') },
+  { id: 'pane-report', group: 'Page', title: 'Report, of a page that is one', keys: ['6'], does: () => { if (state.report) focus_pane('report'); } },
   { id: 'theme', group: 'Page', title: 'Light, dark or as the system', keys: ['t'], does: next_theme },
   { id: 'help', group: 'Page', title: 'Keys', keys: ['?', 'F1'], does: toggle_dialog('help') },
   { id: 'about', group: 'Page', title: 'About', keys: [], does: toggle_dialog('about') },

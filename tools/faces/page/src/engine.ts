@@ -1,5 +1,5 @@
 // What runs the session: s7200 at the other end of a WebSocket, or the same in a worker of the browser. Both take the same messages.
-import type { Notification, Opened, Reply, Source } from './protocol';
+import type { Notification, Opened, Recorded, Reply, Source } from './protocol';
 
 export type Connection = 'connecting' | 'connected' | 'lost' | 'ended';
 
@@ -16,7 +16,7 @@ export interface Engine {
   /** Whether a run hears of a stop before it is over. */
   readonly can_be_stopped: boolean;
   /** Another program; only of the engine in the browser. */
-  open?(sources: Source[], options: Record<string, string>): Promise<Reply<Opened>>;
+  open?(sources: Source[], options: Record<string, unknown>, recording?: Recorded): Promise<Reply<Opened>>;
 }
 
 /** Replies find the question they belong to by its number. */
@@ -129,7 +129,8 @@ export class WorkerEngine implements Engine {
     this.conversation.tell({ stop: true });
   }
 
-  open(sources: Source[], options: Record<string, string>): Promise<Reply<Opened>> {
-    return this.conversation.ask<Opened>({ open: { sources, options } });
+  open(sources: Source[], options: Record<string, unknown>, recording?: Recorded): Promise<Reply<Opened>> {
+    const { picture: _of_the_page, ...recorded } = recording ?? {};
+    return this.conversation.ask<Opened>({ open: recording ? { sources, options, recording: recorded } : { sources, options } });
   }
 }

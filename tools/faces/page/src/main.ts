@@ -15,6 +15,7 @@ import { dialogs } from './panes/dialogs';
 import { menu } from './panes/menu';
 import { start_timeline } from './timeline/view';
 import { accept_drops, open_from_address } from './playground';
+import { open_report } from './report';
 import { moment_of_link } from './words';
 import { go_to } from './session';
 
@@ -59,7 +60,7 @@ function start(): void {
   });
   use_engine(engine());
   accept_drops();
-  void open_from_address();
+  void open_report().then((opened) => { if (!opened) void open_from_address(); });
   changed();
 }
 

@@ -46,6 +46,44 @@ export type Notification =
   | { event: 'printed'; text: string }
   | { event: 'ended'; why: string };
 
+/** A report: each program once, and what ran. */
+export interface Report {
+  version: string;
+  verb: string;
+  programs: Source[][];
+  runs: ReportedRun[];
+}
+
+export interface ReportedRun {
+  /** Of a scenario; else empty. */
+  file: string;
+  name: string;
+  outcome: string;
+  reason?: string;
+  findings: ReportedFinding[];
+  /** What can be run again. */
+  program?: number;
+  options?: Record<string, unknown>;
+  recordings?: Recorded[];
+}
+
+export interface ReportedFinding {
+  text: string;
+  why?: string[];
+  line?: number;
+  recording?: number;
+  at_ns?: number;
+}
+
+/** What came from outside, as the engine takes it; `end` has its moment in ns third. */
+export interface Recorded {
+  count: number;
+  actions: Record<string, unknown>[];
+  done: { action?: number[]; after_ns?: number[] };
+  end: [number, number, number, number];
+  picture?: Spans | null;
+}
+
 export interface Network {
   number: number | null;
   title: string;
@@ -120,6 +158,8 @@ export interface Value {
 }
 
 export interface Span {
+  /** Of the page itself: another future does not have it. */
+  differs?: boolean;
   at_ns: number;
   end_ns: number;
   text: string;
@@ -146,6 +186,8 @@ export interface SerialFormat {
 }
 
 export interface SpanTrack {
+  /** Of the page itself: it is of the first of two futures. */
+  before?: boolean;
   kind: TrackKind;
   name: string;
   station?: string;

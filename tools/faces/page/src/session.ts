@@ -3,6 +3,7 @@ import { changed, notice, state, the_engine } from './state';
 import { kProtocol } from './protocol';
 import type { Line, Notification, Outline, Past, Reply, Status, Stopped, Stops, Value } from './protocol';
 import { is_one_word, query_of } from './formats';
+import { load_marks } from './marks';
 import { moment_of_link, moment_word } from './words';
 
 /** Something that is seen: asked for again as soon as it may differ, one question at a time. */
@@ -167,6 +168,7 @@ function forget_run(): void {
   state.spans = null;
   state.exchanges = null;
   state.selected_span = null;
+  state.first_future = null;
   state.samples.clear();
   state.switched.clear();
   if (!the_engine().open) return;
@@ -176,11 +178,20 @@ function forget_run(): void {
   state.inputs = [];
   state.outputs = [];
   state.selected_line = null;
+  show_picture();
+}
+
+/** What is known of a run of a report before any of it is computed. */
+function show_picture(): void {
+  if (!state.picture) return;
+  state.spans = state.picture;
+  state.window = { from_ns: state.picture.from_ns, to_ns: state.picture.to_ns };
 }
 
 /** The moment that the address of the page names, once there is a session. */
 async function follow_link(): Promise<void> {
-  const asked = moment_of_link(location.hash);
+  const asked = moment_of_link(location.hash) ?? state.first_moment ?? undefined;
+  state.first_moment = null;
   if (asked !== undefined && asked !== state.past?.now_ns) await go_to(asked);
 }
 
@@ -202,6 +213,7 @@ export function notified(note: Notification): void {
       state.hello = note;
       state.past = note.now;
       forget_run();
+      load_marks();
       void get_acquainted().then(follow_link);
       break;
     case 'moved':

@@ -1,8 +1,8 @@
 // All that the page shows, as plain data. Who changes it says changed(), and the page is rendered with the next frame.
 import type { Connection, Engine } from './engine';
-import type { Cause, Execution, Hello, LadderNetwork, Line, Outline, Past, Source, Span, Spans, Value } from './protocol';
+import type { Cause, Execution, Hello, LadderNetwork, Line, Outline, Past, Report, Source, Span, Spans, Value } from './protocol';
 
-export type PaneName = 'program' | 'chart' | 'timeline' | 'causes' | 'line';
+export type PaneName = 'program' | 'chart' | 'timeline' | 'causes' | 'line' | 'report';
 export type Theme = 'system' | 'light' | 'dark';
 
 /** A row of the status chart. */
@@ -52,7 +52,7 @@ export interface State {
   /** Which pane a narrow window shows. */
   pane: PaneName;
   /** Which of those that share the right side is in front. */
-  side: 'chart' | 'causes' | 'line';
+  side: 'chart' | 'causes' | 'line' | 'report';
 
   outline: Outline | null;
   lines: Map<number, Line>;
@@ -80,12 +80,23 @@ export interface State {
   spans: Spans | null;
   cursors: { a_ns: number | null; b_ns: number | null };
   watched: string[];
+  /** Of two futures the one that was kept. */
+  first_future: { at_ns: number; until_ns: number; spans: Spans } | null;
+  /** Moments that the reader has marked, in their order. */
+  marks: number[];
   selected_span: Span | null;
 
   trail: TrailStep[];
   printed: string[];
   exchanges: Spans | null;
   send_text: string;
+
+  /** Of a report: what it carries, the run and the recording that are open, the moment to begin at, and a coarse picture of all of it. */
+  report: Report | null;
+  run: number | null;
+  recording: number | null;
+  first_moment: number | null;
+  picture: Spans | null;
 
   /** Of the playground: the files, the PLC type that was chosen, and what check said. */
   sources: Source[];
@@ -128,11 +139,18 @@ export const state: State = {
   spans: null,
   cursors: { a_ns: null, b_ns: null },
   watched: [],
+  first_future: null,
+  marks: [],
   selected_span: null,
   trail: [],
   printed: [],
   exchanges: null,
   send_text: '',
+  report: null,
+  run: null,
+  recording: null,
+  first_moment: null,
+  picture: null,
   sources: [],
   cpu: '',
   opening: false,
@@ -164,7 +182,7 @@ export function changed(): void {
 /** Brings a pane to the front. */
 export function show_pane(pane: PaneName): void {
   state.pane = pane;
-  if (pane === 'chart' || pane === 'causes' || pane === 'line') state.side = pane;
+  if (pane === 'chart' || pane === 'causes' || pane === 'line' || pane === 'report') state.side = pane;
   changed();
 }
 

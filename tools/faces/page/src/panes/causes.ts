@@ -9,7 +9,7 @@ const kAddress = /\b(?:(?:SM|[IQVMSL])\d+\.[0-7]|(?:SM|[IQVMSL])[BWD]\d+|A[IQ]W\
 const kMoment = /\b(\d+\.\d{6}) ms\b/g;
 
 /** A line of an answer: its moments lead there, its addresses ask on. */
-function linked(line: string): Child[] {
+export function linked(line: string): Child[] {
   const parts: Child[] = [];
   let end = 0;
   const marks = [...line.matchAll(kAddress), ...line.matchAll(kMoment)].sort((a, b) => a.index! - b.index!);

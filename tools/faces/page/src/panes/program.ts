@@ -179,7 +179,7 @@ function view_button(view: 'stl' | 'ladder', name: string): Part {
 }
 
 function content(): Part {
-  if (can_open() && (state.opening || state.outline === null)) return opener();
+  if (can_open() && (state.opening || (state.outline === null && !state.report))) return opener();
   if (state.outline === null) return h('p', { class: 'empty' }, 'Waiting for the program …');
   return state.view === 'ladder' && state.has_ladder ? ladder_view() : listing();
 }

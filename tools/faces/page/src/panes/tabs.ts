@@ -3,6 +3,7 @@ import { h, type Part } from '../dom';
 import { show_pane, state, type PaneName } from '../state';
 
 const kTabs: { pane: PaneName; name: string }[] = [
+  { pane: 'report', name: 'Report' },
   { pane: 'program', name: 'Program' },
   { pane: 'chart', name: 'Chart' },
   { pane: 'line', name: 'Line' },
@@ -11,6 +12,6 @@ const kTabs: { pane: PaneName; name: string }[] = [
 ];
 
 export function pane_tabs(): Part {
-  return h('nav', { class: 'pane-tabs', 'aria-label': 'Panes' }, kTabs.map(({ pane, name }) =>
+  return h('nav', { class: 'pane-tabs', 'aria-label': 'Panes' }, kTabs.filter(({ pane }) => pane !== 'report' || state.report).map(({ pane, name }) =>
     h('button', { 'aria-current': state.pane === pane ? 'page' : undefined, onclick: () => show_pane(pane) }, name)));
 }

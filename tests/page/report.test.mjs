@@ -1,0 +1,156 @@
+// Reports: pages that compute a run again. The command writes them, Chromium opens them as files.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { readFileSync, statSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { browser, kDesktop, kPhone, moment, picture } from './support.mjs';
+
+const kSlave = 'stl_programs/modbus_slave.stl';
+const kMost = 2e6;  // bytes
+const file = (name) => path.join(process.env.REPORTS, name);
+let chrome;
+before(async () => { chrome = await browser(); });
+after(() => chrome?.close());
+
+/** Runs the command in the source folder; `code` is what it has to end with. */
+function s7200(code, ...words) {
+  const done = spawnSync(process.env.S7200, words, { cwd: process.env.SOURCE, encoding: 'utf8' });
+  assert.equal(done.status, code, `${words.join(' ')}\n${done.stdout}${done.stderr}`);
+  return done.stdout;
+}
+
+async function open(name, { hash = '', viewport = kDesktop, colorScheme = 'light' } = {}) {
+  const context = await chrome.newContext({ viewport, colorScheme, offline: true });
+  const page = await context.newPage();
+  page.setDefaultTimeout(20000);
+  page.troubles = [];
+  page.on('pageerror', (error) => page.troubles.push(error.message));
+  page.on('console', (message) => { if (message.type() === 'error') page.troubles.push(message.text()); });
+  page.on('request', (request) => { if (!/^(file|data|blob):/.test(request.url())) page.troubles.push(request.url()); });
+  await page.goto(`file://${file(name)}${hash}`);
+  await page.waitForSelector('.row', { state: 'attached' });
+  page.end = async () => {
+    assert.deepEqual(page.troubles, []);
+    await context.close();
+  };
+  return page;
+}
+
+const stands_at = (page, ms, within = 1) => page.waitForFunction(([ms, within]) => {
+  const text = document.querySelector('#moment').value;
+  return Math.abs(parseFloat(text) * (text.endsWith(' s') ? 1000 : 1) - ms) <= within;
+}, [ms, within]);
+
+test('an exchange is in its report, to the instant', async () => {
+  const said = JSON.parse(s7200(0, 'send', kSlave, '--crc', '0103000a0002', '--set', 'VW20=77', '--json', '--report', file('send.html')));
+  const page = await open('send.html');
+  await page.click('#tab-line');
+  await page.waitForSelector('.exchanges tbody tr');
+  const row = await page.textContent('.exchanges tbody tr');
+  assert.match(row, /16#004D/, row);
+  const latency = parseFloat(await page.textContent('.exchanges tbody .number'));
+  const half_a_bit = 0.5 / 9.6;  // ms: the receiver is done in the middle of the stop bit
+  assert.ok(Math.abs(latency - half_a_bit - said.exchanges[0].latency_us / 1000) < 0.001, `${latency} ms, and ${said.exchanges[0].latency_us} us`);
+  await page.end();
+});
+
+test('the address names the moment', async () => {
+  const page = await open('send.html', { hash: '#t=60.5ms' });
+  await stands_at(page, 60.5);
+  await page.waitForSelector('.tag.past');
+  await page.keyboard.press('l');
+  await page.waitForFunction(() => Math.abs(parseFloat(location.hash.slice(3)) - parseFloat(document.querySelector('#moment').value)) < 1e-6);
+  await page.end();
+});
+
+test('an hour of polling opens with its picture, and any moment of it is computed', async () => {
+  s7200(0, 'master', kSlave, 'read', '40011:2', '--every', '1s', '--count', '3600', '--report', file('hour.html'));
+  assert.ok(statSync(file('hour.html')).size < kMost, `${statSync(file('hour.html')).size} bytes`);
+  const page = await open('hour.html');
+  assert.equal(await moment(page), 0, 'nothing is computed before one looks');
+  await page.waitForFunction(() => document.querySelector('.track-names').textContent.includes('port 0 frames'));
+  await picture(page, 'report_hour');
+  await page.fill('#moment', '30 min');
+  await page.press('#moment', 'Enter');
+  await stands_at(page, 1800e3, 2);
+  await page.click('#tab-line');
+  await page.waitForSelector('.exchanges tbody tr');
+  await page.end();
+});
+
+test('what was done at the prompt is done again, and the run goes on from there', async () => {
+  s7200(0, 'debug', kSlave, '-x', 'continue 80ms; set VW40=1234; send 01 03 00 14 00 01 crc; continue 80ms; at 60ms', '--report', file('debug.html'));
+  const page = await open('debug.html');
+  await page.click('#tab-chart');
+  await page.fill('#add-address', 'VW40');
+  await page.press('#add-address', 'Enter');
+  await page.waitForFunction(() => document.querySelector('.chart .current')?.textContent === '1234');
+  const end = await moment(page);
+  await page.click('#do-end');
+  await page.click('#do-run');
+  await page.waitForFunction((end) => parseFloat(document.querySelector('#moment').value) > end + 50, end);
+  await page.click('#do-run');
+  await page.end();
+});
+
+const kHostile = '<img src=x onerror=alert(1)> & "quoted"';
+const kScenarios = `program: ${path.join(process.env.SOURCE, kSlave)}
+scenarios:
+  - name: reads a register
+    steps:
+      - set: {VW20: 5}
+      - {read: holding 10, expect: [5]}
+  - name: '${kHostile}'
+    steps:
+      - set: {VW20: 5}
+      - {read: holding 10, expect: [6]}
+`;
+
+test('a failed scenario opens where it failed, the others by a click', async () => {
+  writeFileSync(file('both.yaml'), kScenarios);
+  s7200(1, 'test', file('both.yaml'), '--report', file('test.html'), '--junit', file('junit.xml'));
+  const junit = readFileSync(file('junit.xml'), 'utf8');
+  assert.match(junit, /<property name="report" value="[^"]*test\.html#run=2"\/>/);
+  const page = await open('test.html');
+  await page.waitForSelector('.totals');
+  assert.equal(await page.textContent('.totals'), '2 scenarios: 1 passed, 1 failed');
+  assert.match(await page.textContent('.run.open'), /onerror=alert/, 'names are text');
+  assert.equal(await page.$('.run img'), null);
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 10);
+  await page.waitForSelector('.findings .link');
+  await picture(page, 'report_test');
+  await page.click('.run-name:has-text("reads a register")');
+  await page.waitForSelector('.run.passed.open');
+  await page.waitForFunction(() => location.hash === '#run=1');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 10);
+  await page.end();
+});
+
+test('a link of the JUnit file leads to its scenario', async () => {
+  const page = await open('test.html', { hash: '#run=1' });
+  await page.waitForSelector('.run.passed.open');
+  await page.end();
+});
+
+test('a report can be read in the dark, on a phone and on paper', async () => {
+  const dark = await open('test.html', { colorScheme: 'dark' });
+  await picture(dark, 'report_dark');
+  await dark.end();
+  const phone = await open('test.html', { viewport: kPhone });
+  await phone.waitForSelector('.totals');
+  assert.ok(await phone.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is wider than the phone');
+  await picture(phone, 'report_phone');
+  await phone.emulateMedia({ media: 'print' });
+  await picture(phone, 'report_printed');
+  await phone.end();
+});
+
+test('the commands of the page about it are fine', () => {
+  const shown = readFileSync(path.join(process.env.SOURCE, 'docs/page.md'), 'utf8').match(/^ {4}s7200 .*--report .*$/gm);
+  assert.ok(shown.length >= 2);
+  for (const line of shown) {
+    const words = line.trim().split(/\s+/).slice(1).map((word) => (word.endsWith('.html') ? file(`shown_${word}`) : word));
+    s7200(0, ...words);
+  }
+});

@@ -1,0 +1,77 @@
+#include "tools/command/options/report_option.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <stdexcept>
+
+#include "interpreter/base/text.hpp"
+#include "tools/command/options/help_groups.hpp"
+#include "tools/command/terminal.hpp"
+#include "tools/command/test_output.hpp"
+#include "tools/host/files.hpp"
+#include "tools/host/own_folder.hpp"
+
+namespace s7200::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every report begins so, as tools/faces/page/build writes it.
+constexpr std::string_view kBeginning = "<!DOCTYPE html>\n<!-- s7200: the page with its engine -->\n";
+constexpr std::string_view kPageFile = "share/s7200/page.html";  ///< beside the folder of the command, installed and built
+
+/// What makes the page where there is none: of a build tree its target.
+std::string how_to_make_the_page(const fs::path& above) {
+  std::error_code gone;
+  if (!fs::exists(above / "CMakeCache.txt", gone)) return "the package of s7200 has it; install it with the command";
+  return fmt::format("make it with: cmake --build {} --target page_file", above.string());
+}
+
+}  // namespace
+
+void ReportOption::add_to(CLI::App& app, const std::string& text) {
+  app.add_option("--report", path_, text)->type_name("FILE.html")->group(help_group::kResults);
+}
+
+bool ReportOption::prepare() {
+  if (!wanted()) return true;
+  const fs::path above = fs::path(own_folder()).parent_path();
+  std::string why;
+  const auto page = read_file((above / kPageFile).string(), why);
+  if (!page)
+    return print_error(fmt::format("--report needs the page with its engine, and cannot read {}: {}; {}",
+                                   (above / kPageFile).string(), why, how_to_make_the_page(above))),
+           false;
+  page_ = *page;
+  WrittenFiles files;
+  to_ = files.claim("--report", path_, {"a report of s7200", std::string(kBeginning)}, Replace::Own, why);
+  if (!to_) print_error(why);
+  return to_.has_value();
+}
+
+bool ReportOption::prepare_for(const SystemPlan& plan) {
+  if (!wanted() || (is_of_one_program(plan) && plan.lines.front().stations.front().kind == StationPlan::Kind::Plc))
+    return prepare();
+  print_error("--report carries the run of one PROGRAM; 's7200 view FILE.yaml' shows a system while it runs");
+  return false;
+}
+
+bool ReportOption::write(std::string_view verb, const std::vector<ReportedRun>& runs) const {
+  if (!wanted()) return true;
+  for (const ReportedRun& run : runs)
+    for (const Recording& recording : run.recordings)
+      if (!recording.complete)
+        return print_error(fmt::format("cannot write {}: the beginning of the run is forgotten, so it cannot be run again",
+                                       stl::printable(path_))),
+               false;
+  try {
+    return write_result(to_, with_runs(page_, verb, runs));
+  } catch (const std::runtime_error& error) {
+    print_error(fmt::format("cannot write {}: {}", stl::printable(path_), error.what()));
+    return false;
+  }
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,42 @@
+// --report, of the verbs that run something.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/command/report_page.hpp"
+#include "tools/host/written_files.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace s7200::tools {
+
+class ReportOption {
+ public:
+  /// `text`: what the help says is in it.
+  void add_to(CLI::App& app, const std::string& text);
+
+  bool wanted() const { return !path_.empty(); }
+  const std::string& path() const { return path_; }
+
+  /// Reads the page that reports are made of, and claims the place, before anything is run. False after a message. Of an
+  /// option that was not given there is nothing to do, here and below.
+  bool prepare();
+
+  /// The same for a verb that runs a plan: only that of a PROGRAM can be carried.
+  bool prepare_for(const SystemPlan& plan);
+
+  /// False after a message.
+  bool write(std::string_view verb, const std::vector<ReportedRun>& runs) const;
+
+ private:
+  std::string path_;
+  std::string page_;
+  std::optional<Destination> to_;
+};
+
+}  // namespace s7200::tools

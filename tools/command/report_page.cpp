@@ -1,0 +1,144 @@
+#include "tools/command/report_page.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "interpreter/base/text.hpp"
+#include "interpreter/program/stand_ins.hpp"
+#include "tools/faces/page/engine/engine.hpp"
+#include "tools/json/json_text.hpp"
+#include "tools/session/commands/recording_json.hpp"
+#include "tools/views/results_json.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kPlace = "<script id=\"report\" type=\"text/plain\"></script>";
+constexpr Time kWithPicture = 60 * kSecond;  ///< longer runs have one
+constexpr int kElements = 400;               ///< of a track of the picture
+
+std::string in_base64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+std::string compressed(const std::string& text) {
+  uLongf size = compressBound(static_cast<uLong>(text.size()));
+  std::string bytes(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
+                static_cast<uLong>(text.size()), Z_BEST_COMPRESSION) != Z_OK)
+    throw std::runtime_error("a report needs more memory than there is");
+  bytes.resize(size);
+  return bytes;
+}
+
+/// The files of a program as they were read; its stand-ins come by themselves.
+Json sources_json(const stl::Source& source) {
+  Json sources = Json::array();
+  std::vector<stl::FurtherFile> files{{1, source.name}};
+  files.insert(files.end(), source.further_files.begin(), source.further_files.end());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (is_stand_in(files[i].name)) continue;
+    const std::size_t end = i + 1 < files.size() ? files[i + 1].first_line - 1 : source.text.size();
+    std::string text;
+    for (std::size_t line = files[i].first_line - 1; line < end; ++line) text += source.text[line] + "\n";
+    sources.push_back({{"name", files[i].name}, {"text", std::move(text)}});
+  }
+  return sources;
+}
+
+/// What the timeline of all of a run shows, as the engine says it. Null if the engine does not open it.
+Json picture_of(const Json& sources, const Json& run, const Json& recording) {
+  Json last;
+  page::Engine engine([&last](const std::string& message) {
+    std::string why;
+    if (auto json = parse_json(message, why); json && json->contains("id")) last = std::move(*json);
+  });
+  engine.take(line_of({{"id", 1}, {"open", {{"sources", sources}, {"options", run["options"]}, {"recording", recording}}}}));
+  engine.take(line_of({{"id", 2}, {"command", fmt::format("spans start end {}", kElements)}}));
+  return last.value("json", Json());
+}
+
+Json finding_json(const ReportedFinding& finding) {
+  Json json{{"text", finding.text}};
+  if (!finding.why.empty()) json["why"] = finding.why;
+  if (finding.line != 0) json["line"] = finding.line;
+  if (finding.power_up) json["recording"] = *finding.power_up;
+  if (finding.power_up) json["at_ns"] = finding.at;
+  return json;
+}
+
+/// The runs, with each program once.
+class RunsJson {
+ public:
+  void add(const ReportedRun& run) {
+    Json json{{"file", run.file}, {"name", run.name}, {"outcome", run.outcome}, {"findings", Json::array()}};
+    if (!run.reason.empty()) json["reason"] = run.reason;
+    for (const ReportedFinding& finding : run.findings) json["findings"].push_back(finding_json(finding));
+    if (run.program && !run.recordings.empty()) add_program(json, run);
+    runs_.push_back(std::move(json));
+  }
+
+  Json taken(std::string_view verb) && {
+    return {{"version", version()}, {"verb", verb}, {"programs", std::move(programs_)}, {"runs", std::move(runs_)}};
+  }
+
+ private:
+  void add_program(Json& json, const ReportedRun& run) {
+    const auto [known, is_new] = numbers_.emplace(run.program->source.text, programs_.size());
+    if (is_new) programs_.push_back(sources_json(run.program->source));
+    json["program"] = known->second;
+    json["options"] = page::options_of(*run.program, run.around, run.repairs);
+    for (const Recording& recording : run.recordings) {
+      Json one = json_of(recording, *run.program->model);
+      if (recording.end.time > kWithPicture) one["picture"] = picture_of(programs_[known->second], json, one);
+      json["recordings"].push_back(std::move(one));
+    }
+  }
+
+  Json programs_ = Json::array(), runs_ = Json::array();
+  std::map<std::vector<std::string>, std::size_t> numbers_{};  ///< of the programs, by their text
+};
+
+}  // namespace
+
+page::Surroundings surroundings_of(const SystemPlan& plan) {
+  const PlcPlan& plc = plan.plcs.front();
+  page::Surroundings around{.port = plan.lines.front().stations.front().port,
+                            .plc = plc.settings,
+                            .field = plc.field,
+                            .faults = {},
+                            .kept = plc.kept};
+  for (const FaultPlan& fault : plan.lines.front().faults) around.faults.push_back(fault.fault);
+  return around;
+}
+
+std::string with_runs(std::string_view page, std::string_view verb, const std::vector<ReportedRun>& runs) {
+  RunsJson json;
+  for (const ReportedRun& run : runs) json.add(run);
+  const std::size_t place = page.find(kPlace), content = kPlace.find("</");
+  if (place == std::string_view::npos) throw std::runtime_error("the page has no place for a report");
+  std::string text(page.substr(0, place + content));
+  text += in_base64(compressed(line_of(std::move(json).taken(verb))));
+  return text.append(page.substr(place + content));
+}
+
+std::string link_to_run(const std::string& report, std::size_t number) {
+  return fmt::format("{}#run={}", report, number + 1);
+}
+
+}  // namespace s7200::tools

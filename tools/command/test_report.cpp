@@ -1,0 +1,64 @@
+#include "tools/command/test_report.hpp"
+
+#include <functional>
+
+#include "tools/command/test_output.hpp"
+#include "tools/scenario/junit.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::string outcome_of(const Report& report) {
+  switch (report.result.outcome) {
+    case ScenarioResult::Outcome::Passed:
+      return "passed";
+    case ScenarioResult::Outcome::Failed:
+      return "failed";
+    case ScenarioResult::Outcome::Skipped:
+      return "skipped";
+    case ScenarioResult::Outcome::ExpectedFailure:
+      break;
+  }
+  return "expected failure";
+}
+
+ReportedFinding reported_finding(const Scenario& scenario, const Finding& finding) {
+  ReportedFinding reported{
+      .text = finding_line(scenario, finding), .why = finding.why, .line = position_of(scenario, finding).line};
+  if (!finding.place) return reported;
+  reported.power_up = finding.place->power_up;
+  reported.at = finding.place->moment.time;
+  return reported;
+}
+
+ReportedRun reported(const Report& report) {
+  const Scenario& scenario = *report.scenario;
+  const ScenarioResult& result = report.result;
+  ReportedRun run{
+      .file = scenario.source->name, .name = scenario.name, .outcome = outcome_of(report), .reason = result.reason};
+  for (const Finding& finding : result.findings) run.findings.push_back(reported_finding(scenario, finding));
+  if (!result.program || result.band) return run;
+  std::string why;
+  run.program = result.program;
+  run.around = {.port = scenario.port, .plc = scenario.plc, .field = scenario.field, .faults = {}, .kept = {}};
+  run.repairs = parse_repairs(scenario.repair.empty() ? "none" : scenario.repair, why);
+  run.recordings = result.recordings;
+  return run;
+}
+
+}  // namespace
+
+std::vector<ReportedRun> reported_runs(const std::vector<Report>& reports) {
+  std::vector<ReportedRun> runs;
+  for (const Report& report : reports) runs.push_back(reported(report));
+  return runs;
+}
+
+bool write_reports(const TestOptions& options, const std::optional<Destination>& junit, const std::vector<Report>& reports) {
+  std::function<std::string(std::size_t)> link{};
+  if (options.report.wanted()) link = [&](std::size_t number) { return link_to_run(options.report.path(), number); };
+  const bool junit_written = !junit || write_result(junit, to_junit(reports, link));
+  return options.report.write("test", reported_runs(reports)) && junit_written;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,15 @@
+#include "tools/host/own_folder.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "tools/host/process.hpp"
+
+namespace s7200::tools {
+
+std::string own_folder() {
+  std::error_code gone;
+  return std::filesystem::canonical(own_executable(), gone).parent_path().string();
+}
+
+}  // namespace s7200::tools
