@@ -478,6 +478,7 @@ class View(Case):
         self.assertTrue(reply["moved"])
         moved = other.until(lambda message: message.get("event") == "moved" and message["by"] == "scan 3")
         one.send(json.dumps({"id": 8, "command": "continue 1s"}))
+        other.until(lambda message: message.get("event") == "running" and message["command"] == "continue 1s")
         one.client.close()
         now = other.asks(1, "past")["json"]
         self.assertGreater(now["now_ns"], moved["now"]["now_ns"])
