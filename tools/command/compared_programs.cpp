@@ -40,7 +40,8 @@ std::optional<OldAndNew> read_compared(const ComparedFiles& files) {
   auto programs = read_programs(files.words, exit_code);
   if (exit_code != kFine) return {};
   if (programs.size() != 2) {
-    print_error(fmt::format("compare takes two programs, OLD and NEW; {} given", counted(programs.size(), "program")));
+    print_error(
+        fmt::format("compare takes two programs, OLD and NEW; {} given", s7200::counted(programs.size(), "program")));
     return {};
   }
   OldAndNew both{std::move(programs[0]), std::move(programs[1]), {}};

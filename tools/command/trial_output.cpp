@@ -23,7 +23,7 @@ void TrialProgress::operator()(std::uint64_t runs) {
   if (now <= next_ || !is_terminal(Standard::Error)) return;
   next_ = now + kSecond;
   shown_ = true;
-  fmt::print(stderr, "\r{}", counted(runs, "run"));
+  fmt::print(stderr, "\r{}", s7200::counted(runs, "run"));
 }
 
 bool TrialFile::claim(const std::string& option, const std::string& path, const std::string& verb,

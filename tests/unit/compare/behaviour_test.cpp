@@ -28,12 +28,12 @@ struct Behaviours {
   }
 };
 
-std::string replaced(std::string text, std::string_view what, std::string_view by) {
+std::string with_change(std::string text, std::string_view what, std::string_view by) {
   return text.replace(text.find(what), what.size(), by);
 }
 
 TEST(Behaviour, OneMoreTickOfATimerIsFoundWithTheShortestInputs) {
-  const Behaviours both(kTimer, replaced(kTimer, "T37, 5", "T37, 6"));
+  const Behaviours both(kTimer, with_change(kTimer, "T37, 5", "T37, 6"));
   ASSERT_TRUE(both.result.difference);
   EXPECT_EQ(both.result.difference->what, "Q0.0");
   EXPECT_EQ(both.result.difference->older, "1");
@@ -44,7 +44,7 @@ TEST(Behaviour, OneMoreTickOfATimerIsFoundWithTheShortestInputs) {
 }
 
 TEST(Behaviour, TheScenarioOfADifferenceIsKnownToPassWithTheOldProgramOnly) {
-  const Behaviours both(kTimer, replaced(kTimer, "A I0.1", "AN I0.1"));
+  const Behaviours both(kTimer, with_change(kTimer, "A I0.1", "AN I0.1"));
   ASSERT_TRUE(both.result.difference);
   const std::string scenario = both.scenario();
   std::string why;
@@ -62,8 +62,8 @@ TEST(Behaviour, ProgramsThatDoTheSameInOtherWordsHaveAllContactsSeenAndNoDiffere
 }
 
 TEST(Behaviour, ALongerScanAloneIsNoDifference) {
-  const std::string slow = replaced(kTimer, "MEND", "LD SM0.5\n= Q0.1\nLDN T38\nTON T38, 3\nLD T38\n= Q0.2\nMEND");
-  const Behaviours both(slow, replaced(slow, "MEND", "LD SM0.0\nFILL 0, VW1000, 200\nFILL 0, VW1000, 200\nMEND"),
+  const std::string slow = with_change(kTimer, "MEND", "LD SM0.5\n= Q0.1\nLDN T38\nTON T38, 3\nLD T38\n= Q0.2\nMEND");
+  const Behaviours both(slow, with_change(slow, "MEND", "LD SM0.0\nFILL 0, VW1000, 200\nFILL 0, VW1000, 200\nMEND"),
                         {.runs = 300, .seconds = 60});
   EXPECT_FALSE(both.result.difference) << behaviour_text(both.older, both.newer, both.result);
 }
@@ -72,12 +72,12 @@ TEST(Behaviour, AnInputThatOnlyAFasterScanWouldSeeIsNotTried) {
   const std::string counts = "LD I0.0\nEU\nINCW VW0\nLDW>= VW0, 3\n= Q0.0\nMEND\n";
   std::string longer;
   for (int i = 0; i < 40; ++i) longer += "FILL 0, VW1000, 100\n";
-  const Behaviours both(counts, replaced(counts, "MEND", "LD SM0.0\n" + longer + "MEND"), {.runs = 400, .seconds = 60});
+  const Behaviours both(counts, with_change(counts, "MEND", "LD SM0.0\n" + longer + "MEND"), {.runs = 400, .seconds = 60});
   EXPECT_FALSE(both.result.difference) << behaviour_text(both.older, both.newer, both.result);
 }
 
 TEST(Behaviour, WhatIsSentIsComparedByItsCharacters) {
-  const Behaviours both(kEcho, replaced(kEcho, "XMT", "LDB= VB1, 65\nMOVB 66, VB1\nLD SM0.0\nXMT"));
+  const Behaviours both(kEcho, with_change(kEcho, "XMT", "LDB= VB1, 65\nMOVB 66, VB1\nLD SM0.0\nXMT"));
   ASSERT_TRUE(both.result.difference);
   EXPECT_EQ(both.result.difference->older, "41");
   EXPECT_EQ(both.result.difference->newer, "42");
@@ -87,7 +87,7 @@ TEST(Behaviour, WhatIsSentIsComparedByItsCharacters) {
 
 TEST(Behaviour, AConstantInAComparisonIsFoundThroughTheValuesOfTheProgram) {
   const std::string program = "LDW>= VW10, 1234\n= Q0.0\nMEND\n";
-  const Behaviours both(program, replaced(program, "1234", "1235"));
+  const Behaviours both(program, with_change(program, "1234", "1235"));
   ASSERT_TRUE(both.result.difference);
   ASSERT_EQ(both.result.difference->trial.size(), 1U);
   EXPECT_EQ(both.result.difference->trial[0].bytes, (std::vector<std::uint8_t>{1234 >> 8, 1234 & 0xFF}));
@@ -101,7 +101,7 @@ TEST(Behaviour, AStopOfOneIsADifference) {
 
 TEST(Behaviour, MemoryIsComparedIfItIsAskedFor) {
   const std::string program = "LD I0.0\nMOVW 5, VW20\nMEND\n";
-  const std::string other = replaced(program, "MOVW 5", "MOVW 6");
+  const std::string other = with_change(program, "MOVW 5", "MOVW 6");
   EXPECT_FALSE(Behaviours(program, other, {.runs = 500, .seconds = 60}).result.difference);
   BehaviourSettings settings{.runs = 500, .seconds = 60};
   std::string why;
@@ -112,7 +112,7 @@ TEST(Behaviour, MemoryIsComparedIfItIsAskedFor) {
 }
 
 TEST(Behaviour, TheSameSeedFindsTheSame) {
-  const std::string other = replaced(kTimer, "T37, 5", "T37, 6");
+  const std::string other = with_change(kTimer, "T37, 5", "T37, 6");
   const Behaviours once(kTimer, other), again(kTimer, other);
   EXPECT_EQ(once.scenario(), again.scenario());
   EXPECT_EQ(once.result.runs, again.result.runs);
