@@ -263,6 +263,14 @@ TEST(WhyNot, MessagesMovesAndPointersAreNamed) {
   EXPECT_TRUE(has(session("why not VW200 = 3"), "MOVB 7, *AC1 in line 15 may reach it through a pointer\n"));
 }
 
+TEST(WhyNot, TheStatusOfAMessageIsNoCharacterOfIt) {
+  AtPrompt session(
+      on_cpu224("NETWORK 1\nLD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#B0, SMB87\nRCV VB700, 0\n"
+                "NETWORK 2\nLDB= SMB86, 16#20\n= Q0.0\nMEND\n"));
+  const std::string reply = session("continue 20ms; why not Q0.0");
+  EXPECT_TRUE(has(reply, "RCV VB700, 0 in line 5 receives messages, whose status stands there\n")) << reply;
+}
+
 TEST(WhyNot, AForcedInputSaysHowToReleaseIt) {
   AtPrompt session(on_cpu224(kOthers));
   EXPECT_TRUE(

@@ -508,13 +508,15 @@ void Obstacles::add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writer
 void Obstacles::add_indirect(Obstacle& to, const Writers& writers, const Bits& bits) const {
   for (const std::uint32_t by : writers.messages) {
     const Op& receives = op(by);
-    const bool counts = receives.instruction->effect == Effect::Receives && !receives[0].pointer;
-    const std::uint64_t character = bits.first / 8 - receives[0].at;
-    to.because.push_back({.kind = "message",
-                          .text = counts && character > 0
-                                      ? fmt::format("{} stores character {} of a message there", place_text(by), character)
-                                      : fmt::format("{} lets a message be stored there", place_text(by)),
-                          .op = by});
+    const bool known = receives.instruction->effect == Effect::Receives && !receives[0].pointer;
+    const std::uint64_t place = bits.first / 8, buffer = receives[0].at;
+    constexpr std::uint64_t kLongestMessage = 255;
+    const bool elsewhere = known && (place < buffer || place > buffer + kLongestMessage);
+    const std::string does = elsewhere ? "receives messages, whose status stands there"
+                             : known && place > buffer
+                                 ? fmt::format("stores character {} of a message there", place - buffer)
+                                 : "lets a message be stored there";
+    to.because.push_back({.kind = "message", .text = fmt::format("{} {}", place_text(by), does), .op = by});
   }
   if (writers.pointers.empty()) return;
   const std::size_t more = writers.pointers.size() - 1;
