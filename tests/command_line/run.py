@@ -1162,7 +1162,7 @@ class Options(Case):
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
     ANY_TEXT = ("TABLE", "DIR", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
-    BEGINNING = {"check": [SLAVE], "inspect": [SLAVE, "xref"], "compare": [SLAVE, SLAVE], "fuzz": [SLAVE, "--runs", "1"], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
+    BEGINNING = {"check": [SLAVE], "inspect": [SLAVE, "xref"], "why": [SLAVE, "Q0.0"], "compare": [SLAVE, SLAVE], "fuzz": [SLAVE, "--runs", "1"], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "decode": [LOG], "import-capture": [LOG], "debug": [SLAVE, "-x", "quit"], "view": [SLAVE], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
     @staticmethod
@@ -2478,6 +2478,7 @@ class JsonPage(Case):
         self.addCleanup(os.close, secondary)
         plant = ["--dump", "VD20", "--dump", "VB0:4", "--fault", "flip:exchange=9", "--set", "VD100=16#7F000000"]
         yield from (["check", echo, wrong], ["check", SOURCE / "tests/programs/libraries/slave.awl", "--cpu", "224"], ["import", self.program(Files.DOCUMENT, "page.txt")],
+                    ["why", *Inspect.PUMP, "Pump"], ["why", *Inspect.PUMP, "Fault", "not"], ["why", *Inspect.PUMP, "Level_High", "not", "--set", "I0.0=1"],
                     ["compare", *Compare.CHANGED], ["compare", self.program("LD SM0.1\nATCH 0, 10\nENI\nMEND\nINT 0\nRETI\n", "old.stl"), SLAVE, "--cpu", "214"],
                     ["compare", EXPORTS / "timer_old.stl", EXPORTS / "timer_new.stl"], ["compare", EXPORTS / "timer_old.stl", self.program("LD I0.0\n= Q0.0\nSTOP\nMEND\n", "stops.stl"), "--runs", "1"],
                     ["compare", self.program("LD I0.0\n= Q0.0\nLD M5.0\n= M5.1\nMEND\n", "one.stl"), self.program("LD I0.0\n= Q0.0\nLD M5.0\n= M5.2\nLD M5.3\nMEND\n", "two.stl"), "--runs", "5"],
@@ -2698,6 +2699,25 @@ class Inspect(Case):
         self.assertIn("near it the program uses", self.ends(FINE, "inspect", SLAVE, "xref", "VW3").stdout)
         self.assertIn("calls keeps to routines and networks", self.ends(UNUSABLE, "inspect", SLAVE, "calls", "VW0").stderr)
         self.assertIn("cannot read", self.ends(UNUSABLE, "inspect", "missing.stl", "xref").stderr)
+
+    def test_why_answers_from_a_first_scan_and_from_kept_memory(self):
+        self.assertIn("2 contacts have to change:", self.ends(FINE, "why", *self.PUMP, "Pump").stdout)
+        self.assertEqual(self.ends(FINE, "why", *self.PUMP, "Pump", "not", "--set", "I0.0=1", "--set", "I0.1=1").stdout, "Pump holds now\n")
+        self.assertEqual(self.ends(FINE, "why", *self.PUMP, "not", "Pump").stdout, self.ends(FINE, "why", *self.PUMP, "Pump", "NOT").stdout)
+        plant = self.folder / "plant.json"
+        self.ends(FINE, "run", *self.PUMP, "--for", "1s", "--memory", plant, "--set", "VW10=7")
+        kept = self.ends(FINE, "why", *self.PUMP, "VW10", "<", "5", "not", "--memory", plant)
+        self.assertIn("VW10 < 5 does not hold: VW10 is 7", kept.stdout)
+        self.assertIn("count as 0 unless --set", kept.stderr)
+        self.assertIn("VW10 > 5 does not hold: VW10 is 0", self.ends(FINE, "why", *self.PUMP, "VW10", ">", "5").stdout)
+
+    def test_why_says_what_it_cannot_answer(self):
+        self.assertIn("an address is missing", self.ends(UNUSABLE, "why", *self.PUMP).stderr)
+        self.assertIn("'XX' is not an address", self.ends(UNUSABLE, "why", *self.PUMP, "XX").stderr)
+        self.assertIn("cannot use missing.json", self.ends(UNUSABLE, "why", *self.PUMP, "Pump", "--memory", "missing.json").stderr)
+        self.assertIn("--set: 'Z'", self.ends(UNUSABLE, "why", *self.PUMP, "Pump", "--set", "Z=1").stderr)
+        self.assertIn("takes one program", self.ends(UNUSABLE, "why", SLAVE, SOURCE / "stl_programs/scale.stl", "Q0.0").stderr)
+        self.ends(FAILED, "why", EXPORTS / "broken.awl", "Q0.0")
 
     def test_a_program_with_errors_is_inspected_as_far_as_it_goes(self):
         done = self.ends(FAILED, "inspect", self.program("LD I0.0\nMOVW VB1, VW10\n= Q0.0\nMEND\n"), "xref")

@@ -113,7 +113,7 @@ class Case(unittest.TestCase):
     def command(self, verb, out=None):
         """A command of each verb that does something; with all its files, if `out` is a folder for them."""
         files = [] if out is None else [word for name, option in self.outputs(verb).items() for word in (option, out / name)]
-        return {"check": ["check", self.echo], "inspect": ["inspect", self.echo, "ladder"], "compare": ["compare", self.echo, self.echo], "fuzz": ["fuzz", self.echo, "--runs", "200"], "import": ["import", self.page],
+        return {"check": ["check", self.echo], "inspect": ["inspect", self.echo, "ladder"], "why": ["why", self.echo, "Q0.0"], "compare": ["compare", self.echo, self.echo], "fuzz": ["fuzz", self.echo, "--runs", "200"], "import": ["import", self.page],
                 "convert": ["convert", self.echo, "--to", "iec"], "run": ["run", self.blinking, "--for", "2s"],
                 "send": ["send", self.echo, "ab", "cd"], "test": ["test", self.good], "decode": ["decode", self.log], "import-capture": ["import-capture", self.log], "master": ["master", SLAVE, *SESSION],
                 "debug": ["debug", self.echo, "-x", "step 3; regs"], "dap": ["dap", self.echo], "instructions": ["instructions"], "times": ["times"],

@@ -10,6 +10,7 @@ namespace s7200::tools {
 
 void add_check(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
+void add_why(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_fuzz(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);

@@ -119,7 +119,7 @@ std::string help_of_verb(const CLI::App& verb, bool all, std::size_t width) {
 std::string help_of_command(const CLI::App& app, std::size_t width) {
   const VerbNotes notes(app.get_footer());
   std::string text = stl::wrapped(app.get_description() + '\n', width);
-  text += fmt::format("Usage: s7200 VERB …, and for each verb s7200 VERB --help\n{}\nVerbs:\n", examples_of(notes));
+  text += fmt::format("Usage: s7200 VERB …, and for each verb s7200 VERB --help\n{}Verbs:\n", examples_of(notes));
   for (const CLI::App* verb : listed_verbs(app)) text += line_of(verb->get_name(), verb->get_description(), width);
   text += "Topics, shown by s7200 help TOPIC:\n";
   for (const HelpTopic& topic : help_topics()) text += line_of(std::string(topic.name), std::string(topic.meaning), width);

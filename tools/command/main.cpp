@@ -31,6 +31,7 @@ struct Verb {
 constexpr std::array kVerbs{
     Verb{"check", add_check},
     Verb{"inspect", add_inspect},
+    Verb{"why", add_why},
     Verb{"compare", add_compare},
     Verb{"fuzz", add_fuzz},
     Verb{"import", add_import},

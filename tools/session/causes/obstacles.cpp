@@ -303,7 +303,7 @@ Obstacle Obstacles::of_interrupt(std::uint32_t head) {
                              cpu_.state().interrupts_enabled ? "" : "; interrupts are disabled");
     return found;
   }
-  found.text = fmt::format("INT {} has to run, and is attached to no event", number);
+  found.text = fmt::format("INT {} has to run{}", number, has_run_ ? ", and is attached to no event" : "");
   for (const Attachment& attachment : facts_.flow.attachments)
     if (attachment.routine && facts_.flow.routines[*attachment.routine].first == head) {
       Obstacle by{.kind = "rung",
@@ -330,7 +330,10 @@ Obstacle Obstacles::of_timer(const Bits& bit, bool wanted) {
     any = true;
     const bool off_delay = instruction.mnemonic == "TOF";
     const auto preset = static_cast<std::int16_t>(contacts_.value(by, 1).value_or(0));
-    const bool counts = off_delay ? state.enabled && !state.input && !wanted : state.enabled && wanted && now < preset;
+    const std::vector<Conditions> fewest = ways_.fewest_changes(ways_.to(by, true));
+    const bool starts = !has_run_ && !off_delay && wanted && now < preset && !fewest.empty() && fewest.front().empty();
+    const bool counts =
+        starts || (off_delay ? state.enabled && !state.input && !wanted : state.enabled && wanted && now < preset);
     const std::string times = fmt::format("{} of {} have passed", timed_text(now, base), timed_text(preset, base));
     if (counts) {
       found.text = fmt::format("in {} ({})", timed_text(preset - now, base), times);

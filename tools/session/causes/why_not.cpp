@@ -65,8 +65,11 @@ bool add_times(History& history, std::size_t station, Obstacle& answer, StopToke
 
 Obstacle answer_to(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
   if (wish.bit) return obstacles.of_bit(*wish.bit, wish.on);
+  std::string unknown;
+  const bool holds = holds_now(wish, cpu, unknown).value_or(false);
   Obstacle answer{.kind = "condition",
-                  .text = fmt::format("{} does not hold: {}", stl::printable(wish.text), wish.condition->places_text(cpu))};
+                  .text = fmt::format("{} {}: {}", stl::printable(wish.text), holds ? "holds" : "does not hold",
+                                      wish.condition->places_text(cpu))};
   for (const Place& place : wish.condition->places()) {
     const auto range = range_now(place, cpu);
     if (!range) continue;
@@ -123,6 +126,14 @@ Obstacle why_not(const Cpu& cpu, const Wish& wish) {
   const Facts facts = facts_of(cpu.program());
   Obstacles obstacles(cpu, facts, nothing, 0);
   return answer_to(wish, obstacles, cpu);
+}
+
+Obstacle what_keeps(const Cpu& cpu, const Wish& wish) {
+  Wish other = wish;
+  if (other.bit) other.on = !is_on(cpu, *other.bit);
+  Obstacle answer = why_not(cpu, other);
+  answer.wanted.clear();
+  return answer;
 }
 
 }  // namespace s7200::tools

@@ -38,4 +38,8 @@ std::optional<Obstacle> why_not(History& history, std::size_t station, const Wis
 /// The same from the state of a CPU alone, of which nothing has run.
 Obstacle why_not(const Cpu& cpu, const Wish& wish);
 
+/// From the state of a CPU alone: what keeps a bit as it is, on or off, whatever is wished; of an expression the same as
+/// why_not().
+Obstacle what_keeps(const Cpu& cpu, const Wish& wish);
+
 }  // namespace s7200::tools
