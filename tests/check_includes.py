@@ -56,6 +56,7 @@ ROOMS = {
     "tools/master": CORE + ["tools/host", "tools/views", "tools/plan", "tools/rig", "tools/slave"],
     "tools/calibration": CORE + ["tools/host", "tools/views", "tools/plan", "tools/rig", "tools/slave"],
     "tools/scenario": CORE + ["tools/host", "tools/views", "tools/measuring", "tools/coverage", "tools/yaml", "tools/plan", "tools/rig", "tools/slave"] + SESSION,
+    "tools/mutants": CORE + ["tools/views", "tools/measuring", "tools/coverage", "tools/scenario"],
     "tools/trials": CORE + ["tools/views", "tools/coverage", "tools/scenario"],
     "tools/compare": CORE + ["tools/views", "tools/scenario", "tools/trials"],
     "tools/fuzzing": CORE + ["tools/views", "tools/scenario", "tools/trials"] + SESSION,

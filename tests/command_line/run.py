@@ -2503,7 +2503,7 @@ class JsonPage(Case):
                     ["calibrate", MEASURE, "--each", "1s"], ["decode", LOG], ["import-capture", LOG],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["send", stopped, "01", "--times-band", "2"], ["master", stopped, "read", "40001", "--times-band", "2"],
-                    ["test", good, "--times-band", "2"], ["test", good, "--coverage"], ["run", SLAVE, "--coverage"], ["bench", "--each", "1ms"],
+                    ["test", good, "--times-band", "2"], ["test", good, "--coverage"], ["run", SLAVE, "--coverage"], ["run", waits, "--profile"], ["test", good, "--mutants"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
                     ["test", good, "--list"], ["run", self.system(), "--for", "50ms"],
                     ["send", self.alone(), "0103000a0001", "--timeline"], ["master", self.alone(), "read", "40001"])
@@ -2654,6 +2654,32 @@ class Coverage(Case):
         self.assertIn("mine.html", self.ends(UNUSABLE, "test", self.FOLDER, "--coverage-html", own).stderr)
         self.assertEqual(own.read_text(encoding="utf-8"), "mine")
         self.assertIn("'-' is none", self.ends(UNUSABLE, "test", self.FOLDER, "--coverage-lcov", "-").stderr)
+
+    def test_the_profile_of_a_run_adds_up_to_its_time(self):
+        folded = self.folder / "folded.txt"
+        for _ in range(2):
+            result = self.json(FINE, "run", SLAVE, "--for", "3s", "--profile", "--profile-folded", folded, "--json")
+        profile = result["profile"][0]
+        self.assertEqual(profile["time_ns"], result["time_ns"])
+        self.assertEqual(sum(routine["time_ns"] for routine in profile["routines"]) + profile["system_ns"], result["time_ns"])
+        self.assertEqual(sum(int(line.rsplit(" ", 1)[1]) for line in folded.read_text(encoding="utf-8").splitlines()), result["time_ns"])
+        self.assertEqual(profile["scans"]["most_ns"], result["longest_scan_ns"])
+        del result["profile"]
+        self.assertEqual(result, self.json(FINE, "run", SLAVE, "--for", "3s", "--json"))
+        shown = self.ends(FINE, "run", SLAVE, "--profile").stdout
+        self.assertIn("worst: ", shown)
+        self.assertLessEqual(max(map(len, shown.split("\n"))), 100, shown)
+
+    def test_mutants_name_what_no_scenario_notices(self):
+        some = ["test", self.FOLDER, "--only", "writes one coil", "--mutants"]
+        shown = self.ends(FINE, *some).stdout
+        self.assertIn("not noticed:", shown)
+        self.assertLessEqual(max(map(len, shown.split("\n"))), 100, shown)
+        one, two = (self.json(FINE, *some, "--jobs", jobs, "--json")["mutants"][0] for jobs in (1, 2))
+        self.assertEqual(one, two)
+        self.assertEqual(one["noticed"] + len(one["survivors"]), one["mutants"])
+        self.assertEqual([each["line"] for each in one["survivors"]], sorted(each["line"] for each in one["survivors"]))
+        self.assertIn("--mutants runs changed programs", self.ends(UNUSABLE, *some, "--coverage").stderr)
 
     def test_text_keeps_to_100_columns(self):
         for program in ([SLAVE], Inspect.PUMP):

@@ -76,7 +76,8 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   if (!rig) return options.rig.exit_code_without_rig();
   WrittenFiles files = rig->files();
   options.coverage.claim(files);
-  const RunObservers observers(*rig, {.coverage = options.coverage.wanted()});
+  options.profile.claim(files);
+  const RunObservers observers(*rig, options);
   rig->power_up();
   const auto recorder = options.report.wanted() ? std::make_unique<RunRecorder>(*rig) : nullptr;
   if (is_of_one_program(rig->plan())) rig->simulation().cpu().pause_at_error(options.rig.strict());
@@ -86,7 +87,7 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   if (ending.reason.empty()) return kUnusable;
   const bool all_written = write_report(options.report, "run", recorder.get(), options.program.repairs) & finish(*rig);
   if (options.json)
-    print_json(*rig, ending, served, observers.json(options.coverage));
+    print_json(*rig, ending, served, observers.json(options));
   else
     print_text(*rig, ending, served);
   print_notes(line_notes(*rig, [&](const serial::SharedLine* line) { return ending.collisions_on(line); }));
@@ -95,7 +96,7 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   if (const std::string error = error_at_end(ending.reason, *rig); !error.empty()) return print_error(error), kCheckFailed;
   if (ending.reason == "bridge") return kUnusable;
   if (ending.reason == "interrupted" && options.has_end(!served.empty())) return kCheckFailed;
-  return observers.show(options.coverage, options.json, exit_code_of(*rig));
+  return observers.show(options, exit_code_of(*rig));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "tools/command/commands.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/growing_transcript.hpp"
+#include "tools/command/mutants_output.hpp"
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/options/test_options.hpp"
 #include "tools/command/terminal.hpp"
@@ -90,10 +91,8 @@ int run_test(TestOptions& options) {
   auto suite = Suite::collect(options.suite, messages);
   if (!suite) return nothing_run(messages, options, to.junit);
   print_messages(messages);
-  if (options.list) {
-    print_list(suite->scenarios(), options.json);
-    return kFine;
-  }
+  if (options.list) return print_list(suite->scenarios(), options.json), kFine;
+  if (options.mutants) return run_mutants(*suite, options);
   return options.against.empty() ? run_all(*suite, options, to) : run_against(*suite, options);
 }
 

@@ -7,11 +7,18 @@
 
 namespace s7200::tools {
 
-RunObservers::RunObservers(Rig& rig, const Observed& observed) {
+RunObservers::RunObservers(Rig& rig, const RunOptions& options) {
+  const Observed observed{.coverage = options.coverage.wanted()};
   for (std::size_t plc = 0; plc < rig.plan().plcs.size(); ++plc) {
     PlcObservers& observers = observers_.emplace_back(rig.plan().plcs[plc].program, observed);
     observers.add_to(rig.sinks(plc));
     observers.begin(rig.plc(plc).cpu());
+    if (!options.profile.wanted()) continue;
+    const PlcPlan& plan = rig.plan().plcs[plc];
+    ProfileSink& profile =
+        profiles_.emplace_back(Profiled{is_of_one_program(rig.plan()) ? "" : plan.name, ProfileSink(plan.program)}).sink;
+    rig.sinks(plc).add(&profile);
+    profile.begin(rig.plc(plc).cpu());
   }
 }
 
@@ -21,17 +28,25 @@ CoverageOfPrograms RunObservers::coverage() const {
   return coverage;
 }
 
-nlohmann::ordered_json RunObservers::json(const CoverageOptions& options) const {
+ProfileOfPrograms RunObservers::profile() const {
+  ProfileOfPrograms all;
+  for (const Profiled& each : profiles_) all.add(each.sink.profile(), each.plc);
+  return all;
+}
+
+nlohmann::ordered_json RunObservers::json(const RunOptions& options) const {
   nlohmann::ordered_json results = nlohmann::ordered_json::object();
-  options.add_to(results, coverage());
+  options.coverage.add_to(results, coverage());
+  options.profile.add_to(results, profile());
   return results;
 }
 
-int RunObservers::show(const CoverageOptions& options, bool json, int exit_code) const {
-  if (!options.wanted()) return exit_code;
+int RunObservers::show(const RunOptions& options, int exit_code) const {
+  if (options.profile.wanted() && !options.profile.show(profile(), options.json)) return kUnusable;
+  if (!options.coverage.wanted()) return exit_code;
   const CoverageOfPrograms all = coverage();
-  if (!options.show(all, json)) return kUnusable;
-  return options.is_enough(all) ? exit_code : std::max<int>(exit_code, kCheckFailed);
+  if (!options.coverage.show(all, options.json)) return kUnusable;
+  return options.coverage.is_enough(all) ? exit_code : std::max<int>(exit_code, kCheckFailed);
 }
 
 }  // namespace s7200::tools

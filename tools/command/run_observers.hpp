@@ -4,7 +4,7 @@
 #include <list>
 #include <nlohmann/json_fwd.hpp>
 
-#include "tools/command/options/coverage_options.hpp"
+#include "tools/command/options/run_options.hpp"
 #include "tools/coverage/observed.hpp"
 #include "tools/rig/rig.hpp"
 
@@ -13,20 +13,26 @@ namespace s7200::tools {
 /// The observers of all PLCs of a rig, which is not powered up yet and is not owned. This lives as long as the rig runs.
 class RunObservers {
  public:
-  RunObservers(Rig& rig, const Observed& observed);
+  RunObservers(Rig& rig, const RunOptions& options);
   RunObservers(const RunObservers&) = delete;
   RunObservers& operator=(const RunObservers&) = delete;
 
   /// What is to be added to the results of --json.
-  nlohmann::ordered_json json(const CoverageOptions& options) const;
+  nlohmann::ordered_json json(const RunOptions& options) const;
 
   /// Prints and writes what was asked for, after the results. Returns `exit_code`, or a worse one after a message.
-  int show(const CoverageOptions& options, bool json, int exit_code) const;
+  int show(const RunOptions& options, int exit_code) const;
 
  private:
   CoverageOfPrograms coverage() const;
+  ProfileOfPrograms profile() const;
 
-  std::list<PlcObservers> observers_;  // by PLC
+  std::list<PlcObservers> observers_;  // by PLC, as the profiles
+  struct Profiled {
+    std::string plc;  // its name; empty of the only one
+    ProfileSink sink;
+  };
+  std::list<Profiled> profiles_;  // empty: none is wanted
 };
 
 }  // namespace s7200::tools

@@ -21,7 +21,7 @@ namespace {
 bool refuse_options_of_s7200(const CLI::App& verb, const RunOptions& options) {
   const auto refused = [](const CLI::Option& option) {
     const std::string& name = option.get_name();
-    return name == "--scans" || name == kNoSkip || name == kNoStandIns || name.starts_with("--coverage") ||
+    return name == "--scans" || name == kNoSkip || name == kNoStandIns || name.starts_with("--coverage") || name.starts_with("--profile") ||
            (is_about_one_plc(name) && !is_about_the_line(name));
   };
   for (const CLI::Option* option : verb.get_options())

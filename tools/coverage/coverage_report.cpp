@@ -8,15 +8,11 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/networks.hpp"
+#include "tools/coverage/programs.hpp"
 #include "tools/views/text_table.hpp"
 
 namespace s7200::tools {
 namespace {
-
-bool is_same_program(const Program& a, const Program& b) {
-  return coverage_name(a) == coverage_name(b) && a.model == b.model && a.ops.size() == b.ops.size() &&
-         a.source.text == b.source.text;
-}
 
 /// What stands beside the figures of a network, or of a routine or program.
 struct Span {
@@ -63,28 +59,6 @@ class FigureReader {
   std::vector<bool> deciding_;
   const Networks networks_;
 };
-
-/// Ops that some way leads to, from the main program and from what calls and attaches.
-std::vector<bool> reachable_ops(const Facts& facts) {
-  const ControlFlow& flow = facts.flow;
-  std::vector<bool> found(flow.nodes.size());
-  std::vector<std::uint32_t> open;
-  const auto reach = [&](std::uint32_t op) {
-    if (op < found.size() && !found[op]) found[op] = true, open.push_back(op);
-  };
-  const auto enter = [&](std::uint32_t routine) { reach(flow.routines[routine].first); };
-  if (!found.empty()) reach(0);
-  while (!open.empty()) {
-    const std::uint32_t op = open.back();
-    open.pop_back();
-    for (const std::uint32_t next : flow.nodes[op].next) reach(next);
-    for (const CallSite& call : flow.calls)
-      if (call.op == op) enter(call.routine);
-    for (const Attachment& attachment : flow.attachments)
-      if (attachment.op == op && attachment.routine) enter(*attachment.routine);
-  }
-  return found;
-}
 
 std::string share_text(const Share& share) { return share.all == 0 ? "-" : fmt::format("{} of {}", share.tried, share.all); }
 
@@ -162,7 +136,7 @@ CoverageFigures figures_of(const CoverageMap& map, const Tried& tried) {
 
 std::vector<Untried> untried_of(const CoverageMap& map, const Tried& tried, const Inspection& inspection) {
   const FigureReader reader(map, tried);
-  const std::vector<bool> reachable = reachable_ops(inspection.facts);
+  const std::vector<bool> reachable = reachable_ops(inspection.facts.flow);
   const Networks networks(map.program());
   std::vector<Untried> all;
   const auto executed = [&](std::uint32_t op) { return !map.is_instruction(op) || tried.was(op, Tried::kExecuted); };

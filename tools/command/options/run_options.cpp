@@ -32,6 +32,7 @@ void RunOptions::add_to(CLI::App& app) {
       },
       "print what a system file may contain, as Markdown");
   coverage.add_to(app, help_group::kMore);
+  profile.add_to(app);
   app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
 }
 

@@ -4,6 +4,7 @@
 #include "tools/command/options/bridge_options.hpp"
 #include "tools/command/options/coverage_options.hpp"
 #include "tools/command/options/other_plc_options.hpp"
+#include "tools/command/options/profile_options.hpp"
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/report_option.hpp"
 #include "tools/command/options/rig_options.hpp"
@@ -18,6 +19,7 @@ struct RunOptions {
   BridgeOptions bridge;
   RigOptions rig;
   CoverageOptions coverage;
+  ProfileOptions profile;
   ReportOption report;
   const Protocol* protocol = nullptr;  ///< of westinghouse:MODEL
   OtherPlcOptions other;

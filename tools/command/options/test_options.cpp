@@ -76,6 +76,8 @@ void TestOptions::add_to(CLI::App& app) {
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE")->group(help_group::kResults);
   coverage.add_to(app, help_group::kResults);
   report.add_to(app, "a page for browsers of the results, that computes each run again; the JUnit file links to it");
+  app.add_flag("--mutants", mutants, "change the program one thing at a time and list what no scenario notices")
+      ->group(help_group::kRun);
   app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
   app.add_flag("--keys", keys, "print what a scenario may contain, as Markdown")->excludes("--json");
 }
@@ -113,6 +115,8 @@ void TestOptions::check() const {
   refuse_if(tolerance != kNever && !compared && record.empty(),
             "--tolerance goes with --against or --record; a scenario has 'tolerance:'");
   refuse_if(compared && coverage.wanted(), "--against runs two programs; coverage is of one: leave out --against");
+  refuse_if(mutants && (compared || coverage.wanted() || !record.empty() || !junit.empty() || band.wanted()),
+            "--mutants runs changed programs: it neither compares, records nor observes, and has one table of times");
   refuse_if(compared && (!record.empty() || !junit.empty()), "--against neither records nor writes JUnit");
   refuse_if(band.wanted() && (compared || !record.empty()),
             "--times-band runs scenarios with many tables; --against and --record are about one");

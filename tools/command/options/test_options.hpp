@@ -28,7 +28,7 @@ struct TestOptions {
   ReportOption report;
   unsigned jobs = 0;        ///< 0: not given
   Time tolerance = kNever;  ///< kNever: not given
-  bool ignore_timing = false, force = false, json = false, list = false, keys = false;
+  bool ignore_timing = false, force = false, json = false, list = false, keys = false, mutants = false;
 
   void add_to(CLI::App& app);
 

@@ -1,0 +1,214 @@
+#include "tools/coverage/profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace s7200::tools {
+
+std::uint64_t Durations::count() const {
+  return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const auto& each) { return sum + each.second; });
+}
+
+Time Durations::total() const {
+  return std::accumulate(counts_.begin(), counts_.end(), Time{0},
+                         [](Time sum, const auto& each) { return sum + each.first * static_cast<Time>(each.second); });
+}
+
+Time Durations::mean() const { return counts_.empty() ? 0 : total() / static_cast<Time>(count()); }
+
+Time Durations::within(double share) const {
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count())));
+  std::uint64_t sum = 0;
+  for (const auto& [duration, times] : counts_)
+    if ((sum += times) >= wanted) return duration;
+  return 0;
+}
+
+std::vector<Time> Profile::by_op() const {
+  std::vector<Time> all(executed.size());
+  for (const auto& [stack, of_stack] : stacks)
+    for (std::size_t op = 0; op < all.size(); ++op) all[op] += of_stack.ops[op];
+  return all;
+}
+
+Time Profile::entries() const {
+  return std::accumulate(stacks.begin(), stacks.end(), Time{0},
+                         [](Time sum, const auto& each) { return sum + each.second.entry; });
+}
+
+namespace {
+
+void add_times(std::vector<Time>& to, const std::vector<Time>& from) {
+  to.resize(std::max(to.size(), from.size()));
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
+}
+
+}  // namespace
+
+void Profile::add(const Profile& other, const std::string& where) {
+  total += other.total;
+  system += other.system;
+  for (const auto& [stack, of_stack] : other.stacks) {
+    OfStack& own = stacks[stack];
+    add_times(own.ops, of_stack.ops);
+    own.entry += of_stack.entry;
+  }
+  executed.resize(other.executed.size());
+  for (std::size_t op = 0; op < executed.size(); ++op) executed[op] += other.executed[op];
+  scans.add(other.scans);
+  if (other.worst_scan && (!worst_scan || other.worst_scan->length > worst_scan->length)) {
+    worst_scan = other.worst_scan;
+    worst_scan->where = where;
+  }
+  for (const auto& [event, seen] : other.events) {
+    ProfiledEvent& own = events[event];
+    own.routine = seen.routine;
+    own.service.add(seen.service);
+    own.latency.add(seen.latency);
+    if (seen.worst.waited <= own.worst.waited) continue;
+    own.worst = seen.worst;
+    own.worst.where = where;
+  }
+}
+
+ProfileSink::ProfileSink(std::shared_ptr<const Program> program)
+    : program_(std::move(program)), flow_(control_flow(*program_)), reasons_(*program_) {
+  profile_.program = program_;
+  profile_.executed.resize(program_->ops.size());
+}
+
+void ProfileSink::begin(const Cpu& cpu) {
+  if (cpu_) account_until(cpu_->time());
+  cpu_ = &cpu;
+  last_ = cpu.time();
+  stopped_ = true;
+  scan_.reset();
+  stack_ = {0};
+  here_ = nullptr;
+  depth_ = 0;
+  in_interrupt_ = enters_ = false;
+}
+
+Profile ProfileSink::profile() const {
+  Profile profile = profile_;
+  const Time rest = cpu_ ? cpu_->time() - last_ : 0;
+  profile.system += rest;
+  profile.total += rest;
+  return profile;
+}
+
+Profile::OfStack& ProfileSink::here() {
+  if (here_) return *here_;
+  here_ = &profile_.stacks[stack_];
+  here_->ops.resize(program_->ops.size());
+  return *here_;
+}
+
+/// What passes between instructions belongs to the system, or to the entry of an interrupt routine.
+void ProfileSink::account_until(Time at) {
+  const Time passed = at - last_;
+  last_ = at;
+  if (passed == 0) return;
+  profile_.total += passed;
+  if (!enters_) {
+    profile_.system += passed;
+    return;
+  }
+  here().entry += passed;
+  if (scan_) scan_->routines[stack_.front()] += passed;
+}
+
+void ProfileSink::end_scan(Time at) {
+  if (!scan_) return;
+  scan_->length = at - scan_->begin;
+  profile_.scans.add(scan_->length);
+  if (!profile_.worst_scan || scan_->length > profile_.worst_scan->length) profile_.worst_scan = scan_;
+}
+
+void ProfileSink::begin_scan(const TraceRecord& record) {
+  if (!stopped_) end_scan(record.at);
+  stopped_ = cpu_->state().mode == Mode::Stop;
+  if (stopped_) return scan_.reset();
+  if (!scan_) scan_.emplace();
+  scan_->number = record.count;
+  scan_->begin = record.at;
+  scan_->interrupts = 0;
+  scan_->routines.assign(flow_.routines.size(), 0);
+  if (in_interrupt_) return;
+  stack_ = {0};
+  here_ = nullptr;
+  depth_ = 0;
+}
+
+void ProfileSink::begin_service(const TraceRecord& record) {
+  account_until(record.at);
+  interrupted_ = std::exchange(stack_, {flow_.nodes[program_->interrupt[record.routine]].routine});
+  here_ = nullptr;
+  in_interrupt_ = enters_ = true;
+  depth_ = cpu_->state().call_depth;
+  if (scan_) ++scan_->interrupts;
+  ProfiledEvent& event = profile_.events[record.event];
+  const Time waited = record.at - record.since;
+  event.routine = record.routine;
+  event.latency.add(waited);
+  if (waited > event.worst.waited) event.worst = {record.at, waited, reasons_.of(record), ""};
+}
+
+void ProfileSink::record(const TraceRecord& record) {
+  switch (record.kind) {
+    case TraceKind::ScanBegin:
+      begin_scan(record);
+      break;
+    case TraceKind::ServiceBegin:
+      begin_service(record);
+      break;
+    case TraceKind::ModeChange:
+      account_until(record.at);
+      stopped_ = true;
+      scan_.reset();
+      stack_ = {0};
+      here_ = nullptr;
+      depth_ = 0;
+      in_interrupt_ = enters_ = false;
+      break;
+    default:
+      break;
+  }
+  reasons_.note(record);
+}
+
+void ProfileSink::instruction(const InstructionRecord& record) {
+  account_until(record.at);
+  enters_ = false;
+  const Time took = record.end - record.at;
+  last_ = record.end;
+  profile_.total += took;
+  here().ops[record.op] += took;
+  if (scan_) scan_->routines[stack_.back()] += took;
+  ++profile_.executed[record.op];
+  reasons_.note(record);
+  follow();
+}
+
+/// Calls and returns show in the depth of calls, and the end of an interrupt routine in the CPU's state.
+void ProfileSink::follow() {
+  const State& state = cpu_->state();
+  if (in_interrupt_ && !state.in_interrupt) {
+    profile_.events[state.serving_event].service.add(last_ - state.serving_since);
+    stack_ = interrupted_;
+    here_ = nullptr;
+    in_interrupt_ = false;
+  } else if (state.call_depth > depth_) {
+    stack_.push_back(flow_.nodes[state.pc].routine);
+    here_ = nullptr;
+  } else if (state.call_depth < depth_ && stack_.size() > 1) {
+    stack_.pop_back();
+    here_ = nullptr;
+  }
+  depth_ = state.call_depth;
+}
+
+}  // namespace s7200::tools
