@@ -115,8 +115,9 @@ void TestOptions::check() const {
   refuse_if(tolerance != kNever && !compared && record.empty(),
             "--tolerance goes with --against or --record; a scenario has 'tolerance:'");
   refuse_if(compared && coverage.wanted(), "--against runs two programs; coverage is of one: leave out --against");
-  refuse_if(mutants && (compared || coverage.wanted() || !record.empty() || !junit.empty() || band.wanted()),
-            "--mutants runs changed programs: it neither compares, records nor observes, and has one table of times");
+  refuse_if(
+      mutants && (compared || coverage.wanted() || !record.empty() || !junit.empty() || report.wanted() || band.wanted()),
+      "--mutants runs changed programs: it neither compares, records nor observes, and has one table of times");
   refuse_if(compared && (!record.empty() || !junit.empty()), "--against neither records nor writes JUnit");
   refuse_if(band.wanted() && (compared || !record.empty()),
             "--times-band runs scenarios with many tables; --against and --record are about one");
