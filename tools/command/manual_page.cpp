@@ -122,7 +122,7 @@ std::string page_of_command(const CLI::App& app) {
   std::string verbs, topics, pages;
   for (const CLI::App* verb : listed_verbs(app)) {
     verbs += entry(bold(verb->get_name()), verb->get_description());
-    pages += fmt::format("{}.BR s7200\\-{} (1)", pages.empty() ? "" : ",\n", verb->get_name());
+    pages += fmt::format("{}.BR {} (1)", pages.empty() ? "" : ",\n", literal("s7200-" + verb->get_name()));
   }
   for (const HelpTopic& topic : help_topics()) topics += entry(bold(fmt::format("help {}", topic.name)), topic.meaning);
   return title("s7200", "run SIMATIC S7-200 STL programs in simulated time") +

@@ -9,7 +9,7 @@
 #include "interpreter/program/system_block.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/files.hpp"
-#include "tools/rig/memory_file.hpp"
+#include "tools/rig/memory_json.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {

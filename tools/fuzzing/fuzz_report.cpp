@@ -55,8 +55,7 @@ std::string contacts_text(const Inspection& inspection, const FuzzResult& result
 }  // namespace
 
 std::string fuzz_text(const Inspection& inspection, const FuzzResult& result) {
-  std::string text = fmt::format("{} in {:.1f} s, {:.0f} a second; {} of simulated time{}\n", counted(result.runs, "run"),
-                                 result.host_seconds, a_second(result), format_duration(result.simulated, 3),
+  std::string text = fmt::format("{}; {} of simulated time{}\n", counted(result.runs, "run"), format_duration(result.simulated, 3),
                                  result.end == FuzzResult::End::Interrupted ? "; interrupted" : "");
   text += listening_text(result) + contacts_text(inspection, result);
   if (result.findings.empty()) return text + "\nNothing was found.\n";
