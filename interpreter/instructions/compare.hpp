@@ -9,35 +9,16 @@
 #include <type_traits>
 
 #include "interpreter/instructions/bit_logic.hpp"
+#include "interpreter/model/relation.hpp"
 
 namespace s7200::bodies {
-
-enum class Relation { Equal, NotEqual, Greater, GreaterEqual, Less, LessEqual };
-
-template <Relation relation, class Value>
-bool holds(Value a, Value b) {
-  switch (relation) {
-    case Relation::Equal:
-      return a == b;
-    case Relation::NotEqual:
-      return a != b;
-    case Relation::Greater:
-      return a > b;
-    case Relation::GreaterEqual:
-      return a >= b;
-    case Relation::Less:
-      return a < b;
-    case Relation::LessEqual:
-      return a <= b;
-  }
-}
 
 template <Join join, Relation relation, class Value, Rail rail = Rail::Always>
 void compare(Core& core, const Op& op) {
   const auto a = core.get<Value>(op[0]), b = core.get<Value>(op[1]);
   if constexpr (std::is_floating_point_v<Value>)
     if (std::isunordered(a, b)) return core.compare_error(RunError::CompareValue, FatalError::CompareValue);
-  combine<join>(core.s.stack, holds<relation>(a, b) && fed<join, rail>(core));
+  combine<join>(core.s.stack, holds(relation, a, b) && fed<join, rail>(core));
 }
 
 template <Join join, Relation relation, class Value>

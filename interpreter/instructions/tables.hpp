@@ -72,7 +72,7 @@ void find_in_table(Core& core, const Op& op) {
   std::uint32_t i = from, looked_at = 0;
   bool found = false;
   for (; i < count && !found; ++i, ++looked_at)
-    found = holds<relation>(static_cast<std::int16_t>(load16(&core.s.image[op[0].at + 2 + 2 * i])), pattern);
+    found = holds(relation, static_cast<std::int16_t>(load16(&core.s.image[op[0].at + 2 + 2 * i])), pattern);
   core.spend(op, looked_at);
   core.put(op[2], static_cast<std::uint16_t>(found ? i - 1 : count));
 }

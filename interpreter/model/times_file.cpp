@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "interpreter/base/csv.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -183,13 +184,6 @@ std::string cpu_of(std::string_view comment) {
   return words.size() == 1 ? words.front() : std::string();
 }
 
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"") == std::string::npos) return field;
-  std::string text = "\"";
-  for (const char c : field) text.append(c == '"' ? 2 : 1, c);
-  return text + '"';
-}
-
 /// The number of columns that the table needs: bounds in microseconds only where a line has one.
 std::size_t columns_of(const TimeTable& times) {
   const auto has_bound = [](const TimeRow& row) { return row.base_within > 0 || row.per_unit_within > 0; };
@@ -208,7 +202,7 @@ std::string line_of(const TimeRow& row, std::size_t columns) {
   field[kUncertainty] = fmt::format("{}", row.uncertainty);
   if (row.base_within) field[kBaseWithin] = in_microseconds(row.base_within);
   if (row.per_unit_within) field[kPerUnitWithin] = in_microseconds(row.per_unit_within);
-  std::ranges::transform(field, field.begin(), quoted);
+  std::ranges::transform(field, field.begin(), csv_field);
   return fmt::format("{}\n", fmt::join(std::span(field).first(columns), ","));
 }
 

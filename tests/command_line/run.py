@@ -2737,6 +2737,12 @@ class Inspect(Case):
         self.assertIn("count as 0 unless --set", kept.stderr)
         self.assertIn("VW10 > 5 does not hold: VW10 is 0", self.ends(FINE, "why", *self.PUMP, "VW10", ">", "5").stdout)
 
+    def test_why_keeps_what_is_set_where_the_first_scan_initialises_it(self):
+        path = self.program("LD SM0.1\nR M0.0, 1\nLD M0.0\nA I0.0\n= Q0.0\nMEND\n")
+        shown = self.ends(FINE, "why", path, "Q0.0", "not", "--set", "M0.0=1").stdout
+        self.assertIn("M0.0=1 and I0.0=0", shown)
+        self.assertIn("1 contact has to change:", shown)
+
     def test_why_says_what_it_cannot_answer(self):
         self.assertIn("an address is missing", self.ends(UNUSABLE, "why", *self.PUMP).stderr)
         self.assertIn("'XX' is not an address", self.ends(UNUSABLE, "why", *self.PUMP, "XX").stderr)

@@ -52,6 +52,13 @@ void put_picture(Cpu& cpu, const RetentiveMemory& memory, const std::vector<Assi
   cpu.restore(*state);
 }
 
+/// What a first scan makes of memory that was set, as programs that initialise themselves do, is no part of the picture.
+void keep_assigned(Cpu& cpu, const std::vector<Assignment>& assigned) {
+  const auto state = std::make_unique<State>(cpu.state());
+  for (const Assignment& each : assigned) put(*state, each);
+  cpu.restore(*state);
+}
+
 void run_first_scan(serial::Simulation& simulation) {
   const Cpu& cpu = simulation.cpu();
   const Time end = cpu.time() + kSecond;
@@ -75,6 +82,7 @@ std::unique_ptr<serial::Simulation> pictured(std::shared_ptr<const Program> prog
   if (memory_file.empty()) {
     for (const Assignment& each : assigned) assign(simulation->cpu(), each);
     run_first_scan(*simulation);
+    keep_assigned(simulation->cpu(), assigned);
     return simulation;
   }
   const auto text = read_file(memory_file, why);

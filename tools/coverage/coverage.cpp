@@ -8,7 +8,7 @@ namespace {
 
 std::vector<ContactForm> forms_of(const Program& program) {
   std::vector<ContactForm> forms;
-  for (const Op& op : program.ops) forms.push_back(contact_form(op));
+  for (const Op& op : program.ops) forms.push_back(contact_form(*op.instruction));
   return forms;
 }
 

@@ -94,7 +94,7 @@ class MutationFinder {
   }
 
   void find() {
-    const ContactForm form = contact_form(op());
+    const ContactForm form = contact_form(*op().instruction);
     if (const std::string_view other = opposite_of(statement().mnemonic); !other.empty()) {
       Statement changed = statement();
       changed.mnemonic = other;

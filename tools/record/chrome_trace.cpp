@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
 
+#include "interpreter/model/ports.hpp"
 #include "interpreter/trace/trace_rows.hpp"
 #include "tools/record/json_trace.hpp"
 #include "tools/views/results_json.hpp"
@@ -15,9 +15,7 @@ namespace {
 using nlohmann::ordered_json;
 
 /// The rows of the viewer, which the format calls threads.
-enum Row : int { kProgram = 1, kInterrupts, kPorts };
-constexpr std::array<std::pair<int, std::string_view>, 4> kRowNames{
-    {{kProgram, "program"}, {kInterrupts, "interrupts"}, {kPorts, "port 0"}, {kPorts + 1, "port 1"}}};
+enum Row : int { kProgram = 1, kInterrupts, kFirstPort };
 
 /// The format counts in microseconds.
 double microseconds(Time time) { return static_cast<double>(time) / kMicrosecond; }
@@ -27,7 +25,7 @@ ordered_json event_of(std::string_view phase, std::string_view name, Time at, in
 }
 
 int row_for(const TraceRecord& record) {
-  if (row_of(record.kind).of_port) return kPorts + (record.port == 0 ? 0 : 1);
+  if (row_of(record.kind).of_port) return kFirstPort + record.port;
   switch (record.kind) {
     case TraceKind::EventOccurred:
     case TraceKind::EventLost:
@@ -44,8 +42,13 @@ int row_for(const TraceRecord& record) {
 }  // namespace
 
 ChromeTrace::ChromeTrace(TraceWanted given) : SignalTrace(std::move(given)) {
-  for (const auto& [row, name] : kRowNames)
+  const auto name_row = [this](int row, const std::string& name) {
     add(0, {{"ph", "M"}, {"name", "thread_name"}, {"pid", 1}, {"tid", row}, {"args", {{"name", name}}}});
+  };
+  name_row(kProgram, "program");
+  name_row(kInterrupts, "interrupts");
+  for (int port = 0; port < static_cast<int>(kPorts.size()); ++port)
+    name_row(kFirstPort + port, fmt::format("port {}", port));
 }
 
 /// Events stand in the order in which they were over; viewers sort them.

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "interpreter/base/csv.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
@@ -33,14 +34,6 @@ std::string in_one_word(std::string name) {
   std::ranges::replace_if(
       name, [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '$'; }, '_');
   return name;
-}
-
-/// A name as a field of CSV.
-std::string csv_field(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted.append(c == '"' ? "\"\"" : std::string(1, c));
-  return quoted + '"';
 }
 
 }  // namespace

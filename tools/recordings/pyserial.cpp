@@ -24,7 +24,7 @@ struct SpiedRow {
 };
 
 std::optional<SpiedRow> spied_row(std::string_view line) {
-  constexpr std::size_t kFullRow = 16, kFewestDigits = 6;
+  constexpr std::size_t kFewestDigits = 6;
   Scan scan(line);
   const auto time = leading_time(line);
   if (!time || time->of_day || scan.take_digits(kLongestHead).size() < kFewestDigits) return {};
@@ -36,12 +36,7 @@ std::optional<SpiedRow> spied_row(std::string_view line) {
   const std::string_view offset = scan.take_hex(8);
   if (offset.size() < 4 || scan.skip(" ") != 2) return {};
   row.offset = hex_number(offset);
-  while (row.bytes.size() < kFullRow) {
-    const std::string_view byte = scan.take_hex(3);
-    if (byte.size() != 2) break;
-    row.bytes.push_back(static_cast<std::uint8_t>(hex_number(byte)));
-    if (scan.skip(" ", row.bytes.size() == kFullRow / 2 ? 2 : 1) == 0) break;
-  }
+  row.bytes = take_row(scan);
   return row.bytes.empty() ? std::nullopt : std::optional(std::move(row));
 }
 

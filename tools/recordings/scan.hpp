@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
@@ -80,5 +81,19 @@ class Scan {
   std::string_view text_;
   std::size_t at_ = 0;
 };
+
+/// Takes the pairs of digits of a row of a dump, 16 of them at most, with a blank between, or two in the middle of the row.
+inline Bytes take_row(Scan& scan) {
+  constexpr std::size_t kFullRow = 16;
+  Bytes bytes;
+  while (bytes.size() < kFullRow) {
+    const std::string_view pair = scan.take_hex(3);
+    if (pair.size() != 2) break;
+    bytes.push_back(static_cast<std::uint8_t>(hex_number(pair)));
+    const std::size_t blanks = scan.skip(" ");
+    if (blanks == 0 || blanks > (bytes.size() == kFullRow / 2 ? 2U : 1U)) break;
+  }
+  return bytes;
+}
 
 }  // namespace s7200::tools

@@ -31,13 +31,8 @@ std::optional<TsharkRow> tshark_row(std::string_view line) {
   if (offset.size() < 4 || scan.skip(" ") != 2) return {};
   TsharkRow row{.offset = hex_number(offset)};
   if (row.offset % kFullRow != 0) return {};
-  while (row.bytes.size() < kFullRow) {
-    const std::string_view byte = scan.take_hex(3);
-    if (byte.size() != 2) return {};
-    row.bytes.push_back(static_cast<std::uint8_t>(hex_number(byte)));
-    if (scan.skip(" ") != 1) break;
-  }
-  return row;
+  row.bytes = take_row(scan);
+  return row.bytes.empty() ? std::nullopt : std::optional(std::move(row));
 }
 
 /// The time of a line about a packet: its number, seconds, and the arrow between two addresses.

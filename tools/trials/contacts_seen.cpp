@@ -17,7 +17,7 @@ std::uint8_t magnitude(std::uint16_t count) {
 ContactsSeen::ContactsSeen(const Cpu& cpu)
     : cpu_(cpu), counts_(2 * cpu.program().ops.size()), seen_(2 * cpu.program().ops.size()) {
   for (const Op& op : cpu.program().ops) {
-    forms_.push_back(contact_form(op));
+    forms_.push_back(contact_form(*op.instruction));
     if (forms_.back().is_contact() && why_constant(op, forms_.back()).empty())
       contacts_.push_back(static_cast<std::uint32_t>(forms_.size() - 1));
   }

@@ -75,7 +75,7 @@ TEST(Coverage, EveryFormOfContactIsSeenAsTheCpuSeesIt) {
     if (!instruction.modelled()) continue;
     Op op;
     op.instruction = &instruction;
-    const ContactForm form = contact_form(op);
+    const ContactForm form = contact_form(*op.instruction);
     if (form.kind != ContactForm::Kind::Bit && form.kind != ContactForm::Kind::Numbers &&
         form.kind != ContactForm::Kind::Strings)
       continue;

@@ -61,6 +61,13 @@ TEST(Why, ARequestGivenUpInAnInterruptRoutineLeadsToWhatLeftItToo) {
   EXPECT_TRUE(given_up_in_it);
 }
 
+TEST(Why, AClosedImmediateContactLetsPowerThroughAtZero) {
+  AtPrompt session("LD I0.1\n= M0.0\nLD M0.0\nONI I0.0\n= Q0.0\nMEND\n");
+  const std::string text = session("continue 20ms; why Q0.0");
+  EXPECT_TRUE(has(text, "Q0.0 is 1; last written")) << text;
+  EXPECT_FALSE(has(text, "M0.0 is 0; last written")) << "M0.0 has decided nothing: " << text;
+}
+
 TEST(Why, AFrameOfLongAgoIsNoPartOfTheOneThatIsAskedAbout) {
   AtPrompt session(kStopsListening);
   session("continue 50ms; input I0.0=1; scan 3; break unanswered; send 41 42; continue; send 43 44 45; continue");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "interpreter/cpu/cpu.hpp"
+#include "interpreter/model/contact_form.hpp"
 #include "interpreter/trace/trace.hpp"
 
 namespace s7200::tools {
@@ -35,15 +36,12 @@ class Contacts {
   std::optional<std::uint32_t> value(std::uint32_t op, std::size_t operand) const;
 
  private:
-  bool compares(std::uint32_t op) const;
+  bool compares(std::uint32_t op, const ContactForm& form) const;
 
   const Cpu& cpu_;
   const LatelyExecuted& lately_;
   Time fresh_since_;
 };
-
-bool is_edge(const Op& op);
-bool is_comparison(const Op& op);
 
 /// The event that an interrupt routine is attached to; nothing if it is to none.
 std::optional<std::uint8_t> event_of_routine(const State& state, std::uint32_t routine);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "interpreter/analysis/effects.hpp"
+#include "interpreter/model/contact_form.hpp"
 #include "interpreter/trace/statement_text.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "tools/session/causes/expression.hpp"
@@ -160,8 +161,7 @@ class MemoryInquiry {
   }
 
   static bool is_bit_contact(const Op& op) {
-    constexpr std::string_view kBitContacts[] = {"LD", "LDN", "A", "AN", "O", "ON"};
-    return std::ranges::find(kBitContacts, op.instruction->mnemonic) != std::end(kBitContacts);
+    return contact_form(*op.instruction).kind == ContactForm::Kind::Bit;
   }
 
   /// A part of a rung: whether it has power, and the contacts that are the reason.
@@ -214,7 +214,7 @@ class MemoryInquiry {
   std::optional<bool> power_of(const InstructionRecord& contact) const {
     const Op& op = program().ops[contact.op];
     if (!is_bit_contact(op) || !contact.value[0]) return {};
-    return (*contact.value[0] != 0) != op.instruction->mnemonic.ends_with('N');
+    return (*contact.value[0] != 0) != contact_form(*op.instruction).inverted;
   }
 
   static bool is_of_program(Area area) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/base/among.hpp"
 #include "interpreter/base/counted.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/trace/statement_text.hpp"
@@ -25,9 +26,8 @@ constexpr std::size_t kMostWays = 4;       // that are shown of a bit
 constexpr std::size_t kMostOfMemory = 3;   // that are shown of memory
 constexpr std::size_t kLongestRung = 300;  // characters
 
-bool is_one_of(std::string_view mnemonic, std::initializer_list<std::string_view> names) {
-  return std::ranges::find(names, mnemonic) != names.end();
-}
+constexpr std::string_view kOnlyFromOutside =
+    "no instruction writes it: only somebody outside can, a panel or a programming device";
 
 bool is_bits_of_timer(const Bits& bit) { return bit.first / 8 - image::kTBits < image::kTimers / 8; }
 bool is_bits_of_counter(const Bits& bit) { return bit.first / 8 - image::kCBits < image::kCounters / 8; }
@@ -90,11 +90,12 @@ std::string Obstacles::contact_text(const NetworkLogic::Contact& contact, bool n
   if (!contact.statement) return "the power flow in front";
   const std::uint32_t number = ways_.op_of(contact);
   const std::string_view mnemonic = op(number).instruction->mnemonic;
-  if (is_edge(op(number)))
+  const ContactForm form = contact_form(*op(number).instruction);
+  if (form.is_edge())
     return fmt::format("{}{} edge of ({})", negated ? "not " : "", mnemonic == "EU" ? "rising" : "falling",
                        rung_text(number, 0));
-  if (op(number).instruction->effect == Effect::ReadsEno) return negated ? "not ENO" : "ENO";
-  if (!is_comparison(op(number))) return (negated ? "not " : "") + operand_text(number, 0);
+  if (form.kind == ContactForm::Kind::Eno) return negated ? "not ENO" : "ENO";
+  if (!form.compares()) return (negated ? "not " : "") + operand_text(number, 0);
   const std::string_view relation = mnemonic.substr(mnemonic.find_first_of("<>="));
   const std::string text = fmt::format("{} {} {}", operand_text(number, 0), relation, operand_text(number, 1));
   return negated == contact.normally_closed ? text : fmt::format("not ({})", text);
@@ -147,10 +148,10 @@ void Obstacles::note_writer(std::uint32_t number, const Bits& bits, bool wanted,
   const bool one_bit = bits.count == 1;
   if (returns_from_subroutine(by)) return;  // its CALL is named
   if (by.instruction->structure == Structure::Call) return writers.calls.push_back(number);
-  if (by.instruction->effect == Effect::Receives || is_one_of(mnemonic, {"NETR", "NETW"}))
+  if (by.instruction->effect == Effect::Receives || is_among(mnemonic, {"NETR", "NETW"}))
     return writers.messages.push_back(number);
-  if (one_bit && is_one_of(mnemonic, {"=", "=I"})) return writers.deciding.push_back(number);
-  if (one_bit && is_one_of(mnemonic, {"S", "SI", "R", "RI"}))
+  if (one_bit && is_among(mnemonic, {"=", "=I"})) return writers.deciding.push_back(number);
+  if (one_bit && is_among(mnemonic, {"S", "SI", "R", "RI"}))
     return ((mnemonic.front() == 'S') == wanted ? writers.deciding : writers.opposing).push_back(number);
   if (one_bit && by.instruction->structure == Structure::SegmentTransition)
     return ((bit_at(by[0]) == bits) == wanted ? writers.deciding : writers.opposing).push_back(number);
@@ -226,10 +227,11 @@ Obstacle Obstacles::of_input(std::uint32_t number, std::size_t level, bool on, s
 
 Obstacle Obstacles::of_condition(const Condition& condition) {
   const Op& of = op(condition.op);
-  if (is_comparison(of)) return of_comparison(condition);
-  if (is_edge(of)) return of_edge(condition.op);
+  const ContactForm form = contact_form(*of.instruction);
+  if (form.compares()) return of_comparison(condition);
+  if (form.is_edge()) return of_edge(condition.op);
   if (of.instruction->structure == Structure::InterruptHead) return of_interrupt(condition.op);
-  if (of.instruction->effect == Effect::ReadsEno)
+  if (form.kind == ContactForm::Kind::Eno)
     return {.kind = "eno",
             .text = fmt::format("{} must find ENO {}: the box before it has ended with an error", place_text(condition.op),
                                 condition.on ? 1 : 0),
@@ -240,9 +242,7 @@ Obstacle Obstacles::of_condition(const Condition& condition) {
 Obstacle Obstacles::of_contact(const Condition& condition) {
   const Op& contact = op(condition.op);
   const bool segment = contact.instruction->structure == Structure::SegmentBegin;
-  const std::string_view mnemonic = contact.instruction->mnemonic;
-  const bool closed = !segment && (mnemonic.ends_with('N') || mnemonic.ends_with("NI"));
-  const bool wanted = condition.on != closed;
+  const bool wanted = condition.on != contact_form(*contact.instruction).inverted;
   const Bits plain = as_named(bit_at(contact[0])), bit = plain.count == 1 ? plain : bit_at(contact[0]);
   const bool is_local = area_of(bit) == Area::L;
   Obstacle found = is_local ? of_memory(bit, wanted, facts_.flow.nodes[condition.op].routine) : of_bit(bit, wanted);
@@ -460,12 +460,12 @@ void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits
   std::vector<Conditions> ways;
   std::vector<std::uint32_t> rungs = writers.deciding;
   for (const std::uint32_t by : writers.deciding) {
-    const bool coil = is_one_of(op(by).instruction->mnemonic, {"=", "=I"});
+    const bool coil = is_among(op(by).instruction->mnemonic, {"=", "=I"});
     std::vector<Conditions> own = ways_.to(by, coil ? wanted : true);
     for (const auto* list : {&writers.deciding, &writers.opposing})
       for (const std::uint32_t other : *list) {
         const bool later = other > by && facts_.flow.nodes[other].routine == facts_.flow.nodes[by].routine;
-        const bool other_coil = is_one_of(op(other).instruction->mnemonic, {"=", "=I"});
+        const bool other_coil = is_among(op(other).instruction->mnemonic, {"=", "=I"});
         const bool opposes = list == &writers.opposing;
         if (!later || (!other_coil && !opposes)) continue;
         own = ways_.both(own, other_coil ? ways_.input(other, 0, wanted) : ways_.input(other, 0, false));
@@ -475,11 +475,9 @@ void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits
   }
   std::erase_if(ways, [&](const Conditions& way) {  // it would have to be so already
     return std::ranges::any_of(way, [&](const Condition& each) {
-      const Op& contact = op(each.op);
-      const std::string_view mnemonic = contact.instruction->mnemonic;
-      const bool is_bit =
-          !is_comparison(contact) && !is_edge(contact) && contact.is_contact && !contact.instruction->rules().empty();
-      return is_bit && bit_at(contact[0]) == bit && (each.on != mnemonic.ends_with('N')) == wanted && is_on(bit) != wanted;
+      const ContactForm form = contact_form(*op(each.op).instruction);
+      return form.kind == ContactForm::Kind::Bit && bit_at(op(each.op)[0]) == bit && (each.on != form.inverted) == wanted &&
+             is_on(bit) != wanted;
     });
   });
   std::ranges::sort(rungs);
@@ -490,8 +488,7 @@ void Obstacles::add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits
   for (std::size_t i = 0; i < std::min(kMostOfMemory, writers.calls.size()); ++i)
     to.because.push_back(of_call(writers.calls[i], bit, wanted));
   add_indirect(to, writers, bit);
-  if (to.because.empty() && to.text.empty())
-    to.text = "no instruction writes it: only somebody outside can, a panel or a programming device";
+  if (to.because.empty() && to.text.empty()) to.text = kOnlyFromOutside;
 }
 
 void Obstacles::add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writers) const {
@@ -534,7 +531,7 @@ Obstacle Obstacles::of_writer(std::uint32_t number, const Bits& bit, bool wanted
   const Op& by = op(number);
   Obstacle found{
       .kind = "write", .text = fmt::format("{} writes it: {}", place_text(number), rung_text(number, 0)), .op = number};
-  const bool moves = is_one_of(by.instruction->mnemonic, {"MOVB", "MOVW", "MOVD", "MOVR"});
+  const bool moves = is_among(by.instruction->mnemonic, {"MOVB", "MOVW", "MOVD", "MOVR"});
   if (moves && !by[0].pointer && !by[1].pointer && by[0].at < image::kConstants && bit.count == 1) {
     const std::uint64_t offset = bit.first - std::uint64_t{by[1].at} * 8;
     const Bits source{std::uint64_t{by[0].at} * 8 + offset, 1};
@@ -582,8 +579,7 @@ Obstacle Obstacles::of_value(const Bits& bits) {
   std::ranges::sort(all);
   add_rungs(found, all);
   add_indirect(found, writers, bits);
-  if (found.because.empty() && found.text.empty())
-    found.text = "no instruction writes it: only somebody outside can, a panel or a programming device";
+  if (found.because.empty() && found.text.empty()) found.text = kOnlyFromOutside;
   return found;
 }
 
