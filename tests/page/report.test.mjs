@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
+import { deflateSync, inflateSync } from 'node:zlib';
 import { after, before, test } from 'node:test';
 import { browser, kDesktop, kPhone, moment, picture } from './support.mjs';
 
@@ -77,6 +78,39 @@ test('an hour of polling opens with its picture, and any moment of it is compute
   await page.click('#tab-line');
   await page.waitForSelector('.exchanges tbody tr');
   await page.end();
+});
+
+/** The report in a page, and the page with another one in it. */
+const kPlace = /(<script id="report" type="text\/plain">)([^<]+)/;
+const report_in = (page) => JSON.parse(inflateSync(Buffer.from(kPlace.exec(page)[2], 'base64')).toString());
+const with_report = (page, report) => page.replace(kPlace, (_all, head) => head + deflateSync(JSON.stringify(report)).toString('base64'));
+
+test('a long run has checkpoints, and a damaged one is said', async () => {
+  const page = readFileSync(file('hour.html'), 'utf8'), report = report_in(page);
+  const [recording] = report.runs[0].recordings;
+  assert.ok(recording.checkpoints.length > 100, `${recording.checkpoints.length}`);
+  recording.checkpoints[5] = recording.checkpoints[5].replace(/..$/, '77');
+  writeFileSync(file('damaged.html'), with_report(page, report));
+  const context = await chrome.newContext({ offline: true });
+  const damaged = await context.newPage();
+  await damaged.goto(`file://${file('damaged.html')}`);
+  await damaged.waitForSelector('.notice.error:has-text("a checkpoint in it is damaged")');
+  await context.close();
+});
+
+test('any moment has the same values with checkpoints and without', async () => {
+  const page = readFileSync(file('hour.html'), 'utf8'), report = report_in(page);
+  delete report.runs[0].recordings[0].checkpoints;
+  writeFileSync(file('plain.html'), with_report(page, report));
+  const seen = [];
+  for (const name of ['hour.html', 'plain.html']) {
+    const one = await open(name, { hash: '#t=3000.0123s' });
+    await stands_at(one, 3000012.3, 2);
+    await one.waitForFunction(() => document.querySelectorAll('.row .flow').length > 0);
+    seen.push(await one.evaluate(() => [document.querySelector('.scan-number').textContent, document.querySelector('#moment').value, document.querySelector('.status-bar .place').textContent]));
+    await one.end();
+  }
+  assert.deepEqual(seen[0], seen[1]);
 });
 
 test('what was done at the prompt is done again, and the run goes on from there', async () => {

@@ -23,6 +23,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kPlace = "<script id=\"report\" type=\"text/plain\"></script>";
 constexpr Time kWithPicture = 60 * kSecond;  ///< longer runs have one
 constexpr int kElements = 400;               ///< of a track of the picture
+constexpr std::size_t kCheckpoints = 144;    ///< of a long run at most: one each ten minutes of a day
+constexpr Time kBetweenCheckpoints = 10 * kSecond;
 
 std::string in_base64(std::string_view bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -61,16 +63,20 @@ Json sources_json(const stl::Source& source) {
   return sources;
 }
 
-/// What the timeline of all of a run shows, as the engine says it. Null if the engine does not open it.
-Json picture_of(const Json& sources, const Json& run, const Json& recording) {
+/// What the page has of a long run before it has computed it: what the timeline of all of it shows, as the engine says it,
+/// and checkpoints. Without them if the engine does not open it.
+void add_shortcuts(Json& recorded, Time end, const Json& sources, const Json& run) {
   Json last;
   page::Engine engine([&last](const std::string& message) {
     std::string why;
     if (auto json = parse_json(message, why); json && json->contains("id")) last = std::move(*json);
   });
-  engine.take(line_of({{"id", 1}, {"open", {{"sources", sources}, {"options", run["options"]}, {"recording", recording}}}}));
+  engine.take(line_of({{"id", 1}, {"open", {{"sources", sources}, {"options", run["options"]}, {"recording", recorded}}}}));
+  if (!engine.history()) return;
   engine.take(line_of({{"id", 2}, {"command", fmt::format("spans start end {}", kElements)}}));
-  return last.value("json", Json());
+  recorded["picture"] = last.value("json", Json());
+  recorded["checkpoints"] = checkpoints_json(
+      engine.history()->packed_checkpoints(std::min(kCheckpoints, static_cast<std::size_t>(end / kBetweenCheckpoints))));
 }
 
 Json finding_json(const ReportedFinding& finding) {
@@ -105,7 +111,7 @@ class RunsJson {
     json["options"] = page::options_of(*run.program, run.around, run.repairs);
     for (const Recording& recording : run.recordings) {
       Json one = json_of(recording, *run.program->model);
-      if (recording.end.time > kWithPicture) one["picture"] = picture_of(programs_[known->second], json, one);
+      if (recording.end.time > kWithPicture) add_shortcuts(one, recording.end.time, programs_[known->second], json);
       json["recordings"].push_back(std::move(one));
     }
   }

@@ -170,6 +170,74 @@ TEST(History, AnAdoptedRecordingHasTheStatesOfTheRunInAnyOrder) {
   }
 }
 
+/// What a report carries of a long run.
+Recording recording_with_checkpoints(std::size_t most) {
+  Recorded session(slave(), {.interval = 20 * kMillisecond});
+  session.live_through_it();
+  Recording recording = session.history->recording();
+  recording.checkpoints = session.history->packed_checkpoints(most);
+  return recording;
+}
+
+TEST(History, PackedCheckpointsLeaveTheSessionWhereItStands) {
+  Recorded session(slave(), {.interval = 20 * kMillisecond});
+  session.live_through_it();
+  const Moment here = session.history->now();
+  const std::vector<std::string> packed = session.history->packed_checkpoints(12);
+  EXPECT_GE(packed.size(), 4U);
+  EXPECT_LE(packed.size(), 12U);
+  EXPECT_EQ(session.history->now(), here);
+}
+
+TEST(History, FromPackedCheckpointsARunGoesOnAsFromItsBeginning) {
+  Recorded session(slave(), {.interval = 20 * kMillisecond});
+  session.live_through_it();
+  Recorded adopted(slave(), {.interval = 20 * kMillisecond});
+  ASSERT_TRUE(adopted.history->adopt(recording_with_checkpoints(12)));
+  const Time end = session.history->newest().time;
+  for (Time time = end; time >= 0; time -= end / 97) {
+    session.history->go_to(time);
+    adopted.history->go_to(time);
+    ASSERT_EQ(adopted.history->now(), session.history->now()) << time;
+    ASSERT_EQ(adopted.simulation.cpu().state(), session.simulation.cpu().state()) << time;
+    ASSERT_EQ(adopted.simulation.master().exchange(), session.simulation.master().exchange()) << time;
+    ASSERT_EQ(adopted.simulation.faults().state().injected, session.simulation.faults().state().injected) << time;
+  }
+}
+
+TEST(History, ARecordingWithCheckpointsIsPlayedFromTheOneBeforeWhatIsLookedAt) {
+  Recorded adopted(slave(), {.interval = 5 * kMillisecond});
+  const Recording recording = recording_with_checkpoints(12);
+  ASSERT_TRUE(adopted.history->adopt(recording));
+  const std::size_t given = adopted.history->usage().checkpoints;
+  EXPECT_EQ(given, recording.checkpoints.size() + 1);
+  adopted.history->go_to(adopted.history->newest().time - 1);
+  const Time part = recording.end.time / 13;
+  EXPECT_LE(adopted.history->usage().checkpoints, given + static_cast<std::size_t>(4 * part / (5 * kMillisecond)));
+}
+
+TEST(History, CheckpointsOfARecordingStayWhenOthersAreThinned) {
+  Recorded adopted(slave(), {.bound = 1 << 20, .interval = kMillisecond / 2});
+  const Recording recording = recording_with_checkpoints(6);
+  ASSERT_TRUE(adopted.history->adopt(recording));
+  adopted.history->go_to(adopted.history->newest().time - 1);
+  EXPECT_GE(adopted.history->usage().checkpoints, recording.checkpoints.size() + 1);
+  EXPECT_GT(adopted.history->usage().interval, kMillisecond / 2);
+}
+
+TEST(History, ADamagedCheckpointIsNotTaken) {
+  Recording recording = recording_with_checkpoints(6);
+  for (const std::size_t place : {std::size_t{0}, std::size_t{20}, recording.checkpoints[0].size() - 1}) {
+    Recording damaged = recording;
+    damaged.checkpoints[0][place] = static_cast<char>(damaged.checkpoints[0][place] ^ 1);
+    Recorded adopted(slave(), {});
+    EXPECT_FALSE(adopted.history->adopt(damaged)) << place;
+  }
+  std::swap(recording.checkpoints[0], recording.checkpoints[1]);
+  Recorded adopted(slave(), {});
+  EXPECT_FALSE(adopted.history->adopt(recording)) << "not in the order of time";
+}
+
 TEST(History, AnAdoptedRecordingKnowsWhoWroteLast) {
   Recorded session(slave(), {.interval = 20 * kMillisecond});
   session.live_through_it();

@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/numbers.hpp"
 #include "tools/json/json_taker.hpp"
 #include "tools/rig/memory_json.hpp"
 #include "tools/session/commands/action_json.hpp"
+#include "tools/views/report.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -108,6 +110,17 @@ void take_done(JsonTaker& taker, const Json& json, const std::vector<Action>& ac
   }
 }
 
+std::string take_bytes(JsonTaker& taker, const Json& json) {
+  const std::string hex = taker.text(json);
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size() && taker.fine(); i += 2) {
+    const auto high = hex_digit(hex[i]), low = hex_digit(hex[i + 1]);
+    if (!high || !low) taker.fail("a checkpoint holds something else than hex");
+    bytes += static_cast<char>(high.value_or(0) << 4 | low.value_or(0));
+  }
+  return bytes;
+}
+
 }  // namespace
 
 Json json_of(const Recording& recording, const CpuModel& model) {
@@ -126,6 +139,14 @@ Json json_of(const Recording& recording, const CpuModel& model) {
   json["end"] = moment_json(recording.end);
   json["now"] = moment_json(recording.now);
   if (!recording.memory.empty()) add_kept_memory(json, recording.memory.front(), model);
+  if (!recording.checkpoints.empty()) json["checkpoints"] = checkpoints_json(recording.checkpoints);
+  return json;
+}
+
+Json checkpoints_json(const std::vector<std::string>& checkpoints) {
+  Json json = Json::array();
+  for (const std::string& bytes : checkpoints)
+    json.push_back(plain_hex({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}));
   return json;
 }
 
@@ -138,6 +159,8 @@ std::optional<Recording> recording_from(const Json& json, const CpuModel& model,
   recording.end = take_moment(taker, taker.member(json, "end"));
   recording.now = take_moment(taker, taker.member(json, "now"));
   if (const auto memory = take_kept_memory(taker, json, model)) recording.memory.push_back(*memory);
+  if (JsonTaker::has(json, "checkpoints"))
+    for (const Json& one : taker.list_at(json, "checkpoints")) recording.checkpoints.push_back(take_bytes(taker, one));
   for (const Moment& moment : {recording.end, recording.now})
     if (moment.actions > recording.actions.size()) taker.fail("more was done than it has");
   why = taker.why();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/session/past/history.hpp"
 
@@ -15,6 +16,10 @@ namespace s7200::tools {
 
 /// The recording is complete.
 nlohmann::ordered_json json_of(const Recording& recording, const CpuModel& model);
+
+/// Its part `checkpoints`: in hex, which zlib packs better than base64, because the same bytes have the same characters in
+/// all of them.
+nlohmann::ordered_json checkpoints_json(const std::vector<std::string>& checkpoints);
 
 /// Returns nothing and sets `why` if the JSON is not a recording of that CPU.
 std::optional<Recording> recording_from(const nlohmann::ordered_json& json, const CpuModel& model, std::string& why);

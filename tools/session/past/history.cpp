@@ -226,7 +226,7 @@ serial::Halt History::run_live() {
     const Time over = observer_->passes_over_until();
     const Time end = passes_over() ? over : over > time() ? std::min(next, over) : next;
     halt = run_live_until(executes() ? end : std::min({next, idle, time() + kSlice}));
-    if (halt == serial::Halt::Time && time() >= next) keep_checkpoint();
+    if (halt == serial::Halt::Time && time() >= next) keep_checkpoint(branch_->checkpoints.size());
   }
   checkpoint_due_ = kNever;
   live_ = false;
@@ -417,11 +417,26 @@ bool History::stands_at(const Moment& moment) const {
   return moment.is_counted() ? here == moment : here.time == moment.time && here.actions == moment.actions;
 }
 
-const History::Checkpoint& History::checkpoint_before(const Moment& moment) const {
+/// The last checkpoint at that moment or before it, and so on, by its number.
+std::size_t History::part_of(const Moment& moment) const {
   const auto& all = branch_->checkpoints;
   const auto after = std::upper_bound(all.begin() + 1, all.end(), moment,
                                       [](const Moment& m, const CheckpointPtr& c) { return comes_before(m, c->moment); });
-  return **(after - 1);
+  return static_cast<std::size_t>(after - all.begin()) - 1;
+}
+
+std::size_t History::part_of(Time time) const {
+  const auto& all = branch_->checkpoints;
+  const auto after =
+      std::upper_bound(all.begin() + 1, all.end(), time, [](Time t, const CheckpointPtr& c) { return t < c->moment.time; });
+  return static_cast<std::size_t>(after - all.begin()) - 1;
+}
+
+std::size_t History::part_before(const Moment& moment) const {
+  const auto& all = branch_->checkpoints;
+  const auto after = std::lower_bound(all.begin() + 1, all.end(), moment,
+                                      [](const CheckpointPtr& c, const Moment& m) { return c->moment < m; });
+  return static_cast<std::size_t>(after - all.begin()) - 1;
 }
 
 void History::restore(const Checkpoint& checkpoint) {
@@ -435,7 +450,7 @@ void History::restore(const Checkpoint& checkpoint) {
 
 void History::go_to(const Moment& moment) {
   if (!explore(moment.time)) return;
-  const Checkpoint& checkpoint = checkpoint_before(moment);
+  const Checkpoint& checkpoint = *branch_->checkpoints[part_of(moment)];
   if (const Moment here = now(); comes_before(moment, here) || comes_before(here, checkpoint.moment)) restore(checkpoint);
   advance(moment);
 }
@@ -447,10 +462,7 @@ bool History::go_to(Time time) {
     return true;
   }
   const bool explored = explore(time);
-  const auto& all = branch_->checkpoints;
-  const auto after =
-      std::upper_bound(all.begin() + 1, all.end(), time, [](Time t, const CheckpointPtr& c) { return t < c->moment.time; });
-  restore(**(after - 1));
+  restore(*branch_->checkpoints[part_of(time)]);
   if (!explored || !play_to(time)) {
     go_to(start);
     return false;
@@ -477,17 +489,16 @@ bool History::play_to(Time time) {
   return true;
 }
 
-/// Plays what was recorded elsewhere on from its last checkpoint, and keeps checkpoints up to `time`. False after a stop
-/// request. What is written there is unknown.
+/// Plays what was recorded elsewhere on from the last checkpoint before `time`, and keeps checkpoints up to there. False
+/// after a stop request. What is written there is unknown.
 bool History::explore(Time time) {
-  const auto next = [this] { return branch_->checkpoints.back()->moment.time + branch_->interval; };
+  if (!branch_->unexplored) return true;
   const Time end = std::min(time, branch_->end.time);
-  if (!branch_->unexplored || next() >= end) return true;
-  restore(*branch_->checkpoints.back());
-  while (next() < end) {
-    if (!play_to(next())) return false;
-    keep_checkpoint();
-    for (WrittenMemory& written : branch_->written.back()) written.unknown = true;
+  const auto next = [this](std::size_t part) { return branch_->checkpoints[part]->moment.time + branch_->interval; };
+  for (std::size_t part = part_of(end); next(part) < end; part = part_of(end)) {
+    if (const Checkpoint& checkpoint = *branch_->checkpoints[part]; now() != checkpoint.moment) restore(checkpoint);
+    if (!play_to(next(part))) return false;
+    keep_checkpoint(part + 1);
   }
   return true;
 }
@@ -496,10 +507,7 @@ bool History::explore(Time time) {
 Moment History::go_to_before(const Moment& end, Time ahead) {
   const Time time = end.time - std::min(ahead, end.time);
   explore(end.time);
-  const auto& all = branch_->checkpoints;
-  const auto after = std::lower_bound(all.begin() + 1, all.end(), end,
-                                      [](const CheckpointPtr& c, const Moment& m) { return c->moment < m; });
-  const CheckpointPtr checkpoint = *(after - 1);
+  const CheckpointPtr checkpoint = branch_->checkpoints[part_before(end)];
   restore(*checkpoint);
   if (checkpoint->moment.time >= time) return now();
   play_to(time);
@@ -525,11 +533,7 @@ History::Search History::search_back(Observer& observer, Moment end, const std::
 
 /// The end of the last part that may hold it, or of the first.
 Moment History::passed_over(Moment end, const MayHold& may_hold) const {
-  const auto& all = branch_->checkpoints;
-  const auto after = std::lower_bound(all.begin() + 1, all.end(), end,
-                                      [](const CheckpointPtr& c, const Moment& m) { return c->moment < m; });
-  auto part = static_cast<std::size_t>(after - all.begin()) - 1;
-  for (; part > 0 && !may_hold(part); --part) end = all[part]->moment;
+  for (std::size_t part = part_before(end); part > 0 && !may_hold(part); --part) end = branch_->checkpoints[part]->moment;
   return end;
 }
 
@@ -686,18 +690,57 @@ bool History::replay(Recording recording) {
   return stands_at(then);
 }
 
-void History::adopt(Recording recording) {
+bool History::adopt(Recording recording) {
   system().restore(origin_->state);
   power_up_stations(recording.memory);
   attach_hosts_of(recording);
   begin_branch(system().snapshot());
+  const bool taken = take_checkpoints_of(recording);
   branch_->memory = std::move(recording.memory);
   branch_->actions = std::move(recording.actions);
   branch_->stations = std::move(recording.stations);
   branch_->moments = std::move(recording.moments);
   branch_->end = recording.end;
   branch_->unexplored = true;
-  for (WrittenMemory& written : branch_->written.back()) written.unknown = true;
+  for (std::vector<WrittenMemory>& written : branch_->written)
+    for (WrittenMemory& of_station : written) of_station.unknown = true;
+  return taken;
+}
+
+/// All of them, or none.
+bool History::take_checkpoints_of(const Recording& recording) {
+  std::vector<CheckpointPtr> all{branch_->checkpoints.front()};
+  for (const std::string& bytes : recording.checkpoints) {
+    auto checkpoint = unpacked(bytes, *all.front());
+    if (!checkpoint || !comes_before(all.back()->moment, checkpoint->moment) || recording.end < checkpoint->moment)
+      return false;
+    checkpoint->lasts = true;
+    all.push_back(counted(std::move(*checkpoint)));
+  }
+  branch_->checkpoints = std::move(all);
+  branch_->written.resize(branch_->checkpoints.size(), nothing_written());
+  return true;
+}
+
+std::vector<std::string> History::packed_checkpoints(std::size_t most) {
+  const Place start = here();
+  const Time end = newest().time, part = end / static_cast<Time>(most + 1);
+  std::vector<std::string> all;
+  for (std::size_t number = 0; part > 0 && number < most; ++number)
+    if (const Time time = part * static_cast<Time>(number + 1); go_to(time) && come_to_quiet(time + part))
+      all.push_back(packed(*checkpoint_of(system().snapshot())));
+  return_to(start);
+  return all;
+}
+
+/// Goes on to a moment that can be packed. False if there is none before `end`, or not so soon.
+bool History::come_to_quiet(Time end) {
+  constexpr Time kStep = 7 * kMillisecond;  // a master that asks in round numbers is not met in the same place each time
+  for (int tries = 200; tries > 0; --tries) {
+    if (can_be_packed(system().snapshot(), time())) return true;
+    if (time() + kStep >= end || !go_to(time() + kStep)) return false;
+  }
+  return false;
 }
 
 void History::begin_with(serial::Simulation::Snapshot state) {
@@ -733,14 +776,18 @@ const std::vector<Moment>& History::action_moments() const { return branch_->mom
 // --- checkpoints ---
 
 History::CheckpointPtr History::checkpoint_of(serial::Simulation::Snapshot state) {
-  const std::size_t size = sizeof(Checkpoint) + bytes_of(state);
-  *bytes_ += size;
   std::vector<std::uint32_t> ops;
   for (serial::Simulation* station : stations_) ops.push_back(station->cpu().core().loop.op);
-  return {new Checkpoint{now(), std::move(state), std::move(ops), requests_.state()},
-          [total = bytes_, size](const Checkpoint* checkpoint) {
+  return counted({now(), std::move(state), std::move(ops), requests_.state()});
+}
+
+/// Its bytes count as long as there is anyone who has it.
+History::CheckpointPtr History::counted(Checkpoint checkpoint) {
+  const std::size_t size = sizeof checkpoint + bytes_of(checkpoint.state);
+  *bytes_ += size;
+  return {new Checkpoint(std::move(checkpoint)), [total = bytes_, size](const Checkpoint* one) {
             *total -= size;
-            delete checkpoint;
+            delete one;
           }};
 }
 
@@ -750,9 +797,13 @@ std::vector<WrittenMemory> History::nothing_written() const {
   return written;
 }
 
-void History::keep_checkpoint() {
-  branch_->checkpoints.push_back(checkpoint_of(system().snapshot()));
-  branch_->written.push_back(nothing_written());
+/// As the beginning of the part with that number. What is written in a part that is computed again is unknown.
+void History::keep_checkpoint(std::size_t part) {
+  std::vector<WrittenMemory> written = nothing_written();
+  for (WrittenMemory& of_station : written) of_station.unknown = !live_;
+  const auto place = static_cast<std::ptrdiff_t>(part);
+  branch_->checkpoints.insert(branch_->checkpoints.begin() + place, checkpoint_of(system().snapshot()));
+  branch_->written.insert(branch_->written.begin() + place, std::move(written));
   if (*bytes_ > settings_.bound) thin();
   if (branch_->log_bytes > settings_.log_bound) forget();
 }
@@ -778,7 +829,7 @@ void History::forget() {
   branch.forgotten += gone;
 }
 
-/// Every second checkpoint of every branch goes, but not its beginning.
+/// Every second checkpoint of every branch goes, but not its beginning, nor what was given with a recording.
 void History::thin() {
   std::erase_if(branches_, [](const auto& branch) { return branch.expired(); });
   for (const auto& weak : branches_) {
@@ -786,7 +837,7 @@ void History::thin() {
     std::vector<CheckpointPtr> kept;
     std::vector<std::vector<WrittenMemory>> written;
     for (std::size_t i = 0; i < branch->checkpoints.size(); ++i) {
-      if (i % 2 == 0) {
+      if (i % 2 == 0 || branch->checkpoints[i]->lasts) {
         kept.push_back(branch->checkpoints[i]);
         written.push_back(std::move(branch->written[i]));
       } else {

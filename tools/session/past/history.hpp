@@ -25,30 +25,14 @@
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/trace/trace.hpp"
 #include "tools/session/past/action.hpp"
+#include "tools/session/past/checkpoint.hpp"
 #include "tools/session/past/host_frames.hpp"
 #include "tools/session/past/line_stations.hpp"
+#include "tools/session/past/moment.hpp"
 #include "tools/session/past/plc_requests.hpp"
 #include "tools/session/past/written_memory.hpp"
 
 namespace s7200::tools {
-
-/// A place in a run. Instructions may take no time, and several actions may come between two of them: so it takes more than
-/// the time to name one.
-struct Moment {
-  std::uint64_t instructions = 0;  ///< executed before, by all stations
-  std::size_t actions = 0;         ///< done before
-  bool settled = false;            ///< interrupts that were due have been taken: it is exactly in front of an instruction
-  Time time = 0;                   ///< the earliest clock of all stations
-  bool stopped = false;            ///< the only CPU is in STOP, to which it may go in no time
-
-  /// `instructions` of one that a Journal has noted of a system: where nobody looks at instructions its CPUs run ahead of
-  /// one another, so such a moment is known by its time and the actions before it.
-  static constexpr std::uint64_t kNotCounted = ~std::uint64_t{0};
-  bool is_counted() const { return instructions != kNotCounted; }
-
-  /// The order in which a run comes by; two of one run are never unordered.
-  auto operator<=>(const Moment&) const = default;
-};
 
 struct PowerCycle;
 
@@ -61,6 +45,7 @@ struct Recording {
   Moment end, now;
   bool complete = true;                       ///< false: its beginning is forgotten, and it cannot be run again
   std::shared_ptr<const PowerCycle> power{};  ///< that it begins after; null if it does not, or if it was loaded
+  std::vector<std::string> checkpoints{};     ///< packed, in order: so that any moment is near one of them
 };
 
 /// Power that went off and came back.
@@ -264,8 +249,13 @@ class History final {
 
   /// A new branch that stands at the beginning of a recording of one PLC: all of it is past and can be gone to. It is played
   /// when one goes there, and checkpoints are kept on the way, so that no time is spent on what nobody looks at. Unlike
-  /// replay() it does not look whether it comes to the same end. has_hosts_of() must hold.
-  void adopt(Recording recording);
+  /// replay() it does not look whether it comes to the same end. has_hosts_of() must hold. False if one of its checkpoints
+  /// is not one of this system: it stands at the beginning, without them, then.
+  bool adopt(Recording recording);
+
+  /// `most` checkpoints spread over all that has run, packed, for a recording: what lies between two is quickly computed.
+  /// Each stands where packed() can write it down, soon after its place; there may be fewer.
+  std::vector<std::string> packed_checkpoints(std::size_t most);
 
   /// Those that are not forgotten.
   const std::vector<Action>& actions() const;
@@ -289,12 +279,6 @@ class History final {
   Usage usage() const;
 
  private:
-  struct Checkpoint {
-    Moment moment;
-    serial::Simulation::Snapshot state;
-    std::vector<std::uint32_t> ops;  ///< being executed last, by station: an error that comes now names it
-    PlcRequests::State requests;
-  };
   using CheckpointPtr = std::shared_ptr<const Checkpoint>;
 
   /// What watches a station's CPU.
@@ -369,11 +353,16 @@ class History final {
   void attach_hosts_of(const Recording& recording);
   void fork();
   CheckpointPtr checkpoint_of(serial::Simulation::Snapshot state);
-  void keep_checkpoint();
+  CheckpointPtr counted(Checkpoint checkpoint);
+  std::size_t part_of(const Moment& moment) const;
+  std::size_t part_of(Time time) const;
+  std::size_t part_before(const Moment& moment) const;
+  void keep_checkpoint(std::size_t part);
+  bool take_checkpoints_of(const Recording& recording);
+  bool come_to_quiet(Time until);
   void thin();
   void restore(const Checkpoint& checkpoint);
   bool stands_at(const Moment& moment) const;
-  const Checkpoint& checkpoint_before(const Moment& moment) const;
 
   std::vector<serial::Simulation*> stations_;
   Settings settings_;
@@ -411,7 +400,7 @@ struct History::Branch {
   std::vector<Moment> moments;        ///< of the actions
   std::size_t forgotten = 0;          ///< actions before these
   std::size_t log_bytes = 0;          ///< of the actions
-  bool unexplored = false;            ///< it was recorded elsewhere, and has no checkpoints after its last one
+  bool unexplored = false;            ///< it was recorded elsewhere: between its checkpoints there may be others to come
   Moment end;
   Time interval = 0;
   std::vector<RetentiveMemory> memory{};      ///< by station: it begins with power coming back

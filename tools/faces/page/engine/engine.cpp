@@ -123,7 +123,8 @@ void Engine::begin(std::shared_ptr<const Program> program, const Json& wanted, s
   power_up(*simulation_, *around);
   history_ = std::make_unique<History>(*simulation_, History::Settings{.bound = kBytesOfCheckpoints});
   if (recording && !history_->has_hosts_of(*recording)) return void(why = "recording: it has a bridge that is not here");
-  if (recording) history_->adopt(std::move(*recording));
+  if (recording && !history_->adopt(std::move(*recording)))
+    return void(why = "recording: a checkpoint in it is damaged, or is one of another program");
   talk_ = std::make_unique<Conversation>(*history_, PageSettings{.program = name},
                                          Post{[this](Client, std::string reply) { send_(std::move(reply)); }, send_});
 }

@@ -24,6 +24,9 @@ class Engine {
   /// Carries out a message; its reply and all notifications have been sent when it returns.
   void take(std::string_view message);
 
+  /// The past of the program that is open; null if none is.
+  History* history() { return history_.get(); }
+
  private:
   void open(const Json& message);
   void begin(std::shared_ptr<const Program> program, const Json& wanted, std::string& why);
