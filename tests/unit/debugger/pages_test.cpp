@@ -268,6 +268,43 @@ TEST(Pages, AskForSpansThatThereAre) {
   EXPECT_TRUE(has(session.error_of("spans start end 10 QX99"), "QX99"));
 }
 
+TEST(Actions, AreWhatWasDoneFromOutsideUpToNow) {
+  Asked session(our_slave());
+  for (const char* const command : {"continue 800ms", "set VW40=1234", "input I0.3=1 I0.4=0", "force Q0.1=1",
+                                    "fault missing:exchange=9", "send 01 03 00 14 00 01 crc", "continue 200ms"})
+    session(command);
+  const Json done = session.json("actions");
+  std::vector<std::string> texts;
+  for (const Json& one : done["actions"]) texts.push_back(one["text"]);
+  ASSERT_EQ(texts.size(), 5U);
+  EXPECT_EQ(texts[0], "set VW40=1234");
+  EXPECT_EQ(texts[1], "input I0.3=1 I0.4=0");
+  EXPECT_EQ(texts[2], "force Q0.1=1");
+  EXPECT_TRUE(has(texts[3], "fault missing"));
+  EXPECT_EQ(texts[4], "send 01 03 00 14 00 01 c4 0e");
+  EXPECT_EQ(done["count"], 5);
+  const Json last = session.json("actions 1");
+  EXPECT_EQ(last["actions"].size(), 1U);
+  EXPECT_EQ(last["count"], 5);
+  EXPECT_TRUE(has(session("actions 1").text, "and 4 actions before these"));
+  session("at 700ms");
+  EXPECT_EQ(session.json("actions")["count"], 0);
+  EXPECT_TRUE(has(session("actions").text, "nothing was done from outside"));
+  EXPECT_TRUE(has(session.error_of("actions 5000"), "up to 1000"));
+}
+
+TEST(WhyLatency, NamesWhatTheLastAnswerWaitedFor) {
+  Asked session(our_slave());
+  EXPECT_TRUE(has(session.error_of("why latency"), "no master in the simulation has had an answer"));
+  for (const char* const command : {"continue 800ms", "send 01 03 00 14 00 01 crc", "continue 200ms"}) session(command);
+  const Json answer = session.json("why latency");
+  EXPECT_EQ(answer["name"], "01 03 00 14 00 01 c4 0e");
+  ASSERT_FALSE(answer["causes"].empty());
+  const std::string text = session("why latency").text;
+  EXPECT_TRUE(has(text, "after the end of the request"));
+  EXPECT_TRUE(has(text, "INT 12"));
+}
+
 TrackSpan span_at(Time at, std::string error = {}) {
   return {.at = at, .end = at + 5, .text = "x", .error = std::move(error)};
 }

@@ -171,18 +171,18 @@ takes the address that the pointer holds now. 'rwho' goes there.)",
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
        commands::back_to_write, Takes::Writers, true, "event"},
-      {"why", "", "why [ADDRESS | not CONDITION]",
+      {"why", "", "why [ADDRESS | not CONDITION | latency]",
        "what decided that it has come here: contacts, a jump or a conditional return, without going there",
        R"(With an address: who wrote it last, which contacts decided that, and so on back to an input; or which instructions
 could write it, and what keeps them from it. why not Q0.3: the rungs that write it, the fewest contacts that would have to
 change, with what each has, since when and who could change it; why not not Q0.3 what keeps it on, why not VW10 > 5 who
-writes VW10. Where an 'expect' or a step of a scenario has just failed, why is about
-the memory that was not as expected.
+writes VW10. why latency: what the last answer to a master in the simulation waited for. Where an 'expect' or a step of a
+scenario has just failed, why is about the memory that was not as expected.
 Without one: the contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.
 While a master or a program waits for an answer, and where it gives up: also what has left the request without one,
 be it the program, an event that is not attached, a port in PPI mode, or the line that lost it or its answer; or that
 it was for another station. That comes first, what led to this place last.)",
-       commands::why, Takes::Addresses, false, "not"},
+       commands::why, Takes::Addresses, false, "not latency"},
       {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
        R"(Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of
 contacts: after the last of them, where S0 is what they have decided; if it stands there already, in front of
@@ -203,6 +203,10 @@ how many of them are errors. For pages; the text is a summary. For example: span
       {"fork", "", "fork", "forget what has run after this moment: going forward is new from here on",
        "What was done to the PLC later is not done again. back takes it back.", commands::fork},
       {"past", "", "past", "how far back it can go, and what that takes", "", commands::past},
+      {"actions", "", "actions [n]",
+       "what was done from outside up to now, the last 50 or n: inputs, values, frames, faults",
+       "That and the program are all that has led here: the same actions at the same moments lead here again.",
+       commands::actions},
       {"power", "", "power [all] [TIME] [lost] | off | on",
        "switch power off and on again: the CPU begins with what it has kept",
        R"(off and on switch this PLC alone; time goes on, and going back crosses both: power off; continue 2s; power on.

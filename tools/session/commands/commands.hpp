@@ -29,6 +29,7 @@ Reply back_until(Session& session, const Words& words);
 Reply at(Session& session, const Words& words);
 Reply fork(Session& session, const Words& words);
 Reply past(Session& session, const Words& words);
+Reply actions(Session& session, const Words& words);
 Reply restart(Session& session, const Words& words);
 
 // commands_causes.cpp

@@ -3,6 +3,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/text_trace.hpp"
+#include "tools/session/causes/latency_cause.hpp"
 #include "tools/session/causes/memory_cause.hpp"
 #include "tools/session/commands/cause_reports.hpp"
 #include "tools/session/commands/commands.hpp"
@@ -13,6 +14,7 @@
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/words/words.hpp"
 #include "tools/views/execution_text.hpp"
+#include "tools/views/machine_text.hpp"
 
 namespace s7200::tools::commands {
 namespace {
@@ -31,6 +33,33 @@ Reply why_not(Session& session, const Words& words) {
   std::string why;
   const auto wish = parse_wish(joined(words), session.program(), why);
   return wish ? obstacles_to(session, *wish) : wrong(fmt::format("why not: {}", why));
+}
+
+/// The answered request of a simulated master that ended last on the line of the PLC that is looked at; null if there is
+/// none.
+const serial::Exchange* last_answered(const Session& session) {
+  const PlcRequests& requests = session.history.requests();
+  const std::size_t line = requests.line_of(session.focus(), session.simulation().port());
+  const serial::Exchange* last = nullptr;
+  for (const SimulatedMaster& master : requests.masters_on(line)) {
+    const serial::Exchange& exchange = master.requester->exchange();
+    if (exchange.latency() && (!last || last->response_start < exchange.response_start)) last = &exchange;
+  }
+  return last;
+}
+
+Reply why_latency(Session& session) {
+  const serial::Exchange* const exchange = last_answered(session);
+  if (!exchange) return wrong("why latency: no master in the simulation has had an answer on this line so far");
+  const auto waits = latency_cause(session.history, session.focus(), *exchange, session.setup.stop_request);
+  if (!waits) return interrupted(session);
+  const std::string latency = format_duration(*exchange->latency());
+  Reply reply{.json = {{"name", serial::to_hex(exchange->request)}, {"value", latency}, {"causes", *waits}}};
+  reply.text =
+      fmt::format("the answer to {} began {} after the end of the request\n", serial::to_hex(exchange->request), latency);
+  for (const std::string& wait : *waits) reply.text += fmt::format("  {}\n", wait);
+  if (waits->empty()) reply.text += "  no PLC on this line has sent it\n";
+  return reply;
 }
 
 /// Says what was found, and goes there.
@@ -71,6 +100,7 @@ Reply why(Session& session, const Words& arguments) {
   }
   std::string why;
   if (stl::lower_case(arguments[0]) == "not") return why_not(session, {arguments.begin() + 1, arguments.end()});
+  if (stl::lower_case(arguments[0]) == "latency" && arguments.size() == 1) return why_latency(session);
   const auto place = one_range(session, arguments, "why", why);
   return place ? cause_of(session, place->range, named(session.program(), place->range)) : wrong(why);
 }

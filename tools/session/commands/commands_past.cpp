@@ -2,12 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/session/commands/commands.hpp"
-#include "tools/session/commands/moments_json.hpp"
 #include "tools/session/commands/memory_words.hpp"
+#include "tools/session/commands/moments_json.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/stops/goals.hpp"
@@ -15,6 +16,41 @@
 #include "tools/views/machine_text.hpp"
 
 namespace s7200::tools::commands {
+namespace {
+
+constexpr std::uint32_t kUsualActions = 50, kMostActions = 1000;
+
+std::string assignments_text(const char* what, const std::vector<Assignment>& assignments) {
+  std::string text = what;
+  for (const Assignment& one : assignments) text += fmt::format(" {}={}", one.place.name_of(0), one.value);
+  return text;
+}
+
+bool are_inputs(const std::vector<Assignment>& assignments) {
+  return std::ranges::all_of(assignments, [](const Assignment& one) { return one.place.area == Area::I; });
+}
+
+/// What the port of a bridge was told. Empty if it has put nothing on the line.
+std::string text_of_bridge(const serial::HostCall& call, const std::string& name) {
+  if (call.what != serial::HostCall::What::Send) return {};
+  Bytes bytes;
+  for (const serial::HostCharacter& character : call.characters) bytes.push_back(character.byte);
+  return fmt::format("{} sends {}", name.empty() ? "the bridge" : name, serial::to_hex(bytes));
+}
+
+/// As it would be typed. Empty if it has changed nothing for the PLCs.
+std::string text_of_action(const History& history, std::size_t number) {
+  const Action& action = *history.action(number);
+  if (const auto* const set = std::get_if<SetMemory>(&action))
+    return set->assignments.empty() ? ""
+                                    : assignments_text(are_inputs(set->assignments) ? "input" : "set", set->assignments);
+  if (const auto* const force = std::get_if<Force>(&action)) return assignments_text("force", force->assignments);
+  if (const auto* const call = std::get_if<serial::HostCall>(&action))
+    return text_of_bridge(*call, history.bridge_of(history.station_of_action(number)));
+  return describe(action);
+}
+
+}  // namespace
 
 Reply back(Session& session, const Words& arguments) {
   const auto count = parse_count(arguments);
@@ -116,6 +152,33 @@ Reply past(Session& session, const Words&) {
       static_cast<double>(usage.bytes) / kMegabyte, static_cast<double>(session.setup.bound) / kMegabyte,
       counted(session.history.actions().size(), "action"));
   return {.json = moments_json(session)};
+}
+
+Reply actions(Session& session, const Words& arguments) {
+  const auto most = arguments.empty() ? kUsualActions : parse_count(arguments);
+  if (!most || *most > kMostActions)
+    return wrong(expects("actions", fmt::format("how many, up to {}, for example: actions 100", kMostActions)));
+  Reply reply{.json = {{"count", 0}, {"actions", Json::array()}}};
+  std::vector<Json> newest_first;
+  std::size_t count = 0;
+  for (std::size_t number = session.history.now().actions; number-- > 0 && session.history.action(number);) {
+    const std::string text = text_of_action(session.history, number);
+    if (text.empty() || ++count > *most) continue;
+    const Time at = session.history.moment_of_action(number).time;
+    newest_first.push_back({{"at_ns", at}, {"text", text}});
+    if (const std::size_t station = session.history.station_of_action(number); session.history.stations() > 1)
+      newest_first.back()["station"] = session.history.name_of(std::min(station, session.history.stations() - 1));
+  }
+  reply.json["count"] = count;
+  for (auto one = newest_first.rbegin(); one != newest_first.rend(); ++one) {
+    reply.text += fmt::format("{}  {}{}\n", clock_text((*one)["at_ns"].get<Time>()),
+                              one->contains("station") ? (*one)["station"].get<std::string>() + ": " : "",
+                              stl::printable((*one)["text"].get<std::string>()));
+    reply.json["actions"].push_back(std::move(*one));
+  }
+  if (count == 0) reply.text = "nothing was done from outside up to now\n";
+  if (count > *most) reply.text += fmt::format("and {} before these\n", counted(count - *most, "action"));
+  return reply;
 }
 
 Reply restart(Session& session, const Words&) {
