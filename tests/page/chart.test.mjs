@@ -77,6 +77,36 @@ test('a push button is on as long as it is pressed', async () => {
   await page.waitForSelector('[aria-label^="Input I0.7"][aria-checked=false]');
 });
 
+test('a pulse train counts in simulated time, whatever the pace', async () => {
+  const counter = await view('stl_programs/edge_counter.stl');
+  const other = await open(chrome, counter.address);
+  const input = other.locator('[aria-label^="Input I0.0"]');
+  await input.click({ button: 'right' });
+  await input.click({ button: 'right' });
+  await other.fill('[aria-label="Pulses a second at I0.0"]', '2000');
+  await other.keyboard.press('Enter');
+  await other.waitForSelector('.notice.error:has-text("from 0.01 to 1000")');
+  await other.fill('[aria-label="Pulses a second at I0.0"]', '100');
+  await other.press('[aria-label="Pulses a second at I0.0"]', 'Enter');
+  await input.click();
+  await other.waitForSelector('[aria-label^="Input I0.0"][aria-checked=true]');
+  await picture(other, 'chart_pulses');
+  await other.fill('#add-address', 'VW0');
+  await other.press('#add-address', 'Enter');
+  await other.selectOption('#pace', '0.1');
+  await other.click('#do-run');
+  await other.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 150);
+  await other.click('#do-run');
+  await other.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  const ms = parseFloat(await other.inputValue('#moment'));
+  await other.waitForFunction((wanted) => Math.abs(Number(document.querySelector('.chart .current').textContent) - wanted) <= 1, ms / 10);
+  await input.click();
+  await other.waitForSelector('[aria-label^="Input I0.0"][aria-checked=false]');
+  assert.deepEqual(other.troubles, []);
+  await other.close();
+  await end(counter.server);
+});
+
 test('an analog input is turned with a slider', async () => {
   await add('AIW4');
   const slider = page.locator('[aria-label="Analog input AIW4"]');

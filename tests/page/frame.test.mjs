@@ -71,6 +71,22 @@ test('a moment that is typed is gone to, and what is not a time is said', async 
   await page.close();
 });
 
+test('the toolbar is one row at 1366 pixels, with a scan of 8 digits and a moment to the nanosecond', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    const page = await open(chrome, plc.address, { colorScheme, viewport: { width: 1366, height: 768 } });
+    const sizes = await page.evaluate(() => {
+      document.querySelector('.scan-number').textContent = 'scan 88888888';
+      document.querySelector('#moment').value = '99999.999999 ms';
+      const [moment, bar] = ['#moment', '.toolbar'].map((name) => document.querySelector(name));
+      return { height: bar.offsetHeight, cut: moment.scrollWidth - moment.clientWidth, wide: bar.scrollWidth - bar.clientWidth };
+    });
+    assert.ok(sizes.height < 45, `${sizes.height} pixels`);
+    assert.deepEqual([sizes.cut, sizes.wide], [0, 0]);
+    await picture(page, `frame_1366_${colorScheme}`);
+    await page.close();
+  }
+});
+
 test('an address with a moment opens at that moment', async () => {
   const page = await open(chrome, `${plc.address}#t=7ms`);
   await page.waitForFunction(() => Math.abs(parseFloat(document.querySelector('#moment').value) - 7) < 1);

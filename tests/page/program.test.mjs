@@ -62,6 +62,30 @@ test('a click in the margin sets a breakpoint, and the run stops there', async (
   await page.close();
 });
 
+test('what keeps an output off is a tree of contacts, and an input in it can be switched there', async () => {
+  const page = await open(chrome, await start(...kPump));
+  await page.click('#do-run');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 100);
+  await page.click('#do-run');
+  await page.fill('#find', 'Pump');
+  await page.press('#find', 'Enter');
+  await page.waitForSelector('.row.selected .operand', { timeout: 5000 });
+  await page.click('.point-name:has-text("Q0.0")');
+  await page.click('[role=menuitem]:has-text("What keeps it so?")');
+  await page.waitForSelector('.obstacles');
+  const said = await page.textContent('.trail li');
+  assert.match(said, /^What keeps Pump \(Q0\.0\) off\?/);
+  assert.match(said, /contacts? ha(s|ve) to change/);
+  await picture(page, 'program_obstacles');
+  for (const button of await page.locator('.obstacle .why').all()) await button.click();
+  await page.click('#do-scan');
+  await page.click('#do-scan');
+  await page.click('#tab-chart');
+  await page.waitForSelector('[aria-label="Output Q0.0 on"]');
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('a fatal error is said, the SF lamp is on, and one can go back to before it', async () => {
   const program = path.join(kFolder, 'loop.awl');
   writeFileSync(program, 'NETWORK 1\nLBL    1\nLD     I0.1\nJMP    1\nMEND\n');

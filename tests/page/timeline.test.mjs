@@ -88,6 +88,22 @@ test('the longest answer of the whole past is gone to', async () => {
   await page.evaluate(() => document.activeElement?.blur());
   await page.keyboard.press('Shift+L');
   await page.waitForSelector('.notice:has-text("The longest of 2 answers: after 15.")');
+  const said = await page.textContent('.trail li');
+  assert.match(said, /^What did the answer to 01 03 00 0a 00 02 .* wait for\?/);
+  assert.match(said, /began 15\.\d+ ms after the end of the request/);
+  assert.match(said, /INT 12\d/, 'the interrupt that let it through');
+});
+
+test('what led here is a list of what was done, and its moments lead there', async () => {
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('End');
+  await page.click('#tab-causes');
+  await page.waitForFunction(() => document.querySelectorAll('.led-here tbody tr').length === 3);
+  const all = await page.$$eval('.led-here .frame', (cells) => cells.map((one) => one.textContent));
+  assert.equal(all[0], 'send 01 03 00 0a 00 02 00 00', 'the newest first');
+  await picture(page, 'led_here');
+  await page.locator('.led-here .link').last().click();
+  await page.waitForFunction(() => document.querySelectorAll('.led-here tbody tr').length < 3);
 });
 
 test('the wheel zooms at the pointer, a click goes to the moment there', async () => {

@@ -1,8 +1,8 @@
 // Why and who: each answer is a step of a trail that one walks back to the cause.
 import { changed, show_pane, state } from './state';
-import { command, go_to } from './session';
+import { command, go_to, query, Seen } from './session';
 import type { Exchange } from './exchanges';
-import type { Cause } from './protocol';
+import type { Cause, Done, Past, Value } from './protocol';
 
 async function ask(question: string, line: string): Promise<void> {
   const at_ns = state.past?.now_ns ?? 0;
@@ -21,6 +21,13 @@ export function ask_why(address = ''): Promise<void> {
   return ask(address ? `Why is ${named(address)} so?` : 'Why has it come here?', `why ${address}`.trim());
 }
 
+/** What keeps a bit off, or on, and the fewest contacts that would have to change. */
+export async function ask_why_not(address: string): Promise<void> {
+  const reply = await command<{ values: Value[] }>(`values ${address}`);
+  const on = Number(reply.json?.values[0]?.number ?? 0) === 1;
+  await ask(`What keeps ${named(address)} ${on ? 'on' : 'off'}?`, `why not ${on ? 'not ' : ''}${address}`);
+}
+
 export function ask_who(address: string): Promise<void> {
   return ask(`Who wrote ${named(address)} last?`, `who ${address}`);
 }
@@ -32,6 +39,27 @@ export async function ask_why_unanswered(one: Exchange, next: Exchange | undefin
   const newest = state.past?.newest_ns ?? 0;
   await go_to(Math.min(one.end_ns + kAfterRequest, next?.at_ns ?? Infinity, newest));
   await ask(`Why has ${one.request} no answer?`, 'why');
+}
+
+/** What an answer has waited for, as it is known at its end. */
+export async function ask_why_latency(one: Exchange): Promise<void> {
+  if (one.answer_end_ns === undefined) return;
+  await go_to(one.answer_end_ns);
+  await ask(`What did the answer to ${one.request} wait for?`, 'why latency');
+}
+
+const kDone = 200;  // actions that are listed
+const done = new Seen(async () => {
+  const reply = await query<Done>(`actions ${kDone}`);
+  state.done = reply.json ?? null;
+});
+let done_at: Past | null = null;
+
+/** The list is seen, and asked for whenever the session has moved or changed. */
+export function see_done(): void {
+  if (state.past === done_at) return;
+  done_at = state.past;
+  done.refresh();
 }
 
 export function forget_trail(): void {

@@ -9,6 +9,7 @@ export interface Exchange {
   answer?: string;
   error?: string;
   latency_ns?: number;
+  answer_end_ns?: number;
   pending?: boolean;
 }
 
@@ -36,6 +37,7 @@ export function exchanges_of(spans: Spans | null, now_ns: number): Exchange[] {
       } else if (open) {
         open.answer = words_of(frame);
         open.latency_ns = frame.at_ns - open.end_ns;
+        open.answer_end_ns = frame.end_ns;
         if (frame.error !== undefined) open.error = frame.error;
         open = undefined;
       }

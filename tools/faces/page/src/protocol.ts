@@ -205,6 +205,26 @@ export interface Spans {
   tracks: SpanTrack[];
 }
 
+/** A node of `why not`: what has a name has a value and is to have another one; else its text says all. */
+export interface Obstacle {
+  kind: string;
+  name?: string;
+  value?: string;
+  wanted?: string;
+  text?: string;
+  place?: string;
+  op?: number;
+  since_ns?: number;
+  since_before_ns?: number;
+  because?: Obstacle[];
+}
+
+/** `actions`: what was done from outside. */
+export interface Done {
+  count: number;
+  actions: { at_ns: number; text: string; station?: string }[];
+}
+
 /** `who`, `why`: in words, and the instruction if it was one. */
 export interface Cause {
   text?: string;
@@ -213,6 +233,9 @@ export interface Cause {
   name?: string;
   value?: number | boolean;
   causes?: unknown[];
+  /** Of `why not`: false, and then what is in the way. */
+  holds?: boolean;
+  whyNot?: Obstacle;
 }
 
 /** Breakpoints and watches. */

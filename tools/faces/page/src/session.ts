@@ -4,6 +4,7 @@ import { kProtocol } from './protocol';
 import type { Line, Notification, Outline, Past, Reply, Status, Stopped, Stops, Value } from './protocol';
 import { is_one_word, query_of } from './formats';
 import { load_marks } from './marks';
+import { forget_pulses } from './pulses';
 import { moment_of_link, moment_word } from './words';
 
 /** Something that is seen: asked for again as soon as it may differ, one question at a time. */
@@ -171,6 +172,8 @@ function forget_run(): void {
   state.first_future = null;
   state.samples.clear();
   state.switched.clear();
+  state.done = null;
+  forget_pulses();
   if (!the_engine().open) return;
   state.window = null;
   state.cursors = { a_ns: null, b_ns: null };
@@ -202,7 +205,7 @@ function propose_points(outline: Outline): void {
   const named = (area: string): string[] =>
     outline.symbols.map((one) => one.address.toUpperCase()).filter((address) => new RegExp(`^${area}\\d+\\.\\d$`).test(address));
   const points = (area: string): string[] => [...new Set([...first_byte(area), ...named(area)])];
-  state.inputs = points('I').map((address) => ({ address, push: false }));
+  state.inputs = points('I').map((address) => ({ address, kind: 'switch', hertz: 10 }));
   state.outputs = points('Q');
 }
 

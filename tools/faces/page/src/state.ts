@@ -1,6 +1,6 @@
 // All that the page shows, as plain data. Who changes it says changed(), and the page is rendered with the next frame.
 import type { Connection, Engine } from './engine';
-import type { Cause, Execution, Hello, LadderNetwork, Line, Outline, Past, Report, Source, Span, Spans, Value } from './protocol';
+import type { Cause, Done, Execution, Hello, LadderNetwork, Line, Outline, Past, Report, Source, Span, Spans, Value } from './protocol';
 
 export type PaneName = 'program' | 'chart' | 'timeline' | 'causes' | 'line' | 'report';
 export type Theme = 'system' | 'light' | 'dark';
@@ -13,10 +13,13 @@ export interface ChartRow {
 }
 export type Format = 'signed' | 'unsigned' | 'hex' | 'binary' | 'ascii' | 'real';
 
-/** How a switch works: it stays where it is put, or returns when it is let go. */
+/** How a switch works: it stays where it is put, returns when it is let go, or gives pulses. */
+export type SwitchKind = 'switch' | 'push' | 'pulses';
 export interface PointRow {
   address: string;
-  push: boolean;
+  kind: SwitchKind;
+  /** Of pulses: how many a second. */
+  hertz: number;
 }
 
 /** A step of the trail that leads to a cause. */
@@ -89,6 +92,8 @@ export interface State {
   trail: TrailStep[];
   printed: string[];
   exchanges: Spans | null;
+  /** What was done from outside up to now. */
+  done: Done | null;
   send_text: string;
 
   /** Of a report: what it carries, the run and the recording that are open, the moment to begin at, and a coarse picture of all of it. */
@@ -145,6 +150,7 @@ export const state: State = {
   trail: [],
   printed: [],
   exchanges: null,
+  done: null,
   send_text: '',
   report: null,
   run: null,

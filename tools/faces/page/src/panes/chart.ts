@@ -2,7 +2,9 @@
 import { h, type Child, type Part } from '../dom';
 import { command, see_values } from '../session';
 import { is_one_word, kFormats, query_of, text_in } from '../formats';
-import { changed, notice, state, type ChartRow, type Format, type PointRow } from '../state';
+import { is_pulsing, kMostHertz, set_hertz, toggle_pulses } from '../pulses';
+import { changed, notice, state, type ChartRow, type Format, type PointRow, type SwitchKind } from '../state';
+import { level_of, switch_to, terminal_level } from '../switches';
 import { remember, remembered } from '../memory';
 import { chart_from, chart_text } from '../status_charts';
 import type { Value } from '../protocol';
@@ -170,41 +172,49 @@ function symbols(): Part {
   return h('datalist', { id: 'symbols' }, (state.outline?.symbols ?? []).slice(0, 500).map((one) => h('option', { value: one.name }, `${one.address}  ${one.comment}`)));
 }
 
-function level_of(address: string): number {
-  return Number(state.values.get(address)?.number ?? 0);
-}
-
-/** The terminal's level: what was put there until the scan has read it, then what the input register has. */
-function terminal_level(address: string): number {
-  const put = state.switched.get(address), past = state.past;
-  const unread = put && past && past.now_ns >= put.at_ns && past.scan <= put.scan + 1;
-  return unread && !state.values.get(address)?.forced ? put.level : level_of(address);
-}
-
-async function switch_to(address: string, level: number): Promise<void> {
-  if (state.past) state.switched.set(address, { level, at_ns: state.past.now_ns, scan: state.past.scan });
-  changed();
-  await command(state.values.get(address)?.forced ? `force ${address}=${level}` : `input ${address}=${level}`);
-}
-
 function symbol_of(address: string): string {
   return state.values.get(address)?.symbol ?? '';
 }
 
-/** A switch stays where it is put; a push button returns when it is let go. */
+const kKinds: Record<SwitchKind, string> = { switch: 'switch', push: 'push button', pulses: 'pulse train' };
+
+function next_kind(row: PointRow): SwitchKind {
+  const kinds = Object.keys(kKinds) as SwitchKind[];
+  return kinds[(kinds.indexOf(row.kind) + 1) % kinds.length]!;
+}
+
+async function change_kind(row: PointRow): Promise<void> {
+  if (is_pulsing(row.address)) await toggle_pulses(row);
+  row.kind = next_kind(row);
+  changed();
+}
+
+/** A switch stays where it is put, a push button returns when it is let go, a pulse train begins and ends with a click. */
 function input_switch(row: PointRow): Part {
-  const on = terminal_level(row.address) === 1;
-  const forced = state.values.get(row.address)?.forced === true;
-  const press = (level: number) => () => { if (row.push) void switch_to(row.address, level); };
-  return h('div', { class: 'point', key: row.address },
-    h('button', { class: `switch${row.push ? ' push' : ''}${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'switch', 'aria-checked': String(on),
-      'aria-label': `Input ${row.address} ${symbol_of(row.address)}`.trim(), title: `${symbol_of(row.address)} ${row.push ? 'push button' : 'switch'}; right click: ${row.push ? 'switch' : 'push button'}`.trim(),
-      onclick: () => { if (!row.push) void switch_to(row.address, on ? 0 : 1); },
-      onpointerdown: press(1), onpointerup: press(0), onpointerleave: () => { if (row.push && on) void switch_to(row.address, 0); },
+  const { address, kind } = row, pulsing = is_pulsing(address);
+  const on = kind === 'pulses' ? pulsing : terminal_level(address) === 1;
+  const forced = state.values.get(address)?.forced === true;
+  const press = (level: number) => () => { if (kind === 'push') void switch_to(address, level); };
+  const name = `${symbol_of(address)} ${kKinds[kind]}; right click: ${kKinds[next_kind(row)]}`.trim();
+  return h('div', { class: 'point', key: address },
+    h('button', { class: `switch ${kind}${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'switch', 'aria-checked': String(on),
+      'aria-label': `Input ${address} ${symbol_of(address)}`.trim(), title: name,
+      onclick: () => { if (kind === 'switch') void switch_to(address, on ? 0 : 1); else if (kind === 'pulses') void toggle_pulses(row); },
+      onpointerdown: press(1), onpointerup: press(0), onpointerleave: () => { if (kind === 'push' && on) void switch_to(address, 0); },
       onkeydown: (event: KeyboardEvent) => { if (event.key === ' ' && !event.repeat) press(1)(); },
       onkeyup: (event: KeyboardEvent) => { if (event.key === ' ') press(0)(); },
-      oncontextmenu: (event: Event) => { event.preventDefault(); row.push = !row.push; changed(); } },
-    h('i', {})), point_name(row.address));
+      oncontextmenu: (event: Event) => { event.preventDefault(); void change_kind(row); } },
+    kind === 'pulses' ? h('svg', { viewBox: '0 0 34 14', 'aria-hidden': 'true' }, h('path', { d: 'M3 11H8V3H14V11H20V3H26V11H31' })) : h('i', {})),
+    kind === 'pulses' ? hertz_field(row) : null, point_name(address));
+}
+
+function hertz_field(row: PointRow): Part {
+  return h('input', { class: 'hertz', value: `${row.hertz} Hz`, 'aria-label': `Pulses a second at ${row.address}`, title: `Pulses a second, up to ${kMostHertz}`, autocomplete: 'off', spellcheck: 'false',
+    onchange: (event: Event) => {
+      const field = event.target as HTMLInputElement;
+      if (!set_hertz(row, field.value)) notice(`'${field.value}' is not a number of pulses a second from 0.01 to ${kMostHertz}`, 'error');
+      field.value = `${row.hertz} Hz`;
+    } });
 }
 
 function point_name(address: string): Part {

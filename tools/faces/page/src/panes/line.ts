@@ -2,7 +2,7 @@
 import { h, type Part } from '../dom';
 import { command, go_to } from '../session';
 import { changed, state } from '../state';
-import { ask_why_unanswered } from '../causes';
+import { ask_why_latency, ask_why_unanswered } from '../causes';
 import { see_exchanges } from '../timeline/view';
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
 import { action, title_with_key } from '../actions';
@@ -22,9 +22,11 @@ const kExamples = ['01 03 00 0a 00 02 crc', 'read 40011:2', 'write 40011=1234', 
 function row(one: Exchange, i: number, next: Exchange | undefined): Part {
   const unanswered = is_unanswered(one);
   const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : 'no answer');
+  const why = unanswered ? { title: 'What kept the program from an answer', ask: () => void ask_why_unanswered(one, next) }
+    : one.answer_end_ns === undefined ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one) };
   return h('tr', { key: i, class: one.error !== undefined || unanswered ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
     h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
-    h('td', { class: 'frame' }, one.request), h('td', { class: 'frame' }, result, unanswered ? h('button', { class: 'why', title: 'What kept the program from an answer', onclick: (event: Event) => { event.stopPropagation(); void ask_why_unanswered(one, next); } }, 'Why?') : null),
+    h('td', { class: 'frame' }, one.request), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),
     h('td', { class: 'number' }, one.latency_ns === undefined ? '' : duration_text(one.latency_ns)));
 }
 

@@ -1,7 +1,7 @@
 // The menu of an address: what one can ask and do about it.
 import { h, type Part } from '../dom';
 import { add_to_chart } from './chart';
-import { ask_who, ask_why } from '../causes';
+import { ask_who, ask_why, ask_why_not } from '../causes';
 import { command } from '../session';
 import { watch_address } from '../timeline/view';
 import { changed, state } from '../state';
@@ -32,10 +32,11 @@ export function close_menu(): void {
   changed();
 }
 
-const kItems: { title: (address: string) => string; does: (address: string) => void }[] = [
+const kItems: { title: (address: string) => string; does: (address: string) => void; of_bits?: boolean }[] = [
   { title: () => 'Add to status chart', does: add_to_chart },
   { title: () => 'Show on the timeline', does: watch_address },
   { title: () => 'Why has it this value?', does: (address) => void ask_why(address) },
+  { title: () => 'What keeps it so?', does: (address) => void ask_why_not(address), of_bits: true },
   { title: () => 'Who wrote it last?', does: (address) => void ask_who(address) },
   { title: () => 'Stop when it changes', does: (address) => void command(`watch ${address}`) },
 ];
@@ -46,7 +47,12 @@ export function menu(): Part | null {
   return h('div', { class: 'menu-shade', onclick: close_menu, oncontextmenu: (event: Event) => { event.preventDefault(); close_menu(); } },
     h('div', { class: 'menu', role: 'menu', 'aria-label': open.address, ref: (node: HTMLElement) => keep_inside(node, open.x, open.y) },
       h('div', { class: 'menu-title' }, name_of(open.address)),
-      kItems.map((item) => h('button', { role: 'menuitem', onclick: () => { close_menu(); item.does(open.address); } }, item.title(open.address)))));
+      kItems.filter((item) => !item.of_bits || is_bit(open.address)).map((item) => h('button', { role: 'menuitem', onclick: () => { close_menu(); item.does(open.address); } }, item.title(open.address)))));
+}
+
+function is_bit(name: string): boolean {
+  const symbol = state.outline?.symbols.find((one) => one.name.toUpperCase() === name.toUpperCase());
+  return /\.[0-7]$|^[TC]\d+$/i.test(symbol?.address ?? name);
 }
 
 function name_of(address: string): string {

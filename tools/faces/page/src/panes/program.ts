@@ -1,7 +1,7 @@
 // Program status: the listing with power flow and values at the moment where the session stands. Only the lines in view are made.
 import { h, type Child, type Part } from '../dom';
 import { command, fetch_chunk_of, go_to, see_lines } from '../session';
-import { changed, state } from '../state';
+import { changed, notice, state } from '../state';
 import { duration_text, moment_text } from '../words';
 import type { Execution, Line, Operand } from '../protocol';
 import { open_menu, open_menu_at } from './menu';
@@ -41,26 +41,37 @@ export async function toggle_breakpoint(line: number | null): Promise<void> {
   await command(number === undefined ? `break ${line} always` : `delete ${number}`);
 }
 
-/** Shows the next line with that text, symbol or number; lines that are not here yet are asked for by the way. */
-async function find(text: string): Promise<void> {
-  const outline = state.outline;
-  if (!outline || text === '') return;
-  const wanted = text.toLowerCase();
-  state.view = 'stl';
+function has_text(line: Line, wanted: string): boolean {
+  const symbols = line.operands?.map((one) => `${one.symbol} ${one.address}`).join(' ') ?? '';
+  return `${line.text} ${symbols}`.toLowerCase().includes(wanted);
+}
+
+/** The next line with that text, symbol or address: an instruction if there is one, for the tables of symbols have them all. Lines
+ * that are not here yet are asked for by the way. */
+async function next_with(wanted: string, lines: number): Promise<number> {
   const start = found_at === 0 ? line_at_top() : found_at + 1;
-  for (let i = 0; i < outline.lines; ++i) {
-    const number = ((start - 1 + i) % outline.lines) + 1;
+  let elsewhere = 0;
+  for (let i = 0; i < lines; ++i) {
+    const number = ((start - 1 + i) % lines) + 1;
     await fetch_chunk_of(number);
     const line = state.lines.get(number);
-    const symbols = line?.operands?.map((one) => `${one.symbol} ${one.address}`).join(' ') ?? '';
-    if (line && `${line.text} ${symbols}`.toLowerCase().includes(wanted)) {
-      found_at = number;
-      state.selected_line = number;
-      scroll_to(number);
-      return;
-    }
+    if (!line || !has_text(line, wanted)) continue;
+    if (line.op !== null) return number;
+    if (elsewhere === 0) elsewhere = number;
   }
-  found_at = 0;
+  return elsewhere;
+}
+
+async function find(text: string): Promise<void> {
+  if (!state.outline || text === '') return;
+  state.view = 'stl';
+  found_at = await next_with(text.toLowerCase(), state.outline.lines);
+  if (found_at === 0) {
+    notice(`'${text}' is not in the program`);
+    return;
+  }
+  state.selected_line = found_at;
+  scroll_to(found_at);
 }
 
 function value_text(value: number | boolean | null): string {

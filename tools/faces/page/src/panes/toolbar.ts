@@ -21,15 +21,16 @@ function lamp(name: string, on: boolean, kind: string): Part {
   return h('span', { class: `lamp ${kind}${on ? ' on' : ''}`, role: 'img', 'aria-label': `${name} lamp ${on ? 'on' : 'off'}` }, name);
 }
 
+/** The lamp of a mode is on the button that switches the CPU to it. */
+function mode_button(mode: 'RUN' | 'STOP'): Part {
+  const one = action(`mode-${mode.toLowerCase()}`), on = state.past?.mode === mode;
+  return h('button', { id: `do-${one.id}`, 'aria-pressed': String(on), title: title_with_key(one), onclick: one.does }, lamp(mode, on, mode.toLowerCase()));
+}
+
 function lamps(): Part {
-  const past = state.past;
-  const fault = past !== null && past.fatal !== 0;
   return h('div', { class: 'group lamps', role: 'group', 'aria-label': 'CPU' },
-    h('div', { class: 'lamp-row' },
-      lamp('SF', fault, 'fault'), lamp('RUN', past?.mode === 'RUN', 'run'), lamp('STOP', past?.mode === 'STOP', 'stop')),
-    h('div', { class: 'mode', role: 'group', 'aria-label': 'Mode of the CPU' },
-      h('button', { id: 'do-mode-run', 'aria-pressed': String(past?.mode === 'RUN'), title: title_with_key(action('mode-run')), onclick: action('mode-run').does }, 'RUN'),
-      h('button', { id: 'do-mode-stop', 'aria-pressed': String(past?.mode === 'STOP'), title: title_with_key(action('mode-stop')), onclick: action('mode-stop').does }, 'STOP')));
+    lamp('SF', state.past !== null && state.past.fatal !== 0, 'fault'),
+    h('div', { class: 'mode', role: 'group', 'aria-label': 'Mode of the CPU' }, mode_button('RUN'), mode_button('STOP')));
 }
 
 const kPaces = [[0.001, '1/1000'], [0.01, '1/100'], [0.1, '1/10'], [1, '1 ×'], [10, '10 ×'], [100, '100 ×'], [0, 'fastest']] as const;

@@ -1,5 +1,6 @@
 // Searches through the past: the nearest trouble, the next request without an answer, the longest answer.
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
+import { ask_why_latency } from '../causes';
 import { command, move } from '../session';
 import { notice, state } from '../state';
 import { duration_text, moment_word } from '../words';
@@ -83,6 +84,7 @@ export async function find_longest(): Promise<void> {
     return;
   }
   await show_found(longest);
+  await ask_why_latency(longest);
   notice(`The longest of ${count} answers: after ${duration_text(longest.latency_ns!)}, to ${longest.request}`);
 }
 
