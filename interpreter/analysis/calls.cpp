@@ -91,7 +91,7 @@ class Builder {
   }
 
   void add_circle(std::vector<std::uint32_t> circle) {
-    std::ranges::rotate(circle, std::ranges::min_element(circle));
+    std::rotate(circle.begin(), std::ranges::min_element(circle), circle.end());
     if (std::ranges::find(result_.recursions, circle) == result_.recursions.end()) result_.recursions.push_back(circle);
   }
 

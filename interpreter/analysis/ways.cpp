@@ -65,8 +65,7 @@ void Ways::prune(std::vector<Conditions>& ways) const {
     ranked.emplace_back(changed, all, std::move(way));
   }
   std::ranges::sort(ranked);
-  const auto repeated = std::ranges::unique(ranked);
-  ranked.erase(repeated.begin(), repeated.end());
+  ranked.erase(std::unique(ranked.begin(), ranked.end()), ranked.end());
   if (ranked.size() > kMost) ranked.resize(kMost);
   ways.clear();
   for (auto& each : ranked) ways.push_back(std::move(std::get<Conditions>(each)));

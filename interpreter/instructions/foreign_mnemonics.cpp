@@ -11,6 +11,7 @@
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/model/boxes.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/model/smart.hpp"
 
 namespace s7200 {
 namespace {
@@ -67,6 +68,7 @@ constexpr ForeignRow kForeignRows[] = {
     {"BEU",   kStep7,      kEnds},
     {"CLR",   kStep7,      "write LDN SM0.0"},
 
+    {"NEG",   kOther,      "the S7-200 has no negation: write INVW OUT, then INCW OUT; INVD and INCD for a double word"},
     {"GET",   kSmart,      kAsCpu226},
     {"PUT",   kSmart,      kAsCpu226},
     {"GIP",   kSmart,      kAsCpu226},
@@ -262,6 +264,11 @@ std::vector<BoxStep> steps_of_box(std::string_view name, std::size_t operands) {
     last.operands.push_back(box->move.empty() || rule.role == Role::In ? input++ : operands - 1);
   steps.push_back(std::move(last));
   return steps;
+}
+
+bool is_instruction_of_smart(std::string_view mnemonic) {
+  const auto* const row = std::ranges::find(kForeignRows, mnemonic, &ForeignRow::mnemonic);
+  return row != std::end(kForeignRows) && row->what == kSmart;
 }
 
 UnknownMnemonic unknown_mnemonic(std::string_view mnemonic) {

@@ -9,6 +9,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/model/smart.hpp"
 #include "interpreter/program/checker.hpp"
 #include "interpreter/stl/symbols.hpp"
 
@@ -92,6 +93,14 @@ const CpuModel* cpu_in_line(std::string_view comment, bool is_title) {
   return ends_there && is_about_nothing_else(before) ? model : nullptr;
 }
 
+bool is_for_smart(const stl::Source& source) {
+  const auto is_of_smart = [](const stl::Line& line) {
+    const auto* const statement = std::get_if<stl::Statement>(&line);
+    return statement && is_instruction_of_smart(statement->mnemonic);
+  };
+  return !stl::symbol_of_smart(source).empty() || std::ranges::any_of(source.lines, is_of_smart);
+}
+
 }  // namespace
 
 const CpuModel* cpu_in_head(const stl::Source& source) {
@@ -116,7 +125,7 @@ const CpuModel& first_cpu_for(const stl::ParseResult& parsed) {
   constexpr std::array kCommon{&cpu214, &cpu224, &cpu226, &cpu224xp};
   std::vector<const CpuModel*> tried;
   for (const auto model : kCommon) tried.push_back(&model());
-  if (!stl::symbol_of_smart(parsed.source).empty()) std::swap(tried[0], tried[2]);  // the CPU 226
+  if (is_for_smart(parsed.source)) std::swap(tried[0], tried[2]);  // the CPU 226
   for (const CpuModel* model : all_cpus())
     if (std::ranges::find(tried, model) == tried.end()) tried.push_back(model);
   if (const CpuModel* first = first_cpu_without_errors(parsed, tried)) return *first;

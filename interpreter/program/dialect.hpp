@@ -8,9 +8,6 @@
 
 namespace s7200 {
 
-/// The message says this of programs for the S7-200 SMART.
-inline constexpr std::string_view kSmartProgram = "a program for the SMART runs here as CPU 226 as far as it goes";
-
 /// One message at the first line that shows it, if a text (UTF-8, plain) is STL of STEP 7 for the S7-300 and S7-400, IL or
 /// ST of IEC 61131-3 (SCL), or a program of Mitsubishi or Omron. Nothing for STL of the S7-200, also with some words of the
 /// others in it, which have messages of their own. Looks at the first 300 lines of code.

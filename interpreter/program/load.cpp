@@ -7,6 +7,7 @@
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/model/smart.hpp"
 #include "interpreter/program/cpu_choice.hpp"
 #include "interpreter/program/dialect.hpp"
 #include "interpreter/stl/blocks.hpp"

@@ -96,10 +96,14 @@ class StructureCheck {
   }
 
   /// A statement that could not be read may jump to any label, and call or attach any routine.
-  void may_be_anything() { all_jumps_known_ = all_calls_known_ = all_attachments_known_ = false; }
+  void may_be_anything() {
+    all_jumps_known_ = all_calls_known_ = all_attachments_known_ = false;
+    some_unread_ = true;
+  }
 
   /// Notes what a statement means for the structure of its routine.
   void note(std::uint32_t i, const CheckedStatement& s) {
+    some_read_ = true;
     switch (s.instruction->structure) {
       case Structure::Label:
         return label(i);
@@ -149,7 +153,7 @@ class StructureCheck {
   void begin_routine(std::uint32_t i, Part part, std::map<std::uint32_t, std::uint32_t>& defined) {
     if (!ended_) missing_end(position(i));
     end_routine();
-    ended_ = false;
+    ended_ = some_unread_ = some_read_ = false;
     stray_reported_ = false;
     if (!statements_[i].operands_good) {
       routine_ = {part, kNoRoutine};
@@ -165,7 +169,9 @@ class StructureCheck {
   }
 
   /// Reports a missing end; on a CPU 22x only of a main program without statements: the others are ended (routine_ends.hpp).
+  /// A routine of which no line could be read may have its end in one of them.
   void missing_end(const stl::Position& at) {
+    if (some_unread_ && !some_read_) return;
     if (model_.self & kCpu22x)
       return error(at, "the main program has no statement",
                    "a listing begins with the main program: give the file that has it too");
@@ -392,6 +398,7 @@ class StructureCheck {
 
   Routine routine_{};
   bool ended_ = false;  // the routine's last instruction has been seen
+  bool some_unread_ = false, some_read_ = false;  // statements of the routine so far
   bool stray_reported_ = false;
   std::vector<std::uint32_t> loops_;                                      // open FORs
   std::optional<std::uint32_t> segment_;                                  // open LSCR

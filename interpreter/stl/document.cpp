@@ -1,6 +1,7 @@
 #include "interpreter/stl/document.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -254,6 +255,20 @@ class DocumentReader {
     return std::move(parsed_);
   }
 
+  /// The lines above the first statement of a listing and below its last that can be nothing but text: a sentence before
+  /// the program, `Code:`, `Regards`.
+  std::vector<std::uint32_t> text_around() const {
+    const auto is_stl = [](const LineReading& reading) { return reading.verdict == Verdict::Stl; };
+    const auto first = std::ranges::find_if(readings_, is_stl);
+    const auto last = std::find_if(readings_.rbegin(), readings_.rend(), is_stl).base();
+    std::vector<std::uint32_t> lines;
+    for (auto i = readings_.begin(); first != readings_.end() && i != readings_.end(); ++i)
+      if ((i < first || i >= last) && i->verdict == Verdict::Prose && (is_text(*i) || ends_a_sentence(*i)) &&
+          advice_on(*i).what.empty())  // NETZWERK has a message of its own
+        lines.push_back(static_cast<std::uint32_t>(i - readings_.begin()) + 1);
+    return lines;
+  }
+
   /// The text is a listing from its first line to its last.
   void take_all_for_listing() { judge(true); }
 
@@ -495,6 +510,13 @@ class DocumentReader {
     if (reading.address) return false;
     return words.size() == 1 ? words.front().size() > 2 && first.heading
                              : first.heading || (!reading.some_solid && all >= 2);
+  }
+
+  /// `This is it:`, `Thanks!`
+  static bool ends_a_sentence(const LineReading& reading) {
+    const std::string_view code = trim(reading.clean);
+    return words_of(reading.mnemonic) + reading.words > 0 && !reading.some_solid && !code.empty() &&
+           std::string_view(".:!?").find(code.back()) != std::string_view::npos;
   }
 
   Advice advice_on(const LineReading& reading) const { return instructions_.advice_on(upper_case(reading.mnemonic)); }
@@ -753,6 +775,20 @@ void check_completeness(ParseResult& result) {
 
 }  // namespace
 
+namespace {
+
+ParseResult parse_without(const std::vector<std::uint32_t>& lines, std::string_view text, std::string name) {
+  const std::vector<std::string> original = split_lines(text);
+  std::vector<std::string> kept = original;
+  for (const std::uint32_t line : lines) kept[line - 1].clear();
+  ParseResult result = parse(fmt::format("{}\n", fmt::join(kept, "\n")), std::move(name));
+  result.source.text = original;
+  result.left_out = lines;
+  return result;
+}
+
+}  // namespace
+
 bool is_document(std::string_view text, const InstructionSet& instructions) {
   return !is_block_export(text) && DocumentReader(text, instructions).is_document();
 }
@@ -760,6 +796,8 @@ bool is_document(std::string_view text, const InstructionSet& instructions) {
 std::optional<ParseResult> read_listing(std::string_view text, std::string name, const InstructionSet& instructions) {
   DocumentReader reader(text, instructions);
   if (reader.is_document()) return std::nullopt;
+  const std::vector<std::uint32_t> around = reader.text_around();
+  if (!around.empty()) return parse_without(around, text, std::move(name));
   auto parsed = reader.take_parsed(name);
   return parsed ? std::move(parsed) : parse(text, std::move(name));
 }

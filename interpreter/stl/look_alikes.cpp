@@ -95,6 +95,11 @@ std::optional<LookAlike> look_alike_operand(std::string_view word) {
   return std::nullopt;
 }
 
+std::optional<LookAlike> look_alike_number(std::string_view word) {
+  auto meant = word.size() > kLongestWord ? std::nullopt : with_digits(word, 0);
+  return meant && std::ranges::all_of(meant->meant, is_digit) ? meant : std::nullopt;
+}
+
 std::optional<LookAlike> look_alike_mnemonic(std::string_view word) {
   auto latin = word.size() > kLongestWord ? std::nullopt : in_latin(word);
   return latin && !latin->wrong.empty() ? latin : std::nullopt;

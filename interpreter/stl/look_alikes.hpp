@@ -21,6 +21,9 @@ struct LookAlike {
 /// any other word, and for one that is right as it is.
 std::optional<LookAlike> look_alike_operand(std::string_view word);
 
+/// The number that a mistaken word becomes: `l`, `1O`.
+std::optional<LookAlike> look_alike_number(std::string_view word);
+
 /// The word of ASCII letters and digits that a mistaken mnemonic becomes: `АN` with a Cyrillic А.
 std::optional<LookAlike> look_alike_mnemonic(std::string_view word);
 

@@ -344,8 +344,25 @@ std::string describe(std::string_view rest) {
 constexpr std::string_view kStepsHint =
     "the preset of a timer is a number of its steps: 100 ms are 10 of a timer of 10 ms, 1 of one of 100 ms";
 
-/// Headings of networks with letters beyond ASCII.
-constexpr std::array<std::string_view, 6> kForeignHeadings{"RÉSEAU", "Réseau", "réseau", "СЕТЬ", "Сеть", "网络"};
+constexpr const char* kNetworkTakes = "NETWORK takes a number and nothing else";
+constexpr const char* kTitleOfNetwork = "a title is written as a comment: NETWORK 1 // title";
+
+/// Headings with letters beyond ASCII, and how they are written here.
+struct ForeignHeading {
+  std::string_view word, of, hint;
+};
+
+constexpr std::array kForeignHeadings{
+    ForeignHeading{"RÉSEAU", "a network", "write NETWORK"},
+    ForeignHeading{"Réseau", "a network", "write NETWORK"},
+    ForeignHeading{"réseau", "a network", "write NETWORK"},
+    ForeignHeading{"СЕТЬ", "a network", "write NETWORK"},
+    ForeignHeading{"Сеть", "a network", "write NETWORK"},
+    ForeignHeading{"网络", "a network", "write NETWORK"},
+    ForeignHeading{"主程序", "the main program", "write MAIN, or nothing: a listing begins with the main program"},
+    ForeignHeading{"子程序", "a subroutine", "write SBR_0 for subroutine 0"},
+    ForeignHeading{"中断程序", "an interrupt routine", "write INT_0 for interrupt routine 0"},
+};
 
 /// These also stand before =: instructions without operands in a line with two statements, and the title of a block.
 constexpr std::array<std::string_view, 10> kBeforeCoils{"NOT", "EU",  "ED",  "ALD",  "OLD",
@@ -641,13 +658,23 @@ class LineReader {
     if (!statement.operands.empty()) {
       const auto* number = std::get_if<Integer>(&statement.operands.front().value);
       if (statement.operands.size() > 1 || number == nullptr || number->value < 0) {
-        report(statement.operands.front().position, "NETWORK takes a number and nothing else",
-               "a title is written as a comment: NETWORK 1 // title");
+        if (report_look_alike_number(statement.operands.front())) return;
+        report(statement.operands.front().position, kNetworkTakes, kTitleOfNetwork);
         return;
       }
       head.number = static_cast<std::uint32_t>(number->value);
     }
     result_.source.lines.emplace_back(std::move(head));
+  }
+
+  /// Reports `NETWORK l`. Returns true after a message.
+  bool report_look_alike_number(const Operand& operand) {
+    const auto* name = std::get_if<Name>(&operand.value);
+    const auto meant = name ? look_alike_number(name->text) : std::nullopt;
+    if (!meant) return false;
+    report(operand.position, fmt::format("{} has {}", shortened(name->text), meant->wrong),
+           fmt::format("write {}", meant->meant), kLookAlikes);
+    return true;
   }
 
   std::optional<Operand> operand_of(const RawOperand& raw) {
@@ -790,7 +817,7 @@ class LineReader {
 
   void report_unexpected(Place where, std::string expected) {
     if (report_heading(where) || report_time(where) || report_semicolon_comment(where) || report_assignment() ||
-        report_look_alike(where) || report_second_statement(where))
+        report_look_alike(where) || report_title_of_network(where) || report_second_statement(where))
       return;
     const std::string_view rest(where, static_cast<std::size_t>(end() - where));
     const bool at_start = text_.substr(0, text_.size() - rest.size()).find_first_not_of(" \t\f") == std::string_view::npos;
@@ -805,11 +832,22 @@ class LineReader {
 
   /// Reports `RÉSEAU 1`. Returns true after a message. Headings in ASCII are unknown mnemonics to the checker.
   bool report_heading(Place where) {
-    const std::string_view word = word_at(text_, static_cast<std::size_t>(where - begin()));
-    if (!trim(text_).starts_with(word) || std::ranges::find(kForeignHeadings, word) == kForeignHeadings.end()) return false;
+    const std::string_view line = trim(text_);
+    const auto row = std::ranges::find_if(kForeignHeadings,
+                                          [line](const ForeignHeading& each) { return line.starts_with(each.word); });
+    if (row == kForeignHeadings.end() || where != line.data()) return false;
+    const std::string_view word = line.substr(0, row->word.size());
     report(position(Range(word.data(), word.data() + word.size())),
-           fmt::format("{} is the heading of a network in another language", word), "write NETWORK",
+           fmt::format("{} is the heading of {} in another language", word, row->of), std::string(row->hint),
            "headings in another language");
+    return true;
+  }
+
+  /// Reports `NETWORK 1 - Start`. Returns true after a message.
+  bool report_title_of_network(Place where) {
+    const auto words = split_words(text_);
+    if (words.size() < 3 || upper_case(words[0]) != "NETWORK" || !std::ranges::all_of(words[1], is_digit)) return false;
+    report(places_.position(where, 1), kNetworkTakes, kTitleOfNetwork, "titles of networks");
     return true;
   }
 

@@ -469,7 +469,7 @@ bool looks_like_statement(std::string_view line) {
     const std::string upper = upper_case(word);
     const std::size_t letters = std::min(upper.find_first_not_of("&*"), upper.size());
     const std::size_t digits = std::min(upper.find_first_not_of(kLetters, letters), upper.size());
-    return digits > letters && digits < upper.size() && digits - letters <= 3 &&
+    return digits > letters && digits < upper.size() && is_digit(upper[digits]) && digits - letters <= 3 &&
            upper.find_first_not_of("0123456789.", digits) == std::string::npos;
   });
 }

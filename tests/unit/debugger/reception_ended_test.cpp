@@ -51,6 +51,12 @@ TEST(ReceptionEnded, WhatWorksOnlyOnceSaysWhichRcvCouldStartTheNext) {
   EXPECT_TRUE(has(text, " (LD SM0.1: SM0.1=0)\n"));
 }
 
+TEST(ReceptionEnded, LongAfterItsRcvIsFoundToo) {
+  AtPrompt session = session_of_cpu_224(kOnce);
+  session("continue 5s; send 41 42 0d; continue; continue 5s; break unanswered; send 41 43 0d; continue");
+  EXPECT_TRUE(has(session("why"), "with SMB86 = 16#20 because the end character 16#0D came; "));
+}
+
 TEST(ReceptionEnded, AsManyCharactersAsAllowedAreCounted) {
   AtPrompt session = session_of_cpu_224(test::changed(kOnce, "MOVB 10, SMB94", "MOVB 2, SMB94"));
   session("continue 50ms; send 41 42; continue; break unanswered; send 41 43 0d; continue");

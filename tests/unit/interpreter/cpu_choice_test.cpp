@@ -102,5 +102,17 @@ TEST(FirstCpu, OfAProgramWithMistakesHasTheFewest) {
   EXPECT_EQ(first_for("LD SM0.0\nMOVB VW10, VB0\nMEND\n"), "214") << "the same mistake on all";
 }
 
+TEST(FirstCpu, OfAProgramForTheSmartIsThe226) {
+  EXPECT_EQ(first_for("NETWORK 1\nLD SM0.0\nGET VB300\n"), "226");
+}
+
+TEST(FirstCpu, NoEndIsMissingWhereNoLineCouldBeRead) {
+  const auto parsed = read("NETWORK 1\nLD I0.0 A I0.1 = Q0.0\nNETWORK 2\nLD I0.0; O I0.2; = Q0.1\n");
+  for (const char* name : {"214", "224"}) {
+    const CpuModel& model = *find_cpu(name);
+    EXPECT_EQ(check(parsed, model, default_times(model)).diagnostics.size(), 2U) << name << ": two statements in one line";
+  }
+}
+
 }  // namespace
 }  // namespace s7200

@@ -38,6 +38,7 @@ TEST(ForeignMnemonics, HintsNameWhatDoesTheSame) {
                                        {"CMP_I", "write LDW, AW or OW with =, <>, >=, <=, > or <: LDW>= IN1, IN2"},
                                        {"SF", "write TOF"},
                                        {"DMOV", "write MOVD"},
+                                       {"NEG", "the S7-200 has no negation: write INVW OUT, then INCW OUT; INVD and INCD for a double word"},
                                        {"UN", "write AN"}}) {
     EXPECT_EQ(hint(mnemonic), same) << mnemonic;
     EXPECT_FALSE(unknown_mnemonic(mnemonic).what.empty()) << mnemonic;

@@ -200,6 +200,21 @@ TEST(Parser, AHeadingInAnotherLanguageIsNamed) {
   }
 }
 
+TEST(Parser, AHeadingOfARoutineInAnotherLanguageIsNamed) {
+  EXPECT_EQ(error("网络1：初始化").message, "网络 is the heading of a network in another language");
+  EXPECT_EQ(error("主程序：").message, "主程序 is the heading of the main program in another language");
+  EXPECT_EQ(error("中断程序INT_0").hint, "write INT_0 for interrupt routine 0");
+}
+
+TEST(Parser, TheTitleOfANetworkIsAComment) {
+  const std::string hint = "a title is written as a comment: NETWORK 1 // title";
+  for (const char* line : {"NETWORK 1 - Start", "Network 2 : stop/start", "NETWORK 3 pump on"}) {
+    EXPECT_EQ(error(line).message, "NETWORK takes a number and nothing else") << line;
+    EXPECT_EQ(error(line).hint, hint) << line;
+  }
+  EXPECT_EQ(error("NETWORK l").message, "l has the letter l in place of the digit 1");
+}
+
 TEST(Parser, AnAssignmentIsNamed) {
   for (const char* line : {"Motor = Q0.0", "Motor := I0.3", "Q0.1 = I0.0", "VW2:=VW0", "\"Motor\" = Q0.0"}) {
     const Diagnostic found = error(line);

@@ -340,5 +340,27 @@ TEST(PlainText, ATableAndASentenceAreNoStatements) {
   EXPECT_EQ(program("On Friday Joe wrote:\n> LD I0.0\n> = Q0.0\n>\n> Hope this really helps\n"), expected);
 }
 
+TEST(PlainText, SentencesAroundAListingAreLeftOutAndNamed) {
+  const std::string listing = "NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\nLD SM0.1\nMOVW 3, VW0\n";
+  for (const char* above : {"The following example shows the program.\n", "This is my program:\n", "See Fig. 3.\n", "Code:\n",
+                            "Hi, here is my code for the S7-200:\n"}) {
+    const SourceText text = read(above + listing + "Regards\nJohn Doe\n");
+    EXPECT_TRUE(text.parsed.diagnostics.empty()) << above << stl::render(text.parsed.diagnostics, text.parsed.source, false);
+    EXPECT_EQ(text.parsed.left_out.front(), 1U) << above;
+    EXPECT_EQ(text.parsed.source.text.size(), 9U) << "errors point at the text that the user has";
+  }
+  EXPECT_FALSE(checked("Motr I0.0\n" + listing).program) << "a mistyped statement is no text";
+  EXPECT_FALSE(checked("LDX\n" + listing).program);
+}
+
+TEST(PlainText, AQuotedMailMayHaveHeadsAndAGreeting) {
+  const std::string program = "NETWORK 1\nLD      I0.0\n=       Q0.0\n";
+  EXPECT_EQ(stl::to_text(read("From: Klaus B. <k.b@example.de>\nTo: forum\nSubject: Re: pump, please help\n\n"
+                              "On Tue, 12 Mar 2019 at 10:12, John wrote:\n> Hi, here is the program of the S7-200 CPU 224:\n>\n"
+                              "> NETWORK 1\n> LD I0.0\n> = Q0.0\n")
+                             .parsed.source),
+            program);
+}
+
 }  // namespace
 }  // namespace s7200

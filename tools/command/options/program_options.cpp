@@ -238,7 +238,8 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
   const auto bytes = read_input(path, name);
   if (!bytes) return {};
   auto text = read_source(*bytes, name, why, force_document);
-  const bool program = text && (text->kind == SourceKind::Blocks || has_statements(*text) || begins_as_step7(*bytes));
+  const bool program =
+      text && (text->kind == SourceKind::Blocks || has_statements(*text) || begins_as_step7(*bytes) || other_dialect(*bytes));
   if (const std::string form = program ? std::string() : form_of_recording(*bytes, text); !form.empty()) {
     print_error(
         fmt::format("cannot read {0}: it is a recording of a line ({1}), not a program: s7200 decode {0}", name, form));

@@ -52,7 +52,6 @@ class ReceptionFinder final : public Reader {
     if (!record.powered) return;
     found_ = {.moment = in_front_, .by = record, .refused = refused_};
     end_ = of_rcv_;
-    later_ = {};
   }
 
   bool found() const { return found_.has_value(); }
