@@ -1161,7 +1161,7 @@ class Options(Case):
     """Every option of every verb, from the lists that --help prints: each number and each text with a form has its range, and
     what is not in it ends with exit code 2 and a message that names the option."""
     NONSENSE = ("nan", "-nan", "inf", "-1", "1e999", "0x10", "1_000", "5,0", "99999999999999999999999", "-")
-    ANY_TEXT = ("TABLE", "DIR", "FILE", "FILE.stl", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
+    ANY_TEXT = ("TABLE", "DIR", "FILE", "FILE.stl", "FILE.html", "LINK", "DEVICE", "TARGET", "PATTERN", "DESCRIPTION", "COMMANDS", "TEXT")  # by their type in the help
     BEGINNING = {"check": [SLAVE], "inspect": [SLAVE, "xref"], "why": [SLAVE, "Q0.0"], "compare": [SLAVE, SLAVE], "fuzz": [SLAVE, "--runs", "1"], "import": [SLAVE], "convert": [SLAVE, "--to", "iec"], "run": [SLAVE], "send": [SLAVE, "01"], "test": ["missing.yaml"],
                  "master": [SLAVE, "slave-id"], "decode": [LOG], "import-capture": [LOG], "debug": [SLAVE, "-x", "quit"], "view": [SLAVE], "dap": [SLAVE], "instructions": [], "times": [], "calibrate": [MEASURE], "bench": []}
 
@@ -3453,6 +3453,10 @@ class Files(Case):
         self.assertEqual([one["outcome"] for one in report["runs"]], ["passed", "failed"])
         self.assertEqual(len(report["programs"]), 1, "the program of both is there once")
         self.assertEqual((report["runs"][1]["findings"][0]["recording"], report["runs"][1]["findings"][0]["line"]), (0, 4))
+        plant = SOURCE / "tests/recordings/plant.log"
+        report = run("decode", plant)
+        printed = json.loads(subprocess.run([command, "decode", plant, "--json"], capture_output=True, check=False, timeout=120).stdout)
+        self.assertEqual((report["runs"], report["conversation"]), ([], printed))
         out.write_text("mine", encoding="utf-8")
         done = subprocess.run([command, "run", SLAVE, "--report", out], capture_output=True, text=True, check=False, timeout=120)
         self.assertEqual((done.returncode, out.read_text(encoding="utf-8")), (UNUSABLE, "mine"))

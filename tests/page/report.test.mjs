@@ -167,6 +167,49 @@ test('a link of the JUnit file leads to its scenario', async () => {
   await page.end();
 });
 
+test('a recording is a page with its conversation: table, latencies, filter', async () => {
+  s7200(0, 'decode', 'tests/recordings/plant.log', '--report', file('plant.html'));
+  const context = await chrome.newContext({ offline: true, viewport: kDesktop });
+  const page = await context.newPage();
+  const troubles = [];
+  page.on('pageerror', (error) => troubles.push(error.message));
+  await page.goto(`file://${file('plant.html')}`);
+  await page.waitForSelector('.conversation tbody tr');
+  const frames = JSON.parse(s7200(0, 'decode', 'tests/recordings/plant.log', '--json')).frames;
+  const rows = page.locator('.conversation-rows tbody tr');
+  assert.equal(await rows.count(), frames.length);
+  assert.match(await rows.nth(1).textContent(), /answer01 03 02 12 34 b5 33.*16#1234.*ms/);
+  await page.waitForSelector('.histogram');
+  await picture(page, 'conversation');
+  await page.fill('#frame-filter', 'exception');
+  await page.waitForFunction((all) => document.querySelectorAll('.conversation-rows tbody tr').length < all, frames.length);
+  assert.match(await rows.first().textContent(), /exception/);
+  await page.fill('#frame-filter', '');
+  await page.click('text=Only trouble');
+  await page.waitForFunction(() => document.querySelector('.rows-shown').textContent !== '');
+  for (const row of await rows.all()) assert.match(await row.getAttribute('class'), /trouble|stray/);
+  await page.setViewportSize(kPhone);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing is wider than the phone');
+  await picture(page, 'conversation_phone');
+  assert.deepEqual(troubles, []);
+  await context.close();
+});
+
+test('a long recording is shown part by part, and what it says is text', async () => {
+  const lines = [];
+  for (let i = 0; i < 1200; ++i) lines.push(`2026-11-22 07:${String(Math.floor(i / 10) % 60).padStart(2, '0')}:0${i % 10}.000 TX: 01 03 00 00 00 01 84 0A`);
+  writeFileSync(file('<b>long.log'), `${lines.join('\n')}\n`);
+  s7200(0, 'decode', file('<b>long.log'), '--report', file('long.html'));
+  const context = await chrome.newContext({ offline: true, viewport: kDesktop });
+  const page = await context.newPage();
+  await page.goto(`file://${file('long.html')}`);
+  await page.waitForSelector('.rows-shown:has-text("1 to 500 of 1200 frames")');
+  assert.match(await page.textContent('.summary'), /<b>long\.log/);
+  await page.click('[aria-label="Rows after"]');
+  await page.waitForSelector('.rows-shown:has-text("501 to 1000 of 1200 frames")');
+  await context.close();
+});
+
 test('a report can be read in the dark, on a phone and on paper', async () => {
   const dark = await open('test.html', { colorScheme: 'dark' });
   await picture(dark, 'report_dark');

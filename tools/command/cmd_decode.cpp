@@ -6,19 +6,21 @@
 #include <vector>
 
 #include "tools/command/commands.hpp"
+#include "tools/command/decode_results.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/recording_options.hpp"
+#include "tools/command/options/report_option.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/views/results_json.hpp"
-#include "tools/views/streamed_results.hpp"
 
 namespace s7200::tools {
 namespace {
 
 struct DecodeOptions {
   RecordingOptions recording;
+  ReportOption report;
   bool json = false;
 };
 
@@ -43,51 +45,37 @@ int exit_code_of(const DecodeOptions& options, const DecodedSummary& summary) {
 int run_live(const DecodeOptions& options, const SlaveTarget& target) {
   const auto line = open_line(options.recording, target);
   if (!line) return kUnusable;
-  StreamedResults results(head_of(options, "live", options.recording.format()), "frames");
-  DecodedSummary summary;
-  const bool colour = colour_wanted(stdout);
-  if (!options.json) fmt::print("{}", decoded_heading(colour));
+  DecodeResults results(head_of(options, "live", options.recording.format()), options.json, options.report);
   std::fflush(stdout);
   const bool heard = listen(*line, options.recording, [&](const ReadFrame& frame) {
-    summary.add(frame);
-    if (options.json)
-      fmt::print("{}", results.entry(decoded_json(frame)));
-    else
-      print_report(decoded_text(frame, false, colour));
+    results.add(frame, false);
     std::fflush(stdout);
   });
-  fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
-  return heard ? exit_code_of(options, summary) : kUnusable;
+  const bool written = results.end();
+  return heard && written ? exit_code_of(options, results.summary()) : kUnusable;
 }
 
 /// As it is read: the recording may be long.
 int run_file(const DecodeOptions& options) {
   const auto read = read_file(options.recording);
   if (!read) return kUnusable;
-  StreamedResults results(head_of(options, read->recording.form, read->line), "frames");
-  DecodedSummary summary;
-  const bool colour = !options.json && colour_wanted(stdout);
+  DecodeResults results(head_of(options, read->recording.form, read->line), options.json, options.report);
   const auto answered =
-      colour ? answered_requests(read->recording, options.recording.spoken(), read->stamps) : std::vector<bool>{};
+      results.colour() ? answered_requests(read->recording, options.recording.spoken(), read->stamps) : std::vector<bool>{};
   std::size_t number = 0;
-  if (!options.json) fmt::print("{}", decoded_heading(colour));
   tell_frames(*read, options.recording, [&](const ReadFrame& frame) {
-    summary.add(frame);
     const bool is_open = frame.direction == Direction::Request && !frame.needs_no_answer;
-    const bool unanswered = is_open && number < answered.size() && !answered[number];
+    results.add(frame, is_open && number < answered.size() && !answered[number]);
     ++number;
-    if (options.json)
-      fmt::print("{}", results.entry(decoded_json(frame)));
-    else
-      print_report(decoded_text(frame, unanswered, colour));
   });
-  fmt::print("{}", options.json ? results.end({{"summary", summary.json()}}) : summary.text());
+  const bool written = results.end();
   if (!options.json && read->line)
     print_report(fmt::format("{}; --baud and --parity say otherwise\n", read->silences_text()));
-  return exit_code_of(options, summary);
+  return written ? exit_code_of(options, results.summary()) : kUnusable;
 }
 
-int run_decode(const DecodeOptions& options) {
+int run_decode(DecodeOptions& options) {
+  if (!options.report.prepare()) return kUnusable;
   const auto target = options.recording.live();
   return target ? run_live(options, *target) : run_file(options);
 }
@@ -98,6 +86,7 @@ void add_decode(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DecodeOptions>();
   CLI::App* verb = app.add_subcommand("decode", "show a recording of a line, or what is heard, as requests and answers");
   options->recording.add_to(*verb);
+  options->report.add_to(*verb, "a page for browsers with the frames as a table, latencies and a filter");
   verb->add_flag("--json", options->json, "print the frames as JSON")->group(help_group::kResults);
   verb->footer(std::string(kEndOfListening) +
                "Exit code 1 too if there were frames and none of them was right.\n"

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kPlace = "<script id=\"report\" type=\"text/plain\"></script>";
 constexpr Time kWithPicture = 60 * kSecond;  ///< longer runs have one
 constexpr int kElements = 400;               ///< of a track of the picture
-constexpr std::size_t kCheckpoints = 144;    ///< of a long run at most: one each ten minutes of a day
+constexpr std::size_t kCheckpoints = 288;    ///< of a long run at most: one each five minutes of a day
 constexpr Time kBetweenCheckpoints = 10 * kSecond;
 
 std::string in_base64(std::string_view bytes) {
@@ -120,6 +120,14 @@ class RunsJson {
   std::map<std::vector<std::string>, std::size_t> numbers_{};  ///< of the programs, by their text
 };
 
+std::string with_report(std::string_view page, const Json& report) {
+  const std::size_t place = page.find(kPlace), content = kPlace.find("</");
+  if (place == std::string_view::npos) throw std::runtime_error("the page has no place for a report");
+  std::string text(page.substr(0, place + content));
+  text += in_base64(compressed(line_of(report)));
+  return text.append(page.substr(place + content));
+}
+
 }  // namespace
 
 page::Surroundings surroundings_of(const SystemPlan& plan) {
@@ -136,11 +144,13 @@ page::Surroundings surroundings_of(const SystemPlan& plan) {
 std::string with_runs(std::string_view page, std::string_view verb, const std::vector<ReportedRun>& runs) {
   RunsJson json;
   for (const ReportedRun& run : runs) json.add(run);
-  const std::size_t place = page.find(kPlace), content = kPlace.find("</");
-  if (place == std::string_view::npos) throw std::runtime_error("the page has no place for a report");
-  std::string text(page.substr(0, place + content));
-  text += in_base64(compressed(line_of(std::move(json).taken(verb))));
-  return text.append(page.substr(place + content));
+  return with_report(page, std::move(json).taken(verb));
+}
+
+std::string with_conversation(std::string_view page, const Json& decoded) {
+  Json report = RunsJson().taken("decode");
+  report["conversation"] = decoded;
+  return with_report(page, report);
 }
 
 std::string link_to_run(const std::string& report, std::size_t number) {

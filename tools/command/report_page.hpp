@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,10 @@ page::Surroundings surroundings_of(const SystemPlan& plan);
 /// The page `page` with the runs in it. `verb`: what ran them. Of long runs a coarse picture is computed, which the page
 /// shows until it has computed its own.
 std::string with_runs(std::string_view page, std::string_view verb, const std::vector<ReportedRun>& runs);
+
+/// The page `page` with the conversation of a recording in it, which nothing can compute again: `decoded` is the object that
+/// `decode --json` prints.
+std::string with_conversation(std::string_view page, const nlohmann::ordered_json& decoded);
 
 /// The place in a report, for links: `report.html#run=3`; of a run that cannot be opened the report alone.
 std::string link_to_run(const std::string& report, std::size_t number);

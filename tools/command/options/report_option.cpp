@@ -66,8 +66,16 @@ bool ReportOption::write(std::string_view verb, const std::vector<ReportedRun>& 
         return print_error(fmt::format("cannot write {}: the beginning of the run is forgotten, so it cannot be run again",
                                        stl::printable(path_))),
                false;
+  return write_page([&] { return with_runs(page_, verb, runs); });
+}
+
+bool ReportOption::write_conversation(const nlohmann::ordered_json& decoded) const {
+  return !wanted() || write_page([&] { return with_conversation(page_, decoded); });
+}
+
+bool ReportOption::write_page(const std::function<std::string()>& page) const {
   try {
-    return write_result(to_, with_runs(page_, verb, runs));
+    return write_result(to_, page());
   } catch (const std::runtime_error& error) {
     print_error(fmt::format("cannot write {}: {}", stl::printable(path_), error.what()));
     return false;

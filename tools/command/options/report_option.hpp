@@ -1,6 +1,8 @@
 // --report, of the verbs that run something.
 #pragma once
 
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,7 +35,12 @@ class ReportOption {
   /// False after a message.
   bool write(std::string_view verb, const std::vector<ReportedRun>& runs) const;
 
+  /// The same of what `decode --json` prints.
+  bool write_conversation(const nlohmann::ordered_json& decoded) const;
+
  private:
+  bool write_page(const std::function<std::string()>& page) const;
+
   std::string path_;
   std::string page_;
   std::optional<Destination> to_;

@@ -55,6 +55,7 @@ bool changes_memory(const Action& action) {
          std::holds_alternative<SetPower>(action) || std::holds_alternative<SystemEvent>(action);
 }
 
+constexpr Time kCheckpointsOfAPart = 60;       // between two that came with a recording: what is near is soon there, too
 constexpr Time kLongestFrame = 3 * kSecond;    // 256 characters of 11 bits at 1200 baud
 constexpr Time kSlice = 100 * kMillisecond;    // a stop request is heard in between
 constexpr std::uint32_t kTellEvery = 1 << 10;  // instructions
@@ -717,6 +718,8 @@ bool History::take_checkpoints_of(const Recording& recording) {
     checkpoint->lasts = true;
     all.push_back(counted(std::move(*checkpoint)));
   }
+  const Time part = recording.end.time / static_cast<Time>(all.size());
+  branch_->interval = std::max(branch_->interval, part / kCheckpointsOfAPart);
   branch_->checkpoints = std::move(all);
   branch_->written.resize(branch_->checkpoints.size(), nothing_written());
   return true;

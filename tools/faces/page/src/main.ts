@@ -7,6 +7,7 @@ import { begin_theme, on_key } from './actions';
 import { toolbar } from './panes/toolbar';
 import { notice_bar, status_bar } from './panes/status_bar';
 import { program_pane } from './panes/program';
+import { conversation_page } from './panes/conversation';
 import { side_pane } from './panes/side';
 import { timeline_pane } from './panes/timeline';
 import { pane_tabs } from './panes/tabs';
@@ -30,6 +31,7 @@ const onlooker: Onlooker = {
 };
 
 function page(): (Part | null)[] {
+  if (state.report?.conversation) return [...conversation_page(state.report.conversation), dialogs()];
   return [
     toolbar(), notice_bar(),
     h('main', { class: 'panes', 'data-pane': state.pane }, program_pane(), side_pane(), timeline_pane()),

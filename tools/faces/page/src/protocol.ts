@@ -52,6 +52,29 @@ export interface Report {
   verb: string;
   programs: Source[][];
   runs: ReportedRun[];
+  /** Of `decode`, which runs nothing. */
+  conversation?: DecodedConversation;
+}
+
+/** The object of `s7200 decode --json`: tools/JSON.md. */
+export interface DecodedConversation {
+  file: string;
+  form: string | null;
+  protocol: string;
+  line: string | null;
+  frames: DecodedFrame[];
+  summary: { requests: number; answered: number; wrong: number; strays: number; shortest_latency_us: number | null; longest_latency_us: number | null };
+}
+
+export interface DecodedFrame {
+  place: string;
+  at_us: number | null;
+  silence_us: number | null;
+  kind: 'request' | 'answer' | 'echo' | 'stray' | 'unread';
+  bytes: string;
+  right: boolean;
+  text: string;
+  latency_us: number | null;
 }
 
 export interface ReportedRun {

@@ -54,6 +54,8 @@ export async function open_report(): Promise<boolean> {
   const report = await report_in_page();
   if (!report) return false;
   state.report = report;
+  changed();
+  if (report.conversation) return true;
   show_pane('report');
   await open_run(first_run(report));
   return true;

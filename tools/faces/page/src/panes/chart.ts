@@ -194,15 +194,15 @@ function input_switch(row: PointRow): Part {
   const { address, kind } = row, pulsing = is_pulsing(address);
   const on = kind === 'pulses' ? pulsing : terminal_level(address) === 1;
   const forced = state.values.get(address)?.forced === true;
-  const press = (level: number) => () => { if (kind === 'push') void switch_to(address, level); };
+  const press = (level: number) => (event: { button?: number }) => { if (kind === 'push' && !event.button) void switch_to(address, level); };
   const name = `${symbol_of(address)} ${kKinds[kind]}; right click: ${kKinds[next_kind(row)]}`.trim();
   return h('div', { class: 'point', key: address },
     h('button', { class: `switch ${kind}${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'switch', 'aria-checked': String(on),
       'aria-label': `Input ${address} ${symbol_of(address)}`.trim(), title: name,
       onclick: () => { if (kind === 'switch') void switch_to(address, on ? 0 : 1); else if (kind === 'pulses') void toggle_pulses(row); },
       onpointerdown: press(1), onpointerup: press(0), onpointerleave: () => { if (kind === 'push' && on) void switch_to(address, 0); },
-      onkeydown: (event: KeyboardEvent) => { if (event.key === ' ' && !event.repeat) press(1)(); },
-      onkeyup: (event: KeyboardEvent) => { if (event.key === ' ') press(0)(); },
+      onkeydown: (event: KeyboardEvent) => { if (event.key === ' ' && !event.repeat) press(1)({}); },
+      onkeyup: (event: KeyboardEvent) => { if (event.key === ' ') press(0)({}); },
       oncontextmenu: (event: Event) => { event.preventDefault(); void change_kind(row); } },
     kind === 'pulses' ? h('svg', { viewBox: '0 0 34 14', 'aria-hidden': 'true' }, h('path', { d: 'M3 11H8V3H14V11H20V3H26V11H31' })) : h('i', {})),
     kind === 'pulses' ? hertz_field(row) : null, point_name(address));

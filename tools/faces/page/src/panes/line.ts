@@ -7,6 +7,7 @@ import { see_exchanges } from '../timeline/view';
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
 import { action, title_with_key } from '../actions';
 import { duration_text, moment_text } from '../words';
+import { histogram } from './histogram';
 
 let filter = '';
 
@@ -31,18 +32,6 @@ function row(one: Exchange, i: number, next: Exchange | undefined): Part {
 }
 
 const kShown = 200;  // rows of the table
-const kBars = 24, kBarsWidth = 120, kBarsHeight = 20;
-
-/** How the latencies are spread, from the shortest to the longest. */
-function histogram(latencies: number[]): Part | null {
-  if (latencies.length < 2) return null;
-  const least = Math.min(...latencies), width = (Math.max(...latencies) - least) / kBars || 1;
-  const counts = new Array<number>(kBars).fill(0);
-  for (const one of latencies) counts[Math.min(kBars - 1, Math.floor((one - least) / width))]! += 1;
-  const most = Math.max(...counts), bar = kBarsWidth / kBars;
-  const path = counts.map((count, i) => `M${i * bar},${kBarsHeight}v${-count / most * kBarsHeight}h${bar - 1}V${kBarsHeight}z`).join('');
-  return h('svg', { class: 'histogram', viewBox: `0 0 ${kBarsWidth} ${kBarsHeight}`, role: 'img', 'aria-label': 'Spread of the latencies' }, h('path', { d: path }));
-}
 
 function latencies_of(all: Exchange[]): number[] {
   return all.flatMap((one) => (one.latency_ns === undefined ? [] : [one.latency_ns]));

@@ -1,0 +1,41 @@
+#include "tools/command/decode_results.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "tools/command/terminal.hpp"
+
+namespace s7200::tools {
+
+using Json = nlohmann::ordered_json;
+
+DecodeResults::DecodeResults(Json head, bool as_json, const ReportOption& report)
+    : report_(report),
+      head_(std::move(head)),
+      as_json_(as_json),
+      colour_(!as_json && colour_wanted(stdout)),
+      streamed_(head_, "frames"),
+      frames_(Json::array()) {
+  if (!as_json_) fmt::print("{}", decoded_heading(colour_));
+}
+
+void DecodeResults::add(const ReadFrame& frame, bool unanswered) {
+  summary_.add(frame);
+  Json json = as_json_ || report_.wanted() ? decoded_json(frame) : Json();
+  if (as_json_)
+    fmt::print("{}", streamed_.entry(json));
+  else
+    print_report(decoded_text(frame, unanswered, colour_));
+  if (report_.wanted()) frames_.push_back(std::move(json));
+}
+
+bool DecodeResults::end() {
+  fmt::print("{}", as_json_ ? streamed_.end({{"summary", summary_.json()}}) : summary_.text());
+  head_["frames"] = std::move(frames_);
+  head_["summary"] = summary_.json();
+  return report_.write_conversation(head_);
+}
+
+}  // namespace s7200::tools
