@@ -180,7 +180,7 @@ class UseCollector {
       const bool local = at >= image::kL && at < image::kConstants;
       const auto routine = local ? std::optional(facts_.flow.nodes[use.op].routine) : std::nullopt;
       PointerEntry& entry = pointers.try_emplace({routine, at}, PointerEntry{at, routine, {}, {}, {}}).first->second;
-      if (entry.ops.empty()) entry.unknown = facts_.pointers.unknown(at);
+      if (!entry.unknown) entry.unknown = facts_.pointers.unknown(use.op, at);
       if (std::ranges::find(entry.targets, use.access.bits) == entry.targets.end()) entry.targets.push_back(use.access.bits);
       if (entry.ops.empty() || entry.ops.back() != use.op) entry.ops.push_back(use.op);
     }

@@ -96,13 +96,17 @@ class Collector {
   }
 
   void add_pointed(const OperandRule& rule, const Operand& operand, std::uint8_t number) {
+    add_pointed(rule, operand, number, number_of(op_));
+  }
+  /// `goes_through`: the op that finds the pointer.
+  void add_pointed(const OperandRule& rule, const Operand& operand, std::uint8_t number, std::uint32_t goes_through) {
     add({{bit_at(operand.at), 32}, Role::In, Certainty::Must, number});
     if (!known_.image.empty()) {
       const auto place = resolve(program_, load32(&known_.image[operand.at]), operand.width);
       if (place) add_extent(bit_at(*place), extent_of(rule, *place), role_of(rule), number, true);
       return;
     }
-    for (const PointerTarget& target : known_.pointers->targets(operand.at)) {
+    for (const PointerTarget& target : known_.pointers->targets(goes_through, operand.at)) {
       const std::uint64_t reach = bit_at(target.to - 1 - target.from) + extent_of(rule, target.from).most;
       add({{bit_at(target.from), std::min(reach, bits_to_end(rule, target.from))},
            role_of(rule),
@@ -187,21 +191,23 @@ class Collector {
   /// What the caller gives, and what it gets back.
   void add_parameters(const Op& call) {
     for (const Parameter& parameter : std::span(program_.parameters).subspan(call[1].at, call[2].at))
-      add_actual(parameter, parameter.role);
+      add_actual(call, parameter, parameter.role);
   }
 
-  void add_actual(const Parameter& parameter, Role role) {
+  void add_actual(const Op& call, const Parameter& parameter, Role role) {
     const OperandRule rule{.width = parameter.width, .role = role};
     const Operand& actual = parameter.actual;
-    if (actual.pointer) return add_pointed(rule, actual, kNoOperand);
+    if (actual.pointer) return add_pointed(rule, actual, kNoOperand, number_of(call));
     if (actual.at >= image::kConstants) return;
     const std::uint64_t bits = parameter.width == Width::Bit ? 1 : 8 * bytes_of(parameter.width);
     const std::uint8_t bit = parameter.width == Width::Bit ? actual.bit : std::uint8_t{0};
     add({{bit_at(actual.at, bit), bits}, role, Certainty::May, kNoOperand});
   }
 
+  std::uint32_t number_of(const Op& op) const { return static_cast<std::uint32_t>(&op - program_.ops.data()); }
+
   std::uint32_t head() const {
-    auto i = static_cast<std::uint32_t>(&op_ - program_.ops.data());
+    std::uint32_t i = number_of(op_);
     while (i > 0 && program_.ops[i].instruction->structure != Structure::SubroutineHead) --i;
     return i;
   }
@@ -218,7 +224,7 @@ class Collector {
     for (const Op& call : program_.ops) {
       if (call.instruction->structure != Structure::Call || call.target != routine) continue;
       for (const Parameter& parameter : std::span(program_.parameters).subspan(call[1].at, call[2].at))
-        if (parameter.role != Role::In) add_actual(parameter, Role::Out);
+        if (parameter.role != Role::In) add_actual(call, parameter, Role::Out);
     }
   }
 
@@ -238,10 +244,14 @@ std::vector<MemoryAccess> effects_now(const Program& program, std::uint32_t op, 
   return Collector(program, program.ops[op], {image, nullptr}).all();
 }
 
+std::uint64_t reach_of(const Program& program, const Op& op, std::size_t operand, std::uint32_t place) {
+  return Collector(program, op, {}).extent_of(op.instruction->operand[operand], place).most;
+}
+
 Bits bits_of(const Program& program, const Op& op, std::size_t operand) {
   const OperandRule& rule = op.instruction->operand[operand];
   const std::uint64_t first = bit_at(op[operand].at, rule.width == Width::Bit ? op[operand].bit : std::uint8_t{0});
-  return {first, Collector(program, op, {}).extent_of(rule, op[operand].at).most};
+  return {first, reach_of(program, op, operand, op[operand].at)};
 }
 
 }  // namespace s7200

@@ -47,6 +47,9 @@ std::vector<MemoryAccess> effects_of(const Program& program, std::uint32_t op, c
 /// nowhere leads to no access.
 std::vector<MemoryAccess> effects_now(const Program& program, std::uint32_t op, std::span<const std::uint8_t> image);
 
+/// How many bits an operand reaches at most from a place in the image.
+std::uint64_t reach_of(const Program& program, const Op& op, std::size_t operand, std::uint32_t place);
+
 /// The bits of a direct operand in memory, as far as it may reach.
 Bits bits_of(const Program& program, const Op& op, std::size_t operand);
 

@@ -1,5 +1,7 @@
 #include "interpreter/analysis/facts.hpp"
 
+#include <utility>
+
 #include "interpreter/program/networks.hpp"
 
 namespace s7200 {
@@ -24,7 +26,9 @@ std::vector<std::uint32_t> network_numbers(const Program& program, const Control
 }  // namespace
 
 Facts facts_of(const Program& program) {
-  Facts facts{program, control_flow(program), Pointers(program), {}, {}};
+  ControlFlow flow = control_flow(program);
+  Pointers pointers(program, flow);
+  Facts facts{program, std::move(flow), std::move(pointers), {}, {}};
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) facts.effects.push_back(effects_of(program, op, facts.pointers));
   facts.networks = network_numbers(program, facts.flow);
   return facts;

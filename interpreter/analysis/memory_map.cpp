@@ -1,6 +1,8 @@
 #include "interpreter/analysis/memory_map.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 #include <utility>
 
 #include "interpreter/analysis/memory_names.hpp"
@@ -54,7 +56,7 @@ class MapBuilder {
     const auto found = std::ranges::find_if(
         map_.areas, [&](const MemoryMap::AreaUse& each) { return each.area == wanted && each.routine == routine; });
     if (found != map_.areas.end()) return *found;
-    map_.areas.push_back({wanted, routine, bits_of_area(*facts_.program.model, wanted), {}, {}, {}, {}});
+    map_.areas.push_back({wanted, routine, bits_of_area(*facts_.program.model, wanted), {}, {}, {}, {}, {}});
     return map_.areas.back();
   }
 
@@ -92,11 +94,59 @@ class MapBuilder {
     }
     if (end < area.all.end()) area.free.push_back({end, area.all.end() - end});
     area.used = std::move(joined);
+    take_out_pointed(area);
     for (const RetentiveRange& range : facts_.program.retentive())
       if (range.area == area.area && range.count != 0) area.retentive.push_back({range.at() * 8u, range.bytes() * 8u});
     for (std::size_t i = 0; i < reference_.pointers.size(); ++i)
       if (std::ranges::any_of(reference_.pointers[i].targets, [&](const Bits& bits) { return bits.overlaps(area.all); }))
         area.pointers.push_back(i);
+  }
+
+  /// Splits what is free into what pointers may reach and what they do not.
+  void take_out_pointed(MemoryMap::AreaUse& area) const {
+    struct Reached {
+      Bits bits;
+      MemoryMap::Through through;
+    };
+    std::vector<Reached> reached;
+    for (std::uint32_t op = 0; op < facts_.effects.size(); ++op)
+      for (const MemoryAccess& access : facts_.effects[op]) {
+        const Bits named = as_named(access.bits);
+        if (!access.by_pointer || access.operand == kNoOperand || !named.overlaps(area.all)) continue;
+        if (area.routine && area.routine != facts_.flow.nodes[op].routine) continue;
+        reached.push_back({common(in_units(named, area.all.first, unit_of(area.area)), area.all),
+                           {op, facts_.program.ops[op][access.operand].at}});
+      }
+    std::vector<Bits> left;
+    for (const Bits& free : area.free) {
+      std::set<std::uint64_t> ends{free.first, free.end()};
+      for (const Reached& each : reached)
+        if (each.bits.overlaps(free))
+          ends.insert({std::max(free.first, each.bits.first), std::min(free.end(), each.bits.end())});
+      for (auto end = std::next(ends.begin()); end != ends.end(); ++end) {
+        const Bits part{*std::prev(end), *end - *std::prev(end)};
+        std::vector<MemoryMap::Through> through;
+        for (const Reached& each : reached)
+          if (each.bits.overlaps(part) && (through.empty() || through.back() != each.through))
+            through.push_back(each.through);
+        append(through.empty() ? left : perhaps_through(area, through).bits, part);
+      }
+    }
+    area.free = std::move(left);
+  }
+
+  static MemoryMap::Perhaps& perhaps_through(MemoryMap::AreaUse& area, const std::vector<MemoryMap::Through>& through) {
+    const auto same = std::ranges::find(area.perhaps, through, &MemoryMap::Perhaps::through);
+    if (same != area.perhaps.end()) return *same;
+    area.perhaps.push_back({{}, through});
+    return area.perhaps.back();
+  }
+
+  static void append(std::vector<Bits>& all, const Bits& part) {
+    if (!all.empty() && all.back().end() == part.first)
+      all.back().count += part.count;
+    else
+      all.push_back(part);
   }
 
   static void join(MemoryMap::Used& into, const MemoryMap::Used& used) {

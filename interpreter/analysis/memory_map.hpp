@@ -1,7 +1,7 @@
 // What a program uses of each memory area and what it leaves free, its timers and counters, and what its data block sets.
 //
 // Used is what instructions name, with the blocks that they copy or fill as far as these may reach. Where pointers lead is
-// told apart from it: a pointer that may lead anywhere would use all of an area.
+// told apart from it: a pointer that may lead anywhere would use all of an area. Free is what neither uses.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,23 @@ struct MemoryMap {
     std::vector<std::uint32_t> routines;  ///< that use it, in ControlFlow::routines
     bool by_data = false;                 ///< the data block sets some of it
   };
+  /// A pointer, and an op that goes through it.
+  struct Through {
+    std::uint32_t op = 0, at = 0;  ///< `at`: the pointer's place in the image
+
+    bool operator==(const Through&) const = default;
+  };
+  /// Memory that no instruction names, but that may be used through pointers.
+  struct Perhaps {
+    std::vector<Bits> bits;        ///< by address
+    std::vector<Through> through;  ///< by op
+  };
   struct AreaUse {
     Area area{};
     std::optional<std::uint32_t> routine;  ///< of local memory
     Bits all;                              ///< what the CPU has
     std::vector<Used> used;                ///< by address
+    std::vector<Perhaps> perhaps;          ///< by address
     std::vector<Bits> free, retentive;     ///< by address
     std::vector<std::size_t> pointers;     ///< that may reach it: in CrossReference::pointers
   };

@@ -1,14 +1,11 @@
 #include "interpreter/analysis/pointers.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <optional>
-#include <span>
-#include <string_view>
 
 #include "interpreter/analysis/effects.hpp"
 #include "interpreter/base/bytes.hpp"
+#include "interpreter/program/unread.hpp"
 
 namespace s7200 {
 namespace {
@@ -25,12 +22,6 @@ bool is_plain_memory(std::uint32_t at) {
   return bit_memory || accumulator || (at >= image::kV && at + 4 <= image::kConstants);
 }
 
-bool is_set_by_data_block(const Program& program, std::uint32_t at) {
-  return std::ranges::any_of(program.data, [&](const InitialData& data) {
-    return bits_of_pointer(at).overlaps({std::uint64_t{image::kV + data.offset} * 8, data.bytes.size() * 8});
-  });
-}
-
 /// The value of a direct operand that is a constant.
 std::optional<std::uint32_t> constant(const Program& program, const Operand& operand) {
   if (operand.pointer || operand.unread() || operand.at < image::kConstants) return {};
@@ -44,18 +35,15 @@ Content anywhere_in_areas(const Content& before) {
   return content;
 }
 
-/// Whether an op adds a constant to a double word, or subtracts one, that is less than an area's worth of addresses.
-bool counts(const Program& program, const Op& op) {
-  constexpr std::array<std::string_view, 2> kByOne{"INCD", "DECD"}, kByConstant{"+D", "-D"};
-  if (std::ranges::find(kByOne, op.instruction->mnemonic) != kByOne.end()) return true;
-  if (std::ranges::find(kByConstant, op.instruction->mnemonic) == kByConstant.end()) return false;
-  const auto step = constant(program, op[0]);
-  return step && std::abs(std::int64_t{static_cast<std::int32_t>(*step)}) <= kOffset;
-}
-
 Content anything() { return {.anything = true, .addresses = {}, .areas = {}}; }
 
 }  // namespace
+
+bool is_set_by_data_block(const Program& program, const Bits& bits) {
+  return std::ranges::any_of(program.data, [&](const InitialData& data) {
+    return bits.overlaps({std::uint64_t{image::kV + data.offset} * 8, data.bytes.size() * 8});
+  });
+}
 
 bool Pointers::Content::add(const Content& other) {
   const auto size = [this] { return addresses.size() + areas.size() + (anything ? 1 : 0); };
@@ -66,17 +54,23 @@ bool Pointers::Content::add(const Content& other) {
   return size() != before;
 }
 
-Pointers::Pointers(const Program& program) : program_(program) {
+Pointers::Pointers(const Program& program, const ControlFlow& flow) : program_(program) {
   for (const Op& op : program.ops)
     for (const Operand& operand : op.operand)
       if (operand.pointer) begin(operand.at);
   for (const Parameter& parameter : program.parameters)
     if (parameter.actual.pointer) begin(parameter.actual.at);
-  if (contents_.empty()) return;
   do {
-    while (add_writes()) {
+    while (!contents_.empty() && add_writes()) {
     }
   } while (give_up_unset());
+  if (has_unread(program)) return;
+  // What is known of pointers tells what interrupts and subroutines write, and that tells more of pointers.
+  for (int round = 0; round < (contents_.empty() ? 1 : 2); ++round) {
+    std::vector<std::vector<MemoryAccess>> effects;
+    for (std::uint32_t op = 0; op < program.ops.size(); ++op) effects.push_back(effects_of(program, op, *this));
+    reaching_ = ReachingValues(program, flow, effects, *this);
+  }
 }
 
 /// Nothing is known of what the program itself does not set. Whether there was any more of that.
@@ -88,7 +82,7 @@ bool Pointers::give_up_unset() {
 }
 
 bool Pointers::begin(std::uint32_t at) {
-  const bool unknown = !is_plain_memory(at) || is_set_by_data_block(program_, at);
+  const bool unknown = !is_plain_memory(at) || is_set_by_data_block(program_, bits_of_pointer(at));
   return contents_.try_emplace(at, unknown ? anything() : Content{}).second;
 }
 
@@ -111,7 +105,7 @@ bool Pointers::add_write(const Op& op, const MemoryAccess& access) {
     if (!access.bits.overlaps(pointer)) continue;
     const bool whole = access.bits == pointer && !access.by_pointer;
     const bool moved = whole && op.instruction->operand[0].address_of;
-    const bool in_area = (whole && counts(program_, op)) || access.bits.first >= pointer.first + 8;
+    const bool in_area = (whole && step_of(program_, op)) || access.bits.first >= pointer.first + 8;
     const Content added = moved ? copied(op[0], more) : in_area ? anywhere_in_areas(content) : anything();
     if (added.anything) given_up_.try_emplace(at, static_cast<std::uint32_t>(&op - program_.ops.data()));
     more |= content.add(added);
@@ -152,12 +146,53 @@ std::optional<Pointers::Unknown> Pointers::unknown(std::uint32_t at) const {
   using Reason = Unknown::Reason;
   if (is_known(at)) return {};
   if (!is_plain_memory(at)) return Unknown{Reason::Elsewhere};
-  if (is_set_by_data_block(program_, at)) return Unknown{Reason::DataBlock};
+  if (is_set_by_data_block(program_, bits_of_pointer(at))) return Unknown{Reason::DataBlock};
   const auto found = given_up_.find(at);
   return found == given_up_.end() ? Unknown{Reason::NotSet} : Unknown{Reason::Written, found->second};
 }
 
-std::vector<PointerTarget> Pointers::targets(std::uint32_t at) const {
+std::optional<ValueSet> Pointers::at_any_time(std::uint32_t at) const {
+  const auto found = contents_.find(at);
+  if (found == contents_.end()) return {};
+  if (found->second.anything) return ValueSet::all_of(Width::Double);
+  ValueSet values;
+  for (const std::uint32_t address : found->second.addresses) {
+    const std::int64_t value = static_cast<std::int32_t>(address);
+    values.add({value, value});
+  }
+  for (const std::int64_t code : found->second.areas) values.add({code << 24, (code << 24) + kOffset});
+  return values.fitted(Width::Double);
+}
+
+std::optional<Pointers::Unknown> Pointers::unknown(std::uint32_t op, std::uint32_t at) const {
+  const auto all = targets(op, at);
+  const bool anywhere = std::ranges::any_of(all, [&](const PointerTarget& target) {
+    return std::ranges::any_of(program_.reach, [&](const Reach& reach) {
+      return reach.size != 0 && target == PointerTarget{reach.base, reach.base + reach.size};
+    });
+  });
+  if (!anywhere) return {};
+  const auto value = reaching_ ? reaching_->pointer(op, at) : std::nullopt;
+  if (!value || value->cause() == ValueSet::kNoCause) return unknown(at);
+  const bool counted = step_of(program_, program_.ops[value->cause()]).has_value();
+  return Unknown{counted ? Unknown::Reason::Counted : Unknown::Reason::Written, value->cause()};
+}
+
+std::vector<PointerTarget> Pointers::targets(std::uint32_t op, std::uint32_t at) const {
+  const auto value = reaching_ ? reaching_->pointer(op, at) : std::nullopt;
+  if (!value) return at_any_time_targets(at);
+  const std::vector<PointerTarget> reached = places_of(program_, *value);
+  const auto found = contents_.find(at);
+  if (found->second.anything || !found->second.areas.empty()) return reached;
+  std::vector<PointerTarget> all = at_any_time_targets(at);  // a few addresses, which the ranges may have joined
+  std::erase_if(all, [&](const PointerTarget& target) {
+    return std::ranges::none_of(reached,
+                                [&](const PointerTarget& each) { return target.from >= each.from && target.to <= each.to; });
+  });
+  return all;
+}
+
+std::vector<PointerTarget> Pointers::at_any_time_targets(std::uint32_t at) const {
   const auto found = contents_.find(at);
   const bool anything = found == contents_.end() || found->second.anything;
   std::vector<PointerTarget> all;

@@ -29,7 +29,7 @@ Bits overlap_of(const Bits& a, const Bits& b) {
   return {first, end > first ? end - first : 0};
 }
 
-/// Where the accesses of ops are, as exactly as their rungs say.
+/// Where the accesses of ops are, as exactly as the program says.
 class Accesses {
  public:
   explicit Accesses(const Facts& facts) : facts_(facts) {
@@ -56,31 +56,9 @@ class Accesses {
   Bits through_pointer(std::uint32_t op, const MemoryAccess& access) const {
     if (access.bits.count <= kBitsOfDouble) return access.bits;
     if (access.operand == kNoOperand) return {};
-    const Operand& operand = facts_.program.ops[op][access.operand];
-    const auto address = set_in_rung(op, operand.at);
-    const std::uint32_t code = address.value_or(0) >> 24, offset = address.value_or(0) & 0xFF'FFFF;
-    if (!address || code >= kReaches || offset >= facts_.program.reach[code].size) return {};
-    return {(facts_.program.reach[code].base + offset) * 8u, operand.width * 8u};
-  }
-
-  /// The address that MOVD has put into the pointer at `at`, with the power flow of `op`.
-  std::optional<std::uint32_t> set_in_rung(std::uint32_t op, std::uint32_t at) const {
-    const Bits pointer{at * 8u, kBitsOfDouble};
-    for (std::uint32_t i = op; i-- > facts_.flow.routine_of(op).first;) {
-      const Op& before = facts_.program.ops[i];
-      if (is_unread(before) || before.instruction->structure != Structure::None) return {};
-      const bool same_power = !before.is_contact || facts_.flow.nodes[op].powered;
-      if (!same_power) return {};
-      const bool written = std::ranges::any_of(facts_.effects[i], [&](const MemoryAccess& access) {
-        return access.writes() && !access.by_pointer && access.bits.overlaps(pointer);
-      });
-      if (!written) continue;
-      const Operand& from = before[0];
-      const bool moved = before.instruction->mnemonic == "MOVD" && before[1].at == at && !from.pointer;
-      if (!moved || from.unread() || from.at < image::kConstants) return {};
-      return load32(&facts_.program.constants[from.at - image::kConstants]);
-    }
-    return {};
+    const auto places = facts_.pointers.targets(op, facts_.program.ops[op][access.operand].at);
+    const bool at_one_place = places.size() == 1 && places.front().to == places.front().from + 1;
+    return at_one_place ? access.bits : Bits{0, 0};
   }
 
   const Facts& facts_;

@@ -5,10 +5,9 @@
 // interrupt routine runs to its end before another one starts (facts 3.2), so two of them do not disturb each other.
 // Accumulators, the logic stack and SMB1 are saved around it, and local memory is its own.
 //
-// Looked at are bytes, words and double words of V, M, S, Q, T and C memory, also through pointers as far as it is known
-// where these lead: in a rung that sets its pointer, and otherwise as in pointers.hpp. An access that may be anywhere in an
-// area is none of a certain word. Bits that one side sets and the other one resets are a handshake and no race, and so are
-// the buffers of XMT and RCV.
+// Looked at are bytes, words and double words of V, M, S, Q, T and C memory, also through pointers that lead to one place
+// (pointers.hpp). An access that may be at many places is none of a certain word. Bits that one side sets and the other one
+// resets are a handshake and no race, and so are the buffers of XMT and RCV.
 #pragma once
 
 #include <cstdint>

@@ -36,10 +36,11 @@ std::vector<std::string> routine_names(const Inspection& inspection, const Memor
   return names;
 }
 
+std::string pointer_name(std::uint32_t at) { return "*" + memory_text(as_named({at * 8u, 32})); }
+
 std::vector<std::string> pointer_names(const CrossReference& reference, const MemoryMap::AreaUse& area) {
   std::vector<std::string> names;
-  for (const std::size_t i : area.pointers)
-    names.push_back("*" + memory_text(as_named({reference.pointers[i].at * 8u, 32})));
+  for (const std::size_t i : area.pointers) names.push_back(pointer_name(reference.pointers[i].at));
   return names;
 }
 
@@ -70,6 +71,28 @@ std::string list_text(std::string_view what, const std::vector<Bits>& all) {
   return "  " + wrapped_at(fmt::format("{}: {}", what, stl::joined(all, range_text)), 4, 2) + "\n";
 }
 
+/// `*AC1 in line 396, *VD150 in lines 769 and 771`, the first few of them.
+std::string through_text(const Inspection& inspection, const MemoryMap::Perhaps& perhaps) {
+  constexpr std::size_t kShown = 4;
+  std::vector<std::string> names;
+  for (const MemoryMap::Through& through : perhaps.through)
+    if (names.size() < kShown)
+      names.push_back(fmt::format("{} in {}", pointer_name(through.at), line_text(inspection, through.op)));
+  if (perhaps.through.size() > kShown) names.push_back(fmt::format("{} more", perhaps.through.size() - kShown));
+  return stl::joined(names, map_name, " and ");
+}
+
+std::string perhaps_text(const Inspection& inspection, const MemoryMap::AreaUse& area) {
+  std::string text;
+  for (const MemoryMap::Perhaps& perhaps : area.perhaps)
+    text += "  " +
+            wrapped_at(fmt::format("perhaps used through {}: {}", through_text(inspection, perhaps),
+                                   stl::joined(perhaps.bits, range_text)),
+                       4, 2) +
+            "\n";
+  return text;
+}
+
 std::uint64_t size_of(const std::vector<Bits>& all) {
   std::uint64_t bits = 0;
   for (const Bits& each : all) bits += each.count;
@@ -85,14 +108,15 @@ std::string head_text(const Inspection& inspection, const MemoryMap::AreaUse& ar
       about.element == 0 && (area.area == Area::I || area.area == Area::Q || area.area == Area::M || area.area == Area::S);
   const std::uint64_t unit = about.element != 0 ? about.element * 8u : by_bits ? 1 : 8;
   const std::string_view thing = about.element != 0 ? "element" : by_bits ? "bit" : "byte";
-  return text + fmt::format(", {} of {} used\n", (area.all.count - size_of(area.free)) / unit,
-                            counted(area.all.count / unit, thing));
+  std::uint64_t unused = size_of(area.free);
+  for (const MemoryMap::Perhaps& perhaps : area.perhaps) unused += size_of(perhaps.bits);
+  return text + fmt::format(", {} of {} used\n", (area.all.count - unused) / unit, counted(area.all.count / unit, thing));
 }
 
 std::string area_text(const Inspection& inspection, const CrossReference& reference, const MemoryMap::AreaUse& area) {
   std::string text = head_text(inspection, area);
   for (const MemoryMap::Used& used : area.used) text += used_text(inspection, used);
-  if (area.area != Area::AC && area.area != Area::SM) text += list_text("free", area.free);
+  if (area.area != Area::AC && area.area != Area::SM) text += perhaps_text(inspection, area) + list_text("free", area.free);
   text += list_text("retentive", area.retentive);
   const auto pointers = pointer_names(reference, area);
   if (!pointers.empty()) text += "  " + wrapped_at("pointers may reach it: " + stl::joined(pointers, map_name), 4, 2) + "\n";
@@ -190,6 +214,13 @@ ordered_json area_json(const Inspection& inspection, const CrossReference& refer
   for (const MemoryMap::Used& used : area.used)
     json["used"].push_back(
         {{"memory", range_text(used.bits)}, {"routines", routine_names(inspection, used)}, {"data_block", used.by_data}});
+  json["perhaps"] = ordered_json::array();
+  for (const MemoryMap::Perhaps& perhaps : area.perhaps) {
+    ordered_json through = ordered_json::array();
+    for (const MemoryMap::Through& each : perhaps.through)
+      through.push_back({{"pointer", pointer_name(each.at)}, {"place", place_json(inspection, each.op)}});
+    json["perhaps"].push_back({{"memory", texts(perhaps.bits)}, {"through", std::move(through)}});
+  }
   json["free"] = texts(area.free);
   json["retentive"] = texts(area.retentive);
   json["pointers"] = pointer_names(reference, area);

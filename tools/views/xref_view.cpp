@@ -75,6 +75,9 @@ std::string reason_text(const Inspection& inspection, const Pointers::Unknown& u
       return "the data block sets it";
     case Reason::Elsewhere:
       return "it is in memory that others write, too";
+    case Reason::Counted:
+      return fmt::format("{} ({}) counts it, and no comparison ends that", instruction_text(inspection, unknown.op),
+                         place_in_words(inspection, unknown.op));
     case Reason::Written:
       break;
   }

@@ -58,16 +58,16 @@ TEST(Effects, ResetClearsTheValuesOfTimersAndCountersToo) {
 
 TEST(Effects, APointerThatIsSetOnceLeadsToOnePlace) {
   EXPECT_EQ(accesses("LD SM0.0\nMOVD &VB100, AC1\nMOVB 1, *AC1\n", 1), "reads AC4.0+32 must; writes V100.0+8 may");
-  EXPECT_EQ(accesses("LD SM0.0\nMOVD &VB100, AC1\nMOVD AC1, VD4\nMOVD &MB2, VD4\nMOVW 1, *VD4\n", 1),
+  EXPECT_EQ(accesses("LD SM0.0\nMOVD &VB100, AC1\nMOVD AC1, VD4\nLD I0.0\nMOVD &MB2, VD4\nLD SM0.0\nMOVW 1, *VD4\n", 1),
             "reads V4.0+32 must; writes M2.0+16 may; writes V100.0+16 may")
       << "copied, or another one";
 }
 
-TEST(Effects, APointerThatIsCountedLeadsAnywhereInItsArea) {
-  const std::string all_of_m = "reads AC4.0+32 must; changes M0.0+256 may";
-  EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, AC1\nINCD AC1\nINCB *AC1\n", 0), all_of_m);
-  EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, AC1\n+D +4, AC1\nINCB *AC1\n", 0), all_of_m);
-  EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, AC1\nINCD AC1\nINCD *AC1\n", 0), all_of_m) << "no double word begins at its end";
+TEST(Effects, APointerThatIsCountedWithoutEndLeadsAnywhereInItsArea) {
+  const std::string to_the_end = "reads AC4.0+32 must; changes M2.0+240 may", first = "LD SM0.1\nMOVD &MB2, AC1\nLD I0.0\n";
+  EXPECT_EQ(accesses(first + "INCB *AC1\nINCD AC1\nINCB *AC1\n", 0), "reads AC4.0+32 must; changes M3.0+232 may");
+  EXPECT_EQ(accesses(first + "+D +4, AC1\nLD SM0.0\nINCB *AC1\n", 0), to_the_end);
+  EXPECT_EQ(accesses(first + "INCD AC1\nLD SM0.0\nINCD *AC1\n", 0), to_the_end) << "no double word begins at its end";
   EXPECT_EQ(accesses("LD SM0.0\nMOVD &MB2, VD0\nMOVW VW90, VW2\nINCB *VD0\n", 0), "reads V0.0+32 must; changes M0.0+256 may")
       << "its lower bytes are another's";
 }

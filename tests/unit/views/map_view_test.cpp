@@ -45,6 +45,20 @@ TEST(MapView, PointersAreNamedWhereTheyMayLead) {
   EXPECT_EQ(v["used"].size(), 1U);
 }
 
+TEST(MapView, NothingIsFreeThatAPointerMayReach) {
+  const ordered_json table =
+      area("LD SM0.0\nMOVD &VB100, AC1\nFOR VW0, 1, 4\nLD SM0.0\nMOVW 0, *AC1\n+D 2, AC1\nNEXT\nMEND\n", "V");
+  EXPECT_EQ(table["free"], ordered_json::parse(R"(["VB2 to VB99", "VB108 to VB4095"])"));
+  ASSERT_EQ(table["perhaps"].size(), 1U);
+  EXPECT_EQ(table["perhaps"][0]["memory"], ordered_json::parse(R"(["VB100 to VB107"])"));
+  EXPECT_EQ(table["perhaps"][0]["through"][0]["pointer"], "*AC1");
+  EXPECT_EQ(table["perhaps"][0]["through"][0]["place"]["line"], 5);
+
+  const std::string text = map_text(inspected("LD SM0.0\nMOVB 1, VB0\nMOVB 1, *VD8\nMEND\n"));
+  EXPECT_NE(text.find("  perhaps used through *VD8 in test.stl:3: VB1 to VB7, VB12 to VB8191\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("free: VB"), std::string::npos) << "it may lead anywhere";
+}
+
 TEST(MapView, TimersHaveTheirResolutionAndTheirPresetAsATime) {
   const std::string text = map_text(inspected("LD I0.0\nTON T33, 25\nTON T37, VW0\nLD I0.0\nLD I0.1\nCTU C5, 12\nMEND\n"));
   EXPECT_NE(text.find("  T33   TON, 10 ms, 25 = 0.25 s"), std::string::npos) << text;
