@@ -34,12 +34,12 @@ std::optional<std::int64_t> limit_in(const std::string& comment) {
 
 class BoundsBuilder {
  public:
-  BoundsBuilder(const Facts& facts, const Calls& calls, const Program& timed)
-      : facts_(facts), calls_(calls), timed_(timed) {}
+  BoundsBuilder(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated)
+      : facts_(facts), calls_(calls), timed_(timed), stated_(stated) {}
 
   Bounds all() {
     for (std::uint32_t op = 0; op < timed_.ops.size(); ++op)
-      if (is_loop(op)) bounds_.loops.push_back({op, times_of(op)});
+      if (is_loop(timed_, op)) bounds_.loops.push_back({op, times_of(op)});
     bounds_.routines.resize(facts_.flow.routines.size());
     for (std::uint32_t i = 0; i < facts_.flow.routines.size(); ++i) measure(i);
     bounds_.scan = bounds_.routines[0].time;
@@ -53,18 +53,15 @@ class BoundsBuilder {
   }
 
  private:
-  bool is_loop(std::uint32_t op) const {
-    const Op& of = timed_.ops[op];
-    return kind_of(of) == Structure::For || (kind_of(of) == Structure::Jump && of.target <= op);
-  }
-
   // --- loops ---
 
   std::optional<std::int64_t> times_of(std::uint32_t op) const {
+    if (const auto stated = stated_.find(op); stated != stated_.end()) return stated->second;
     if (const auto said = limit_in(timed_.statement(op).comment)) return said;
     if (kind_of(timed_.ops[op]) != Structure::For) return {};
+    if (!counts_its_passes(facts_.flow, facts_.program, facts_.effects, op)) return {};
     const auto first = least_and_most(timed_.ops[op][1]), last = least_and_most(timed_.ops[op][2]);
-    if (!first || !last) return {};
+    if (!first || !last) return facts_.pointers.passes(op);
     return std::max<std::int64_t>(0, last->second - first->first + 1);
   }
 
@@ -74,25 +71,27 @@ class BoundsBuilder {
     return static_cast<std::int16_t>(load16(&timed_.constants[operand.at - image::kConstants]));
   }
 
-  /// The values of a word: a constant, or memory that instructions only set to constants, and that is 0 before.
+  /// The values of a word: a constant, or memory that instructions only set to constants, and that is 0 before. Nothing for
+  /// memory that no instruction sets: somebody else does.
   std::optional<Range> least_and_most(const Operand& operand) const {
     if (operand.pointer || operand.unread()) return {};
     if (operand.at >= image::kConstants) return Range{constant(operand), constant(operand)};
     if (operand.at < image::kV || operand.at >= image::kL) return {};
     const Bits word{operand.at * 8u, 16};
-    for (const InitialData& data : timed_.data)
-      if (word.overlaps({(image::kV + data.offset) * 8u, data.bytes.size() * 8})) return {};
+    if (is_set_by_data_block(timed_, word)) return {};
     Range range{0, 0};
+    bool is_set = false;
     for (std::uint32_t op = 0; op < facts_.effects.size(); ++op)
       for (const MemoryAccess& access : facts_.effects[op]) {
         if (!access.writes() || !access.bits.overlaps(word)) continue;
         const Op& writer = timed_.ops[op];
         const bool moves = writer.instruction->mnemonic == "MOVW" && !access.by_pointer && access.bits == word;
         if (!moves || writer[0].pointer || writer[0].at < image::kConstants) return {};
+        is_set = true;
         range = {std::min<std::int64_t>(range.first, constant(writer[0])),
                  std::max<std::int64_t>(range.second, constant(writer[0]))};
       }
-    return range;
+    return is_set ? std::optional(range) : std::nullopt;
   }
 
   // --- routines ---
@@ -318,14 +317,20 @@ class BoundsBuilder {
   const Facts& facts_;
   const Calls& calls_;
   const Program& timed_;
+  const StatedLoops& stated_;
   std::map<std::uint32_t, State> measured_{};
   Bounds bounds_{};
 };
 
 }  // namespace
 
-Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed) {
-  return BoundsBuilder(facts, calls, timed).all();
+bool is_loop(const Program& program, std::uint32_t op) {
+  const Op& of = program.ops[op];
+  return kind_of(of) == Structure::For || (kind_of(of) == Structure::Jump && of.target <= op);
+}
+
+Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated) {
+  return BoundsBuilder(facts, calls, timed, stated).all();
 }
 
 }  // namespace s7200

@@ -2,13 +2,15 @@
 //
 // A bound is the longest way through the routine: each instruction with power flow and the most that it counts, each loop as
 // often as it runs at most. That is known of FOR between constants, of FOR up to memory that instructions set to constants
-// only, and of a FOR or a JMP backwards whose comment says so: `at most 8 times`. Nothing else is guessed: a loop without a
-// bound is named, and the figure then holds for one pass through it.
+// only, of FOR whose ends the instructions in front of it bound (reaching_values.hpp), if its passes leave its index alone;
+// and of a FOR or a JMP backwards whose comment says so, `at most 8 times`, or of which the user says so. Nothing else is
+// guessed: a loop without a bound is named, and the figure then holds for one pass through it.
 //
 // Times are those of a table, mostly estimates: the same program decoded with another table gives the bound for that one.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -16,6 +18,12 @@
 #include "interpreter/analysis/facts.hpp"
 
 namespace s7200 {
+
+/// How often loops run at most as the user says, above 0: by their FOR, or the JMP back.
+using StatedLoops = std::map<std::uint32_t, std::int64_t>;
+
+/// Whether an op is the FOR of a loop, or a JMP back.
+bool is_loop(const Program& program, std::uint32_t op);
 
 struct Bounds {
   /// A loop, and how often it runs at most; nothing if that is not known.
@@ -45,7 +53,7 @@ struct Bounds {
   std::optional<Time> scan_with_interrupts;
 };
 
-/// `timed`: the program of `facts`, with the times to count with.
-Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed);
+/// `timed`: the program of `facts`, with the times to count with. `stated` counts before all that the program says.
+Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated = {});
 
 }  // namespace s7200

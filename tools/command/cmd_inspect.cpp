@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/base/among.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
@@ -19,6 +20,7 @@
 #include "tools/command/options/program_options.hpp"
 #include "tools/command/options/stand_in_options.hpp"
 #include "tools/command/options/tables_by_cpu.hpp"
+#include "tools/command/stated_loops.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/inspect_views.hpp"
@@ -29,7 +31,7 @@ namespace {
 
 struct InspectOptions {
   CpuOptions cpu;
-  std::vector<std::string> words;
+  std::vector<std::string> words, loops;
   std::string svg;
   bool json = false, ascii = false;
 };
@@ -43,6 +45,8 @@ int run_inspect(const InspectOptions& options) {
                             request.meant, view_names()));
     return kUnusable;
   }
+  if (!options.loops.empty() && !is_among(request.view->name, {"bounds", "document"}))
+    return print_error("--loop is for the views bounds and document"), kUnusable;
   if (!options.cpu.model()) return kUnusable;
   Picture picture;
   if (!picture.claim(options.svg, *request.view, request.paths)) return kUnusable;
@@ -57,6 +61,10 @@ int run_inspect(const InspectOptions& options) {
     auto inspection = inspected(options.cpu, file, {*request.view, request.about}, tables, exit_code);
     if (!inspection) continue;
     inspection->ascii = options.ascii;
+    std::string why;
+    const auto stated = stated_loops(*inspection->program, options.loops, why);
+    if (!stated) return print_error(why), kUnusable;
+    inspection->stated_loops = *stated;
     if (picture) exit_code = std::max(exit_code, picture.write(*request.view, *inspection));
     if (options.json) {
       files.push_back({{"file", file.path}, {"cpu", inspection->program->model->name}});
@@ -99,6 +107,9 @@ void add_inspect(CLI::App& app, int& exit_code) {
   add_no_stand_ins_option(*verb, options->cpu.no_stand_ins);
   verb->add_option("--svg", options->svg, "write the view ladder as a picture instead of printing it")
       ->type_name("FILE.svg");
+  verb->add_option("--loop", options->loops, "how often the loop in a line runs at most, for the view bounds (repeatable)")
+      ->type_name("LINE=N")
+      ->allow_extra_args(false);
   verb->add_flag("--ascii", options->ascii, "draw with characters of 7 bits");
   verb->add_flag("--json", options->json, "print the results as JSON");
   verb->footer(views_text() +

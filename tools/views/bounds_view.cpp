@@ -28,8 +28,8 @@ struct Both {
 Both bounds_of(const Inspection& inspection) {
   const Calls calls = calls_of(*inspection.program, inspection.facts.flow);
   const auto slow = inspection.slowest ? inspection.slowest() : nullptr;
-  return {s7200::bounds_of(inspection.facts, calls, *inspection.program),
-          s7200::bounds_of(inspection.facts, calls, slow ? *slow : *inspection.program)};
+  return {s7200::bounds_of(inspection.facts, calls, *inspection.program, inspection.stated_loops),
+          s7200::bounds_of(inspection.facts, calls, slow ? *slow : *inspection.program, inspection.stated_loops)};
 }
 
 bool is_wanted(const Inspection& inspection, const Routine& routine) {
@@ -94,7 +94,7 @@ std::string all_loops_text(const Inspection& inspection, const Both& both) {
   for (const Bounds::Loop& loop : both.usual.loops)
     text += row_text(inspection, "  " + column(loop.times ? fmt::format("{} times", *loop.times) : "no bound", 14), loop.op);
   if (text.empty()) return text;
-  return "Loops; a comment `at most 8 times` at the FOR or at the JMP back gives one a bound\n" + text;
+  return "Loops; a comment `at most 8 times` at the FOR or at the JMP back gives one a bound, or --loop LINE=8\n" + text;
 }
 
 ordered_json places(const Inspection& inspection, const std::vector<std::uint32_t>& loops) {

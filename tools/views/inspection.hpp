@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/analysis/bounds.hpp"
 #include "interpreter/analysis/facts.hpp"
 #include "interpreter/analysis/races.hpp"
 #include "interpreter/analysis/selection.hpp"
@@ -44,6 +45,7 @@ struct Inspection {
   Selection selection{};
   /// Looks for a run in which a race loses a word. Empty: none is looked for; whoever can run programs sets it.
   std::function<std::optional<LostWord>(const Inspection&, const Race&)> lose_word{};
+  StatedLoops stated_loops{};  ///< how often loops run at most, as the user says
   bool ascii = false;  ///< drawings are made of characters that a 7-bit terminal has
   /// Runs the program. Empty, or nothing returned: it cannot be run.
   std::function<std::optional<SeenTimes>(const Inspection&)> see_times{};

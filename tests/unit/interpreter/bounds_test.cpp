@@ -27,6 +27,12 @@ TEST(Bounds, ALoopCountsAsOftenAsItRuns) {
   EXPECT_EQ(set.loops.at(0).times, 3) << "only constants are put into VW10";
 }
 
+TEST(Bounds, ALoopCountsAsWhatIsInFrontOfItAllows) {
+  EXPECT_EQ(bounds("LDW<= VW10, 16\nFOR VW0, 1, VW10\nINCW VW2\nNEXT\nMEND\n").loops.at(0).times, 16);
+  EXPECT_FALSE(bounds("LD SM0.0\nFOR VW0, 1, 5\nLD I0.0\nDECW VW0\nNEXT\nMEND\n").loops.at(0).times)
+      << "its passes write its index";
+}
+
 TEST(Bounds, ACommentGivesALoopItsBound) {
   const Bounds jump = bounds("LBL 1\nLD I0.0\nINCW VW0\nJMP 1 // at most 4 times\nMEND\n");
   EXPECT_EQ(jump.routines[0].time, 4 * 30 * us + 10 * us);
