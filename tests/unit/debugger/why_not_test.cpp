@@ -213,6 +213,79 @@ TEST(WhyNot, AStepOfASequenceLeadsToTheTransitionIntoIt) {
   EXPECT_TRUE(has(session("why not Q0.0"), "  1 contact has to change:\n    I0.1 is 0"));
 }
 
+TEST(WhyNot, WhatLeavesAStepIsNoWayToIt) {
+  AtPrompt session(
+      "LD SM0.1\n"
+      "S S0.1, 1\n"
+      "LSCR S0.1\n"
+      "LD I0.0\n"
+      "SCRT S0.2\n"
+      "SCRE\n"
+      "LSCR S0.2\n"
+      "LD I0.1\n"
+      "SCRT S0.3\n"
+      "SCRE\n"
+      "MEND\n");
+  session("continue 20ms");
+  const std::string text = session("why not S0.2");
+  EXPECT_TRUE(has(text, "  SCRT S0.2 in line 5: I0.0=0\n  1 contact has to change:\n")) << text;
+  EXPECT_FALSE(has(text, "SCRT S0.3")) << text;
+}
+
+TEST(WhyNot, WhatHasBeenToldIsReferredTo) {
+  AtPrompt session(
+      "LD I0.0\n"
+      "A I0.1\n"
+      "= M0.0\n"
+      "LD M0.0\n"
+      "= M0.1\n"
+      "LD M0.0\n"
+      "= M0.2\n"
+      "LD M0.1\n"
+      "A M0.2\n"
+      "= Q0.0\n"
+      "MEND\n");
+  session("continue 20ms");
+  const std::string text = session("why not Q0.0");
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+    lines.push_back(text.substr(at, text.find('\n', at) - at));
+  ASSERT_EQ(lines.size(), 15U) << text;
+  EXPECT_TRUE(has(lines[6], "M0.0 is 0")) << text;
+  EXPECT_TRUE(has(lines[14], "M0.0 is 0 since 0.000000 ms, must be 1 (LD M0.0 in line 6): as above, line 7 of this answer"))
+      << text;
+}
+
+constexpr std::string_view kTwoCoils =
+    "LD I0.0\n"
+    "= Q0.0\n"
+    "= M0.0\n"
+    "LD I0.1\n"
+    "= Q0.0\n"
+    "= M0.0\n"
+    "MEND\n";
+
+TEST(WhyNot, UntilLooksAtAnOutputWithSeveralCoilsWhenAScanIsOver) {
+  AtPrompt session(kTwoCoils);
+  session("continue 20ms; input I0.0=1");
+  const std::string never = session("until Q0.0 within 50ms");
+  EXPECT_TRUE(has(never, "Q0.0 is written by = Q0.0 in line 2 and = Q0.0 in line 5: it is looked at when a scan is over\n"))
+      << never;
+  EXPECT_TRUE(has(never, "Q0.0 is 0")) << never;
+  EXPECT_TRUE(has(session("input I0.1=1; until Q0.0 within 50ms; print Q0.0"), "Q0.0 = 1"));
+  session("input I0.0=0; scan");
+  EXPECT_TRUE(has(session("step 3; why Q0.0"), "= Q0.0 in line 5 still follows in this scan\n"));
+}
+
+TEST(WhyNot, ABitThatALaterCoilMayOverwriteIsSaidToBeOne) {
+  AtPrompt session(kTwoCoils);
+  session("continue 20ms; input I0.0=1");
+  const std::string text = session("until M0.0 within 50ms");
+  EXPECT_TRUE(has(text, "  = M0.0 in line 6 still follows in this scan\n")) << text;
+  EXPECT_TRUE(has(session("why M0.0"), "  = M0.0 in line 6 still follows in this scan\n"));
+  EXPECT_FALSE(has(session("scan; why M0.0"), "still follow")) << "none has been passed";
+}
+
 constexpr std::string_view kOthers =
     "LD I0.7\n"
     "EU\n"

@@ -25,14 +25,20 @@ struct Obstacle {
   Bits bits{0, 0};                    ///< of the memory; no bit of none
   std::optional<Time> since{};        ///< since when it has its value; nothing if that is not known
   bool since_longer = false;          ///< `since` is how far back it was looked
+  std::uint32_t number = 0;           ///< from 1, of a node that others may refer to; 0 of one that has nothing below
+  std::uint32_t same_as = 0;          ///< the number of the node that tells what is because of this one; 0: none
+  std::size_t as_line = 0;            ///< the line of that one in lines_of(), from 1
   std::vector<Obstacle> because{};    ///< what in turn is in the way
 };
+
+/// Sets `as_line` of the nodes that refer to others; the line of the root is 1.
+void number_lines(Obstacle& root);
 
 /// Each node in a line, what is because of it below, two columns further in.
 std::vector<std::string> lines_of(const Obstacle& obstacle);
 
-/// The node and all below: its kind, what it has of name, value, wanted, since_ns, text, and `because`. `line` is that of the
-/// instruction, as `place` says it.
+/// The node and all below: its kind, what it has of name, value, wanted, since_ns, text, as_line, and `because`. `line` is
+/// that of the instruction, as `place` says it.
 nlohmann::ordered_json to_json(const Obstacle& obstacle);
 
 }  // namespace s7200::tools

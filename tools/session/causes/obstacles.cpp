@@ -44,7 +44,8 @@ Obstacles::Obstacles(const Cpu& cpu, const Facts& facts, const LatelyExecuted& l
       contacts_(cpu, lately, fresh_since),
       has_run_(!lately.empty()),
       ways_(facts,
-            {[this](std::uint32_t op) { return contacts_.conducts(op); }, [this](std::uint32_t op) { return runs(op); }}) {}
+            {[this](std::uint32_t op) { return contacts_.conducts(op); }, [this](std::uint32_t op) { return runs(op); }}),
+      rungs_(ways_, [this](std::uint32_t op, std::size_t operand) { return operand_text(op, operand); }) {}
 
 // --- words ---
 
@@ -86,42 +87,8 @@ std::string Obstacles::operand_text(std::uint32_t number, std::size_t operand) c
   return fmt::format("{}={}", text, signed_value);
 }
 
-std::string Obstacles::contact_text(const NetworkLogic::Contact& contact, bool negated) const {
-  if (!contact.statement) return "the power flow in front";
-  const std::uint32_t number = ways_.op_of(contact);
-  const std::string_view mnemonic = op(number).instruction->mnemonic;
-  const ContactForm form = contact_form(*op(number).instruction);
-  if (form.is_edge())
-    return fmt::format("{}{} edge of ({})", negated ? "not " : "", mnemonic == "EU" ? "rising" : "falling",
-                       rung_text(number, 0));
-  if (form.kind == ContactForm::Kind::Eno) return negated ? "not ENO" : "ENO";
-  if (!form.compares()) return (negated ? "not " : "") + operand_text(number, 0);
-  const std::string_view relation = mnemonic.substr(mnemonic.find_first_of("<>="));
-  const std::string text = fmt::format("{} {} {}", operand_text(number, 0), relation, operand_text(number, 1));
-  return negated == contact.normally_closed ? text : fmt::format("not ({})", text);
-}
-
-std::string Obstacles::logic_text(const NetworkLogic& logic, std::size_t number, int strength) const {
-  using Kind = NetworkLogic::Gate::Kind;
-  const NetworkLogic::Gate& gate = logic.gates[number];
-  if (gate.kind == Kind::True) return "always";
-  if (gate.kind == Kind::Contact) return contact_text(logic.contacts[gate.a], false);
-  if (gate.kind == Kind::Not) {
-    const NetworkLogic::Gate& inner = logic.gates[gate.a];
-    if (inner.kind == Kind::True) return "never";
-    if (inner.kind == Kind::Contact) return contact_text(logic.contacts[inner.a], true);
-    return "not " + logic_text(logic, gate.a, 3);
-  }
-  const int own = gate.kind == Kind::And ? 2 : 1;
-  const std::string text =
-      fmt::format("{} {} {}", logic_text(logic, gate.a, own), own == 2 ? "and" : "or", logic_text(logic, gate.b, own));
-  return own < strength ? fmt::format("({})", text) : text;
-}
-
 std::string Obstacles::rung_text(std::uint32_t number, std::size_t level) const {
-  const RungLogic& rung = ways_.rung_of(number);
-  if (level >= rung.inputs.size()) return "always";
-  std::string text = logic_text(rung.logic, rung.inputs[level], 0);
+  std::string text = rungs_.of(number, level);
   if (text.size() > kLongestRung) text = text.substr(0, kLongestRung) + " …";
   return text;
 }
@@ -153,8 +120,11 @@ void Obstacles::note_writer(std::uint32_t number, const Bits& bits, bool wanted,
   if (one_bit && is_among(mnemonic, {"=", "=I"})) return writers.deciding.push_back(number);
   if (one_bit && is_among(mnemonic, {"S", "SI", "R", "RI"}))
     return ((mnemonic.front() == 'S') == wanted ? writers.deciding : writers.opposing).push_back(number);
-  if (one_bit && by.instruction->structure == Structure::SegmentTransition)
-    return ((bit_at(by[0]) == bits) == wanted ? writers.deciding : writers.opposing).push_back(number);
+  if (one_bit && by.instruction->structure == Structure::SegmentTransition) {
+    const bool leaves = !(bit_at(by[0]) == bits);  // the step that it is in: no way to it, and none that could keep from it
+    if (leaves != wanted) writers.deciding.push_back(number);
+    return;
+  }
   writers.others.push_back(number);
 }
 
@@ -245,6 +215,7 @@ Obstacle Obstacles::of_contact(const Condition& condition) {
   const bool wanted = condition.on != contact_form(*contact.instruction).inverted;
   const Bits plain = as_named(bit_at(contact[0])), bit = plain.count == 1 ? plain : bit_at(contact[0]);
   const bool is_local = area_of(bit) == Area::L;
+  const std::vector<Told> told = told_;
   Obstacle found = is_local ? of_memory(bit, wanted, facts_.flow.nodes[condition.op].routine) : of_bit(bit, wanted);
   found.op = condition.op;
   found.place = place_text(condition.op);
@@ -255,6 +226,8 @@ Obstacle Obstacles::of_contact(const Condition& condition) {
   } else if (is_on(bit) == wanted) {
     found.text = "it was not so when the program looked at it last";
     found.because.clear();
+    found.number = found.same_as = 0;
+    told_ = told;
   }
   return found;
 }
@@ -393,7 +366,33 @@ void Obstacles::add_resets(Obstacle& to, const Bits& bit) {
   if (!resets.deciding.empty()) add_ways_of_bit(to, resets, bit, false);
 }
 
+std::optional<Obstacle> Obstacles::told_before(const Bits& bits, bool wanted) const {
+  const auto told = std::ranges::find_if(told_.rbegin(), told_.rend(), [&](const Told& each) {
+    return each.bits == bits && each.wanted == wanted && each.level <= open_.size();
+  });
+  if (told == told_.rend()) return {};
+  Obstacle same{.kind = told->kind, .same_as = told->number};
+  return same;
+}
+
+void Obstacles::note_told(const Bits& bits, bool wanted, Obstacle& obstacle) {
+  if (obstacle.because.empty()) return;
+  obstacle.number = ++numbered_;
+  told_.push_back({bits, wanted, open_.size(), obstacle.number, obstacle.kind});
+}
+
 Obstacle Obstacles::of_bit(const Bits& bit, bool wanted) {
+  if (const auto told = told_before(bit, wanted)) {
+    Obstacle same = about(told->kind, as_named(bit).count == 1 ? as_named(bit) : bit, wanted);
+    same.same_as = told->same_as;
+    return same;
+  }
+  Obstacle found = followed(bit, wanted);
+  note_told(bit, wanted, found);
+  return found;
+}
+
+Obstacle Obstacles::followed(const Bits& bit, bool wanted) {
   if (is_bits_of_timer(bit)) return of_timer(bit, wanted);
   if (is_bits_of_counter(bit)) return of_counter(bit, wanted);
   const Bits plain = as_named(bit);
@@ -561,6 +560,18 @@ Obstacle Obstacles::of_call(std::uint32_t call, const Bits& bit, bool wanted) {
 }
 
 Obstacle Obstacles::of_value(const Bits& bits) {
+  const auto told = told_before(bits, true);
+  Obstacle found = value_followed(bits);
+  if (!told) {
+    note_told(bits, true, found);
+    return found;
+  }
+  found.because.clear();
+  found.same_as = told->same_as;
+  return found;
+}
+
+Obstacle Obstacles::value_followed(const Bits& bits) {
   Obstacle found{.kind = "value", .name = name_of(bits)};
   const auto at = static_cast<std::uint32_t>(bits.first / 8);
   const Area area = area_of(bits);

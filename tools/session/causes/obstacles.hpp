@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/rung_text.hpp"
 #include "interpreter/analysis/ways.hpp"
 #include "tools/session/causes/contacts.hpp"
 #include "tools/session/causes/obstacle.hpp"
@@ -43,6 +44,10 @@ class Obstacles {
   bool is_on(const Bits& bit) const;
   Obstacle about(std::string_view kind, const Bits& bit, bool wanted) const;
 
+  Obstacle followed(const Bits& bit, bool wanted);
+  Obstacle value_followed(const Bits& bits);
+  std::optional<Obstacle> told_before(const Bits& bits, bool wanted) const;
+  void note_told(const Bits& bits, bool wanted, Obstacle& obstacle);
   Obstacle of_condition(const Condition& condition);
   Obstacle of_contact(const Condition& condition);
   Obstacle of_comparison(const Condition& condition);
@@ -66,8 +71,6 @@ class Obstacles {
   void add_indirect(Obstacle& to, const Writers& writers, const Bits& bits) const;
   void add_value_of(Obstacle& to, std::uint32_t op, std::size_t operand);
 
-  std::string logic_text(const NetworkLogic& logic, std::size_t gate, int strength) const;
-  std::string contact_text(const NetworkLogic::Contact& contact, bool negated) const;
   std::string operand_text(std::uint32_t op, std::size_t operand) const;
   std::string rung_text(std::uint32_t op, std::size_t level) const;
   std::string interrupt_text(std::uint32_t op) const;
@@ -78,7 +81,19 @@ class Obstacles {
   Contacts contacts_;
   bool has_run_;  ///< something was executed lately, so that what was not is known
   Ways ways_;
+  RungText rungs_;
   std::vector<std::pair<Bits, bool>> open_{};  ///< bits that are being followed
+
+  /// What the answer has told already: a node that tells it again would have the same below.
+  struct Told {
+    Bits bits;
+    bool wanted = false;
+    std::size_t level = 0;  ///< bits that were being followed: one further in would tell less
+    std::uint32_t number = 0;
+    std::string_view kind{};
+  };
+  std::vector<Told> told_{};
+  std::uint32_t numbered_ = 0;
 };
 
 }  // namespace s7200::tools

@@ -63,7 +63,7 @@ bool add_times(History& history, std::size_t station, Obstacle& answer, StopToke
   return true;
 }
 
-Obstacle answer_to(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
+Obstacle tree_of(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
   if (wish.bit) return obstacles.of_bit(*wish.bit, wish.on);
   std::string unknown;
   const bool holds = holds_now(wish, cpu, unknown).value_or(false);
@@ -76,6 +76,12 @@ Obstacle answer_to(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
     const auto bit = range->width == Width::Bit ? bit_of(*range) : std::nullopt;
     answer.because.push_back(bit ? obstacles.of_bit(*bit, !is_on(cpu, *bit)) : obstacles.of_value(bits_of(*range)));
   }
+  return answer;
+}
+
+Obstacle answer_to(const Wish& wish, Obstacles& obstacles, const Cpu& cpu) {
+  Obstacle answer = tree_of(wish, obstacles, cpu);
+  number_lines(answer);
   return answer;
 }
 
@@ -95,6 +101,14 @@ std::optional<Wish> parse_wish(std::string_view text, const Program& program, st
   wish.condition = Expression::parse(wish.text, program, why);
   if (!wish.condition) return {};
   return wish;
+}
+
+std::vector<Bits> bits_of(const Wish& wish) {
+  if (wish.bit) return {*wish.bit};
+  std::vector<Bits> all;
+  for (const Place& place : wish.condition->places())
+    if (!place.pointer && place.range.width == Width::Bit) all.push_back(bits_of(place.range));
+  return all;
 }
 
 std::optional<bool> holds_now(const Wish& wish, const Cpu& cpu, std::string& why) {

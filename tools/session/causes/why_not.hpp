@@ -28,6 +28,9 @@ struct Wish {
 /// `Q0.3`, `not Q0.3`, `T37`, `VW10 > 5`. Nothing, and `why`, if it cannot be read.
 std::optional<Wish> parse_wish(std::string_view text, const Program& program, std::string& why);
 
+/// The bits that it is about, without those that pointers lead to.
+std::vector<Bits> bits_of(const Wish& wish);
+
 /// Whether it is so now; nothing, and `why`, where a pointer points nowhere.
 std::optional<bool> holds_now(const Wish& wish, const Cpu& cpu, std::string& why);
 

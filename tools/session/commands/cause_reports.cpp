@@ -5,7 +5,10 @@
 
 #include <vector>
 
+#include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/trace/statement_text.hpp"
+#include "tools/session/causes/coils.hpp"
 #include "tools/session/causes/last_decision.hpp"
 #include "tools/session/causes/memory_cause.hpp"
 #include "tools/session/causes/writer.hpp"
@@ -30,6 +33,21 @@ FoundInPast found(const Session& session, const WriterSearch& search, const std:
 }
 
 }  // namespace
+
+std::string coils_text(const Program& program, const std::vector<std::uint32_t>& coils) {
+  std::vector<std::string> names;
+  for (const std::uint32_t op : coils)
+    names.push_back(fmt::format("{} in {}", short_text(program.statement(op)), line_of(op, program)));
+  return stl::joined(
+      names, [](const std::string& name) { return name; }, " and ");
+}
+
+std::string to_come_text(const Session& session, const Bits& bit) {
+  const std::vector<std::uint32_t> coils = coils_to_come(session.cpu(), bit);
+  if (coils.empty()) return {};
+  return fmt::format("  {} still follow{} in this scan\n", coils_text(session.program(), coils),
+                     coils.size() == 1 ? "s" : "");
+}
 
 FoundInPast last_writer(Session& session, const MemoryRange& range, std::string_view name) {
   return found(session,
@@ -66,9 +84,12 @@ Reply cause_of(Session& session, const MemoryRange& range, std::string_view name
   const auto lines = memory_cause(session.history, session.focus(), range, session.setup.stop_request);
   if (!lines) return interrupted(session);
   const std::string forced = forced_text(session, cpu, {bits_of(range)});
-  return {
-      .text = fmt::format("{} is {}; {}\n{}{}", name, value, fmt::join(*lines, "\n  "), forced, forced.empty() ? "" : "\n"),
-      .json = {{"name", name}, {"value", value}, {"causes", *lines}}};
+  const std::string to_come = range.width == Width::Bit ? to_come_text(session, bits_of(range)) : "";
+  Reply reply{.text = fmt::format("{} is {}; {}\n{}{}{}", name, value, fmt::join(*lines, "\n  "), to_come, forced,
+                                  forced.empty() ? "" : "\n"),
+              .json = {{"name", name}, {"value", value}, {"causes", *lines}}};
+  if (!to_come.empty()) reply.json["stillToCome"] = stl::trim(to_come);
+  return reply;
 }
 
 Reply obstacles_to(Session& session, const Wish& wish) {

@@ -11,6 +11,13 @@
 
 namespace s7200::tools {
 
+/// `= Q0.5 in line 12 and = Q0.5 in line 40`
+std::string coils_text(const Program& program, const std::vector<std::uint32_t>& coils);
+
+/// A line that says which instructions may still write a bit in the scan in which the CPU stands, after others did; empty if
+/// there are none.
+std::string to_come_text(const Session& session, const Bits& bit);
+
 /// What is said of something that was looked for in the past.
 struct FoundInPast {
   Reply reply;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "interpreter/analysis/memory_names.hpp"
 #include "interpreter/base/text.hpp"
+#include "tools/session/causes/coils.hpp"
 #include "tools/session/commands/cause_reports.hpp"
 #include "tools/session/commands/commands.hpp"
 #include "tools/session/commands/memory_words.hpp"
@@ -15,17 +17,39 @@
 namespace s7200::tools::commands {
 namespace {
 
+/// An output that several instructions write is on when the last of them has left it on: then the outputs get it. Nothing if
+/// the wish is about none.
+std::optional<Bits> output_with_several_coils(const Session& session, const Wish& wish) {
+  for (const Bits& bit : bits_of(wish))
+    if (area_of(bit) == Area::Q && coils_of(session.cpu(), bit).size() > 1) return bit;
+  return {};
+}
+
+/// `Q0.5 is written by = Horn:Q0.5 in line 12 and = Horn:Q0.5 in line 40: it is looked at when a scan is over`
+std::string several_coils_text(const Session& session, const Bits& output) {
+  return fmt::format("{} is written by {}: it is looked at when a scan is over\n", memory_text(output),
+                     coils_text(session.program(), coils_of(session.cpu(), output)));
+}
+
 /// To where a wish comes to hold, or to the limit, where what blocks it is said.
 Reply run_until(Session& session, const Wish& wish, Time limit) {
   std::string why;
+  const auto output = output_with_several_coils(session, wish);
+  const bool in_between = output && !coils_to_come(session.cpu(), *output).empty();
   const auto holds = holds_now(wish, session.cpu(), why);
-  if (!holds || *holds) return obstacles_to(session, wish);
-  const auto is_reached = [&, cpu = &session.cpu()](const State&, std::uint32_t, const Stepper::Progress&) {
+  if (!holds || (*holds && !in_between)) return obstacles_to(session, wish);
+  const auto is_reached = [&, cpu = &session.cpu(), scan = session.cpu().state().scans](const State& state, std::uint32_t,
+                                                                                        const Stepper::Progress&) mutable {
+    if (output && (state.scans == scan || state.in_interrupt)) return false;
+    scan = state.scans;
     std::string unknown;
     return holds_now(wish, *cpu, unknown).value_or(false);
   };
+  if (output) session.said << several_coils_text(session, *output);
   Reply run = go(session, {.goal = is_reached, .limit = limit});
   const std::string stopped = run.json.is_object() ? run.json.value("stopped", "") : "";
+  if (stopped == "goal")
+    for (const Bits& bit : bits_of(wish)) run.text += to_come_text(session, bit);
   if (stopped != "limit" && stopped != "CPU") return run;
   Reply blocked = obstacles_to(session, wish);
   blocked.text = run.text + blocked.text;
