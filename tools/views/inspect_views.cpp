@@ -10,6 +10,7 @@
 #include "tools/views/map_view.hpp"
 #include "tools/views/overview_view.hpp"
 #include "tools/views/races_view.hpp"
+#include "tools/views/steps_view.hpp"
 #include "tools/views/xref_view.hpp"
 
 namespace s7200::tools {
@@ -24,6 +25,8 @@ std::span<const InspectView> inspect_views() {
                   calls_json},
       InspectView{"map", "each memory area: used, free, retentive; timers, counters, data block, EEPROM", true, map_text,
                   map_json},
+      InspectView{"steps", "the steps of the sequence: what activates each, its transitions, what it does", true, steps_text,
+                  steps_json},
       InspectView{"races", "words that the main program and an interrupt share and do not access in one instruction", true,
                   races_text, races_json},
       InspectView{"bounds", "how long a scan, a routine and the wait for an interrupt can take at most", false, bounds_text,
