@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "interpreter/analysis/lint_ops.hpp"
@@ -42,6 +43,22 @@ struct Earlier {
 // --- coils ---
 
 constexpr Bits kOutputBits{image::kQ * 8u, image::kPointBytes * 8u};
+
+/// What leads to the last execution of an op in a scan: CALLs, the outermost first, and the op itself.
+std::vector<std::uint32_t> last_way_to(const ControlFlow& flow, std::uint32_t op, std::size_t depth = 0) {
+  std::vector<std::uint32_t> last;
+  for (const CallSite& call : flow.calls)
+    if (call.routine == flow.nodes[op].routine && depth < flow.routines.size())
+      last = std::max(last, last_way_to(flow, call.op, depth + 1));
+  last.push_back(op);
+  return last;
+}
+
+std::string winner_text(const Facts& facts, std::uint32_t coil, std::uint32_t other) {
+  if (last_way_to(facts.flow, coil) < last_way_to(facts.flow, other)) std::swap(coil, other);
+  return fmt::format("the coil in line {} is executed last and decides, not the one in line {}", line(facts.program, coil),
+                     line(facts.program, other));
+}
 
 /// Which ops use what the coils of a program write.
 class Uses {
@@ -159,8 +176,8 @@ void find_double_coils(const Facts& facts, stl::Diagnostics& diagnostics) {
     if (!other && output) other = earlier.beside(paths, coil);
     if (other)
       diagnostics.push_back(warn(Warning::DoubleCoil, place(program, coil),
-                                 fmt::format("{} is already a coil in line {}; the coil that is executed last decides",
-                                             written(program, coil, 0), line(program, *other)),
+                                 fmt::format("{} is already a coil in line {}; {}", written(program, coil, 0),
+                                             line(program, *other), winner_text(facts, coil, *other)),
                                  "join both conditions in one rung, or use S and R",
                                  fmt::format("coil {}", written(program, coil, 0))));
     earlier.add(paths, coil);

@@ -2692,7 +2692,7 @@ class Inspect(Case):
     PUMP = [EXPORTS / "pump.awl", EXPORTS / "pump_symbols.txt", EXPORTS / "pump_data.txt"]
 
     def test_views_keep_to_100_columns_and_need_no_colour(self):
-        for view in ("overview", "xref", "calls", "map", "races", "ladder", "bounds"):
+        for view in ("overview", "xref", "calls", "map", "steps", "races", "ladder", "bounds"):
             for program in ([SLAVE], self.PUMP):
                 with self.subTest(view=view, program=program):
                     shown = self.ends(FINE, "inspect", *program, view).stdout
@@ -2725,6 +2725,26 @@ class Inspect(Case):
         self.assertIn("near it the program uses", self.ends(FINE, "inspect", SLAVE, "xref", "VW3").stdout)
         self.assertIn("calls keeps to routines and networks", self.ends(UNUSABLE, "inspect", SLAVE, "calls", "VW0").stderr)
         self.assertIn("cannot read", self.ends(UNUSABLE, "inspect", "missing.stl", "xref").stderr)
+
+    def test_symbols_that_share_memory_are_worth_a_look(self):
+        program = self.program("LD SM0.0\nMOVW 5, Speed\nINCB Retry\nFILL 0, Table, 4\nMOVW 1, Limit\nMOVB VB130, Low\nMEND\n", "shared.stl")
+        symbols = self.program("Symbol\tAddress\nSpeed\tVW130\nRetry\tVB131\nTable\tVW200\nLimit\tVW206\nTables_first_bit\tV200.0\nLow\tVB0\n", "shared.txt")
+        shown = self.ends(FINE, "inspect", program, symbols).stdout
+        self.assertIn('  "Speed" has "Retry" in it, VB131: shared.stl:2, shared.stl:3\n', shown)
+        self.assertIn('in shared.stl:4 begins at "Table" and goes on over "Limit"\n', shown)
+
+    def test_the_user_may_say_how_often_a_loop_runs(self):
+        program = self.program("LD SM0.0\nFOR VW0, 1, VW2\nINCW VW4\nNEXT\nMEND\n", "loop.stl")
+        def bounds(*more):
+            return json.loads(self.ends(FINE, "inspect", program, "bounds", "--json", *more).stdout)["files"][0]["bounds"]
+        self.assertIsNone(bounds()["loops"][0]["times"])
+        stated = bounds("--loop", "2=7")
+        self.assertEqual(stated["loops"][0]["times"], 7)
+        self.assertEqual(stated["routines"][0]["loops_without_bound"], [])
+        self.assertGreater(stated["scan_ns"], bounds()["scan_ns"])
+        self.assertIn("there are loops in lines 2", self.ends(UNUSABLE, "inspect", program, "bounds", "--loop", "3=7").stderr)
+        self.assertIn("for example --loop 445=8", self.ends(UNUSABLE, "inspect", program, "bounds", "--loop", "2").stderr)
+        self.assertIn("views bounds and document", self.ends(UNUSABLE, "inspect", program, "xref", "--loop", "2=7").stderr)
 
     def test_why_answers_from_a_first_scan_and_from_kept_memory(self):
         self.assertIn("2 contacts have to change:", self.ends(FINE, "why", *self.PUMP, "Pump").stdout)

@@ -10,6 +10,7 @@
 #include "interpreter/analysis/cross_reference.hpp"
 #include "interpreter/analysis/memory_names.hpp"
 #include "interpreter/analysis/races.hpp"
+#include "interpreter/analysis/remarks.hpp"
 #include "interpreter/base/counted.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
@@ -30,12 +31,14 @@ struct Overview {
       : inspection(of),
         calls(calls_of(*of.program, of.facts.flow)),
         reference(cross_reference(of.facts)),
-        races(find_races(of.facts, calls).size()) {}
+        races(find_races(of.facts, calls).size()),
+        remarks(remarks_of(of.facts, reference)) {}
 
   const Inspection& inspection;
   Calls calls;
   CrossReference reference;
   std::size_t races;
+  std::vector<Remark> remarks;
 
   std::size_t networks() const {
     std::size_t count = 0;
@@ -99,6 +102,60 @@ std::string routine_line(const Overview& overview, std::uint32_t i) {
   return std::string(stl::trim_end(text)) + "\n";
 }
 
+std::string quoted(const std::string& symbol) { return fmt::format("\"{}\"", stl::printable(symbol)); }
+
+/// `M10.5 "Al_Jam"`
+std::string bit_text(const Inspection& inspection, const Bits& bit) {
+  std::string text = memory_text(bit);
+  for (const stl::Symbol& symbol : inspection.program->source.symbols)
+    if (const auto of = bits_of(*inspection.program, symbol); of && *of == bit) text += " " + quoted(symbol.name);
+  return text;
+}
+
+std::string remark_text(const Inspection& inspection, const Remark& remark) {
+  const std::string places =
+      stl::joined(remark.ops, [&](std::uint32_t op) { return line_text(inspection, op); });
+  switch (remark.kind) {
+    case Remark::Kind::NeverReset:
+      return fmt::format("{} is set in {}, and no instruction resets it", bit_text(inspection, remark.bits), places);
+    case Remark::Kind::NeverSet:
+      return fmt::format("{} is reset in {}, and no instruction sets it", bit_text(inspection, remark.bits), places);
+    case Remark::Kind::SharedMemory:
+      return fmt::format("{} has {} in it, {}: {}", quoted(remark.symbols[0]), quoted(remark.symbols[1]),
+                         memory_text(remark.bits), places);
+    case Remark::Kind::PastItsSymbol:
+      break;
+  }
+  constexpr std::size_t kShown = 3;
+  std::vector<std::string> over;
+  for (std::size_t i = 1; i < std::min(remark.symbols.size(), kShown + 1); ++i) over.push_back(quoted(remark.symbols[i]));
+  if (remark.symbols.size() > kShown + 1) over.push_back(fmt::format("{} more", remark.symbols.size() - kShown - 1));
+  return fmt::format("{} in {} begins at {} and goes on over {}", instruction_text(inspection, remark.ops.front()), places,
+                     quoted(remark.symbols[0]), stl::joined(over, overview_name));
+}
+
+std::string remarks_text(const Overview& overview) {
+  if (overview.remarks.empty()) return {};
+  std::string text = "worth a look:\n";
+  for (const Remark& remark : overview.remarks)
+    text += "  " + wrapped_at(remark_text(overview.inspection, remark), 4, 2) + "\n";
+  return text;
+}
+
+ordered_json remarks_json(const Overview& overview) {
+  constexpr std::string_view kKinds[]{"never reset", "never set", "shared memory", "past its symbol"};
+  ordered_json all = ordered_json::array();
+  for (const Remark& remark : overview.remarks) {
+    ordered_json json{{"kind", kKinds[static_cast<std::size_t>(remark.kind)]},
+                      {"memory", memory_text(remark.bits)},
+                      {"text", remark_text(overview.inspection, remark)},
+                      {"places", ordered_json::array()}};
+    for (const std::uint32_t op : remark.ops) json["places"].push_back(place_json(overview.inspection, op));
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string overview_text(const Inspection& inspection) {
@@ -114,6 +171,7 @@ std::string overview_text(const Inspection& inspection) {
           list_text("to the outside", overview.outside());
   text += list_text("written, never read", overview.with_usage(Usage::NeverRead)) +
           list_text("read, never written", overview.with_usage(Usage::NeverWritten));
+  text += remarks_text(overview);
   if (overview.races != 0) text += fmt::format("{}: see the view races\n", counted(overview.races, "race"));
   return text;
 }
@@ -131,6 +189,7 @@ ordered_json overview_json(const Inspection& inspection) {
           {"never_executed", overview.never_executed()},
           {"never_read", overview.with_usage(Usage::NeverRead)},
           {"never_written", overview.with_usage(Usage::NeverWritten)},
+          {"worth_a_look", remarks_json(overview)},
           {"races", overview.races}};
 }
 

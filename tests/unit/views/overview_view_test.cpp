@@ -29,5 +29,20 @@ TEST(OverviewView, SaysWhatStartsEachRoutine) {
   EXPECT_NE(text.find("event 10: timed interrupt 0, SMB34\n"), std::string::npos) << text;
 }
 
+TEST(OverviewView, NamesBitsThatAreOnlySetOrOnlyReset) {
+  const auto look = [](std::string_view stl) { return overview_json(test::inspected(stl))["worth_a_look"]; };
+  const auto latch = look("LD I0.0\nS M0.0, 1\nLD M0.0\n= Q0.0\nMEND\n");
+  ASSERT_EQ(latch.size(), 1U);
+  EXPECT_EQ(latch[0]["kind"], "never reset");
+  EXPECT_EQ(latch[0]["text"], "M0.0 is set in test.stl:2, and no instruction resets it");
+  EXPECT_EQ(latch[0]["places"][0]["line"], 2);
+  EXPECT_EQ(look("LD I0.0\nR M0.0, 1\nLD M0.0\n= Q0.0\nMEND\n")[0]["kind"], "never set");
+  for (const std::string_view other :
+       {"R M0.0, 1\n", "R M0.0, 8\n", "MOVB 0, MB0\n", "= M0.0\n", "FILL 0, MW0, 2\n", "MOVD &MB0, AC1\nMOVB 0, *AC1\n"})
+    EXPECT_EQ(look(fmt::format("LD I0.0\nS M0.0, 1\nLD M0.0\n= Q0.0\nLD I0.1\n{}MEND\n", other)).size(), 0U) << other;
+  EXPECT_EQ(look("LD I0.0\nS M0.0, 1\nMEND\n").size(), 0U) << "nothing looks at it";
+  EXPECT_EQ(look("LD I0.0\nR M0.0, 8\nMEND\n").size(), 0U);
+}
+
 }  // namespace
 }  // namespace s7200::tools
