@@ -19,40 +19,41 @@ namespace s7200 {
 namespace {
 
 constexpr std::int64_t kAreaSize = 0x100'0000;  ///< addresses that a pointer's top byte leaves
-constexpr int kPatience = 4;                    ///< times that a value may grow where ways meet before it is widened
+constexpr int kNarrowings = 2;
+constexpr int kPatience = 4;  ///< times that a value may grow where ways meet before it is widened
 
-Structure structure_of(const Op& op) { return op.instruction->structure; }
+Structure structure_at(const Op& op) { return op.instruction->structure; }
 
-bool is_within(std::uint32_t at, std::uint32_t bytes, std::uint32_t from, std::uint32_t to) {
+bool is_place_within(std::uint32_t at, std::uint32_t bytes, std::uint32_t from, std::uint32_t to) {
   return at >= from && at + bytes <= to;
 }
-bool is_accumulator(std::uint32_t at) { return is_within(at, 1, image::kAC, image::kTBits); }
-bool is_local(std::uint32_t at) { return is_within(at, 1, image::kL, image::kConstants); }
+bool is_accumulator(std::uint32_t at) { return is_place_within(at, 1, image::kAC, image::kTBits); }
+bool is_local_place(std::uint32_t at) { return is_place_within(at, 1, image::kL, image::kConstants); }
 
 /// Memory that neither the CPU nor the field changes by itself.
 bool is_quiet(std::uint32_t at, std::uint32_t bytes) {
-  return is_within(at, bytes, image::kM, image::kSM) || is_accumulator(at) ||
-         is_within(at, bytes, image::kV, image::kConstants);
+  return is_place_within(at, bytes, image::kM, image::kSM) || is_accumulator(at) ||
+         is_place_within(at, bytes, image::kV, image::kConstants);
 }
 
 // --- what boxes compute ---
 
 using Computes = ValueSet (*)(const ValueSet& in, const ValueSet& old);
 
-ValueSet moved(const ValueSet& in, const ValueSet&) { return in; }
-ValueSet sum(const ValueSet& in, const ValueSet& old) { return old.plus(in); }
-ValueSet difference(const ValueSet& in, const ValueSet& old) { return old.plus(in.negated()); }
-ValueSet product(const ValueSet& in, const ValueSet& old) { return old.times(in); }
+ValueSet carried(const ValueSet& in, const ValueSet&) { return in; }
+ValueSet added_up(const ValueSet& in, const ValueSet& old) { return old.plus(in); }
+ValueSet taken_off(const ValueSet& in, const ValueSet& old) { return old.plus(in.negated()); }
+ValueSet multiplied(const ValueSet& in, const ValueSet& old) { return old.times(in); }
 ValueSet one_more(const ValueSet&, const ValueSet& old) { return old.plus({1, 1}); }
 ValueSet one_less(const ValueSet&, const ValueSet& old) { return old.plus({-1, -1}); }
 
 const ValueSet kAnyDouble = ValueSet::all_of(Width::Double);
 
-ValueSet quotient(const ValueSet& in, const ValueSet& old) {
+ValueSet divided(const ValueSet& in, const ValueSet& old) {
   const auto divisor = in.single();
   return divisor && *divisor > 0 ? old.divided_by(*divisor) : kAnyDouble;
 }
-ValueSet masked(const ValueSet& in, const ValueSet& old) {
+ValueSet masked_value(const ValueSet& in, const ValueSet& old) {
   std::optional<std::int64_t> most;
   for (const ValueSet* each : {&in, &old}) {
     if (each->empty()) return {};
@@ -73,48 +74,29 @@ struct Computation {
   std::string_view mnemonic;
   Computes result;
 };
-constexpr std::array kComputations{Computation{"MOVB", moved},
-                                   Computation{"MOVW", moved},
-                                   Computation{"MOVD", moved},
-                                   Computation{"BTI", moved},
-                                   Computation{"ITB", moved},
-                                   Computation{"ITD", moved},
-                                   Computation{"DTI", moved},
-                                   Computation{"INCB", one_more},
-                                   Computation{"INCW", one_more},
-                                   Computation{"INCD", one_more},
-                                   Computation{"DECB", one_less},
-                                   Computation{"DECW", one_less},
-                                   Computation{"DECD", one_less},
-                                   Computation{"+I", sum},
-                                   Computation{"+D", sum},
-                                   Computation{"-I", difference},
-                                   Computation{"-D", difference},
-                                   Computation{"*I", product},
-                                   Computation{"*D", product},
-                                   Computation{"/I", quotient},
-                                   Computation{"/D", quotient},
-                                   Computation{"ANDB", masked},
-                                   Computation{"ANDW", masked},
-                                   Computation{"ANDD", masked},
-                                   Computation{"SLB", shifted_left},
-                                   Computation{"SLW", shifted_left},
-                                   Computation{"SLD", shifted_left},
-                                   Computation{"SRB", shifted_right},
-                                   Computation{"SRW", shifted_right},
-                                   Computation{"SRD", shifted_right}};
+constexpr std::array kComputations{
+    Computation{"MOVB", carried},      Computation{"MOVW", carried},      Computation{"MOVD", carried},
+    Computation{"BTI", carried},       Computation{"ITB", carried},       Computation{"ITD", carried},
+    Computation{"DTI", carried},       Computation{"INCB", one_more},     Computation{"INCW", one_more},
+    Computation{"INCD", one_more},     Computation{"DECB", one_less},     Computation{"DECW", one_less},
+    Computation{"DECD", one_less},     Computation{"+I", added_up},       Computation{"+D", added_up},
+    Computation{"-I", taken_off},      Computation{"-D", taken_off},      Computation{"*I", multiplied},
+    Computation{"*D", multiplied},     Computation{"/I", divided},        Computation{"/D", divided},
+    Computation{"ANDB", masked_value}, Computation{"ANDW", masked_value}, Computation{"ANDD", masked_value},
+    Computation{"SLB", shifted_left},  Computation{"SLW", shifted_left},  Computation{"SLD", shifted_left},
+    Computation{"SRB", shifted_right}, Computation{"SRW", shifted_right}, Computation{"SRD", shifted_right}};
 
 /// A box whose result is known from its operands: where it puts it, and the operand that it only reads.
-struct Box {
+struct ValueBox {
   Computes result = nullptr;
   std::uint8_t to = 0;
   std::optional<std::uint8_t> from;
 };
 
-std::optional<Box> box_of(const Instruction& instruction) {
+std::optional<ValueBox> value_box_of(const Instruction& instruction) {
   const auto found = std::ranges::find(kComputations, instruction.mnemonic, &Computation::mnemonic);
   if (found == kComputations.end()) return {};
-  Box box{.result = found->result, .to = 0, .from = {}};
+  ValueBox box{.result = found->result, .to = 0, .from = {}};
   for (std::uint8_t i = 0; i < instruction.rules().size(); ++i) {
     if (instruction.operand[i].role == Role::In)
       box.from = i;
@@ -124,7 +106,7 @@ std::optional<Box> box_of(const Instruction& instruction) {
   return box;
 }
 
-std::optional<std::int64_t> constant(const Program& program, const Operand& operand, Width width) {
+std::optional<std::int64_t> constant_value(const Program& program, const Operand& operand, Width width) {
   if (operand.pointer || operand.unread() || operand.at < image::kConstants) return {};
   const std::uint8_t* at = &program.constants[operand.at - image::kConstants];
   switch (width) {
@@ -148,7 +130,7 @@ bool lets_the_system_write(const Op& op) {
   return op.instruction->effect == Effect::Receives || mnemonic == "NETR" || mnemonic == "NETW";
 }
 
-bool is_for(const Op& op) { return structure_of(op) == Structure::For; }
+bool is_for(const Op& op) { return structure_at(op) == Structure::For; }
 
 /// CALL clears the local memory of the subroutine, which is another one.
 bool is_local_clearing(const MemoryAccess& access) { return access.bits == Bits{image::kL * 8u, 64 * 8}; }
@@ -159,7 +141,7 @@ std::vector<std::uint32_t> ops_of_passes(const ControlFlow& flow, const Program&
   std::set<std::uint32_t> called;
   for (std::uint32_t op = loop + 1; op + 1 < program.ops[loop].target; ++op) all.push_back(op);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (structure_of(program.ops[all[i]]) != Structure::Call) continue;
+    if (structure_at(program.ops[all[i]]) != Structure::Call) continue;
     const Routine& routine = flow.routine_of(program.ops[all[i]].target);
     if (!called.insert(routine.first).second) continue;
     for (std::uint32_t op = routine.first; op < routine.end; ++op) all.push_back(op);
@@ -185,12 +167,12 @@ std::vector<PointerTarget> places_of(const Program& program, const ValueSet& add
 
 std::optional<std::int64_t> step_of(const Program& program, const Op& op) {
   const std::string_view mnemonic = op.instruction->mnemonic;
-  const auto box = box_of(*op.instruction);
+  const auto box = value_box_of(*op.instruction);
   if (!box) return {};
   if (box->result == one_more) return 1;
   if (box->result == one_less) return -1;
-  if (box->result != sum && box->result != difference) return {};
-  const auto added = constant(program, op[*box->from], op.instruction->operand[*box->from].width);
+  if (box->result != added_up && box->result != taken_off) return {};
+  const auto added = constant_value(program, op[*box->from], op.instruction->operand[*box->from].width);
   if (!added || std::abs(*added) >= kAreaSize) return {};
   return mnemonic.front() == '-' ? -*added : *added;
 }
@@ -241,12 +223,16 @@ class ValueFollower {
       waiting_.erase(waiting_.begin());
       walk(leader);
     }
-    recording_ = true;
-    for (std::uint32_t leader = 0; leader < program_.ops.size(); ++leader)
-      if (reached_[leader].reached()) walk(leader);
+    for (int round = 0; round < kNarrowings; ++round) narrow();
+    phase_ = Phase::Recording;
+    walk_all();
   }
 
  private:
+  /// Values first grow until nothing changes. Where loops made them grow too far, they are worked out again from what comes
+  /// from below, which is known by then.
+  enum class Phase : std::uint8_t { Growing, FromBelow, FromAbove, Recording };
+
   /// A byte, word or double word whose values are followed.
   struct Cell {
     std::uint32_t at = 0;
@@ -283,8 +269,9 @@ class ValueFollower {
     for (const Op& op : program_.ops) {
       for (const Operand& operand : op.operand)
         if (operand.pointer) want(operand.at, Width::Double);
-      if (is_for(op))
-        for (const Operand& operand : op.operand) want(operand, Width::Word);
+      if (!is_for(op)) continue;
+      want(op[1], Width::Word);
+      want(op[2], Width::Word);
     }
     for (const Parameter& parameter : program_.parameters)
       if (parameter.actual.pointer) want(parameter.actual.at, Width::Double);
@@ -301,7 +288,7 @@ class ValueFollower {
   /// What the program counts is its own.
   void note_counting(const Op& op) {
     if (!step_of(program_, op)) return;
-    const Box box = *box_of(*op.instruction);
+    const ValueBox box = *value_box_of(*op.instruction);
     if (const auto cell = cell_of(op[box.to], op.instruction->operand[box.to].width)) cells_[*cell].kept = true;
   }
 
@@ -318,7 +305,7 @@ class ValueFollower {
 
   void want_sources() {
     for (const Op& op : program_.ops) {
-      const auto box = box_of(*op.instruction);
+      const auto box = value_box_of(*op.instruction);
       if (!box || !box->from || op[box->to].pointer || !is_followed(op[box->to].at, op.instruction->operand[box->to].width))
         continue;
       want(op[*box->from], op.instruction->operand[*box->from].width);
@@ -349,7 +336,7 @@ class ValueFollower {
     const Width width = op.instruction->operand[0].width;
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
       const auto cell = cell_of(op[i], width);
-      const auto with = constant(program_, op[1 - i], width);
+      const auto with = constant_value(program_, op[1 - i], width);
       if (cell && with) cells_[*cell].compared.insert({*with - 1, *with, *with + 1});
     }
   }
@@ -360,7 +347,7 @@ class ValueFollower {
     direct_.assign(flow_.routines.size(), std::vector<bool>(cells_.size()));
     for (std::uint32_t op = 0; op < program_.ops.size(); ++op)
       for (const MemoryAccess& access : effects_[op]) {
-        const bool by_call = structure_of(program_.ops[op]) == Structure::Call && !is_local_clearing(access);
+        const bool by_call = structure_at(program_.ops[op]) == Structure::Call && !is_local_clearing(access);
         if (!access.writes() || !(is_of_operand(access) || by_call)) continue;
         for (std::size_t i = 0; i < cells_.size(); ++i) {
           if (!access.bits.overlaps(cells_[i].bits())) continue;
@@ -374,7 +361,7 @@ class ValueFollower {
       more = false;
       for (const CallSite& site : flow_.calls)
         for (std::size_t i = 0; i < cells_.size(); ++i)
-          if (writes_[site.routine][i] && !writes_[flow_.nodes[site.op].routine][i] && !is_local(cells_[i].at))
+          if (writes_[site.routine][i] && !writes_[flow_.nodes[site.op].routine][i] && !is_local_place(cells_[i].at))
             more = writes_[flow_.nodes[site.op].routine][i] = true;
     }
     for (std::size_t routine = 0; routine < flow_.routines.size(); ++routine)
@@ -383,7 +370,7 @@ class ValueFollower {
   }
 
   /// Saved for interrupts, or memory of its own in each routine.
-  static bool is_own(const Cell& cell) { return is_accumulator(cell.at) || is_local(cell.at); }
+  static bool is_own(const Cell& cell) { return is_accumulator(cell.at) || is_local_place(cell.at); }
 
   // --- loops ---
 
@@ -404,7 +391,7 @@ class ValueFollower {
     std::vector<std::optional<ValueRange>> drift(cells_.size(), ValueRange{});
     const std::uint32_t end = program_.ops[op].target - 1;
     for (std::uint32_t in = op + 1; in < end; ++in) {
-      if (structure_of(program_.ops[in]) == Structure::Jump && program_.ops[in].target <= in)
+      if (structure_at(program_.ops[in]) == Structure::Jump && program_.ops[in].target <= in)
         return std::vector<std::optional<ValueRange>>(cells_.size());
       for (std::size_t i = 0; i < cells_.size(); ++i)
         if (drift[i] && writes(in, i)) add_step(drift[i], op, in, i);
@@ -414,7 +401,7 @@ class ValueFollower {
 
   void add_step(std::optional<ValueRange>& drift, std::uint32_t loop, std::uint32_t op, std::size_t cell) const {
     const auto step = step_of(program_, program_.ops[op]);
-    const auto box = box_of(*program_.ops[op].instruction);
+    const auto box = value_box_of(*program_.ops[op].instruction);
     const auto repeated = repeats(loop, op);
     if (!step || !repeated ||
         cell_of(program_.ops[op][box->to], program_.ops[op].instruction->operand[box->to].width) != cell)
@@ -438,12 +425,12 @@ class ValueFollower {
   }
 
   bool writes(std::uint32_t op, std::size_t cell) const {
-    if (structure_of(program_.ops[op]) == Structure::Call && writes_[flow_.nodes[program_.ops[op].target].routine][cell] &&
-        !is_local(cells_[cell].at))
+    if (structure_at(program_.ops[op]) == Structure::Call && writes_[flow_.nodes[program_.ops[op].target].routine][cell] &&
+        !is_local_place(cells_[cell].at))
       return true;
     return std::ranges::any_of(effects_[op], [&](const MemoryAccess& access) {
       return access.writes() && !is_local_clearing(access) && access.bits.overlaps(cells_[cell].bits()) &&
-             (is_of_operand(access) || structure_of(program_.ops[op]) == Structure::Call);
+             (is_of_operand(access) || structure_at(program_.ops[op]) == Structure::Call);
     });
   }
 
@@ -457,7 +444,7 @@ class ValueFollower {
     for (std::uint32_t op = 0; op < program_.ops.size(); ++op) {
       const FlowNode& node = flow_.nodes[op];
       const bool plain = node.next.size() == 1 && node.next.front() == op + 1 && !node.ends &&
-                         structure_of(program_.ops[op]) == Structure::None;
+                         structure_at(program_.ops[op]) == Structure::None;
       if (!plain) leads_[op + 1] = true;
       for (const std::uint32_t next : node.next) {
         if (next != op + 1) leads_[next] = true;
@@ -518,15 +505,41 @@ class ValueFollower {
     return both;
   }
 
+  void walk_all() {
+    for (std::uint32_t leader = 0; leader < program_.ops.size(); ++leader)
+      if (reached_[leader].reached()) walk(leader);
+  }
+
+  void narrow() {
+    phase_ = Phase::FromBelow;
+    from_below_.assign(program_.ops.size(), {});
+    walking_ = static_cast<std::uint32_t>(program_.ops.size());
+    begin();
+    walk_all();
+    phase_ = Phase::FromAbove;
+    reached_ = std::move(from_below_);
+    narrowed_exits_.assign(flow_.routines.size(), {});
+    walk_all();
+    exits_ = std::move(narrowed_exits_);
+  }
+
   /// Adds what comes to a leader, and has it walked again if that is more than before.
   void arrive(std::uint32_t leader, const State& state) {
-    if (leader >= program_.ops.size() || recording_) return;
+    if (leader >= program_.ops.size() || phase_ == Phase::Recording) return;
+    if (phase_ != Phase::Growing) return arrive_again(leader, state);
     State& at = reached_[leader];
     const int times = heads_[leader] ? joins_[leader] : 0;
     const bool more_on = add(at.on, state.on, times), more_off = add(at.off, state.off, times);
     if (!more_on && !more_off) return;
     ++joins_[leader];
     waiting_.insert(leader);
+  }
+  void arrive_again(std::uint32_t leader, const State& state) {
+    const bool from_below = leader <= walking_;
+    if (from_below != (phase_ == Phase::FromBelow)) return;
+    State& at = from_below ? from_below_[leader] : reached_[leader];
+    join(at.on, state.on);
+    join(at.off, state.off);
   }
   void arrive(std::uint32_t leader, const std::optional<Memory>& memory) { arrive(leader, {memory, memory}); }
 
@@ -582,12 +595,13 @@ class ValueFollower {
   static bool is_limit(std::int64_t value) { return (value & (kAreaSize - 1)) == kAreaSize / 2; }
 
   void walk(std::uint32_t leader) {
+    walking_ = leader;
     State state = reached_[leader];
     for (std::uint32_t op = leader; op < program_.ops.size(); ++op) {
       if (op != leader && leads_[op]) return arrive(op, state);
       if (flow_.nodes[op].powered) state.off.reset();
       if (!state.reached()) return;
-      if (recording_) record(op, state);
+      if (phase_ == Phase::Recording) record(op, state);
       if (leads_on(op, state)) return;
       execute(op, state);
     }
@@ -598,7 +612,7 @@ class ValueFollower {
   /// Whether the op ends its block: then what follows it has been told.
   bool leads_on(std::uint32_t op, const State& state) {
     const Op& now = program_.ops[op];
-    switch (structure_of(now)) {
+    switch (structure_at(now)) {
       case Structure::Jump:
       case Structure::SegmentExit:
         arrive(now.target, state.on);
@@ -643,7 +657,9 @@ class ValueFollower {
     const Instruction& instruction = *program_.ops[op].instruction;
     const bool may_end_scan = instruction.structure == Structure::None && instruction.allowed.parts != kSubroutine;
     if (may_end_scan && calls_.nodes[routine].by_main) end_scan(memory);
-    if (flow_.routines[routine].kind != Routine::Kind::Subroutine || recording_) return;
+    if (flow_.routines[routine].kind != Routine::Kind::Subroutine) return;
+    if (phase_ == Phase::FromAbove) join(narrowed_exits_[routine], memory);
+    if (phase_ != Phase::Growing) return;
     if (!add(exits_[routine], memory, left_[routine]++)) return;
     for (const CallSite& site : flow_.calls)
       if (site.routine == routine && reached_[leader_of_[site.op]].reached()) waiting_.insert(leader_of_[site.op]);
@@ -663,7 +679,7 @@ class ValueFollower {
     if (!caller) return {};
     Memory inside = *caller;
     for (std::size_t i = 0; i < cells_.size(); ++i)
-      if (is_local(cells_[i].at)) inside[i] = ValueSet::all_of(cells_[i].width);
+      if (is_local_place(cells_[i].at)) inside[i] = ValueSet::all_of(cells_[i].width);
     for (const Parameter& parameter : parameters_of(program_.ops[op])) {
       const auto local = cell_of(parameter.local, parameter.width);
       if (!local || parameter.role == Role::Out) continue;
@@ -676,7 +692,7 @@ class ValueFollower {
     if (!caller || !exits_[callee]) return {};
     Memory after = *caller;
     for (std::size_t i = 0; i < cells_.size(); ++i)
-      if (!is_local(cells_[i].at) && writes_[callee][i]) after[i] = (*exits_[callee])[i];
+      if (!is_local_place(cells_[i].at) && writes_[callee][i]) after[i] = (*exits_[callee])[i];
     for (const MemoryAccess& access : effects_[op])
       if (access.writes() && !is_local_clearing(access)) overwrite(after, access.bits, op);
     for (const Parameter& parameter : parameters_of(program_.ops[op])) {
@@ -709,7 +725,7 @@ class ValueFollower {
       const auto drift_before = loop.drift;
       if (loop.passes.value_or(1) > 0) arrive(op + 1, first_pass(op, loop, *state.on));
       const std::uint32_t next = leader_of_[now.target - 1];
-      if (!recording_ && loop.drift != drift_before && reached_[next].reached()) waiting_.insert(next);
+      if (phase_ == Phase::Growing && loop.drift != drift_before && reached_[next].reached()) waiting_.insert(next);
     }
     arrive(now.target, skipped);
   }
@@ -718,7 +734,7 @@ class ValueFollower {
     const auto before = std::pair(loop.reached, loop.passes);
     count_passes(loop, first, last);
     loop.reached = true;
-    if (before == std::pair(loop.reached, loop.passes) || recording_) return;
+    if (before == std::pair(loop.reached, loop.passes) || phase_ != Phase::Growing) return;
     for (const auto& [outer, about] : loops_)
       if (outer < op && op < program_.ops[outer].target && about.reached) waiting_.insert(leader_of_[outer]);
   }
@@ -778,7 +794,7 @@ class ValueFollower {
 
   void write(std::uint32_t op, Memory& memory) const {
     const Op& now = program_.ops[op];
-    const auto box = box_of(*now.instruction);
+    const auto box = value_box_of(*now.instruction);
     std::optional<ValueSet> result;
     if (box) result = computed(op, *box, memory);
     for (const MemoryAccess& access : effects_[op]) {
@@ -798,7 +814,7 @@ class ValueFollower {
   }
 
   bool clears(const Op& op) const {
-    return op.instruction->mnemonic == "FILL" && constant(program_, op[0], Width::Word) == 0;
+    return op.instruction->mnemonic == "FILL" && constant_value(program_, op[0], Width::Word) == 0;
   }
 
   void write_through(std::uint32_t op, std::uint8_t operand, Memory& memory) const {
@@ -811,7 +827,7 @@ class ValueFollower {
     }
   }
 
-  ValueSet computed(std::uint32_t op, const Box& box, const Memory& memory) const {
+  ValueSet computed(std::uint32_t op, const ValueBox& box, const Memory& memory) const {
     const Op& now = program_.ops[op];
     const Width width = now.instruction->operand[box.to].width;
     const ValueSet old = value_of(op, now[box.to], width, memory);
@@ -822,17 +838,17 @@ class ValueFollower {
     const bool unknown = (box.from && is_unknown(in, now, *box.from)) || in.cause() != ValueSet::kNoCause;
     result = result.fitted(width);
     if (unknown) result.blame(in.cause() != ValueSet::kNoCause ? in.cause() : op);
-    if (box.result != moved && old.cause() != ValueSet::kNoCause) result.blame(old.cause());
+    if (box.result != carried && old.cause() != ValueSet::kNoCause) result.blame(old.cause());
     return result;
   }
   static bool is_unknown(const ValueSet& in, const Op& op, std::uint8_t operand) {
     return in.is_all_of(op.instruction->operand[operand].width);
   }
 
-  ValueSet result_of(std::uint32_t op, const Box& box, const ValueSet& in, const ValueSet& old) const {
+  ValueSet result_of(std::uint32_t op, const ValueBox& box, const ValueSet& in, const ValueSet& old) const {
     const auto step = step_of(program_, program_.ops[op]);
-    const bool adds = step || box.result == sum || box.result == difference;
-    const ValueSet by = step ? ValueSet(*step, *step) : box.result == sum ? in : in.negated();
+    const bool adds = step || box.result == added_up || box.result == taken_off;
+    const ValueSet by = step ? ValueSet(*step, *step) : box.result == added_up ? in : in.negated();
     if (!adds || by.empty() || by.least() <= -kAreaSize || by.most() >= kAreaSize) return box.result(in, old);
     ValueSet result;
     for (const ValueRange& range : by.ranges()) result.join(counted(old, range));
@@ -879,7 +895,7 @@ class ValueFollower {
   }
 
   ValueSet value_of(std::uint32_t op, const Operand& operand, Width width, const Memory& memory) const {
-    if (const auto value = constant(program_, operand, width)) return {*value, *value};
+    if (const auto value = constant_value(program_, operand, width)) return {*value, *value};
     if (operand.pointer || operand.unread()) return ValueSet::all_of(width);
     if (const auto cell = cell_of(operand, width)) return seen(op, *cell, memory);
     if (!is_accumulator(operand.at)) return ValueSet::all_of(width);
@@ -976,7 +992,7 @@ class ValueFollower {
       if (cell != number_.end()) result_.pointers_[{op, operand.at}] = seen(op, cell->second, *memory);
     };
     for (const Operand& operand : now.operand) note(operand);
-    if (structure_of(now) == Structure::Call)
+    if (structure_at(now) == Structure::Call)
       for (const Parameter& parameter : parameters_of(now)) note(parameter.actual);
     if (is_for(now) && loops_[op].passes) result_.passes_[op] = *loops_[op].passes;
   }
@@ -999,7 +1015,10 @@ class ValueFollower {
   std::vector<std::optional<Memory>> exits_{};                       // by routine
   std::map<std::uint32_t, int> left_{};                              // by routine
   std::set<std::uint32_t> waiting_{};
-  bool recording_ = false;
+  Phase phase_ = Phase::Growing;
+  std::uint32_t walking_ = 0;                            // the leader
+  std::vector<State> from_below_{};                      // by leader: what loops, calls and the scan before bring
+  std::vector<std::optional<Memory>> narrowed_exits_{};  // by routine
 };
 
 ReachingValues::ReachingValues(const Program& program, const ControlFlow& flow,

@@ -11,7 +11,7 @@ namespace {
 
 Structure structure_of_step(const Op& op) { return op.instruction->structure; }
 
-Bits bit_of(const Operand& operand) { return {operand.at * 8u + operand.bit, 1}; }
+Bits step_bit_of(const Operand& operand) { return {operand.at * 8u + operand.bit, 1}; }
 
 class StepFinder {
  public:
@@ -37,15 +37,15 @@ class StepFinder {
     const bool names_one =
         structure_of_step(op) == Structure::SegmentBegin || structure_of_step(op) == Structure::SegmentTransition;
     if (!names_one || op[0].unread()) return;
-    const Bits bit = bit_of(op[0]);
+    const Bits bit = step_bit_of(op[0]);
     steps_[bit.first].bit = bit;
   }
 
   std::optional<Bits> begin(std::uint32_t op) {
     const Op& segment = facts_.program.ops[op];
     if (segment[0].unread()) return {};
-    steps_[bit_of(segment[0]).first].segment = op;
-    return bit_of(segment[0]);
+    steps_[step_bit_of(segment[0]).first].segment = op;
+    return step_bit_of(segment[0]);
   }
 
   void add_action(Step& step, std::uint32_t op) const {
@@ -86,6 +86,6 @@ class StepFinder {
 
 std::vector<Step> steps_of(const Facts& facts) { return StepFinder(facts).all(); }
 
-Bits target_of_transition(const Op& transition) { return bit_of(transition[0]); }
+Bits target_of_transition(const Op& transition) { return step_bit_of(transition[0]); }
 
 }  // namespace s7200

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/base/among.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
@@ -45,8 +44,6 @@ int run_inspect(const InspectOptions& options) {
                             request.meant, view_names()));
     return kUnusable;
   }
-  if (!options.loops.empty() && !is_among(request.view->name, {"bounds", "document"}))
-    return print_error("--loop is for the views bounds and document"), kUnusable;
   if (!options.cpu.model()) return kUnusable;
   Picture picture;
   if (!picture.claim(options.svg, *request.view, request.paths)) return kUnusable;
@@ -62,7 +59,7 @@ int run_inspect(const InspectOptions& options) {
     if (!inspection) continue;
     inspection->ascii = options.ascii;
     std::string why;
-    const auto stated = stated_loops(*inspection->program, options.loops, why);
+    const auto stated = stated_loops(*inspection->program, request.view->name, options.loops, why);
     if (!stated) return print_error(why), kUnusable;
     inspection->stated_loops = *stated;
     if (picture) exit_code = std::max(exit_code, picture.write(*request.view, *inspection));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "interpreter/base/among.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -29,8 +30,13 @@ std::string lines_text(const Program& program) {
 
 }  // namespace
 
-std::optional<StatedLoops> stated_loops(const Program& program, const std::vector<std::string>& texts, std::string& why) {
+std::optional<StatedLoops> stated_loops(const Program& program, std::string_view view, const std::vector<std::string>& texts,
+                                        std::string& why) {
   StatedLoops stated;
+  if (!texts.empty() && !is_among(view, {"bounds", "document"})) {
+    why = "--loop is for the views bounds and document";
+    return {};
+  }
   for (const std::string& text : texts) {
     const std::size_t sign = std::min(text.find('='), text.size());
     const auto line = parse_decimal<std::size_t>(std::string_view(text).substr(0, sign));

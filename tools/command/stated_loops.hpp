@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/views/inspection.hpp"
@@ -10,7 +11,8 @@
 namespace s7200::tools {
 
 /// `texts`: `445=8`, the line of a FOR or of a JMP back and how often its loop runs. Nothing, and `why`, if one cannot be
-/// read or no loop is there.
-std::optional<StatedLoops> stated_loops(const Program& program, const std::vector<std::string>& texts, std::string& why);
+/// read, no loop is there, or the view makes no use of it.
+std::optional<StatedLoops> stated_loops(const Program& program, std::string_view view, const std::vector<std::string>& texts,
+                                        std::string& why);
 
 }  // namespace s7200::tools

@@ -102,36 +102,36 @@ std::string routine_line(const Overview& overview, std::uint32_t i) {
   return std::string(stl::trim_end(text)) + "\n";
 }
 
-std::string quoted(const std::string& symbol) { return fmt::format("\"{}\"", stl::printable(symbol)); }
+std::string quoted_symbol(const std::string& symbol) { return fmt::format("\"{}\"", stl::printable(symbol)); }
 
 /// `M10.5 "Al_Jam"`
 std::string bit_text(const Inspection& inspection, const Bits& bit) {
   std::string text = memory_text(bit);
   for (const stl::Symbol& symbol : inspection.program->source.symbols)
-    if (const auto of = bits_of(*inspection.program, symbol); of && *of == bit) text += " " + quoted(symbol.name);
+    if (const auto of = bits_of(*inspection.program, symbol); of && *of == bit) text += " " + quoted_symbol(symbol.name);
   return text;
 }
 
 std::string remark_text(const Inspection& inspection, const Remark& remark) {
-  const std::string places =
-      stl::joined(remark.ops, [&](std::uint32_t op) { return line_text(inspection, op); });
+  const std::string places = stl::joined(remark.ops, [&](std::uint32_t op) { return line_text(inspection, op); });
   switch (remark.kind) {
     case Remark::Kind::NeverReset:
       return fmt::format("{} is set in {}, and no instruction resets it", bit_text(inspection, remark.bits), places);
     case Remark::Kind::NeverSet:
       return fmt::format("{} is reset in {}, and no instruction sets it", bit_text(inspection, remark.bits), places);
     case Remark::Kind::SharedMemory:
-      return fmt::format("{} has {} in it, {}: {}", quoted(remark.symbols[0]), quoted(remark.symbols[1]),
+      return fmt::format("{} has {} in it, {}: {}", quoted_symbol(remark.symbols[0]), quoted_symbol(remark.symbols[1]),
                          memory_text(remark.bits), places);
     case Remark::Kind::PastItsSymbol:
       break;
   }
   constexpr std::size_t kShown = 3;
   std::vector<std::string> over;
-  for (std::size_t i = 1; i < std::min(remark.symbols.size(), kShown + 1); ++i) over.push_back(quoted(remark.symbols[i]));
+  for (std::size_t i = 1; i < std::min(remark.symbols.size(), kShown + 1); ++i)
+    over.push_back(quoted_symbol(remark.symbols[i]));
   if (remark.symbols.size() > kShown + 1) over.push_back(fmt::format("{} more", remark.symbols.size() - kShown - 1));
   return fmt::format("{} in {} begins at {} and goes on over {}", instruction_text(inspection, remark.ops.front()), places,
-                     quoted(remark.symbols[0]), stl::joined(over, overview_name));
+                     quoted_symbol(remark.symbols[0]), stl::joined(over, overview_name));
 }
 
 std::string remarks_text(const Overview& overview) {

@@ -3,6 +3,7 @@
 
 #include "interpreter/analysis/memory_names.hpp"
 #include "interpreter/analysis/pointers.hpp"
+#include "interpreter/base/bytes.hpp"
 #include "interpreter/base/joined.hpp"
 #include "tests/support/plc.hpp"
 
@@ -154,6 +155,59 @@ TEST(ReachingValues, WhatStaysUnknownIsToldWithItsReason) {
   EXPECT_EQ(blamed("LD SM0.0\nMOVD VD0, AC1\nMOVB 1, *AC1\nMEND\n"), "line 2");
   EXPECT_EQ(blamed("LD SM0.0\nMOVB 1, *AC1\nMEND\n"), "not set");
   EXPECT_EQ(blamed("LD SM0.1\nMOVD &VB0, AC1\nLD SM0.0\nINCD AC1\nMOVB 1, *AC1\nMEND\n"), "known") << "VB1 and up";
+}
+
+TEST(ReachingValues, WhatAccumulatorsKeepFromOtherRoutinesDoesNotGrow) {
+  EXPECT_EQ(
+      reached("LD SM0.0\nCALL 1\nCALL 2\nMEND\nSBR 1\nLD I0.0\nMOVD &VB100, AC1\nFOR VW0, 1, 8\nLD SM0.0\nMOVW 0, *AC1\n"
+              "+D 2, AC1\nNEXT\nRET\nSBR 2\nLD I0.1\nMOVB 1, *AC1\nRET\n"),
+      "10: VB100-VB114; 16: VB102-VB116");
+}
+
+/// Complains of a pointer that leads elsewhere than it may.
+class PointerWatch final : public TraceSink {
+ public:
+  explicit PointerWatch(const Cpu& cpu) : cpu_(cpu), pointers_(cpu.program()) {}
+
+  bool wants_instructions() const override { return true; }
+  bool before(std::uint32_t op) override {
+    const Op& now = cpu_.program().ops[op];
+    for (const Operand& operand : now.operand)
+      if (operand.pointer && cpu_.state().stack.top()) check(op, operand.at);
+    return true;
+  }
+
+  int checked = 0;
+
+ private:
+  void check(std::uint32_t op, std::uint32_t at) {
+    const std::uint32_t pointer = load32(&cpu_.state().image[at]), place = image::kV + (pointer & 0xFF'FFFF);
+    if (pointer >> 24 != 8) return;
+    ++checked;
+    EXPECT_TRUE(std::ranges::any_of(pointers_.targets(op, at),
+                                    [&](const PointerTarget& target) { return place >= target.from && place < target.to; }))
+        << "line " << cpu_.program().statement(op).position.line << ": " << place_text({place, place + 1});
+  }
+
+  const Cpu& cpu_;
+  Pointers pointers_;
+};
+
+TEST(ReachingValues, WhatPointersHoldInARunIsAmongThem) {
+  for (const std::string_view text :
+       {"LD SM0.1\nMOVD &VB100, VD0\nLD SM0.0\nMOVB IB1, *VD0\nINCD VD0\nLDD>= VD0, 16#080000C8\nMOVD &VB100, VD0\nMEND\n",
+        "LD SM0.0\nMOVD &VB400, AC1\nITD VW300, AC0\n+D AC0, AC1\nMOVB 9, *AC1\nINCW VW300\nLDW>= VW300, 10\n"
+        "MOVW 0, VW300\nMEND\n",
+        "LD SM0.0\nMOVD &VB100, AC1\nFOR VW0, 1, 5\nLDW> VW0, 2\nCALL 1\nLD SM0.0\n+D 2, AC1\nNEXT\nMEND\n"
+        "SBR 1\nLD SM0.0\nMOVB 1, *AC1\nINCD AC1\nRET\n",
+        "LD SM0.1\nMOVD &VB10, VD0\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nMOVD VD0, AC1\nMOVB 1, *AC1\nMEND\n"
+        "INT 0\nLD SM0.0\nINCD VD0\nMOVD &VB50, AC1\nMOVB 2, *AC1\nRETI\n"}) {
+    Plc plc(program_of(text, cpu()));
+    PointerWatch watch(plc.cpu);
+    plc.cpu.set_sink(&watch);
+    plc.run_until(300 * ms);
+    EXPECT_GT(watch.checked, 100) << text;
+  }
 }
 
 TEST(ReachingValues, ALoopHasTheBoundOfWhatEndsIt) {

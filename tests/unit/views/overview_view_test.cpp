@@ -1,6 +1,8 @@
 // What `s7200 inspect PROGRAM` shows first.
 #include "tools/views/overview_view.hpp"
 
+#include <fmt/format.h>
+
 #include "tests/support/inspected.hpp"
 
 namespace s7200::tools {
