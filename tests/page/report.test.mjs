@@ -98,6 +98,18 @@ test('a long run has checkpoints, and a damaged one is said', async () => {
   await context.close();
 });
 
+test('the longest answer of a long run is gone to, and what it waited for is said', async () => {
+  const { picture: known } = report_in(readFileSync(file('hour.html'), 'utf8')).runs[0].recordings[0];
+  assert.equal(known.answers.count, 3600);
+  const page = await open('hour.html');
+  await page.click('#tab-line');
+  await page.click('text=Longest answer');
+  await page.waitForSelector('.notice:has-text("The longest of 3600 answers: after 16.")');
+  assert.match(await page.textContent('.trail li'), /wait for\?.*until event 10/);
+  await picture(page, 'report_longest');
+  await page.end();
+});
+
 test('any moment has the same values with checkpoints and without', async () => {
   const page = readFileSync(file('hour.html'), 'utf8'), report = report_in(page);
   delete report.runs[0].recordings[0].checkpoints;

@@ -10,6 +10,7 @@
 #include "tests/unit/debugger/session.hpp"
 #include "tools/session/commands/command_table.hpp"
 #include "tools/session/observers/track.hpp"
+#include "tools/session/observers/tracks_of_past.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -291,6 +292,33 @@ TEST(Actions, AreWhatWasDoneFromOutsideUpToNow) {
   EXPECT_EQ(session.json("actions")["count"], 0);
   EXPECT_TRUE(has(session("actions").text, "nothing was done from outside"));
   EXPECT_TRUE(has(session.error_of("actions 5000"), "up to 1000"));
+}
+
+TEST(Spans, NameTheLongestAnswersHoweverMuchIsOneElement) {
+  Asked session(our_slave());
+  for (const char* const command :
+       {"continue 800ms", "send 01 03 00 14 00 01 crc", "continue 200ms", "send 01 03 00 0a 00 20 crc", "continue 400ms",
+        "send 01 03 00 00 00 00", "continue 200ms"})
+    session(command);
+  const Json answers = session.json("spans start end 1")["answers"];
+  EXPECT_EQ(answers["count"], 2);
+  ASSERT_EQ(answers["longest"].size(), 2U);
+  const Json& longest = answers["longest"][0];
+  EXPECT_TRUE(has(longest["text"].get<std::string>(), "01 03 00 0a 00 20"));
+  const auto latency = [](const Json& one) { return one["answer_ns"].get<Time>() - one["end_ns"].get<Time>(); };
+  EXPECT_GT(latency(longest), latency(answers["longest"][1]));
+  EXPECT_GT(longest["answer_end_ns"], longest["answer_ns"]);
+}
+
+TEST(Spans, KeepTwentyOfTheLongestAnswers) {
+  LongestAnswers longest;
+  for (Time latency = 1; latency <= 50; ++latency)
+    longest.add({.at = 0, .end = 100 * latency, .answer_at = 100 * latency + (latency % 25), .answer_end = 0});
+  EXPECT_EQ(longest.count(), 50U);
+  ASSERT_EQ(longest.all().size(), LongestAnswers::kMost);
+  EXPECT_EQ(longest.all()[0].latency(), 24);
+  EXPECT_EQ(longest.all()[0].end, 2400) << "of equal ones the earlier first";
+  EXPECT_EQ(longest.all()[1].end, 4900);
 }
 
 TEST(WhyLatency, NamesWhatTheLastAnswerWaitedFor) {

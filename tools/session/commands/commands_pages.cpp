@@ -123,6 +123,19 @@ Json track_json(const Session& session, const NamedTrack& one) {
   return json;
 }
 
+Json longest_json(const Session& session, const LongestAnswers& longest) {
+  Json all = Json::array();
+  for (const AnsweredFrame& one : longest.all()) {
+    all.push_back({{"at_ns", one.at},
+                   {"end_ns", one.end},
+                   {"answer_ns", one.answer_at},
+                   {"answer_end_ns", one.answer_end},
+                   {"text", one.text}});
+    if (session.is_system()) all.back()["station"] = session.name_of(one.station);
+  }
+  return {{"count", longest.count()}, {"longest", std::move(all)}};
+}
+
 std::string track_text(const Session& session, const NamedTrack& one) {
   std::uint64_t count = 0, errors = 0;
   for (const TrackSpan& span : one.track.spans()) {
@@ -206,6 +219,7 @@ Reply spans(Session& session, const Words& arguments) {
     reply.text += track_text(session, one);
     reply.json["tracks"].push_back(track_json(session, one));
   }
+  reply.json["answers"] = longest_json(session, past.longest);
   return reply;
 }
 

@@ -42,6 +42,8 @@ class Tracks {
     return all_[place->second];
   }
 
+  LongestAnswers& longest() { return longest_; }
+
   /// By station, kind and name.
   std::vector<NamedTrack> take() {
     std::vector<NamedTrack> sorted;
@@ -54,6 +56,7 @@ class Tracks {
   const TracksWanted& wanted_;
   std::map<Key, std::size_t> places_{};
   std::deque<NamedTrack> all_{};
+  LongestAnswers longest_{};
 };
 
 /// Characters of a port that follow each other without a pause, in one direction.
@@ -73,8 +76,10 @@ class FrameTrack {
   void finish() {
     if (bytes_.empty()) return;
     const bool answers = is_answer();
-    frame_.text = fmt::format("{} {}", sent_ ? "sent" : "received", serial::to_hex(bytes_));
-    if (const std::string words = in_words(answers); !words.empty()) frame_.text += ": " + words;
+    std::string said = serial::to_hex(bytes_);
+    if (const std::string words = in_words(answers); !words.empty()) said += ": " + words;
+    frame_.text = fmt::format("{} {}", sent_ ? "sent" : "received", said);
+    note_answer(std::move(said));
     tracks_.add(TrackKind::Frames, fmt::format("port {} frames", port_), station_, std::exchange(frame_, {}));
     request_ = answers ? Bytes{} : bytes_;
     request_was_sent_ = sent_;
@@ -82,6 +87,17 @@ class FrameTrack {
   }
 
  private:
+  void note_answer(std::string said) {
+    if (!sent_) {
+      open_ = AnsweredFrame{.station = station_, .at = frame_.at, .end = frame_.end, .text = std::move(said)};
+    } else if (open_) {
+      open_->answer_at = frame_.at;
+      open_->answer_end = frame_.end;
+      tracks_.longest().add(std::move(*open_));
+      open_.reset();
+    }
+  }
+
   /// To the frame before it in the other direction, unless that was itself an answer.
   bool is_answer() const {
     return request_was_sent_ != sent_ && modbus::crc_ok(bytes_) && modbus::crc_ok(request_) && bytes_[0] == request_[0] &&
@@ -103,6 +119,7 @@ class FrameTrack {
   Bytes bytes_{};
   Bytes request_{};  ///< the frame before, unless it was an answer
   bool sent_ = false, request_was_sent_ = false;
+  std::optional<AnsweredFrame> open_{};  ///< received last, and nothing has been sent since
 };
 
 /// What runs without anything else between: a routine, or a network of it.
@@ -364,6 +381,8 @@ class TracksReader final : public Reader {
     return tracks_.take();
   }
 
+  LongestAnswers take_longest() { return std::move(tracks_.longest()); }
+
  private:
   const State& watched_state() const { return std::as_const(history_).station(wanted_.watched_at).cpu().state(); }
 
@@ -388,6 +407,15 @@ Moment end_at(const History& history, Time time) {
 
 }  // namespace
 
+void LongestAnswers::add(AnsweredFrame answered) {
+  ++count_;
+  const auto longer = [](const AnsweredFrame& one, const AnsweredFrame& other) { return one.latency() > other.latency(); };
+  const auto place = std::upper_bound(all_.begin(), all_.end(), answered, longer);
+  if (place == all_.end() && all_.size() == kMost) return;
+  all_.insert(place, std::move(answered));
+  if (all_.size() > kMost) all_.pop_back();
+}
+
 std::string_view word_of(TrackKind kind) { return kWords[static_cast<std::size_t>(kind)]; }
 
 TracksOfPast tracks_of_past(History& history, const TracksWanted& wanted, StopToken stop_request) {
@@ -401,6 +429,7 @@ TracksOfPast tracks_of_past(History& history, const TracksWanted& wanted, StopTo
   past.interrupted = past.interrupted || !history.play(reader, end_at(history, wanted.to));
   if (past.interrupted) past.to = std::min(wanted.to, history.now().time);
   past.tracks = reader.finish(past.to);
+  past.longest = reader.take_longest();
   history.go_to(now);
   return past;
 }

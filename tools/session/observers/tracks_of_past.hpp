@@ -34,11 +34,36 @@ struct NamedTrack {
   Track track;
 };
 
+/// A frame that a PLC has received, and the one that it has sent next.
+struct AnsweredFrame {
+  std::size_t station = 0;
+  Time at = 0, end = 0;  ///< of the frame received
+  Time answer_at = 0, answer_end = 0;
+  std::string text{};  ///< of the frame received, as in its track
+  Time latency() const { return answer_at - end; }
+};
+
+/// The answers that came latest after their requests, the latest first; of equal ones the earlier first.
+class LongestAnswers {
+ public:
+  static constexpr std::size_t kMost = 20;
+
+  void add(AnsweredFrame answered);
+
+  std::size_t count() const { return count_; }  ///< of all answers
+  const std::vector<AnsweredFrame>& all() const { return all_; }
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<AnsweredFrame> all_{};
+};
+
 struct TracksOfPast {
   Time to = 0;  ///< the end of what was looked at: earlier than it was wanted after a stop request
   bool interrupted = false;
   bool with_networks = true;  ///< networks and routines were followed
   std::vector<NamedTrack> tracks{};
+  LongestAnswers longest{};
 };
 
 /// Up to this length of a part networks and routines are followed, and every scan is seen; in a longer one scans that are

@@ -42,10 +42,9 @@ export async function ask_why_unanswered(one: Exchange, next: Exchange | undefin
 }
 
 /** What an answer has waited for, as it is known at its end. */
-export async function ask_why_latency(one: Exchange): Promise<void> {
-  if (one.answer_end_ns === undefined) return;
-  await go_to(one.answer_end_ns);
-  await ask(`What did the answer to ${one.request} wait for?`, 'why latency');
+export async function ask_why_latency(request: string, answer_end_ns: number): Promise<void> {
+  await go_to(answer_end_ns);
+  await ask(`What did the answer to ${request} wait for?`, 'why latency');
 }
 
 const kDone = 200;  // actions that are listed

@@ -226,6 +226,13 @@ export interface Spans {
   interrupted?: boolean;
   left_out?: string[];
   tracks: SpanTrack[];
+  answers?: Answers;
+}
+
+/** What a PLC has sent after what it received: how often, and when it took longest. */
+export interface Answers {
+  count: number;
+  longest: { at_ns: number; end_ns: number; answer_ns: number; answer_end_ns: number; text: string; station?: string }[];
 }
 
 /** A node of `why not`: what has a name has a value and is to have another one; else its text says all. */

@@ -24,7 +24,7 @@ function row(one: Exchange, i: number, next: Exchange | undefined): Part {
   const unanswered = is_unanswered(one);
   const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : 'no answer');
   const why = unanswered ? { title: 'What kept the program from an answer', ask: () => void ask_why_unanswered(one, next) }
-    : one.answer_end_ns === undefined ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one) };
+    : one.answer_end_ns === undefined ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one.request, one.answer_end_ns!) };
   return h('tr', { key: i, class: one.error !== undefined || unanswered ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
     h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
     h('td', { class: 'frame' }, one.request), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),

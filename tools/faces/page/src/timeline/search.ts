@@ -5,7 +5,7 @@ import { command, move } from '../session';
 import { notice, state } from '../state';
 import { duration_text, moment_word } from '../words';
 import { show_found, spans_between } from './view';
-import type { Span, Stopped, Stops } from '../protocol';
+import type { Answers, Span, Stopped, Stops } from '../protocol';
 
 function has_trouble(span: Span): boolean {
   return span.error !== undefined || (span.errors ?? 0) > 0;
@@ -70,22 +70,24 @@ export async function find_unanswered(): Promise<void> {
   notice('No unanswered request after this moment');
 }
 
+/** Of the whole past, which is played once for it; a report of a long run knows it already. */
+async function answers_of_past(): Promise<Answers | undefined> {
+  const past = state.past;
+  if (!past) return undefined;
+  if (state.picture?.answers && state.picture.to_ns === past.newest_ns) return state.picture.answers;
+  return (await spans_between(past.oldest_ns, past.newest_ns, 1))?.answers;
+}
+
 export async function find_longest(): Promise<void> {
-  let longest: Exchange | undefined, count = 0;
-  for await (const part of exchanges_after(state.past?.oldest_ns ?? 0)) {
-    for (const one of part) {
-      if (one.latency_ns === undefined) continue;
-      ++count;
-      if (one.latency_ns > (longest?.latency_ns ?? 0)) longest = one;
-    }
-  }
-  if (!longest) {
+  notice('Looking for the longest answer …');
+  const answers = await answers_of_past(), longest = answers?.longest[0];
+  if (!answers || !longest) {
     notice('There is no answer yet');
     return;
   }
   await show_found(longest);
-  await ask_why_latency(longest);
-  notice(`The longest of ${count} answers: after ${duration_text(longest.latency_ns!)}, to ${longest.request}`);
+  await ask_why_latency(longest.text, longest.answer_end_ns);
+  notice(`The longest of ${answers.count} answers: after ${duration_text(longest.answer_ns - longest.end_ns)}, to ${longest.text}`);
 }
 
 const kLongestRun = 10e9;  // ns that are run for a condition when there is no past after this moment

@@ -50,13 +50,13 @@ function is_in_picture(from_ns: number, to_ns: number): boolean {
   return state.picture !== null && state.watched.length === 0 && from_ns <= state.picture.from_ns && to_ns === state.picture.to_ns;
 }
 
-const kExchanges = 60e9;  // ns before the present whose exchanges are listed
+const kExchanges = 60e9, kExchangesAfter = 5e9;  // ns before and after the present whose exchanges are listed
 
 const exchanges = new Seen(async () => {
   if (state.running) await new Promise((done) => setTimeout(done, 3 * kRest));
   const past = state.past;
   if (!past || past.newest_ns === 0) return;
-  const spans = await spans_between(Math.max(past.oldest_ns, past.now_ns - kExchanges), past.newest_ns, 20000);
+  const spans = await spans_between(Math.max(past.oldest_ns, past.now_ns - kExchanges), Math.min(past.newest_ns, past.now_ns + kExchangesAfter), 20000);
   if (spans) state.exchanges = spans;
 });
 let exchanges_of_ns = -1;
