@@ -3518,6 +3518,34 @@ class Files(Case):
         system = SOURCE / "stl_programs/systems/gateway.yaml"
         self.assertIn("a trace of a whole system is text or .jsonl", self.ends(UNUSABLE, "run", system, "--for", "1s", "--trace", events).stderr)
 
+    # What the description of the Trace Event Format wants of each kind of event besides name, ph, pid and tid.
+    OF_EVENT = {"M": {"args"}, "i": {"ts", "s"}, "C": {"ts", "args"}, "X": {"ts", "dur"}, "s": {"ts", "id", "cat"}, "f": {"ts", "id", "cat", "bp"}}
+
+    def test_a_trace_for_chrome_keeps_the_rules_of_its_format(self):
+        out = self.folder / "a.json"
+        for words in (["send", SLAVE, "--crc", "0103000a0002", "0106000a1234"], ["run", SLAVE, "--for", "50ms"]):
+            self.ends(FINE, *words, "--trace", out, "--signals", "VW20,INT,Q0.0")
+            events, flows, lanes = json.loads(out.read_text(encoding="utf-8")), {}, {}
+            for event in events:
+                self.assertLessEqual(self.OF_EVENT[event["ph"]] | {"name", "ph", "pid", "tid"}, set(event), event)
+                self.assertGreaterEqual(event.get("ts", 0), 0)
+                if event["ph"] == "M":
+                    self.assertIn(event["name"], ("process_name", "thread_name", "process_sort_index", "thread_sort_index"))
+                elif event["ph"] == "i":
+                    self.assertIn(event["s"], ("g", "p", "t"))
+                elif event["ph"] == "C":
+                    self.assertTrue(all(isinstance(value, (int, float)) for value in event["args"].values()), event)
+                elif event["ph"] == "X":
+                    lanes.setdefault((event["pid"], event["tid"]), []).append((event["ts"], event["ts"] + event["dur"]))
+                else:
+                    flows.setdefault((event["cat"], event["name"], event["id"]), []).append((event["ts"], event["ph"]))
+            for flow in flows.values():
+                self.assertEqual([ph for _, ph in flow], ["s", "f"])
+                self.assertLessEqual(flow[0][0], flow[1][0])
+            for slices in lanes.values():  # of a thread they nest or follow each other
+                for (_, end), (begin, _) in zip(sorted(slices), sorted(slices)[1:]):
+                    self.assertLessEqual(end, begin + 1e-6)
+
     def test_a_mistake_in_a_scenario_is_written_for_continuous_integration(self):
         out = self.folder / "results.xml"
         typo = self.program(f"program: {SLAVE}\nsteps:\n  - {{reed: holding 0}}\n", "typo.yaml")
