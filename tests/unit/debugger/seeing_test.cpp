@@ -152,6 +152,26 @@ TEST(Seeing, CompletionOffersCommandsAddressesPlacesAndFiles) {
   EXPECT_EQ(offered("step 1"), Words{});
 }
 
+TEST(Seeing, CompletionOffersWhatMayBeWishedForAndWhoseChangeIsFollowed) {
+  AtPrompt session(kNested);
+  using Words = std::vector<std::string>;
+  const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };
+  EXPECT_EQ(offered("until VW1"), Words{"VW10"});
+  EXPECT_EQ(offered("until no"), Words{"not"});
+  EXPECT_EQ(offered("until not VW3"), Words{"VW30"});
+  EXPECT_EQ(offered("until VW10 > VW3"), Words{"VW30"});
+  EXPECT_EQ(offered("until VW10 w"), Words{"within"});
+  EXPECT_EQ(offered("until SBR "), (Words{"1", "2"}));
+  EXPECT_EQ(offered("why VW2"), Words{"VW20"});
+  EXPECT_EQ(offered("why not VW2"), Words{"VW20"});
+  EXPECT_EQ(offered("why not no"), Words{"not"});
+  EXPECT_EQ(offered("why not not VW2"), Words{"VW20"});
+  EXPECT_EQ(offered("effect VW2"), Words{"VW20"});
+  EXPECT_EQ(offered("effect VW20 "), (Words{"at", "within"}));
+  EXPECT_EQ(offered("effect VW20 at st"), Words{"start"});
+  EXPECT_EQ(offered("effect VW20 at start "), Words{"within"});
+}
+
 TEST(Seeing, CompletionOffersTheNumbersOfEventsWhoseRoutineIsAskedFor) {
   AtPrompt session(kNested);
   const auto offered = [&](std::string_view line) { return session.debugger->completions(line).candidates; };

@@ -9,6 +9,7 @@
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/statement_text.hpp"
 #include "tools/session/causes/coils.hpp"
+#include "tools/session/causes/effect.hpp"
 #include "tools/session/causes/last_decision.hpp"
 #include "tools/session/causes/memory_cause.hpp"
 #include "tools/session/causes/writer.hpp"
@@ -111,6 +112,14 @@ Reply obstacles_to(Session& session, const Wish& wish) {
                                      ? ""
                                      : fmt::format("{} executes nothing now\n", session.name_of(session.focus()));
   return {.text = fmt::format("{}{}\n", standstill, fmt::join(lines_of(*answer), "\n")), .json = std::move(json)};
+}
+
+Reply effect_of(Session& session, const MemoryRange& range, std::string_view name, Time within) {
+  const EffectSearch search = find_effect(session.history, session.focus(), range, name, within, session.setup.stop_request);
+  if (search.interrupted) return interrupted(session);
+  if (!search.answer) return {.text = search.none + "\n", .json = {{"text", search.none}}};
+  return {.text = fmt::format("{}\n", fmt::join(lines_of(*search.answer), "\n")),
+          .json = {{"effect", to_json(*search.answer)}}};
 }
 
 Reply timeline_since(Session& session, Time from, const serial::Exchange& exchange) {

@@ -38,6 +38,10 @@ Reply cause_of(Session& session, const MemoryRange& range, std::string_view name
 /// "whyNot": {…}}.
 Reply obstacles_to(Session& session, const Wish& wish);
 
+/// What came of the last change of memory before now, which is called `name`, at most for `within`; {"effect": {…}}, or
+/// {"text": "…"} if nothing has changed it.
+Reply effect_of(Session& session, const MemoryRange& range, std::string_view name, Time within);
+
 /// What the CPU did since then: {"text": "…", "timeline": {…}}; `exchange` is what times are counted from.
 Reply timeline_since(Session& session, Time from, const serial::Exchange& exchange);
 

@@ -137,7 +137,7 @@ once, and the run goes on after set, force, print and all others that do not mov
        "run to a place, or until a condition holds",
        R"(CONDITION: until Q0.3, until not Q0.3, until T37, until VW10 > 5. If it does not come to hold within TIME (10 s) the run
 stops there and says what blocks it, as 'why not' does. For example: until Q0.3 within 1min.)",
-       commands::until, Takes::Places, true},
+       commands::until, Takes::Goals, true, "not"},
       {"back", "k", "back [n]", "back to the state before the last command that ran something, or the last n",
        R"(The last 64 are kept. Breakpoints and watches stay. Going forward again plays what has run, with what was done to
 the PLC; 'set', 'input', 'send' in the past begin a new branch.)",
@@ -182,7 +182,15 @@ Without one: the contacts of this rung, or what the main program or the interrup
 While a master or a program waits for an answer, and where it gives up: also what has left the request without one,
 be it the program, an event that is not attached, a port in PPI mode, or the line that lost it or its answer; or that
 it was for another station. That comes first, what led to this place last.)",
-       commands::why, Takes::Addresses, false, "not latency"},
+       commands::why, Takes::Wishes, false, "not latency"},
+      {"effect", "ef", "effect ADDRESS [at TIME] [within TIME]",
+       "what came of the last change of a bit or word: what it made otherwise, and until when",
+       R"(Of the last change before now, or before TIME, a moment as those of at. The known past is compared, for TIME (10 s) after
+the change, with the same run in which the memory keeps its old value for as long as it had the new one. What differs is
+shown below what led to it, with the instruction that wrote it and the contact that looked; what would have happened anyway
+is not. A turn of a bit that comes in both runs within two scans counts as the same. For example: input I0.2=1; continue 2s;
+effect I0.2, or effect VW10 at 1.5s within 500ms.)",
+       commands::effect, Takes::Changes},
       {"rwhy", "ry", "rwhy", "back to in front of the instruction that 'why' names",
        R"(Of a jump or conditional return: in front of it, after the contacts that decide on it, which 'history' shows. Of
 contacts: after the last of them, where S0 is what they have decided; if it stands there already, in front of

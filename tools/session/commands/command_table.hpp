@@ -21,6 +21,9 @@ enum class Takes : std::uint8_t {
   Forced,     ///< what can be forced
   ForcedNow,  ///< what is forced
   Places,
+  Goals,    ///< a place, or what is to hold
+  Wishes,   ///< an address, or what is to hold
+  Changes,  ///< an address, and of which moment
   Files,
   Sessions,
   Faults,

@@ -35,6 +35,7 @@ Reply restart(Session& session, const Words& words);
 // commands_causes.cpp
 Reply who(Session& session, const Words& words);
 Reply back_to_write(Session& session, const Words& words);
+Reply effect(Session& session, const Words& words);
 Reply why(Session& session, const Words& words);
 Reply back_to_decision(Session& session, const Words& words);
 Reply history(Session& session, const Words& words);

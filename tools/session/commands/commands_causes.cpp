@@ -62,6 +62,41 @@ Reply why_latency(Session& session) {
   return reply;
 }
 
+/// What `effect` is asked.
+struct EffectWords {
+  Words address{};
+  std::optional<Time> at{};  ///< the moment before which the change is looked for
+  Time within = RunTo::kUsualLimit;
+};
+
+/// `Q0.0 at 20ms within 5s`. Returns what is wrong; empty if nothing is.
+std::string take_effect_words(Session& session, const Words& arguments, EffectWords& words) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string word = stl::lower_case(arguments[i]);
+    if (word != "at" && word != "within") {
+      words.address.push_back(arguments[i]);
+      continue;
+    }
+    if (++i == arguments.size())
+      return expects("effect", fmt::format("a time after {}, for example: effect Q0.0 {} 5s", word, word));
+    std::string why;
+    if (word == "at") {
+      words.at = parse_moment(arguments[i], session.history, why);
+      if (!words.at) return fmt::format("effect: {}", why);
+      continue;
+    }
+    const auto within = parse_duration(arguments[i]);
+    if (!within || *within == 0)
+      return expects("effect",
+                     fmt::format("a duration above 0 in {} after within, for example: effect Q0.0 within 30s", kTimeUnits));
+    words.within = *within;
+  }
+  return {};
+}
+
+/// Accumulators, local memory, counters of pulses and special memory are written again and again within a scan.
+bool lasts(Area area) { return area != Area::AC && area != Area::L && area != Area::HC && area != Area::SM; }
+
 /// Says what was found, and goes there.
 Reply gone_back(Session& session, FoundInPast found) {
   session.said << std::exchange(found.reply.text, {});
@@ -91,6 +126,22 @@ Reply who(Session& session, const Words& arguments) { return writer_of(session, 
 
 Reply back_to_write(Session& session, const Words& arguments) {
   return gone_back(session, writer_of(session, arguments, "rwho"));
+}
+
+Reply effect(Session& session, const Words& arguments) {
+  EffectWords words;
+  if (const std::string why = take_effect_words(session, arguments, words); !why.empty()) return wrong(why);
+  std::string why;
+  const auto place = one_range(session, words.address, "effect", why);
+  if (!place) return wrong(why);
+  if (!lasts(place->range.area))
+    return wrong(
+        fmt::format("effect: {} holds values for a moment only; ask about I, Q, M, S, V, T, C, AI or AQ", place->name));
+  const History::Place here = session.history.here();
+  if (words.at && !go_to_parsed(session.history, *words.at)) return interrupted(session);
+  Reply reply = effect_of(session, place->range, named(session.program(), place->range), words.within);
+  session.history.return_to(here);
+  return reply;
 }
 
 Reply why(Session& session, const Words& arguments) {

@@ -69,12 +69,18 @@ Words moments_of(const History& history) {
 
 constexpr std::string_view kOperators = "(<>=+-*/";
 
+/// Whether this word connects values, or begins one.
+bool connects_values(std::string_view word) {
+  const std::string before = stl::upper_case(word);
+  return before == "AND" || before == "OR" || before == "NOT" || kOperators.find(before.back()) != std::string_view::npos;
+}
+
+bool is_word(const std::string& word, std::string_view wanted) { return stl::upper_case(word) == wanted; }
+
 /// Whether a value of a condition may be next: after `if`, and after what connects values there.
 bool wants_value(const Words& given) {
-  if (std::ranges::none_of(given, [](const std::string& word) { return stl::upper_case(word) == "IF"; })) return false;
-  const std::string before = stl::upper_case(given.back());
-  return before == "IF" || before == "AND" || before == "OR" || before == "NOT" ||
-         kOperators.find(before.back()) != std::string_view::npos;
+  if (std::ranges::none_of(given, [](const std::string& word) { return is_word(word, "IF"); })) return false;
+  return is_word(given.back(), "IF") || connects_values(given.back());
 }
 
 /// The addresses behind what `last` has up to its last operator: `(VW2+M` may become `(VW2+MB0`.
@@ -82,6 +88,41 @@ Words values_in(std::string_view last, Words addresses) {
   const std::string written(last.substr(0, last.find_last_of(kOperators) + 1));
   for (std::string& address : addresses) address.insert(0, written);
   return addresses;
+}
+
+/// What may come of a condition: its values, and once more `not` after one.
+Words wish_words(const Words& given, std::string_view last, const Program& program) {
+  if (!given.empty() && !connects_values(given.back())) return {};
+  Words words = values_in(last, address_words(program));
+  if (given.size() == 1 && is_word(given.back(), "NOT")) words.emplace_back("not");
+  return words;
+}
+
+/// `Q0.0 at 20ms within 5s`
+Words change_words(const Words& given, const Session& session) {
+  if (given.empty()) return address_words(session.program());
+  if (is_word(given.back(), "AT")) {
+    Words moments = moments_of(session.history);
+    moments.insert(moments.begin(), {"start", "end"});
+    return moments;
+  }
+  Words words;
+  if (is_word(given.back(), "WITHIN")) return words;
+  for (const char* const next : {"at", "within"})
+    if (std::ranges::none_of(given, [&](const std::string& word) { return stl::lower_case(word) == next; }))
+      words.emplace_back(next);
+  return words;
+}
+
+/// A place, or a condition and how long it may take.
+Words goal_words(const Words& given, std::string_view last, const Program& program) {
+  if (given.size() == 1 && !connects_values(given.back()))
+    if (Words numbers = numbers_of(stl::upper_case(given.back()), program); !numbers.empty()) return numbers;
+  Words words = given.empty() ? place_words() : Words();
+  const Words wish = wish_words(given, last, program);
+  words.insert(words.end(), wish.begin(), wish.end());
+  if (wish.empty() && !given.empty() && !is_word(given.back(), "WITHIN")) words.emplace_back("within");
+  return words;
 }
 
 Words words_after(const Session& session, const CommandRow& command, const Words& given, std::string_view last) {
@@ -138,6 +179,15 @@ Words words_after(const Session& session, const CommandRow& command, const Words
       add(is_first             ? address_words(program)
           : wants_value(given) ? values_in(last, address_words(program))
                                : words_after_watch(given));
+      break;
+    case Takes::Goals:
+      add(goal_words(given, last, program));
+      break;
+    case Takes::Wishes:
+      add(wish_words(given, last, program));
+      break;
+    case Takes::Changes:
+      add(change_words(given, session));
       break;
     case Takes::Places:
       if (given.size() < 2) add(is_first ? place_words() : numbers_of(before, program));

@@ -274,6 +274,34 @@ bool History::play(Observer& observer, const Moment& end) {
   return arrived;
 }
 
+/// Instructions are other ones there: what was done from outside has its place by its time.
+bool History::play_beside(Observer& observer, Time end) {
+  auto beside = std::make_shared<Branch>(*branch_);
+  beside->unexplored = false;
+  std::size_t until = actions_;
+  for (std::size_t number = actions_ - beside->forgotten; number < beside->moments.size(); ++number) {
+    Moment& moment = beside->moments[number];
+    moment = {Moment::kNotCounted, number + beside->forgotten, false, moment.time, false};
+    if (moment.time <= end) until = number + beside->forgotten + 1;
+  }
+  branch_ = std::move(beside);
+  beside_ = true;
+  const bool stopped = end >= branch_->end.time && branch_->end.stopped;
+  const bool arrived = play(observer, {Moment::kNotCounted, until, false, end, stopped});
+  beside_ = false;
+  return arrived;
+}
+
+/// A request whose answer takes longer there is given up for the next one; and there may be none to be given up.
+bool History::can_be_done_beside(const Action& action, std::size_t station) {
+  serial::Simulation& plc = this->station(station);
+  const bool sends = std::holds_alternative<SendFrame>(action), cancels = std::holds_alternative<CancelRequest>(action);
+  if (!sends && !cancels) return true;
+  const bool busy = plc.master().busy();
+  if (sends && busy) plc.master().give_up(plc.time());
+  return sends || busy;
+}
+
 bool History::advance(const Moment& target) {
   while (actions_ < target.actions) {
     if (!reach(next_action()) || !do_next_action()) return false;
@@ -302,7 +330,9 @@ bool History::do_next_action() {
   if (!branch_->moments[number].is_counted()) branch_->moments[number] = here;
   const Action& action = branch_->actions[number];
   const std::size_t where = branch_->stations[number];
-  if (std::holds_alternative<serial::HostCall>(action))
+  if (beside_ && !can_be_done_beside(action, where))
+    settled_ = false;
+  else if (std::holds_alternative<serial::HostCall>(action))
     perform(action, station(0), settings_.hosts[where]);
   else if (const auto* const event = std::get_if<SystemEvent>(&action))
     settings_.carry_out(event->event);

@@ -187,6 +187,11 @@ class History final {
   /// observer is not asked about the instruction that stands there.
   bool play(Observer& observer, const Moment& end);
 
+  /// Plays on from now on until `end` with an observer that changes a PLC, beside what is known, which stays. What was done
+  /// from outside is done again at its time; the master gives up what it waits for when its next request is due. It stands
+  /// anywhere afterwards: return_to() comes back. Returns whether it came to the end.
+  bool play_beside(Observer& observer, Time end);
+
   /// To a moment of this branch.
   void go_to(const Moment& moment);
 
@@ -337,6 +342,7 @@ class History final {
   bool has_next_action() const;
   void forget();
   bool do_next_action();
+  bool can_be_done_beside(const Action& action, std::size_t station);
   const LineStation* station_of_fault(const Action& action, std::size_t station) const;
   bool play_to(Time time);
   bool explore(Time time);
@@ -383,6 +389,7 @@ class History final {
   // Of the run under way.
   Observer* observer_ = nullptr;
   bool live_ = false;
+  bool beside_ = false;  ///< what it plays is not what has run
   std::size_t told_of_ = 0;
   std::optional<std::uint64_t> goal_;  ///< instructions
   Time checkpoint_due_ = kNever;       ///< in front of the first instruction from then on

@@ -1,0 +1,160 @@
+// What `effect` says came of a change.
+#include "tests/unit/debugger/session.hpp"
+
+namespace s7200::tools {
+namespace {
+
+std::shared_ptr<const Program> for_effects(std::string_view text) {
+  return check_text(text, "test.awl", cpu224(), default_times(cpu224())).program;
+}
+
+TEST(Effect, ABitThatARungReadsIsAboveWhatItWrites) {
+  AtPrompt session(for_effects("LD I0.2\nA I0.3\n= Q0.0\nLD Q0.0\n= Q0.1\nLD I0.4\n= Q0.2\nMEND\n"));
+  session("continue 20ms; input I0.3=1; continue 20ms; input I0.2=1; continue 100ms; input I0.4=1; continue 100ms");
+  const std::string text = session("effect I0.2");
+  EXPECT_TRUE(has(text, "I0.2 was 0, became 1, at 40."));
+  EXPECT_TRUE(
+      has(text, " by 'set I0.2', from outside\n  unlike the same run in which it stays 0:\n  Q0.0 is 1, not 0, from 4"));
+  EXPECT_TRUE(has(text, " on: = Q0.0 in line 3, after LD I0.2 in line 1\n    Q0.1 is 1, not 0, from 4")) << text;
+  EXPECT_TRUE(has(text, ": = Q0.1 in line 5, after LD Q0.0 in line 4\n")) << text;
+  EXPECT_FALSE(has(text, "Q0.2")) << text;
+  EXPECT_TRUE(has(text, "(where what is known ends) the runs still differ: Q0.0, Q0.1\n")) << text;
+}
+
+TEST(Effect, WhatWouldHaveComeAnywayIsNone) {
+  AtPrompt session(for_effects("LD I0.2\nO I0.3\n= Q0.0\nMEND\n"));
+  session("continue 20ms; input I0.3=1; continue 50ms; input I0.2=1; continue 100ms");
+  EXPECT_TRUE(has(session("effect I0.2"), "  nothing came of it: all else is as in the same run in which it stays 0\n"));
+}
+
+TEST(Effect, OfAPulseItIsFollowedWhatTheOffDelayMakesOfIt) {
+  AtPrompt session(for_effects("LD I0.2\nTOF T37, 3\nLD T37\n= Q0.0\nMEND\n"));
+  session("continue 20ms; input I0.2=1; continue 50ms; input I0.2=0; continue 2s");
+  const std::string on = session("effect I0.2 at 60ms");
+  EXPECT_TRUE(has(on, "became 1, at 20.")) << on;
+  EXPECT_TRUE(has(on, ", when it changes again:\n")) << on;
+  EXPECT_TRUE(has(on, "the bit of T37 is 1, not 0, from ")) << on;
+  EXPECT_TRUE(has(on, ": = Q0.0 in line 4, after LD T37 in line 3\n")) << on;
+  EXPECT_TRUE(has(on, "(where what is known ends) the runs still differ: T37\n")) << on << "its value stays";
+}
+
+TEST(Effect, ATimerCountsAndItsBitFollows) {
+  AtPrompt session(for_effects("LD I0.2\nTON T37, 3\nLD T37\nS Q0.0, 1\nMEND\n"));
+  session("continue 20ms; input I0.2=1; continue 1s");
+  const std::string text = session("effect I0.2");
+  EXPECT_TRUE(has(text, "\n  T37 is ")) << text;
+  EXPECT_TRUE(has(text, "TON T37, 3 in line 2, after LD I0.2 in line 1\n")) << text;
+  EXPECT_TRUE(has(text, "\n    the bit of T37 is 1, not 0, from ")) << text;
+  EXPECT_TRUE(has(text, "\n      Q0.0 is 1, not 0, from ")) << text;
+  EXPECT_TRUE(has(text, "S Q0.0, 1 in line 4, after LD T37 in line 3\n")) << text;
+}
+
+TEST(Effect, ACounterThatCountsLeadsToTheStepItSwitches) {
+  AtPrompt session(
+      for_effects("LD I0.2\nLD I0.3\nCTU C5, 2\nLD SM0.1\nS S0.1, 1\nLSCR S0.1\nLD C5\nSCRT S0.2\nSCRE\n"
+                  "LSCR S0.2\nLD SM0.0\n= Q0.5\nSCRE\nMEND\n"));
+  session("continue 20ms; input I0.2=1; continue 20ms; input I0.2=0; continue 20ms; input I0.2=1; continue 200ms");
+  const std::string text = session("effect I0.2");
+  EXPECT_TRUE(has(text, "\n  C5 is 16#0002 (2), not 16#0001 (1), from ")) << text;
+  EXPECT_TRUE(has(text, "the bit of C5 is 1, not 0")) << text;
+  EXPECT_TRUE(has(text, "S0.2 is 1, not 0")) << text;
+  EXPECT_TRUE(has(text, "S0.1 is 0, not 1")) << text;
+  EXPECT_TRUE(has(text, "LSCR S0.2 in line 10 is active, from ")) << text;
+  EXPECT_TRUE(has(text, "  Q0.5 is 1, not 0, from ")) << text;
+}
+
+TEST(Effect, ACallThatIsNotMadeOtherwiseIsAboveWhatItsSubroutineWrites) {
+  AtPrompt session(for_effects("LD I0.2\nCALL 1\nMEND\nSBR 1\nLD SM0.0\nMOVW 7, VW20\nRET\n"));
+  session("continue 20ms; input I0.2=1; continue 100ms");
+  const std::string text = session("effect I0.2");
+  EXPECT_TRUE(has(text, "\n  CALL 1 in line 2 is executed, from ")) << text;
+  EXPECT_TRUE(has(text, "\n    VW20 is 16#0007 (7), not 16#0000 (0), from ")) << text;
+}
+
+TEST(Effect, AJumpThatGoesAnotherWayIsAboveWhatItLeavesOut) {
+  AtPrompt session(for_effects("LD I0.2\nJMP 1\nLD SM0.0\nINCW VW20\nLBL 1\nMEND\n"));
+  session("continue 20ms; input I0.2=1; continue 300ms");
+  const std::string text = session("effect I0.2");
+  EXPECT_TRUE(has(text, "\n  JMP 1 in line 2 jumps, from ")) << text;
+  EXPECT_TRUE(has(text, "\n    VW20 is ")) << text;
+  EXPECT_TRUE(has(text, "INCW VW20 in line 4\n")) << text;
+}
+
+TEST(Effect, AccumulatorsAndPointersHandOn) {
+  AtPrompt session(for_effects("LD SM0.0\nMOVW VW10, AC0\n+I 1, AC0\nMOVD &VB100, VD30\nMOVW AC0, *VD30\nMEND\n"));
+  session("continue 20ms; set VW10=5; continue 100ms");
+  const std::string text = session("effect VW10");
+  EXPECT_TRUE(has(text, "VW10 was 16#0000 (0), became 16#0005 (5), at ")) << text;
+  EXPECT_TRUE(has(text, "AC0 is ")) << text;
+  EXPECT_TRUE(has(text, "VW100 is 16#0006 (6), not 16#0001 (1), from ")) << text;
+  EXPECT_TRUE(has(text, ": MOVW AC0, *VD30 in line 5\n")) << text;
+}
+
+TEST(Effect, APointerThatPointsElsewhereIsAboveWhatIsWrittenThere) {
+  AtPrompt session(for_effects("LD SM0.1\nMOVD &VB100, VD30\nLD SM0.0\nMOVB 9, *VD30\nMEND\n"));
+  session("continue 20ms; set VD30=&VB200; continue 100ms");
+  const std::string text = session("effect VD30");
+  EXPECT_TRUE(has(text, "\n  VB200 is 16#09 (9), not 16#00 (0), from ")) << text;
+}
+
+TEST(Effect, AnEdgeThatStartsAnInterruptIsAboveWhatItsRoutineWrites) {
+  AtPrompt session(for_effects("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nINCW VW40\nRETI\n"));
+  session("continue 20ms; input I0.0=1; continue 100ms");
+  const std::string text = session("effect I0.0");
+  EXPECT_TRUE(has(text, "\n  INT 0 runs for event 0 (")) << text;
+  EXPECT_TRUE(has(text, "\n    VW40 is 16#0001 (1), not 16#0000 (0), from ")) << text;
+}
+
+TEST(Effect, CharactersThatAreSentAreEffectsToo) {
+  AtPrompt session(
+      for_effects("LD SM0.1\nMOVB 16#09, SMB30\nMOVB 1, VB0\nMOVB 16#41, VB1\nLD I0.2\nEU\nXMT VB0, 0\nMEND\n"));
+  session("continue 20ms; input I0.2=1; continue 100ms");
+  const std::string text = session("effect I0.2");
+  EXPECT_TRUE(has(text, "\n  XMT VB0, 0 in line 7 is executed, at ")) << text;
+  EXPECT_TRUE(has(text, "\n    port 0 sends 41, at ")) << text;
+}
+
+TEST(Effect, WhatTheProgramWroteIsFollowedAsWhatSomebodySet) {
+  AtPrompt session(for_effects("LD I0.2\n= M0.0\nLD M0.0\n= Q0.0\nMEND\n"));
+  session("continue 20ms; input I0.2=1; continue 100ms; input I0.2=0; continue 100ms");
+  const std::string text = session("effect M0.0 at 100ms");
+  EXPECT_TRUE(has(text, "M0.0 was 0, became 1, at ")) << text;
+  EXPECT_TRUE(has(text, " by = M0.0 in line 2\n")) << text;
+  EXPECT_TRUE(has(text, "\n  Q0.0 is 1, not 0, from ")) << text;
+  EXPECT_TRUE(has(text, "  all is alike again from ")) << text;
+}
+
+TEST(Effect, AFatalErrorAndItsStopAreNamed) {
+  AtPrompt session(for_effects("LD I0.2\nJMP 2\nJMP 3\nLBL 2\nLBL 4\nJMP 4\nLBL 3\nMEND\n"));
+  session("continue 20ms; input I0.2=1; continue 2s");
+  const std::string text = session("effect I0.2");
+  EXPECT_TRUE(has(text, "fatal error ")) << text;
+  EXPECT_TRUE(has(text, "the CPU goes to STOP")) << text;
+}
+
+TEST(Effect, WhatTurnsBeforeTheFirstScanOrJustBeforeNowIsFollowedToo) {
+  AtPrompt session(for_effects("LD I0.2\nS Q0.0, 1\nMEND\n"));
+  session("input I0.2=1; scan 3");
+  EXPECT_TRUE(has(session("effect I0.2"), "\n  Q0.0 is 1, not 0, from "));
+}
+
+TEST(Effect, ItLeavesTheSessionWhereItStands) {
+  AtPrompt session(for_effects("LD I0.2\n= Q0.0\nMEND\n"));
+  session("continue 20ms; input I0.2=1; continue 100ms; at 60ms");
+  const std::string before = session("regs; past");
+  session("effect I0.2; effect I0.2 at 80ms within 10ms");
+  EXPECT_EQ(session("regs; past"), before);
+}
+
+TEST(Effect, WhatCannotBeAskedSaysWhy) {
+  AtPrompt session(for_effects("LD I0.2\n= Q0.0\nMEND\n"));
+  session("continue 20ms");
+  EXPECT_TRUE(has(session("effect I0.2"), "I0.2 is 0; nothing has changed it since power-up\n"));
+  EXPECT_TRUE(has(session.error_of("effect"), "effect expects one address"));
+  EXPECT_TRUE(has(session.error_of("effect AC0"), "AC0 holds values for a moment only"));
+  EXPECT_TRUE(has(session.error_of("effect I0.2 within 0ms"), "a duration above 0"));
+  EXPECT_TRUE(has(session.error_of("effect I0.2 at"), "a time after at"));
+}
+
+}  // namespace
+}  // namespace s7200::tools
