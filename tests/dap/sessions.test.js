@@ -308,6 +308,11 @@ session("frames are sent from the console and by a request", async (s, program) 
   assert.match((await s.ask("timeline")).text, /ms|us/);
   assert.match((await s.ask("lastWrite", { expression: "VW3300" })).text, /VW3300 was .* became/);
   assert.equal((await s.ask("lastInstructions", { count: 5 })).instructions.length, 5);
+  assert.equal((await s.ask("whyNot", { condition: "M31.7" })).name, "M31.7");
+  const effect = (await s.ask("effect", { expression: "VW3300 within 50ms" })).effect;
+  assert.equal(effect.name, "VW3300");
+  assert.ok(Array.isArray(effect.effects));
+  assert.match(await s.refused("effect", { expression: "AC0" }), /for a moment only/);
 });
 
 session("what is forced holds until it is released", async (s, program) => {

@@ -36,6 +36,8 @@ constexpr CommandRequest kCommandRequests[] = {
     {"lastWrite", "who", "expression", true},
     {"reverseToLastWrite", "rwho", "expression", true, "in front of the last write"},
     {"lastDecision", "why", ""},
+    {"whyNot", "why not", "condition", true},
+    {"effect", "effect", "expression", true},
     {"reverseToLastDecision", "rwhy", "", false, "in front of what decided"},
     {"lastInstructions", "history", "count"},
 };
@@ -177,7 +179,8 @@ Reply executed(Conversation& talk, const Words& command) {
 Json run_command(Conversation& talk, const std::string& request, const Json& arguments) {
   const CommandRequest& row = *std::ranges::find(kCommandRequests, request, &CommandRequest::request);
   Words words = words_in(arguments, row);
-  words.insert(words.begin(), std::string(row.command));
+  const Words command = command_words(std::string(row.command));
+  words.insert(words.begin(), command.begin(), command.end());
   const Reply reply = done(talk, words);
   if (reply.error) throw Refused(without_command(*reply.error, words));
   Json body = placed(talk, reply.json);
