@@ -82,6 +82,11 @@ test('what keeps an output off is a tree of contacts, and an input in it can be 
   await page.click('#do-scan');
   await page.click('#tab-chart');
   await page.waitForSelector('[aria-label="Output Q0.0 on"]');
+  await page.click('#tab-causes');
+  await page.fill('.ask input', 'I0.0');
+  await page.click('#ask-effect');
+  await page.waitForFunction(() => /^What came of the last change of /.test(document.querySelector('.trail li')?.textContent ?? ''));
+  assert.match(await page.textContent('.trail li'), /became 1, at [^]*unlike the same run in which it stays 0:[^]*Pump \(Q0\.0\) is 1, not 0/);
   assert.deepEqual(page.troubles, []);
   await page.close();
 });

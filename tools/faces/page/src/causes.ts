@@ -32,6 +32,11 @@ export function ask_who(address: string): Promise<void> {
   return ask(`Who wrote ${named(address)} last?`, `who ${address}`);
 }
 
+/** What the last change of an address made otherwise, and until when. */
+export function ask_effect(address: string): Promise<void> {
+  return ask(`What came of the last change of ${named(address)}?`, `effect ${address}`);
+}
+
 const kAfterRequest = 100e6;  // ns after a request, when the program has made up its mind about it
 
 /** Why a request had no answer, as it is known a little after it and before the next one. */

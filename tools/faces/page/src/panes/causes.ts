@@ -1,6 +1,6 @@
 // The trail: what was asked, what the answer is, and the way on from there.
 import { h, type Child, type Part } from '../dom';
-import { ask_who, ask_why, ask_why_not, forget_trail, see_done } from '../causes';
+import { ask_effect, ask_who, ask_why, ask_why_not, forget_trail, see_done } from '../causes';
 import { go_to, move } from '../session';
 import { switch_to } from '../switches';
 import { state, type TrailStep } from '../state';
@@ -85,11 +85,11 @@ export function causes_pane(): Part {
     h('form', { class: 'ask', onsubmit: (event: Event) => {
       event.preventDefault();
       const field = (event.target as HTMLElement).querySelector('input')!;
-      const ask = { 'ask-who': ask_who, 'ask-why-not': ask_why_not }[(event as SubmitEvent).submitter?.id ?? ''] ?? ask_why;
+      const ask = { 'ask-who': ask_who, 'ask-why-not': ask_why_not, 'ask-effect': ask_effect }[(event as SubmitEvent).submitter?.id ?? ''] ?? ask_why;
       if (field.value.trim() !== '') void ask(field.value.trim());
     } },
     h('input', { 'aria-label': 'Address', placeholder: 'Q0.1, VW100, a symbol', list: 'symbols', autocomplete: 'off', spellcheck: 'false' }),
-    h('button', { id: 'ask-why' }, 'Why?'), h('button', { id: 'ask-why-not', title: 'What keeps a bit as it is, and what would change it' }, 'What keeps it so?'), h('button', { id: 'ask-who' }, 'Who?')),
+    h('button', { id: 'ask-why' }, 'Why?'), h('button', { id: 'ask-why-not', title: 'What keeps a bit as it is, and what would change it' }, 'What keeps it so?'), h('button', { id: 'ask-effect', title: 'What its last change made otherwise, and until when' }, 'What came of it?'), h('button', { id: 'ask-who' }, 'Who?')),
     state.trail.length === 0 ? h('p', { class: 'empty' }, 'Ask why an address has its value, or why the program has come here. Each answer leads on: click a moment to go there, an address to ask about it.')
       : h('ol', { class: 'trail' }, state.trail.map(step).reverse()),
     what_led_here());

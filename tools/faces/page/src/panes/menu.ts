@@ -1,7 +1,7 @@
 // The menu of an address: what one can ask and do about it.
 import { h, type Part } from '../dom';
 import { add_to_chart } from './chart';
-import { ask_who, ask_why, ask_why_not } from '../causes';
+import { ask_effect, ask_who, ask_why, ask_why_not } from '../causes';
 import { command } from '../session';
 import { watch_address } from '../timeline/view';
 import { changed, state } from '../state';
@@ -37,6 +37,7 @@ const kItems: { title: (address: string) => string; does: (address: string) => v
   { title: () => 'Show on the timeline', does: watch_address },
   { title: () => 'Why has it this value?', does: (address) => void ask_why(address) },
   { title: () => 'What keeps it so?', does: (address) => void ask_why_not(address), of_bits: true },
+  { title: () => 'What came of its last change?', does: (address) => void ask_effect(address) },
   { title: () => 'Who wrote it last?', does: (address) => void ask_who(address) },
   { title: () => 'Stop when it changes', does: (address) => void command(`watch ${address}`) },
 ];
