@@ -65,7 +65,7 @@ class Server final : public TcpServer {
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error) {
-      why = fmt::format("cannot listen on {}: {}", to_text(address), error.message());
+      why = fmt::format("cannot listen on {}: {}", to_text(address), socket_error_text(error.value()));
       return false;
     }
     messages_.serving(fmt::format("listening on {}", to_text({address.host, acceptor_.local_endpoint().port()})));
@@ -127,7 +127,7 @@ class Server final : public TcpServer {
       accepting_ = false;
       if (error == asio::error::operation_aborted) return;
       if (error) {  // no descriptors left, say: a moment later there may be some
-        note(fmt::format("cannot accept a client: {}", error.message()));
+        note(fmt::format("cannot accept a client: {}", socket_error_text(error.value())));
         accept_again_ = Clock::now() + std::chrono::milliseconds(100);
         return;
       }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace s7200::tools {
 
@@ -14,8 +15,11 @@ struct FileIdentity {
   bool operator==(const FileIdentity&) const = default;
 };
 
-/// 0 is no error.
+/// The words for an error of errno; 0 is no error.
 std::string error_text(int error);
+/// The words for what <filesystem> reports: on Windows not those of the system, which come in its language, or
+/// as a number only.
+std::string error_text(const std::error_code& error);
 
 namespace file_system {
 

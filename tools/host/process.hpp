@@ -20,7 +20,7 @@ std::chrono::nanoseconds processor_time();
 /// A started process, whose output is read. The destructor waits for its end.
 class StartedProcess {
  public:
-  /// Throws std::system_error if it cannot be started.
+  /// Throws std::runtime_error if it cannot be started.
   explicit StartedProcess(const std::vector<std::string>& words);
   ~StartedProcess();
   StartedProcess(const StartedProcess&) = delete;

@@ -22,6 +22,10 @@ enum class IpVersion : std::uint8_t { Four, Six };
 /// Whether a text is an address of that version, without brackets.
 bool is_ip_address(const std::string& text, IpVersion version);
 
+/// The words for an error of sockets, as Boost.Asio reports its number: on Windows not those of the system, which come in
+/// its language, or not at all.
+std::string socket_error_text(int error);
+
 /// A port of a listener that has ended is free for the next one at once; one that another program has is not.
 /// False if the system does not do it.
 bool allow_next_listener(NativeSocket socket);

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "tools/host/file_obstacles.hpp"
 #include "tools/host/write_all.hpp"
 
@@ -17,7 +18,7 @@ using file_system::look_at;
 using file_system::look_behind;
 
 std::string folder_of(const std::string& path) {
-  const fs::path folder = fs::path(path).parent_path();
+  const fs::path folder = file_path(path).parent_path();
   return folder.empty() ? "." : folder.string();
 }
 
@@ -52,7 +53,7 @@ WrittenFiles::WrittenFiles(std::ostream* standard_output) : standard_output_(sta
 }
 
 WrittenFiles::Place WrittenFiles::place_of(std::string user, const std::string& path) {
-  Place place{std::move(user), {}, {}, fs::path(path).filename().string()};
+  Place place{std::move(user), {}, {}, file_path(path).filename().string()};
   if (const auto found = look_behind(path)) place.file = found->identity;
   if (const auto found = look_behind(folder_of(path))) place.folder = found->identity;
   return place;
@@ -154,7 +155,10 @@ bool GrowingResult::complete(std::string& why) {
   int error = file_system::write_through(file_.fd());
   if (error == 0) error = file_.close();
   if (error == 0) error = file_.put(destination_);
-  if (!check(error, why)) return false;
+  if (!check(error, why)) {
+    if (error == EBUSY) why += fmt::format("; what was to be there is in {}", file_.keep());
+    return false;
+  }
   // The new name itself on the disk as well; the content is safe already.
   file_system::write_names_through(folder_of(destination_.path));
   return true;

@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/host/file_system.hpp"
@@ -103,6 +104,9 @@ class NewFile {
   /// Puts it there unless something has come there meanwhile that may not be replaced: EEXIST. It stays open.
   int put(const Destination& destination);
 
+  /// Leaves it beside its place when it could not be put there. Its name.
+  std::string keep() { return std::exchange(beside_, {}); }
+
   int close();
   int fd() const { return fd_; }
 
@@ -112,7 +116,8 @@ class NewFile {
 };
 
 /// A result that is written piece by piece. Each returns false and sets `why` if it fails; a result that is not completed
-/// leaves what was there before as it was.
+/// leaves what was there before as it was. One that is complete, and whose place another program holds open, which only
+/// Windows lets it do, stays beside it, and `why` has its name.
 class GrowingResult {
  public:
   bool begin(const Destination& destination, std::string& why);

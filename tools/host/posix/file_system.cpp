@@ -18,6 +18,8 @@ std::string why_not_to_be_written(const std::string&) { return {}; }
 
 std::string error_text(int error) { return std::strerror(error); }
 
+std::string error_text(const std::error_code& error) { return error.message(); }
+
 namespace file_system {
 namespace {
 

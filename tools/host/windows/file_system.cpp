@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "tools/host/file_obstacles.hpp"
 #include "tools/host/windows/native_text.hpp"
 
@@ -39,6 +40,11 @@ std::string error_text(int error) {
     default:
       return std::strerror(error);
   }
+}
+
+std::string error_text(const std::error_code& error) {
+  if (error.category() == std::system_category()) return words_of(static_cast<DWORD>(error.value()));
+  return error.category() == std::generic_category() ? error_text(error.value()) : error.message();
 }
 
 namespace file_system {
@@ -133,7 +139,7 @@ int why_no_new_file(const std::string& folder) {
   const auto found = look_behind(folder);
   if (!found) return ENOENT;
   if (found->kind != Found::Kind::Folder) return ENOTDIR;
-  const std::string probe = (std::filesystem::path(folder) / fmt::format("s7200.{}.new", process_number())).string();
+  const std::string probe = (file_path(folder) / fmt::format("s7200.{}.new", process_number())).string();
   const Handle file(CreateFileW(native_path(probe).c_str(), GENERIC_WRITE | DELETE, kShareAll, nullptr, CREATE_NEW,
                                 FILE_FLAG_DELETE_ON_CLOSE | FILE_ATTRIBUTE_TEMPORARY, nullptr));
   return file ? 0 : errno_of(GetLastError());

@@ -41,6 +41,21 @@ constexpr std::array kKnownErrors{
     KnownError{ERROR_NO_DATA, EPIPE, "the other end has been closed"},
     KnownError{ERROR_GEN_FAILURE, EIO, "a device attached to the computer does not work"},
     KnownError{ERROR_NOT_ENOUGH_MEMORY, ENOMEM, "there is not enough memory"},
+    KnownError{WSAECONNREFUSED, ECONNREFUSED, "Connection refused"},
+    KnownError{WSAETIMEDOUT, ETIMEDOUT, "Connection timed out"},
+    KnownError{WSAEADDRINUSE, EADDRINUSE, "Address already in use"},
+    KnownError{WSAEACCES, EACCES,
+               "another program has this port for itself, or Windows keeps it back: "
+               "netsh interface ipv4 show excludedportrange tcp"},
+    KnownError{WSAECONNRESET, ECONNRESET, "Connection reset by peer"},
+    KnownError{WSAECONNABORTED, ECONNABORTED, "Connection reset by peer"},
+    KnownError{WSAEHOSTUNREACH, EHOSTUNREACH, "No route to host"},
+    KnownError{WSAENETUNREACH, ENETUNREACH, "No route to host"},
+    KnownError{WSAHOST_NOT_FOUND, ENOENT, "Name or service not known"},
+    KnownError{WSANO_DATA, ENOENT, "Name or service not known"},
+    KnownError{WSAEADDRNOTAVAIL, EADDRNOTAVAIL, "this computer does not have this address"},
+    KnownError{WSAEMFILE, EMFILE, "Windows has no more sockets for this program"},
+    KnownError{WSAENOBUFS, ENOBUFS, "Windows has no more memory for connections"},
 };
 
 const KnownError* known(DWORD error) {
@@ -89,9 +104,10 @@ std::wstring native_path(const std::string& path) {
 
 bool is_device_name(const std::string& path) {
   constexpr std::array<std::string_view, 6> kAlone{"NUL", "CON", "PRN", "AUX", "CONIN$", "CONOUT$"};
+  constexpr std::string_view kNumbers[] = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "¹", "²", "³"};
   const std::string name = device_part(path);
-  const bool numbered =
-      (name.starts_with("COM") || name.starts_with("LPT")) && name.size() == 4 && name[3] >= '0' && name[3] <= '9';
+  const bool numbered = (name.starts_with("COM") || name.starts_with("LPT")) &&
+                        std::ranges::find(kNumbers, std::string_view(name).substr(3)) != std::end(kNumbers);
   return numbered || std::ranges::find(kAlone, name) != kAlone.end() || path.starts_with("\\\\.\\");
 }
 

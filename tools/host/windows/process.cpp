@@ -1,7 +1,7 @@
 #include "tools/host/process.hpp"
 
 #include <array>
-#include <system_error>
+#include <stdexcept>
 
 #include "tools/host/windows/native_text.hpp"
 
@@ -55,7 +55,7 @@ struct StartedProcess::Handles {
 
 StartedProcess::StartedProcess(const std::vector<std::string>& words) : handles_(std::make_unique<Handles>()) {
   const auto check = [&words](BOOL done) {
-    if (done == 0) throw std::system_error(static_cast<int>(GetLastError()), std::system_category(), words[0]);
+    if (done == 0) throw std::runtime_error(words[0] + ": " + words_of(GetLastError()));
   };
   SECURITY_ATTRIBUTES inherited{sizeof inherited, nullptr, TRUE};
   HANDLE read = nullptr, write = nullptr;

@@ -35,32 +35,6 @@ void start_sockets() {
 SOCKET socket_of(NativeSocket socket) { return static_cast<SOCKET>(socket); }
 NativeSocket native(SOCKET socket) { return static_cast<NativeSocket>(socket); }
 
-/// The words for an error of sockets, which users of Linux read too.
-std::string words_of_socket(int error) {
-  switch (error) {
-    case WSAECONNREFUSED:
-      return "Connection refused";
-    case WSAETIMEDOUT:
-      return "Connection timed out";
-    case WSAEADDRINUSE:
-    case WSAEACCES:  // what another program has for itself
-      return "Address already in use";
-    case WSAECONNRESET:
-    case WSAECONNABORTED:
-      return "Connection reset by peer";
-    case WSAEHOSTUNREACH:
-    case WSAENETUNREACH:
-      return "No route to host";
-    case WSAHOST_NOT_FOUND:
-    case WSANO_DATA:
-      return "Name or service not known";
-    case WSAEADDRNOTAVAIL:
-      return "this computer does not have this address";
-    default:
-      return words_of(static_cast<DWORD>(error));
-  }
-}
-
 struct SocketAddress {
   sockaddr_storage storage{};
   int size = 0;
@@ -114,6 +88,8 @@ void never_wait(SOCKET socket) {
 
 }  // namespace
 
+std::string socket_error_text(int error) { return words_of(static_cast<DWORD>(error)); }
+
 bool is_ip_address(const std::string& text, IpVersion version) {
   start_sockets();
   std::array<unsigned char, sizeof(in6_addr)> address{};
@@ -155,7 +131,7 @@ std::unique_ptr<TcpListener> TcpListener::open(const ListenAddress& address, std
   if (listening == INVALID_SOCKET || !allow_next_listener(native(listening)) ||
       bind(listening, where.get(), where.size) != 0 || listen(listening, kMostWaitingClients) != 0 ||
       getsockname(listening, bound.get(), &bound.size) != 0) {
-    why = words_of_socket(WSAGetLastError());
+    why = socket_error_text(WSAGetLastError());
     if (listening != INVALID_SOCKET) closesocket(listening);
     return nullptr;
   }
@@ -177,7 +153,7 @@ std::unique_ptr<TcpClient> TcpListener::accept(std::string& why) {
       return std::make_unique<TcpClient>(native(client));
     }
     if (WSAGetLastError() == WSAECONNRESET) continue;
-    why = words_of_socket(WSAGetLastError());
+    why = socket_error_text(WSAGetLastError());
     return nullptr;
   }
   return nullptr;
@@ -190,7 +166,7 @@ InputStream::Reading TcpClient::read(std::span<char> into, std::chrono::millisec
   const int count = recv(socket_of(socket_), into.data(), static_cast<int>(into.size()), 0);
   if (count > 0) return {.came = Came::Bytes, .count = static_cast<std::size_t>(count)};
   if (count == 0) return {.came = Came::End};
-  return {.came = Came::Failure, .why = words_of_socket(WSAGetLastError())};
+  return {.came = Came::Failure, .why = socket_error_text(WSAGetLastError())};
 }
 
 bool TcpClient::send(std::string_view bytes) {
@@ -228,7 +204,7 @@ Addresses look_up(const std::string& host, const std::string& port, StopToken st
   while (answer.wait_for(kSlice) != std::future_status::ready)
     if (stop.stop_requested()) return nullptr;
   const Answer got = answer.get();
-  if (got.error != 0) why = words_of_socket(got.error);
+  if (got.error != 0) why = socket_error_text(got.error);
   return got.addresses;
 }
 
@@ -275,7 +251,7 @@ std::unique_ptr<TcpConnection> TcpConnection::open(const std::string& host, cons
     }
     closesocket(socket);
   }
-  if (why.empty() && !stop.stop_requested()) why = words_of_socket(error);
+  if (why.empty() && !stop.stop_requested()) why = socket_error_text(error);
   return nullptr;
 }
 
@@ -289,7 +265,7 @@ std::optional<std::size_t> TcpConnection::read(std::span<std::uint8_t> into, std
   const int count = recv(socket_of(socket_), reinterpret_cast<char*>(into.data()), static_cast<int>(into.size()), 0);
   if (count > 0) return static_cast<std::size_t>(count);
   if (count < 0 && WSAGetLastError() == WSAEWOULDBLOCK) return 0;
-  why = count == 0 ? "has closed the connection" : "has broken the connection: " + words_of_socket(WSAGetLastError());
+  why = count == 0 ? "has closed the connection" : "has broken the connection: " + socket_error_text(WSAGetLastError());
   return {};
 }
 
@@ -298,7 +274,7 @@ std::optional<std::size_t> TcpConnection::write(std::span<const std::uint8_t> by
       ::send(socket_of(socket_), reinterpret_cast<const char*>(bytes.data()), static_cast<int>(bytes.size()), 0);
   if (count >= 0) return static_cast<std::size_t>(count);
   if (WSAGetLastError() == WSAEWOULDBLOCK) return 0;
-  why = "has broken the connection: " + words_of_socket(WSAGetLastError());
+  why = "has broken the connection: " + socket_error_text(WSAGetLastError());
   return {};
 }
 
