@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/file_source.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/commands.hpp"
@@ -23,8 +24,11 @@ namespace {
 /// As the scenario's file has to name it.
 std::string seen_from(const std::string& path, const ImportCaptureOptions& options) {
   if (path.empty() || !options.to_file()) return path;
-  const auto folder = std::filesystem::absolute(options.output).parent_path();
-  return std::filesystem::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal()).generic_string();
+  const auto folder = std::filesystem::absolute(file_path(options.output)).parent_path();
+  return std::filesystem::absolute(file_path(path))
+      .lexically_normal()
+      .lexically_relative(folder.lexically_normal())
+      .generic_string();
 }
 
 /// False after a message: `test` could not run it.

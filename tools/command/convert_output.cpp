@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/program/convert.hpp"
 #include "interpreter/stl/encoding.hpp"
 #include "tools/command/exit_code.hpp"
@@ -23,8 +24,8 @@ std::string symbols_of(const ConvertOptions& options, const SourceText& source) 
 
 /// Beside the program: `plant.awl` has its symbols in `plant_symbols.txt`.
 std::string table_path(const ConvertOptions& options) {
-  const std::filesystem::path program(options.output);
-  return (program.parent_path() / (program.stem().string() + "_symbols.txt")).generic_string();
+  const std::filesystem::path program = file_path(options.output);
+  return (program.parent_path() / file_path(program.stem().string() + "_symbols.txt")).generic_string();
 }
 
 void print_json(const ConvertOptions& options, const SourceText& source, const std::string& text) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/file_source.hpp"
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
@@ -120,7 +121,9 @@ std::string as_written(const std::string& value, const std::string& type, const 
   if ((type != "FILE" && type != "LINK" && type != "DEVICE" && !is_table) || is_standard_input(value)) return value;
   const std::string path = dap::path_of(value);
   std::error_code gone;
-  return folder.empty() ? path : (fs::absolute(dap::path_of(folder), gone) / path).lexically_normal().generic_string();
+  return folder.empty()
+             ? path
+             : (fs::absolute(file_path(dap::path_of(folder)), gone) / file_path(path)).lexically_normal().generic_string();
 }
 
 std::string word_of(const Json& value, std::string_view type) {
@@ -148,7 +151,7 @@ void give(CLI::Option& option, const Json& value, const std::string& folder) {
 std::vector<std::string> take_attributes(const Json& arguments, CLI::App& app) {
   const std::string folder = text_at(arguments, "cwd", "");
   std::error_code gone;
-  if (!folder.empty() && !fs::is_directory(dap::path_of(folder), gone))
+  if (!folder.empty() && !fs::is_directory(file_path(dap::path_of(folder)), gone))
     throw dap::Refused(fmt::format("launch: cwd: '{}' is not a folder", stl::shortened(folder)));
   for (const auto& [key, value] : arguments.items()) {
     if (!is_option(key) || value.is_null()) continue;
@@ -181,7 +184,8 @@ void check_limits(const Json& arguments, const std::vector<std::string>& files, 
       if (option_of_attribute(key) == "--" + name && !value.is_null() && value != false) refuse_to_open(name, limits);
   const auto may_run = [&](const std::string& file) {
     std::error_code gone;
-    return std::ranges::any_of(limits.programs, [&](const std::string& one) { return fs::equivalent(one, file, gone); });
+    return std::ranges::any_of(
+        limits.programs, [&](const std::string& one) { return fs::equivalent(file_path(one), file_path(file), gone); });
   };
   for (const std::string& file : files)
     if (!limits.programs.empty() && !may_run(file))

@@ -9,12 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "interpreter/base/file_path.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/inspected_program.hpp"
 #include "tools/command/options/tables_by_cpu.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/command/trial_output.hpp"
 #include "tools/fuzzing/fuzz.hpp"
+#include "tools/host/file_system.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -68,14 +70,15 @@ std::optional<FuzzSettings> settings_of(const FuzzOptions& options, const Progra
 ExitCode write_scenarios(const FuzzOptions& options, const Inspection& inspection, const FuzzResult& result,
                          const std::string& program, const std::vector<std::string>& parts) {
   if (options.folder.empty()) return kFine;
+  const std::filesystem::path folder = file_path(options.folder);
   std::error_code error;
-  std::filesystem::create_directory(options.folder, error);
-  if (!std::filesystem::is_directory(options.folder)) {
-    print_error(fmt::format("--write: cannot make the folder {}: {}", options.folder, error.message()));
+  std::filesystem::create_directory(folder, error);
+  if (!std::filesystem::is_directory(folder)) {
+    print_error(fmt::format("--write: cannot make the folder {}: {}", options.folder, error_text(error)));
     return kUnusable;
   }
   for (std::size_t i = 0; i < result.findings.size(); ++i) {
-    const std::string path = (std::filesystem::path(options.folder) / fmt::format("finding_{}.yaml", i + 1)).string();
+    const std::string path = (folder / fmt::format("finding_{}.yaml", i + 1)).string();
     std::string why;
     const ScenarioOrigin origin = scenario_origin(path, program, parts, options.cpu);
     const std::string text = finding_scenario(inspection, result, result.findings[i], path, origin, why);

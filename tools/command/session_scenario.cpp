@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/plan/system_reader.hpp"
 #include "tools/scenario/reader.hpp"
@@ -138,7 +139,8 @@ void add_faults(SessionSteps& session, const std::vector<serial::Fault>& faults)
 }
 
 std::string input_text(const std::string& path) {
-  return path.empty() ? "" : fmt::format("input: {}\n", in_quotes(std::filesystem::absolute(path).generic_string()));
+  return path.empty() ? ""
+                      : fmt::format("input: {}\n", in_quotes(std::filesystem::absolute(file_path(path)).generic_string()));
 }
 
 std::string repairs_text(const Repairs& repairs) {
@@ -153,13 +155,13 @@ struct SessionSource {
 
   bool is_system() const { return is_system_file(options.program.path); }
   std::string path() const { return is_system() ? options.program.path : program->source.name; }
-  std::string name() const { return std::filesystem::path(path()).filename().string(); }
+  std::string name() const { return file_path(path()).filename().string(); }
 };
 
 std::string scenario_text(const SessionSource& source) {
   const std::string head =
       source.is_system()
-          ? fmt::format("system: {}\n", in_quotes(std::filesystem::absolute(source.path()).generic_string()))
+          ? fmt::format("system: {}\n", in_quotes(std::filesystem::absolute(file_path(source.path())).generic_string()))
           : fmt::format("cpu: \"{}\"\n{}", source.program->model->name, input_text(source.options.rig.settings().input));
   return fmt::format("name: {}\n{}after: 0 ms\nsteps:\n{}", in_quotes("a session with " + source.name()), head,
                      steps_text(source.session));
@@ -213,7 +215,8 @@ std::string why_left_out(const SessionSteps::Step& step, const Finding& finding)
 }
 
 /// Runs the session as a scenario, and again without what came too late. Nothing, and `why`, if it cannot be run.
-std::optional<TriedScenario> tried(const SessionSource& source, SessionSteps& session, const std::string& path, std::string& why) {
+std::optional<TriedScenario> tried(const SessionSource& source, SessionSteps& session, const std::string& path,
+                                   std::string& why) {
   for (;;) {
     TriedScenario trial{.scenario = scenario_of(source, path, why)};
     if (!trial.scenario) return {};

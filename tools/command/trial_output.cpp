@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "interpreter/base/counted.hpp"
+#include "interpreter/base/file_path.hpp"
 #include "tools/command/terminal.hpp"
 #include "tools/host/console.hpp"
 #include "tools/host/host_time.hpp"
@@ -47,8 +48,10 @@ bool TrialFile::write(const std::string& scenario) const {
 ScenarioOrigin scenario_origin(const std::string& path, const std::string& program, const std::vector<std::string>& parts,
                                const CpuOptions& options) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::absolute(path).parent_path();
-  const auto near = [&](const std::string& file) { return fs::absolute(file).lexically_relative(folder).string(); };
+  const fs::path folder = fs::absolute(file_path(path)).parent_path();
+  const auto near = [&](const std::string& file) {
+    return fs::absolute(file_path(file)).lexically_relative(folder).string();
+  };
   ScenarioOrigin origin{.program = near(program)};
   for (const std::string& part : parts) origin.with.push_back(near(part));
   const Repairs& repairs = options.repairs;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/nearest.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/base/wrapped.hpp"
@@ -31,7 +32,7 @@ std::string there_are(const std::vector<std::string_view>& verbs) {
 /// `'chek' is not a verb; is check meant?`
 std::string not_a_verb(const std::string& word, const std::vector<std::string>& verbs) {
   std::error_code error;
-  if (std::filesystem::is_regular_file(word, error))
+  if (std::filesystem::is_regular_file(file_path(word), error))
     return fmt::format("'{0}' is a file, and the verb before it is missing; write for example s7200 run {0}", word);
   std::vector<std::string_view> known(verbs.begin(), verbs.end());
   known.insert(known.end(), {"help", "version"});

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/session/words/words.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 bool is_file(const std::string& word) {
   std::error_code ignored;
-  return std::filesystem::is_regular_file(word, ignored);
+  return std::filesystem::is_regular_file(file_path(word), ignored);
 }
 
 bool is_not(const std::string& word) { return stl::lower_case(word) == "not"; }

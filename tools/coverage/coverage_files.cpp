@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/views/escapes.hpp"
 
@@ -117,7 +118,7 @@ class LcovOfProgram {
     return stl::in_file(map_.program().source, map_.program().statement(op).position.line);
   }
   LcovFile& file_of(std::uint32_t op) {
-    return files_[stl::printable(std::filesystem::path(place(op).file).lexically_normal().string())];
+    return files_[stl::printable(file_path(place(op).file).lexically_normal().string())];
   }
 
   void add(const Routine& routine) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/networks.hpp"
 #include "tools/coverage/programs.hpp"
@@ -114,9 +115,7 @@ std::string with_line_end(std::string text) {
 
 }  // namespace
 
-std::string coverage_name(const Program& program) {
-  return std::filesystem::path(program.source.name).lexically_normal().string();
-}
+std::string coverage_name(const Program& program) { return file_path(program.source.name).lexically_normal().string(); }
 
 void CoverageOfPrograms::add(const std::shared_ptr<const CoverageMap>& map, const Tried& tried) {
   for (ProgramCoverage& known : programs_)

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <ostream>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text.hpp"
 #include "serial_sim/record/pcap_capture.hpp"
 #include "serial_sim/record/vcd_capture.hpp"
@@ -35,7 +36,7 @@ const std::array<Kind, 2>& kinds() {
 }
 
 const Kind* kind_of(const std::string& path) {
-  const std::string extension = stl::lower_case(std::filesystem::path(path).extension().string());
+  const std::string extension = stl::lower_case(file_path(path).extension().string());
   const auto found =
       std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return extension == kind.extension; });
   return found == kinds().end() ? nullptr : &*found;

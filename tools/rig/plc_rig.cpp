@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/trace/output_record.hpp"
 #include "interpreter/trace/output_waves.hpp"
@@ -28,7 +29,7 @@ bool PlcRig::claim(WrittenFiles& files, std::string& why) {
     return made;
   };
   if (why = settings_.trace.empty() ? "" : why_not_signals(format, settings_.signals); !why.empty()) return false;
-  const bool waves = stl::lower_case(std::filesystem::path(settings_.output).extension().string()) == ".vcd";
+  const bool waves = stl::lower_case(file_path(settings_.output).extension().string()) == ".vcd";
   const FileKind rows{"a record of outputs", fmt::format("{}\n", OutputRecord::kFirstLine)};
   const FileKind dump{"a dump of outputs", std::string(OutputWaves::kBeginning)};
   const auto output = [this, waves](std::ostream& out) -> std::unique_ptr<TraceSink> {

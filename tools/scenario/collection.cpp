@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <set>
 
+#include "interpreter/base/file_path.hpp"
+#include "tools/host/file_system.hpp"
 #include "tools/host/files.hpp"
 #include "tools/plan/program_cpu.hpp"
 #include "tools/scenario/conformance_suite.hpp"
@@ -72,12 +74,12 @@ class Collector {
   /// A file, or all those of a folder. What cannot be read ends it, mistakes in one file do not hide those of the next.
   void read(const std::string& path) {
     std::error_code error;
-    if (!fs::is_directory(path, error)) return read_one(path);
+    if (!fs::is_directory(file_path(path), error)) return read_one(path);
     std::vector<std::string> found;
-    for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, error), end;
+    for (fs::recursive_directory_iterator it(file_path(path), fs::directory_options::skip_permission_denied, error), end;
          it != end && !error; it.increment(error))
       if (is_yaml_file(it->path()) && it->path().filename() != kFolderSettings) found.push_back(it->path().generic_string());
-    if (error) return fail(fmt::format("cannot read {}: {}", path, error.message()));
+    if (error) return fail(fmt::format("cannot read {}: {}", path, error_text(error)));
     if (found.empty()) return fail(fmt::format("there is no .yaml file in {}", path));
     std::sort(found.begin(), found.end());
     for (const std::string& file : found)

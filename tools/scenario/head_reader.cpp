@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/model/named_times.hpp"
@@ -62,7 +63,7 @@ class HeadReader {
     }
     if (const auto path = optional_path(map, "skip_without")) {
       scenario.may_be_missing = *path == scenario.program;
-      if (!std::filesystem::exists(*path)) scenario.skipped = *path + " is not there";
+      if (!std::filesystem::exists(file_path(*path))) scenario.skipped = *path + " is not there";
     }
     if (const auto times = values_.optional_text(map, "times")) {
       scenario.times = find_times(*times) ? *times : *optional_path(map, "times");
@@ -155,7 +156,7 @@ class HeadReader {
   /// What comes through a pipe is read with the program: it can be read only once.
   void check_times(const YamlNode& node, const Scenario& scenario) {
     std::error_code none;
-    if (std::filesystem::is_fifo(scenario.times, none)) return;
+    if (std::filesystem::is_fifo(file_path(scenario.times), none)) return;
     std::vector<std::string> errors;
     load_times(*find_cpu(scenario.cpu), scenario.times, host_files(), errors);
     for (const std::string& error : errors) values_.wrong(node, error);

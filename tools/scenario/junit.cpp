@@ -7,6 +7,7 @@
 #include <span>
 
 #include "interpreter/base/counted.hpp"
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text.hpp"
 
 namespace s7200::tools {
@@ -44,7 +45,7 @@ std::string attribute(std::string_view name, std::string_view value) { return fm
 /// Packages and classes of readers: `tests.programs.modbus_slave.line` for tests/programs/modbus_slave/line.yaml.
 std::string class_name(const std::string& file) {
   std::string name;
-  const std::filesystem::path path = std::filesystem::path(file).replace_extension();
+  const std::filesystem::path path = file_path(file).replace_extension();
   for (const std::filesystem::path& part : path)
     if (part != ".." && part != "." && part != "/") name.append(name.empty() ? "" : ".").append(part.string());
   return name;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/joined.hpp"
 #include "tools/scenario/head_reader.hpp"
 #include "tools/scenario/limits.hpp"
@@ -27,7 +28,7 @@ class Reader {
     Scenario common;
     common.source = file_.source;
     common.position = root.position;
-    common.name = std::filesystem::path(file_.source->name).stem().string();
+    common.name = file_path(file_.source->name).stem().string();
     const bool applicable = read_head(values_, path_, given_, root, common);
     const YamlNode* list = root.find("scenarios");
     const YamlNode* steps = root.find("steps");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "interpreter/analysis/looks.hpp"
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/measuring/parallel_run.hpp"
 #include "tools/rig/rig.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 using Outcome = ScenarioResult::Outcome;
 
-std::string file_name(const std::string& path) { return stl::printable(std::filesystem::path(path).filename().string()); }
+std::string file_name(const std::string& path) { return stl::printable(file_path(path).filename().string()); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/file_source.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/model/named_times.hpp"
@@ -60,7 +61,7 @@ std::string unforce_text(const std::vector<MemoryRange>& places) {
 }
 
 TranscriptWriter::TranscriptWriter(const Transcript& transcript)
-    : transcript_(transcript), folder_(std::filesystem::path(transcript.path).parent_path()) {}
+    : transcript_(transcript), folder_(file_path(transcript.path).parent_path()) {}
 
 void TranscriptWriter::begin(const Report& report) {
   report_ = &report;
@@ -111,7 +112,7 @@ void TranscriptWriter::line(int indent, const std::string& content) {
 std::string TranscriptWriter::near(const std::string& path) const {
   if (is_standard_input(path)) return in_quotes(path);
   const auto top = [](const std::filesystem::path& p) { return std::filesystem::absolute(p).lexically_normal(); };
-  return in_quotes(top(path).lexically_relative(top(folder_ / "x").parent_path()).generic_string());
+  return in_quotes(top(file_path(path)).lexically_relative(top(folder_ / "x").parent_path()).generic_string());
 }
 
 void TranscriptWriter::head(const Scenario& scenario) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/plan/system_reader.hpp"
@@ -67,7 +68,7 @@ SlaveTarget parse_slave_target(const std::string& text) {
                                             stl::shortened(text), kTcp, kModbusTcp));
   } else {
     std::error_code error;
-    if (is_host_and_port(text) && !std::filesystem::exists(text, error))
+    if (is_host_and_port(text) && !std::filesystem::exists(file_path(text), error))
       throw std::invalid_argument(fmt::format("'{}' is not a file: for a slave over TCP write {}{} (Modbus RTU) or {}{}",
                                               stl::shortened(text), kTcp, text, kModbusTcp, text));
     target.kind = names_serial_device(text) ? SlaveTarget::Kind::Device

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/file_source.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "tools/yaml/names.hpp"
@@ -19,7 +20,7 @@ void Complaints::add(const YamlNode& node, std::string message, std::string hint
 
 std::string beside(const std::string& file, const std::string& path) {
   if (is_standard_input(path)) return path;
-  return (std::filesystem::path(file).parent_path() / path).lexically_normal().generic_string();
+  return (file_path(file).parent_path() / file_path(path)).lexically_normal().generic_string();
 }
 
 void YamlValues::wrong(const YamlNode& node, std::string message, std::string hint) {

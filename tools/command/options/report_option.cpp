@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/terminal.hpp"
@@ -20,7 +21,14 @@ namespace fs = std::filesystem;
 
 /// Every report begins so, as tools/faces/page/build writes it.
 constexpr std::string_view kBeginning = "<!DOCTYPE html>\n<!-- s7200: the page with its engine -->\n";
-constexpr std::string_view kPageFile = "share/s7200/page.html";  ///< beside the folder of the command, installed and built
+
+/// The page: beside the folder of the command where it is installed or built, beside the command itself in a folder that is
+/// carried about.
+fs::path page_file(const fs::path& own_folder) {
+  std::error_code gone;
+  const fs::path beside = own_folder / "page.html";
+  return fs::exists(beside, gone) ? beside : own_folder.parent_path() / "share/s7200/page.html";
+}
 
 /// What makes the page where there is none: of a build tree its target.
 std::string how_to_make_the_page(const fs::path& above) {
@@ -37,12 +45,13 @@ void ReportOption::add_to(CLI::App& app, const std::string& text) {
 
 bool ReportOption::prepare() {
   if (!wanted()) return true;
-  const fs::path above = fs::path(own_folder()).parent_path();
+  const fs::path folder = file_path(own_folder());
+  const std::string path = page_file(folder).string();
   std::string why;
-  const auto page = read_file((above / kPageFile).string(), why);
+  const auto page = read_file(path, why);
   if (!page)
-    return print_error(fmt::format("--report needs the page with its engine, and cannot read {}: {}; {}",
-                                   (above / kPageFile).string(), why, how_to_make_the_page(above))),
+    return print_error(fmt::format("--report needs the page with its engine, and cannot read {}: {}; {}", path, why,
+                                   how_to_make_the_page(folder.parent_path()))),
            false;
   page_ = *page;
   WrittenFiles files;

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/networks.hpp"
@@ -150,16 +151,15 @@ std::vector<StopPoint> line_stops(Conversation& talk, const std::string& path, c
   const auto lines = talk.sources().lines_of(path);
   if (!lines) throw Refused(fmt::format("{} is not a file of this program", path));
   if (talk.line_of_client(wanted_line) > *lines)
-    throw Refused(fmt::format("{} has no line {}; its last one is {}", std::filesystem::path(path).filename().string(),
-                              wanted_line, talk.client_line(*lines)));
+    throw Refused(fmt::format("{} has no line {}; its last one is {}", file_path(path).filename().string(), wanted_line,
+                              talk.client_line(*lines)));
   return at_all_stations(talk, wanted, answer, [&](std::string& why) -> std::optional<StopPoint> {
     const auto line = talk.sources().line_in(path, talk.line_of_client(wanted_line));
     const auto op = line ? talk.listing().op_from_line(*line) : std::nullopt;
     const stl::Source& source = talk.cpu().program().source;
     const auto file_of = [&](std::uint32_t of_program) { return &stl::in_file(source, of_program).file; };
     if (line && (!op || file_of(talk.listing().line_of(*op)) != file_of(*line))) {
-      why = fmt::format("{} has no instruction in line {} or after it", std::filesystem::path(path).filename().string(),
-                        wanted_line);
+      why = fmt::format("{} has no instruction in line {} or after it", file_path(path).filename().string(), wanted_line);
       return {};
     }
     if (!op) return {};

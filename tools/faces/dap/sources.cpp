@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "interpreter/base/file_path.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/stand_ins.hpp"
@@ -53,7 +54,7 @@ std::string uri_of(const std::string& path) {
 std::string full_name(const std::string& name, const std::string& folder) {
   if (name.empty() || is_stand_in(name)) return name;
   std::error_code error;
-  const auto path = std::filesystem::path(path_of(folder)) / path_of(name);
+  const auto path = file_path(path_of(folder)) / file_path(path_of(name));
   const auto full = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
   return error ? path.string() : full.string();
 }
@@ -68,8 +69,7 @@ Sources::Sources(const Program& program, bool as_uris)
 Json Sources::source_of(const File& file) const {
   if (const auto number = number_of_stand_in(file.path))
     return {{"name", file.path}, {"path", file.path}, {"sourceReference", *number}, {"origin", "part of s7200"}};
-  return {{"name", std::filesystem::path(file.path).filename().string()},
-          {"path", as_uris_ ? uri_of(file.path) : file.path}};
+  return {{"name", file_path(file.path).filename().string()}, {"path", as_uris_ ? uri_of(file.path) : file.path}};
 }
 
 Json Sources::place_of(std::uint32_t line) const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "interpreter/base/file_path.hpp"
 #include "tools/host/files.hpp"
 
 namespace s7200::tools {
@@ -31,7 +32,7 @@ std::optional<std::string> HostFiles::read(const std::string& path, std::string&
 
 bool HostFiles::begins(const std::string& path, std::string_view beginning) const {
   std::string first(beginning.size(), '\0');
-  std::ifstream(fs::path(path), std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
+  std::ifstream(file_path(path), std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
   return first == beginning;
 }
 
@@ -50,7 +51,7 @@ std::vector<std::string> HostFiles::names(std::string_view beginning) const {
   const std::string folder(beginning.substr(0, slash == std::string_view::npos ? 0 : slash + 1));
   std::vector<std::string> names;
   std::error_code error;
-  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+  for (fs::directory_iterator entry(file_path(folder.empty() ? "." : folder), error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     std::error_code ignored;
