@@ -109,6 +109,15 @@ install_missing_packages() {
   fi
 }
 
+# own_apt_get FOLDER OPTION...: sets apt_get to an apt-get with lists of its own in a folder, which changes nothing of this computer.
+own_apt_get() {
+  local folder=$1 option
+  shift
+  mkdir -p "$folder/lists/partial" "$folder/cache/archives/partial"
+  apt_get=(apt-get -qq -o "Dir::State::Lists=$folder/lists" -o "Dir::Cache=$folder/cache" -o "APT::Sandbox::User=")
+  for option in "$@"; do apt_get+=(-o "$option"); done
+}
+
 # Options of cmake for build.
 configured_with=()
 
