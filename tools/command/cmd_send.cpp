@@ -77,6 +77,7 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     print_note(fmt::format("{} of {} frames had no answer: another master's request came first", foreign, frames->size()));
   if (ready && answered == 0) print_note_if_any(torn_frame_note(options.frames.in_hex()));
   if (ready && answered == 0) print_note_if_any(missing_crc_note(*frames));
+  if (ready && answered == 0) print_note_if_any(modbus_tcp_note(*frames));
   print_notes(stop_notes(*rig));
   if (!all_written) return kUnusable;
   if (exit_code_of(*rig) != kFine) return exit_code_of(*rig);

@@ -70,8 +70,20 @@ RecordedFrame part_of(const RecordedFrame& frame, std::size_t begin, std::size_t
   return part;
 }
 
+/// Whether the bytes of a row hold unless another reading of it is a right frame.
+bool has_bytes(const RecordedFrame& row) { return !row.doubt || !row.bytes.empty(); }
+
+/// Rows of one direction may be pieces of a frame. So may a row without time and direction below any: programs wrap long
+/// lines.
 bool may_be_divided(const RecordedFrame& before, const RecordedFrame& after) {
-  return before.direction == after.direction && before.stream == after.stream && !before.doubt && !after.doubt;
+  const bool says_nothing = after.direction == Direction::Unknown && !after.at;
+  const bool goes_on = before.direction == after.direction || says_nothing;
+  return goes_on && before.stream == after.stream && has_bytes(before) && has_bytes(after);
+}
+
+/// Whether a log has both in one row, so that it does not say when the second began. Characters with times do.
+bool share_row(const RecordedFrame& before, const RecordedFrame& after, const Stamps& stamps) {
+  return !stamps.exact && after.times.empty() && !after.place.empty() && before.place == after.place;
 }
 
 /// Whether the second frame follows so soon that a log may have divided one frame there: programs see characters late and in
@@ -213,16 +225,20 @@ ReadFrame Conversation::read(Stream& stream, RecordedFrame frame, bool echo) {
     read.text = fmt::format("{} damaged{}{}", all ? "it is" : fmt::format("character {} is", frame.damaged.front() + 1),
                             read.text.empty() ? "" : "; ", read.text);
   }
-  if (last_) read.silence = known_silence(*last_, frame, stamps_);
+  const bool begins_in_row = last_ && share_row(*last_, frame, stamps_) && !stream.reader->messages_share_frames();
+  if (last_ && !begins_in_row) read.silence = known_silence(*last_, frame, stamps_);
   const OpenRequest* const open = stream.request_of(frame);
   if (echo) {
     stream.open.at(frame.exchange).echoed = true;
     hears_itself_ = true;
   } else if (read.direction == Direction::Answer && open != nullptr) {
     read.other = open->number;
-    read.latency = known_silence(open->frame, frame, stamps_);
+    read.asked_at = open->frame.place;
+    read.out_of_turn = open->number != last_request_;
+    if (!share_row(open->frame, frame, stamps_)) read.latency = known_silence(open->frame, frame, stamps_);
     stream.open.erase(open->frame.exchange);
   } else if (read.direction == Direction::Request) {
+    last_request_ = count_;
     stream.open.erase(frame.exchange);
     if (!read.needs_no_answer) stream.open.emplace(frame.exchange, OpenRequest{.frame = frame, .number = count_});
   }
@@ -310,7 +326,7 @@ bool Conversation::ends_as_announced(const Stream& stream, const RecordedFrame& 
 
 Conversation::AnnouncedRows Conversation::announced_rows(const Stream& stream, RecordedFrame whole,
                                                          std::span<const RecordedFrame> rows) const {
-  constexpr std::size_t kMostRows = 32;
+  constexpr std::size_t kMostRows = 256;  // the longest frame of Modbus RTU, a byte in each row
   if (stamps_.exact && stream.request_of(whole) == nullptr) return {};
   for (std::size_t count = 1; count <= std::min(rows.size(), kMostRows); ++count) {
     const Rest rest = rest_after_messages(stream, whole);
@@ -352,11 +368,12 @@ std::optional<RecordedFrame> Conversation::settled(const Stream& stream, const R
   return frame;
 }
 
-/// Whatever a request before it got for an answer may be in the row. Answers of Modbus TCP name their request.
+/// Whatever a request before it got for an answer may be in the row, unless that is text. Answers of Modbus TCP name their
+/// request.
 ReadFrame Conversation::not_read(Stream& stream, RecordedFrame row) {
   ReadFrame read{.text = "not read: " + row.doubt->why, .not_read = true};
-  read.may_be_answer = !stream.open.empty();
-  if (row.stream == 0) stream.open.clear();
+  read.may_be_answer = !stream.open.empty() && !row.doubt->is_text;
+  if (row.stream == 0 && !row.doubt->is_text) stream.open.clear();
   last_.reset();
   ++count_;
   read.frame = std::move(row);
@@ -367,22 +384,23 @@ std::vector<ReadFrame> Conversation::take(std::span<const RecordedFrame>& rows) 
   RecordedFrame frame = rows.front();
   frame.direction = taken_as(frame.direction, taken_);
   Stream& stream = stream_of(frame);
-  if (frame.doubt) {
-    rows = rows.subspan(1);
-    bool without_word = false;
-    auto read = settled(stream, frame, without_word);
-    if (!read) return {not_read(stream, std::move(frame))};
-    std::vector<ReadFrame> all = add(*std::move(read));
-    if (without_word) all.back().ignored = frame.doubt->word;
-    return all;
-  }
   const bool may_go_on = rows.size() > 1 && may_be_divided(rows[0], rows[1]) && !stream.reader->messages_share_frames();
   const AnnouncedRows announced = may_go_on ? announced_rows(stream, frame, rows) : AnnouncedRows{};
   std::size_t count = announced.right ? announced.count : 1;
   if (count == 1 && may_go_on && follows_closely(rows[0], rows[1], stamps_)) count = close_rows(stream, frame, rows);
   for (const RecordedFrame& row : rows.subspan(1, count - 1)) append(frame, row);
   rows = rows.subspan(count);
-  std::vector<ReadFrame> all = add(std::move(frame));
+  if (count > 1) frame.doubt.reset();
+  std::vector<ReadFrame> all;
+  if (const auto doubt = frame.doubt) {
+    bool without_word = false;
+    auto known = settled(stream, frame, without_word);
+    if (!known) return {not_read(stream, std::move(frame))};
+    all = add(*std::move(known));
+    if (without_word) all.back().ignored = doubt->word;
+  } else {
+    all = add(std::move(frame));
+  }
   all.back().pieces = count;
   if (count == 1) all.back().wrong_with_rows = announced.count - 1;
   return all;

@@ -32,6 +32,8 @@ struct ReadFrame {
   std::size_t pieces = 1;                 ///< rows or packets of the recording that it was put together from
   std::size_t wrong_with_rows = 0;        ///< so many rows below give it the length that it announces, not its check sum
   std::optional<std::size_t> other{};     ///< of an answer its request, of a request its answer: number in the conversation
+  std::string asked_at{};                 ///< of an answer: the place of its request
+  bool out_of_turn = false;               ///< of an answer: another request stands between it and its own
   std::optional<std::size_t> repeats{};   ///< number of the request that this one repeats, or is the late echo of
   std::optional<Time> silence{};          ///< before it, as known_silence() has it
   std::optional<Time> latency{};          ///< of an answer: the same between its request and it
@@ -177,6 +179,7 @@ class Conversation {
   std::map<std::uint32_t, Stream> streams_;  // by connection
   bool hears_itself_ = false;                // the recorder hears itself: an echo is not an answer
   std::optional<RecordedFrame> last_;
+  std::size_t last_request_ = 0;  // its number in the conversation
   std::size_t count_ = 0;
 };
 

@@ -104,7 +104,8 @@ std::string decoded_text(const ReadFrame& read, bool unanswered, bool colour) {
   const std::string_view kind = kind_of(read, "?");
   line.append("  ").append(kind).append(kind.size() < kKindColumn ? kKindColumn - kind.size() : 0, ' ').append("  ");
   line += serial::to_hex(frame.bytes);
-  if (!read.text.empty()) line.append(1, '\n').append(kTextColumn, ' ').append(read.text);
+  const std::string answered = read.out_of_turn ? fmt::format("; the answer to {}", read.asked_at) : "";
+  if (!read.text.empty()) line.append(1, '\n').append(kTextColumn, ' ').append(read.text).append(answered);
   const bool trouble = !read.right || unanswered || (read.direction == Direction::Unknown && !read.echo);
   return (trouble ? painted(line, kYellow, colour) : std::move(line)) + '\n';
 }
@@ -117,6 +118,7 @@ nlohmann::ordered_json decoded_json(const ReadFrame& read) {
           {"bytes", plain_hex(read.frame.bytes)},
           {"right", read.right},
           {"text", read.text},
+          {"request", read.asked_at.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(read.asked_at)},
           {"latency_us", microseconds(read.latency)}};
 }
 

@@ -152,10 +152,25 @@ bool is_list_of_bytes(std::string_view whole, std::string_view part, std::string
          std::isxdigit(static_cast<unsigned char>(after[2])) != 0;
 }
 
+/// A time since 1970 in milliseconds or nanoseconds: `1616595070123`. Numbers of so many digits are no pairs of digits.
+std::optional<LeadingTime> time_since_1970(std::string_view text) {
+  constexpr std::size_t kMilliseconds = 13, kNanoseconds = 19;
+  Scan scan(text);
+  scan.skip(kBeforeTime);
+  if (scan.next() != '1') return {};  // from 2001 to 2033
+  const std::string_view digits = scan.take_digits(kNanoseconds + 1);
+  if (digits.size() != kMilliseconds && digits.size() != kNanoseconds) return {};
+  if (!scan.at_end() && !is_any_of(scan.next(), kAfterTime)) return {};
+  scan.skip(kAfterTime);
+  return LeadingTime{.time = decimal_number(digits) * (digits.size() == kMilliseconds ? kMillisecond : 1),
+                     .length = scan.at()};
+}
+
 /// A time since the start: `0.123456`, `-12.3 ms`, `+7us`
 std::optional<LeadingTime> time_since(std::string_view text) {
   Scan scan(text);
   scan.skip(" \t\n\v\f\r[(+");
+  const bool has_plus = scan.since(0).find('+') != std::string_view::npos;
   const bool below_zero = scan.take("-") != '\0';
   const std::string_view whole = scan.take_digits(10);
   if (whole.empty()) return {};
@@ -170,7 +185,7 @@ std::optional<LeadingTime> time_since(std::string_view text) {
   const Time of_unit = unit == nullptr ? kSecond : unit->time, number = decimal_number(whole);
   if (number >= kFurthestTime / of_unit) return {};
   const Time time = number * of_unit + fraction(part) / (kSecond / of_unit);
-  return LeadingTime{.time = below_zero ? -time : time, .length = scan.at()};
+  return LeadingTime{.time = below_zero ? -time : time, .length = scan.at(), .has_plus = has_plus};
 }
 
 using Words = std::span<const Word>;
@@ -282,6 +297,13 @@ bool ends_name(std::string_view word, std::size_t end) {
   return is_any_of(word[end - 1], ":;>,])-|") || (lead >= kThreeBytes && lead < kFourBytes);
 }
 
+/// Whether a name and numbers are a sentence with commas, not bytes after a name: `$GPGGA,12,34`, `T;21;35`.
+bool is_sentence_with_commas(std::string_view name, std::string_view numbers) {
+  constexpr std::size_t kFourPairs = 11;
+  if (!is_any_of(name.back(), ",;") || direction_of(name) != Direction::Unknown) return false;
+  return is_any_of(name.front(), "$!+@") || numbers.size() < kFourPairs;
+}
+
 /// The length of a name before bytes: `Tx:01` is `01` after its name; `len=09` and `plc:5020` have no such name.
 std::size_t length_of_name(std::string_view word) {
   const auto is_of_name = [&](std::size_t at) {
@@ -293,7 +315,10 @@ std::size_t length_of_name(std::string_view word) {
   while (end > 0 && end < word.size() && !ends_name(word, end)) ++end;
   if (end == 0 || end >= word.size()) return 0;
   const std::string_view name = word.substr(0, end);
-  return name.find('=') == std::string_view::npos && !is_port_of_host(name, word.substr(end)) ? name.size() : 0;
+  const std::string_view after = word.substr(end);
+  const bool names_it =
+      name.find('=') == std::string_view::npos && !is_port_of_host(name, after) && !is_sentence_with_commas(name, after);
+  return names_it ? name.size() : 0;
 }
 
 /// Words beside a number that say what the number is.
@@ -447,6 +472,38 @@ const Word* what_is_no_byte(Words run) {
   return ends_with_number(run) ? &run.back() : nullptr;  // last: all but it may be a frame
 }
 
+/// Words before bytes that say what they are: `data 0x0B`, `frame: 0103`
+constexpr std::array<std::string_view, 16> kNamesOfBytes{"DATA",    "BYTE",   "BYTES",  "HEX", "FRAME", "PAYLOAD",
+                                                         "RAW",     "BUFFER", "PACKET", "PDU", "ADU",   "CHAR",
+                                                         "MESSAGE", "MSG",    "CHUNK",  "DUMP"};
+
+/// Words before bytes that say on which line they were: `COM3`, `/dev/ttyUSB0`
+constexpr std::array<std::string_view, 6> kNamesOfLines{"COM", "TTY", "/DEV/", "UART", "SERIAL", "RS"};
+
+/// Whether a word is `tx`, `rx_data`, `COM3:`; a name with a number at its end is that of a line.
+bool names_bytes(const Word& word) {
+  if (names_a_direction(word)) return true;
+  constexpr std::string_view kAround = "[]():>,;=";
+  const std::string capitals = stl::upper_case(word.text);
+  const std::size_t begin = std::min(capitals.find_first_not_of(kAround), capitals.size());
+  const std::string_view name = std::string_view(capitals).substr(begin, capitals.find_last_not_of(kAround) + 1 - begin);
+  const auto begins = [&](std::string_view line) { return name.starts_with(line) && stl::is_digit(name.back()); };
+  if (std::ranges::any_of(kNamesOfLines, begins)) return true;
+  for (std::size_t at = 0; at < name.size(); ++at) {
+    const std::size_t first = at;
+    while (at < name.size() && is_letter(name[at])) ++at;
+    if (std::ranges::find(kNamesOfBytes, name.substr(first, at - first)) != kNamesOfBytes.end()) return true;
+  }
+  return false;
+}
+
+/// Whether a value is assigned to something that is not called as bytes are: `register 40001 = 1234`
+bool is_assigned(Words before, Words run) {
+  if (before.empty() || run.size() != 1 || !before.back().text.ends_with('=')) return false;
+  const Word& name = before.back().text.size() <= 2 && before.size() > 1 ? before[before.size() - 2] : before.back();
+  return !names_bytes(name);
+}
+
 /// A word before or after the bytes that makes them doubtful; null if there is none. Bytes before them may be a number or a
 /// date in front of the direction.
 const Word* what_is_doubtful(Words before, Words run, Words after) {
@@ -459,6 +516,7 @@ const Word* what_is_doubtful(Words before, Words run, Words after) {
     if (after_direction || !named)
       return &*std::find_if(other, before.end(), [](const Word& word) { return word.bytes == 0; });
   }
+  if (is_assigned(before, run)) return &before.back();
   if (const Word* const no_byte = what_is_no_byte(run)) return no_byte;
   if (after.empty() || after.front().number == Word::Number::Yes) return nullptr;
   if (has_both_cases(run)) return &run.back();
@@ -574,6 +632,25 @@ bool is_of_prose(const Word& word) {
          !names_a_direction(word);
 }
 
+/// Whether a word is a name with a colon: `temp:`, `D100:`
+bool is_name_with_colon(std::string_view word) {
+  const auto is_of_name = [](char c) { return is_word_sign(c) || c == '.' || (c & 0x80) != 0; };
+  return word.size() > 1 && word.back() == ':' && is_letter_of_any_language(word.front()) &&
+         std::ranges::all_of(word.substr(0, word.size() - 1), is_of_name);
+}
+
+/// Whether bytes are the value of something in a log of other things: `counter = 12345678`, `temp: 21`, `error code 0x86`,
+/// `sensor.temp 2024-01-01T10:00:00 21`
+bool is_value(Words before, Words run) {
+  constexpr std::size_t kLongest = 4;
+  if (before.empty() || run.size() != 1 || run.front().bytes > kLongest) return false;
+  if (std::ranges::any_of(before, names_bytes)) return false;
+  if (is_assigned(before, run)) return true;
+  const std::string_view text = run.front().text, name = before.back().text;
+  const bool is_number = is_decimal(text) || is_marked(text);
+  return is_number && (is_plain_word(before.back()) || is_name_with_colon(name) || (before.size() > 1 && has_clock(name)));
+}
+
 /// Whether the bytes are a number at the end of words, or one of the words: `slave 10`, `waiting for 50`, `warte ab`, `de
 /// facto`, or blocks among words: `CALL FB 10, DB 11`
 bool is_of_a_sentence(Words before, Words run, Words after) {
@@ -624,7 +701,7 @@ std::optional<Run> last_run(Words words) {
 
 /// The words for a request in English, German, French, Spanish, Italian, Portuguese, Russian and Chinese; ASCII letters in
 /// capitals.
-constexpr std::array<std::string_view, 33> kRequestWords{"TX",
+constexpr std::array<std::string_view, 34> kRequestWords{"TX",
                                                          "SENT",
                                                          "SEND",
                                                          "WRITE",
@@ -656,8 +733,9 @@ constexpr std::array<std::string_view, 33> kRequestWords{"TX",
                                                          "\u041E\u0442\u043F\u0440\u0430\u0432\u043B\u0435\u043D\u043E",
                                                          "\u53D1",
                                                          "\u53D1\u9001",
-                                                         "\u53D1\u9001\u6570\u636E"};
-constexpr std::array<std::string_view, 33> kAnswerWords{"RX",
+                                                         "\u53D1\u9001\u6570\u636E",
+                                                         "OUTGOING"};
+constexpr std::array<std::string_view, 34> kAnswerWords{"RX",
                                                         "RECV",
                                                         "RECEIVED",
                                                         "READ",
@@ -689,7 +767,8 @@ constexpr std::array<std::string_view, 33> kAnswerWords{"RX",
                                                         "\u041F\u043E\u043B\u0443\u0447\u0435\u043D\u043E",
                                                         "\u6536",
                                                         "\u63A5\u6536",
-                                                        "\u63A5\u6536\u6570\u636E"};
+                                                        "\u63A5\u6536\u6570\u636E",
+                                                        "INCOMING"};
 constexpr std::size_t kLongestDirection = 20;  // bytes of UTF-8
 
 /// The text with blanks in place of signs that are not letters: U+2000 to U+2FFF and the wide ones from U+FF00 on.
@@ -727,7 +806,8 @@ constexpr std::array kWrittenUnits{WrittenUnit{"S", kSecond},
 
 std::optional<LeadingTime> leading_time(std::string_view text) {
   if (const auto time = time_of_day(text)) return time;
-  return time_since(text);
+  if (const auto time = time_since(text)) return time;
+  return time_since_1970(text);
 }
 
 std::size_t length_of_index(std::string_view text) {
@@ -811,8 +891,36 @@ bool has_clock(std::string_view text) {
   return false;
 }
 
+/// A frame of Modbus ASCII as its characters, `:0B03006300028D`, with the CR LF that logs leave out (Modbus over Serial Line
+/// V1.02, 2.5.2). Nothing if there is none, or it stands among other words and has a wrong LRC.
+std::optional<BytesInLine> modbus_ascii_in(std::string_view line) {
+  constexpr std::size_t kFewestDigits = 6;  // station, function, LRC
+  constexpr std::string_view kBlanksAndMarks = " \t\"'";
+  for (std::size_t colon = line.find(':'); colon != std::string_view::npos; colon = line.find(':', colon + 1)) {
+    if (colon > 0 && !is_any_of(line[colon - 1], kBlanksAndMarks)) continue;
+    std::size_t end = colon + 1;
+    while (end < line.size() && is_hex_digit(line[end])) ++end;
+    const std::string_view digits = line.substr(colon + 1, end - colon - 1);
+    const std::string_view after = line.substr(end);
+    const bool ends = after.find_first_not_of(" \t\r\"'") == std::string_view::npos || after.starts_with("\\r") ||
+                      after.starts_with("<CR>");
+    if (digits.size() < kFewestDigits || digits.size() % 2 != 0 || !ends) continue;
+    std::uint8_t sum = 0;
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+      sum = static_cast<std::uint8_t>(sum + hex_number(digits.substr(i, 2)));
+    const std::string_view before = stl::trim(line.substr(0, colon));
+    if (sum != 0 && !before.empty() && direction_of(before) == Direction::Unknown) continue;
+    BytesInLine found{.begin = colon};
+    for (const std::string_view part : {line.substr(colon, end - colon), std::string_view("\r\n")})
+      found.bytes.insert(found.bytes.end(), part.begin(), part.end());
+    return found;
+  }
+  return {};
+}
+
 /// Numbers that are no pairs of digits may be bytes as well, if they are a right frame.
 std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
+  if (auto ascii = modbus_ascii_in(line)) return ascii;
   auto found = among_words(line);
   if (found && found->not_understood.empty() && found->bytes.size() > 1) return found;
   auto list = number_list_at_end(without_comment(line));
@@ -831,7 +939,7 @@ std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
   const auto run = last_run(words_);
   if (!run) return bytes_in_comment(line);
   const Words after = Words(words_).subspan(run->before.size() + run->words.size());
-  const bool is_sentence = is_of_a_sentence(run->before, run->words, after);
+  const bool is_sentence = is_of_a_sentence(run->before, run->words, after) || is_value(run->before, run->words);
   if (is_sentence && !has_pairs(run->before)) return {};
   BytesInLine found{.begin = run->words.front().begin, .has_characters = end_of_row < line.size()};
   const Word* const doubtful = is_sentence ? &run->before.back() : what_is_doubtful(run->before, run->words, after);

@@ -125,7 +125,9 @@ void add_fields(const json& object, const std::string& outer, NamedFields& field
     else if (value.is_array())
       fields.push_back({.name = name, .value = in_one_line(value), .bytes = bytes_of_list(value)});
     else
-      fields.push_back({.name = name, .value = value.is_string() ? value.get<std::string>() : in_one_line(value)});
+      fields.push_back({.name = name,
+                        .value = value.is_string() ? value.get<std::string>() : in_one_line(value),
+                        .quoted = value.is_string()});
   }
 }
 

@@ -41,8 +41,9 @@ Pairs pairs_of(std::string_view line) {
     if (pairs.fields.empty()) pairs.before = line.substr(0, static_cast<std::size_t>(rest.data() - line.data()) + begin);
     const std::string name(rest.substr(begin, equals - begin));
     rest.remove_prefix(equals + 1);
+    const bool quoted = rest.starts_with('"');
     std::string value = take_value(rest);
-    if (!name.empty()) pairs.fields.push_back({.name = name, .value = std::move(value)});
+    if (!name.empty()) pairs.fields.push_back({.name = name, .value = std::move(value), .quoted = quoted});
   }
 }
 

@@ -6,11 +6,11 @@
 
 namespace s7200::tools {
 
-RecordedFrame row_not_read(std::size_t number, std::string why, std::optional<Time> at, Direction direction) {
+RecordedFrame row_not_read(std::size_t number, std::string why, std::optional<Time> at, Direction direction, bool is_text) {
   return {.at = at,
           .direction = direction,
           .place = fmt::format("line {}", number),
-          .doubt = std::make_shared<Doubt>(Doubt{.why = std::move(why)})};
+          .doubt = std::make_shared<Doubt>(Doubt{.why = std::move(why), .is_text = is_text})};
 }
 
 std::string not_understood(std::string_view what) {

@@ -11,8 +11,9 @@
 namespace s7200::tools {
 
 /// A row whose bytes are not known, in its place among the frames: a request before it may have got it for an answer.
-/// `why`: `it says 9 bytes, and 3 are below it`.
-RecordedFrame row_not_read(std::size_t number, std::string why, std::optional<Time> at, Direction direction);
+/// `why`: `it says 9 bytes, and 3 are below it`. `is_text`: no frame at all, but words.
+RecordedFrame row_not_read(std::size_t number, std::string why, std::optional<Time> at, Direction direction,
+                           bool is_text = false);
 
 /// The reason for an unreadable text: `'0x1 0x' is not understood`
 std::string not_understood(std::string_view what);

@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <vector>
 
+#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text.hpp"
+#include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/lines.hpp"
+#include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -19,18 +24,21 @@ struct ByteMark {
   std::size_t digits;
 };
 constexpr std::array kByteMarks{
-    ByteMark{"", "h", 16, 2},  ByteMark{"", "H", 16, 2},   ByteMark{"$", "", 16, 2},
-    ByteMark{"&H", "", 16, 2}, ByteMark{"16#", "", 16, 2}, ByteMark{"#", "", 16, 2},
-    ByteMark{"0b", "", 2, 8},  ByteMark{"2#", "", 2, 8},   ByteMark{"", "", 2, 8},
+    ByteMark{"", "h", 16, 2},   ByteMark{"", "H", 16, 2}, ByteMark{"$", "", 16, 2},     ByteMark{"&H", "", 16, 2},
+    ByteMark{"16#", "", 16, 2}, ByteMark{"#", "", 16, 2}, ByteMark{"B#16#", "", 16, 2}, ByteMark{"b#16#", "", 16, 2},
+    ByteMark{"\\x", "", 16, 2}, ByteMark{"0b", "", 2, 8}, ByteMark{"2#", "", 2, 8},     ByteMark{"", "", 2, 8},
 };
 
 struct PlainSign {
   std::string_view sign, plain;
 };
 /// A dash before a blank only divides: `01 \u2013 03`. The first row that fits is the one.
-constexpr std::array kPlainSigns{PlainSign{"\u2013 ", ""}, PlainSign{"\u2014 ", ""}, PlainSign{"\u2013", "-"},
-                                 PlainSign{"\u2014", "-"}, PlainSign{"\u2212", "-"}, PlainSign{"\u00A0", " "},
-                                 PlainSign{"\u2009", " "}, PlainSign{"\u202F", " "}};
+constexpr std::array kPlainSigns{PlainSign{"\u2013 ", ""},  PlainSign{"\u2014 ", ""},  PlainSign{"\u2013", "-"},
+                                 PlainSign{"\u2014", "-"},  PlainSign{"\u2212", "-"},  PlainSign{"\u00A0", " "},
+                                 PlainSign{"\u2009", " "},  PlainSign{"\u202F", " "},  PlainSign{"\u201C", "\""},
+                                 PlainSign{"\u201D", "\""}, PlainSign{"\u201E", "\""}, PlainSign{"\u201F", "\""},
+                                 PlainSign{"\u00AB", "\""}, PlainSign{"\u00BB", "\""}, PlainSign{"\u2018", "\""},
+                                 PlainSign{"\u2019", "\""}, PlainSign{"`", " "}};
 
 std::optional<std::uint8_t> byte_of(std::string_view word, const ByteMark& mark) {
   if (word.size() != mark.before.size() + mark.digits + mark.after.size()) return {};
@@ -43,14 +51,14 @@ std::optional<std::uint8_t> byte_of(std::string_view word, const ByteMark& mark)
 
 bool is_between_words(char c) { return std::string_view(" \t,;[]()<>").find(c) != std::string_view::npos; }
 
-/// Calls `see` with each word of a line.
+/// Calls `see` with each word of a line. An escape begins a word: `\x0B\x03` are two.
 template <typename See>
 void for_each_word(std::string_view line, See see) {
   for (std::size_t begin = 0; begin < line.size();) {
     std::size_t end = begin;
-    while (end < line.size() && !is_between_words(line[end])) ++end;
+    while (end < line.size() && !is_between_words(line[end]) && !(end > begin && line[end] == '\\')) ++end;
     if (end > begin) see(line.substr(begin, end - begin));
-    begin = end + 1;
+    begin = end < line.size() && line[end] == '\\' ? end : end + 1;
   }
 }
 
@@ -76,7 +84,7 @@ std::string with_plain_signs(std::string_view text) {
   std::string plain;
   plain.reserve(text.size());
   while (!text.empty()) {
-    const std::size_t length = std::min(text.find_first_of("\xC2\xE2"), text.size());
+    const std::size_t length = std::min(text.find_first_of("\xC2\xE2`"), text.size());
     plain.append(text.substr(0, length));
     text.remove_prefix(length);
     const auto sign = std::ranges::find_if(kPlainSigns, [&](const PlainSign& each) { return text.starts_with(each.sign); });
@@ -96,11 +104,87 @@ std::string with_plain_bytes(std::string_view text, const ByteMark& mark) {
       const auto byte = byte_of(word, mark);
       if (!byte) return;
       copy_to(word.data());
-      plain += fmt::format("{:02X}", *byte);
+      plain += fmt::format("{}{:02X}", mark.before.starts_with('\\') ? " " : "", *byte);
       copied = word.data() + word.size();
     });
   copy_to(text.data() + text.size());
   return plain;
+}
+
+/// A byte that a line has in decimal and in hex: `11 (0x0B)`, `11(0x0B)`, `11 0x0B`, `0x0B (11)`.
+struct ByteInBoth {
+  std::size_t begin = 0, end = 0;  ///< place of both in the line
+  std::uint8_t byte = 0;
+};
+
+/// The decimal number that ends there, in brackets or not. Its place is that of its first sign.
+std::optional<ByteInBoth> decimal_before(std::string_view line, std::size_t end) {
+  std::size_t last = end;
+  if (last > 0 && line[last - 1] == '(') --last;
+  while (last > 0 && line[last - 1] == ' ') --last;
+  std::size_t begin = last;
+  while (begin > 0 && stl::is_digit(line[begin - 1])) --begin;
+  const auto byte = parse_decimal<std::uint8_t>(line.substr(begin, last - begin));
+  if (!byte || (begin > 0 && is_word_sign(line[begin - 1]))) return {};
+  return ByteInBoth{.begin = begin, .byte = *byte};
+}
+
+/// The decimal number in brackets that follows; its end is that of the brackets.
+std::optional<ByteInBoth> decimal_after(std::string_view line, std::size_t begin) {
+  Scan scan(line.substr(begin));
+  scan.skip(" ");
+  const std::string_view digits = scan.take("(") != '\0' ? scan.take_digits(3) : "";
+  const auto byte = parse_decimal<std::uint8_t>(digits);
+  if (!byte || scan.take(")") == '\0') return {};
+  return ByteInBoth{.end = begin + scan.at(), .byte = *byte};
+}
+
+/// All bytes of a line that it has in both notations.
+std::vector<ByteInBoth> bytes_in_both(std::string_view line) {
+  std::vector<ByteInBoth> bytes;
+  for (std::size_t at = line.find('x'); at != std::string_view::npos; at = line.find('x', at + 1)) {
+    Scan scan(line.substr(at + 1));
+    const std::string_view digits = scan.take_hex(3);
+    if (at == 0 || line[at - 1] != '0' || digits.empty() || digits.size() > 2) continue;
+    const auto byte = static_cast<std::uint8_t>(hex_number(digits));
+    const std::size_t begin = at - 1, end = at + 1 + digits.size();
+    const bool closes = begin > 0 && line[begin - 1] == '(' && end < line.size() && line[end] == ')';
+    if (const auto before = decimal_before(line, begin); before && before->byte == byte)
+      bytes.push_back({before->begin, end + (closes ? 1 : 0), byte});
+    else if (const auto after = decimal_after(line, end); after && after->byte == byte)
+      bytes.push_back({begin, after->end, byte});
+  }
+  return bytes;
+}
+
+/// Whether a line shows its bytes in both notations: several, one after the other, or a single one after its direction. Any
+/// other number may be that of a register or an error.
+bool has_bytes_in_both(std::string_view line, const std::vector<ByteInBoth>& bytes) {
+  for (std::size_t i = 1; i < bytes.size(); ++i)
+    if (line.substr(bytes[i - 1].end, bytes[i].begin - bytes[i - 1].end).find_first_not_of(" \t,;") !=
+        std::string_view::npos)
+      return false;
+  if (bytes.size() != 1) return !bytes.empty();
+  const std::string_view before = stl::trim(line.substr(0, bytes.front().begin));
+  const std::string_view word = before.substr(before.find_last_of(" \t") + 1);
+  return direction_of(word) != Direction::Unknown && stl::trim(line.substr(bytes.front().end)).empty();
+}
+
+/// The text with the bytes that it has in both notations in hex alone; nothing if there are none.
+std::optional<std::string> without_decimal(std::string_view text) {
+  std::string plain;
+  const char* copied = text.data();
+  for (const std::string_view line : Lines(text)) {
+    const auto bytes = bytes_in_both(line);
+    if (!has_bytes_in_both(line, bytes)) continue;
+    for (const ByteInBoth& each : bytes) {
+      plain.append(copied, line.data() + each.begin);
+      plain += fmt::format("{:02X}", each.byte);
+      copied = line.data() + each.end;
+    }
+  }
+  if (copied == text.data()) return {};
+  return plain.append(copied, text.data() + text.size());
 }
 
 }  // namespace
@@ -108,10 +192,11 @@ std::string with_plain_bytes(std::string_view text, const ByteMark& mark) {
 std::optional<std::string> in_plain_hex(std::string_view text) {
   const bool has_signs = std::ranges::any_of(
       kPlainSigns, [&](const PlainSign& each) { return beginning_of(text).find(each.sign) != std::string_view::npos; });
-  const std::string signs = has_signs ? with_plain_signs(text) : std::string();
-  const std::string_view plain = has_signs ? std::string_view(signs) : text;
-  if (const ByteMark* const mark = mark_of(plain)) return with_plain_bytes(plain, *mark);
-  return has_signs ? std::optional(signs) : std::nullopt;
+  std::optional<std::string> plain = has_signs ? std::optional(with_plain_signs(text)) : std::nullopt;
+  const auto so_far = [&] { return plain ? std::string_view(*plain) : text; };
+  if (auto in_hex = without_decimal(so_far())) plain = std::move(in_hex);
+  if (const ByteMark* const mark = mark_of(so_far())) plain = with_plain_bytes(so_far(), *mark);
+  return plain;
 }
 
 }  // namespace s7200::tools

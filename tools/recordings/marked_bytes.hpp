@@ -1,4 +1,5 @@
-// Bytes in a text log that are not plain hex: `02h 03h`, `$02 $03`, `00000010 00000011`, and typographic signs between them.
+// Bytes in a text log that are not plain hex: `02h 03h`, `$02 $03`, `00000010 00000011`, `2 (0x02) 3 (0x03)`, `\x02\x03`,
+// and typographic signs between them.
 #pragma once
 
 #include <optional>

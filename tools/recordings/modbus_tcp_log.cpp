@@ -44,7 +44,8 @@ WholeMessages first_messages(Rows rows) {
   modbus::MbapReader reader;
   for (whole.rows = 1; whole.rows <= std::min(rows.size(), kMostRows); ++whole.rows) {
     const RecordedFrame& row = rows[whole.rows - 1];
-    if (row.direction != rows.front().direction || row.doubt) return {};
+    const bool wrapped = row.direction == Direction::Unknown && !row.at;
+    if ((row.direction != rows.front().direction && !wrapped) || (row.doubt && row.bytes.empty())) return {};
     reader.take(row.bytes);
     while (auto message = reader.next()) whole.messages.push_back(std::move(*message));
     if (!reader.error().empty()) return {};
@@ -94,12 +95,13 @@ bool is_mostly_modbus_tcp(Rows rows) {
   while (!rows.empty()) {
     const RecordedFrame& first = rows.front();
     std::size_t count = 1;
-    if (first.doubt) {
-      const Reading* const reading = reading_of(first);
-      over_tcp += reading != nullptr && !modbus::crc_ok(reading->bytes);
-    } else if (is_message(first.bytes)) {
+    const Reading* const reading = first.doubt ? reading_of(first) : nullptr;
+    const bool is_unknown = first.doubt && first.bytes.empty();
+    if (reading != nullptr) {
+      over_tcp += !modbus::crc_ok(reading->bytes);
+    } else if (!is_unknown && is_message(first.bytes)) {
       over_tcp += !modbus::crc_ok(first.bytes);  // by chance a message may have a CRC
-    } else {
+    } else if (!is_unknown) {
       const WholeMessages whole = first_messages(rows);
       count = whole.rows;
       over_tcp += !whole.messages.empty();  // however many rows it took: those of other protocols may fit by chance

@@ -92,9 +92,26 @@ bool may_hold_frame(const FieldMeaning& meaning) {
   return meaning.holds == Holds::Data || (meaning.holds == Holds::Nothing && meaning.direction != Direction::Unknown);
 }
 
+/// Whether a value may be a number of something as well as bytes: `data=42`, `value: 1234`. A direction beside it says that
+/// it is bytes.
+bool is_figure(const NamedField& field) {
+  constexpr std::size_t kMostDigits = 8;
+  return !field.bytes && !field.quoted && field.value.size() <= kMostDigits &&
+         std::ranges::all_of(field.value, stl::is_digit);
+}
+
 /// The frame in the field `data`, or in `tx` where that is not a count, as in `tx=8`. Nothing if the field holds no frame.
-std::optional<Bytes> frame_in(const NamedField& field, const FieldMeaning& meaning) {
-  return may_hold_frame(meaning) ? bytes_of(field) : std::nullopt;
+/// `said`: the direction that other fields of the record give.
+std::optional<Bytes> frame_in(const NamedField& field, const FieldMeaning& meaning, Direction said) {
+  const bool has_direction = said != Direction::Unknown || meaning.direction != Direction::Unknown;
+  return may_hold_frame(meaning) && (has_direction || !is_figure(field)) ? bytes_of(field) : std::nullopt;
+}
+
+Direction direction_in(const NamedFields& fields) {
+  for (const NamedField& field : fields)
+    if (meaning_of(field.name).holds == Holds::Direction)
+      if (const Direction said = direction_of(words_of_name(field.value)); said != Direction::Unknown) return said;
+  return Direction::Unknown;
 }
 
 /// The text itself, of a field that is called as bytes are.
@@ -126,8 +143,9 @@ std::optional<LeadingTime> time_of(std::string_view text, std::optional<Time> un
 }  // namespace
 
 bool has_frame(const NamedFields& fields) {
-  return std::ranges::any_of(fields,
-                             [](const NamedField& field) { return frame_in(field, meaning_of(field.name)).has_value(); });
+  const Direction said = direction_in(fields);
+  return std::ranges::any_of(
+      fields, [&](const NamedField& field) { return frame_in(field, meaning_of(field.name), said).has_value(); });
 }
 
 bool has_characters(const NamedFields& fields) {
@@ -159,7 +177,7 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const NamedField& field = fields[i];
     const FieldMeaning& meaning = meaning_of(i, field.name);
-    auto bytes = are_characters_ ? characters_in(field, meaning) : frame_in(field, meaning);
+    auto bytes = are_characters_ ? characters_in(field, meaning) : frame_in(field, meaning, said);
     const bool should_hold = meaning.holds == Holds::Data && !field.value.empty();
     has_data |= should_hold;
     if (!bytes) {

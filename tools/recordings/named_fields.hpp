@@ -15,6 +15,7 @@ struct NamedField {
   std::string name{};            ///< with the names around it before it: `tx data`
   std::string value{};           ///< as it is written
   std::optional<Bytes> bytes{};  ///< of a list of numbers
+  bool quoted = false;           ///< a text, which is not a number of something
 };
 using NamedFields = std::vector<NamedField>;
 

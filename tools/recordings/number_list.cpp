@@ -29,8 +29,9 @@ Numbers numbers_at_end(std::string_view line) {
     numbers.texts.push_back(line.substr(begin, end - begin));
     numbers.begin = begin;
     numbers.in_brackets = is_any_of(before, kOpening);
-    if (begin == 0 || !is_any_of(before, kSeparators)) break;
-    end = line.find_last_not_of(kSeparators, begin - 1) + 1;
+    const bool in_own_brackets = begin > 1 && before == '[' && line[begin - 2] == ']';  // `[011][003]`
+    if (begin == 0 || !(is_any_of(before, kSeparators) || in_own_brackets)) break;
+    end = in_own_brackets ? begin - 2 : line.find_last_not_of(kSeparators, begin - 1) + 1;
   }
   std::ranges::reverse(numbers.texts);
   return numbers;
@@ -67,6 +68,8 @@ std::optional<NumberList> number_list_at_end(std::string_view line) {
   const std::string_view word = before.substr(before.find_last_of(" \t") + 1);  // of `-> RX:`, whose arrow is of every line
   const bool names_direction = direction_of(before) != Direction::Unknown || direction_of(word) != Direction::Unknown;
   if (!numbers.in_brackets && !before.empty() && !names_direction) return {};
+  if (is_any_of(word.empty() ? ' ' : word.back(), ",;") && direction_of(word) == Direction::Unknown)
+    return {};  // `$GPRMC,1,2`
   NumberList list{.begin = numbers.begin, .odd = *odd};
   for (const auto& bytes : {in_hex(numbers.texts), in_decimal(numbers.texts)})
     if (bytes) list.readings.push_back({*bytes, false});

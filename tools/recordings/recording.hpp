@@ -31,6 +31,7 @@ struct Doubt {
   std::string why{};                ///< `'7?' beside its bytes is not understood`
   std::string word{};               ///< `7?`, safe to print, as `why` is
   std::vector<Reading> readings{};  ///< the likelier first; none: some of the bytes are lost
+  bool is_text = false;             ///< words stand there, not a damaged frame: a request above it still waits
 };
 
 struct RecordedFrame {

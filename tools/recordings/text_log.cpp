@@ -78,6 +78,58 @@ std::string figure_after_direction(std::string_view line) {
   return is_last && has_digit && figure.find_first_of("=:([") == std::string::npos ? figure : std::string();
 }
 
+/// The time at the beginning of a line, after its number and an arrow.
+std::optional<LeadingTime> time_of_line(std::string_view line) {
+  line.remove_prefix(length_of_index(line));
+  return leading_time(line.substr(leading_direction(line).length));
+}
+
+/// Whether all times have a plus sign. Such a time counts from the row above: `+0.037`.
+bool has_deltas(std::string_view text) {
+  std::size_t times = 0;
+  for (const std::string_view line : Lines(beginning_of(text)))
+    if (const auto time = time_of_line(line)) {
+      if (!time->has_plus) return false;
+      ++times;
+    }
+  return times > 1;
+}
+
+/// The nine digits after the seconds in a head of socat: `> 2025/12/30 14:58:36.000834907  length=8 from=0 to=7`. Empty: it
+/// is none, or has six.
+std::string_view nine_digits_of_socat(std::string_view line) {
+  constexpr std::size_t kDigits = 9;
+  const std::size_t length = line.find(" length="), point = line.substr(0, length).rfind('.');
+  if (length == std::string_view::npos || point == std::string_view::npos) return {};
+  if (line.find(" from=", length) == std::string_view::npos || leading_direction(line).length == 0) return {};
+  const std::string_view digits = stl::trim(line.substr(point + 1, length - point - 1));
+  return digits.size() == kDigits && std::ranges::all_of(digits, stl::is_digit) ? digits : std::string_view();
+}
+
+/// Whether socat wrote microseconds with nine digits, as some versions do: none of the file has more than six that count.
+bool has_padded_microseconds(std::string_view text) {
+  bool any = false;
+  for (const std::string_view line : Lines(beginning_of(text)))
+    if (const std::string_view digits = nine_digits_of_socat(line); !digits.empty()) {
+      if (!digits.starts_with("000")) return false;
+      any = true;
+    }
+  return any;
+}
+
+/// How times of a log are written, as far as one alone does not say it.
+struct TimesOfLog {
+  bool deltas = false;               ///< each counts from the row above
+  bool padded_microseconds = false;  ///< socat's
+};
+
+/// Whether a text has a word: three letters, one of them beyond F. A damaged byte has none.
+bool is_of_words(std::string_view text) {
+  constexpr std::ptrdiff_t kFewestLetters = 3;
+  const auto is_beyond_f = [](char c) { return stl::is_letter(c) && !is_hex_digit(c); };
+  return std::ranges::count_if(text, stl::is_letter) >= kFewestLetters && std::ranges::any_of(text, is_beyond_f);
+}
+
 constexpr std::size_t kFullRow = 16;
 
 struct RecordedCharacter {
@@ -102,7 +154,8 @@ class LogReader {
  public:
   /// `joins`: the rows have a character each, and become frames at once. Room for frames in so many `lines` costs nothing
   /// until it is used, and growing would copy all frames.
-  LogReader(const ReadingChoices& choices, bool joins, std::size_t lines) : joiner_(choices), joins_(joins) {
+  LogReader(const ReadingChoices& choices, bool joins, std::size_t lines, TimesOfLog times)
+      : times_(times), joiner_(choices), joins_(joins) {
     recording_.frames.reserve(lines);
   }
 
@@ -118,8 +171,8 @@ class LogReader {
     line.remove_prefix(length_of_index(line));
     const auto [said, length] = leading_direction(line);
     const auto time = leading_time(line.substr(length));
+    const std::optional<Time> at = time ? std::optional(time_of(*time, line)) : std::nullopt;
     if (time) line.remove_prefix(length + time->length);
-    const std::optional<Time> at = time ? std::optional(days_.since_first_midnight(*time)) : std::nullopt;
     const std::string_view whole = line;
     const bool is_of_dump = !at && (has_offsets_ || is_dump(line));
     const bool may_be_row = is_of_dump || (!at && (heading_ || goes_on_));
@@ -149,18 +202,26 @@ class LogReader {
     drop_heading();
     note(left_out_, "left out", "no bytes in it");
     note(not_understood_, "read without its time", "the form of that is not understood");
+    if (times_.deltas) recording_.notes.emplace_back("its times have a plus sign: each counts from the row above");
     count_from_first(recording_);
     return std::move(recording_);
   }
 
  private:
-  /// A line with a time and no bytes: those of the rows below it.
+  /// A line with a time or a direction and no bytes: those of the rows below it.
   struct Heading {
-    Time at = 0;
+    std::optional<Time> at{};
     Direction direction = Direction::Unknown;
     std::size_t number = 0;
     std::string not_bytes{};  ///< what it says instead of bytes; empty: a remark
   };
+
+  Time time_of(const LeadingTime& read, std::string_view line) {
+    if (times_.deltas) return last_time_ += read.time;
+    const std::string_view digits = times_.padded_microseconds ? nine_digits_of_socat(line) : "";
+    const Time nanoseconds = decimal_number(digits);
+    return days_.since_first_midnight(read) + nanoseconds * kMicrosecond - nanoseconds;
+  }
 
   /// Lines of which the same is to be said.
   struct Lines {
@@ -208,9 +269,10 @@ class LogReader {
   std::size_t bytes_above() const { return goes_on_ || has_offsets_ ? recording_.frames.back().bytes.size() : 0; }
 
   /// Whether a line is a row of hexdump, eight digits, two blanks, and pairs of digits: `00000010  01 03 …`; or the first
-  /// row of a packet as Wireshark writes it: `0000   01 03 …`
+  /// row of a packet as Wireshark writes it: `0000   01 03 …`. PuTTY has blanks before it.
   static bool is_dump(std::string_view line) {
     Scan scan(line);
+    scan.skip(kAllBlanks);
     const std::string_view offset = scan.take_hex(8);
     const bool is_offset = offset.size() == 8 || offset == "0000";
     const bool has_offset = is_offset && scan.skip(kAllBlanks) >= 2;
@@ -272,6 +334,7 @@ class LogReader {
       drop_heading();
       if (!at && has_clock(line.substr(0, found.begin))) not_understood_.add(number_);
       goes_on_ = in_dump_ && found.bytes.size() >= kFullRow;
+      has_offsets_ = in_dump_ && has_offset_;
     }
     const std::size_t bracket = line.find_first_of("[<", found.begin == 0 ? 0 : found.begin - 1);
     if (direction == Direction::Unknown && bracket != std::string_view::npos && bracket <= found.begin)
@@ -318,15 +381,35 @@ class LogReader {
     drop_heading();
     lost_row_ = false;
     if (at)
-      heading_ = {*at, direction, number_, direction == Direction::Unknown ? "" : figure_after_direction(line)};
+      heading_ = {at, direction, number_, direction == Direction::Unknown ? "" : figure_after_direction(line)};
+    else if (const auto time = direction == Direction::Unknown ? std::nullopt : time_at_end(line))
+      heading_ = {days_.since_first_midnight(*time), direction, number_, ""};
+    else if (direction != Direction::Unknown && is_only_direction(line))
+      heading_ = {{}, direction, number_, ""};
     else
       left_out_.add(number_);
   }
 
+  /// The date and time at the end of a heading: `Outgoing raw data at 2021-03-24 14:11:10`
+  static std::optional<LeadingTime> time_at_end(std::string_view line) {
+    for (std::size_t at = line.find(' '); at != std::string_view::npos && at < kLongestHead; at = line.find(' ', at + 1)) {
+      const auto time = leading_time(line.substr(at));
+      if (time && time->of_day && time->length == line.size() - at) return time;
+    }
+    return {};
+  }
+
+  /// Whether a heading has words only: `Incoming packet`, `TX:`
+  static bool is_only_direction(std::string_view line) {
+    constexpr std::size_t kMostWords = 3;
+    return stl::split_words(line).size() <= kMostWords &&
+           std::ranges::none_of(line, [](char c) { return stl::is_digit(c); });
+  }
+
   void drop_heading() {
     if (heading_ && !heading_->not_bytes.empty())
-      recording_.frames.push_back(
-          row_not_read(heading_->number, not_understood(heading_->not_bytes), heading_->at, heading_->direction));
+      recording_.frames.push_back(row_not_read(heading_->number, not_understood(heading_->not_bytes), heading_->at,
+                                               heading_->direction, is_of_words(heading_->not_bytes)));
     else if (heading_)
       left_out_.add(heading_->number);
     heading_.reset();
@@ -339,6 +422,8 @@ class LogReader {
   DayCounter days_;
   std::size_t number_ = 0;
   Lines left_out_, not_understood_;
+  TimesOfLog times_;
+  Time last_time_ = 0;
   CharacterJoiner joiner_;
   bool joins_, has_other_rows_ = false;
   std::optional<Heading> heading_;
@@ -359,8 +444,9 @@ std::optional<LineRecording> read_text_log(std::string_view file, const ReadingC
   const std::string_view bytes = plain ? std::string_view(*plain) : file;
   constexpr std::size_t kShortestRow = 16;  // of most logs
   const auto lines = std::min(static_cast<std::size_t>(std::ranges::count(bytes, '\n')) + 1, bytes.size() / kShortestRow);
+  const TimesOfLog times{.deltas = has_deltas(bytes), .padded_microseconds = has_padded_microseconds(bytes)};
   const auto read = [&](bool joins) -> std::optional<LineRecording> {
-    LogReader reader(choices, joins, joins ? 0 : lines);
+    LogReader reader(choices, joins, joins ? 0 : lines, times);
     for (const std::string_view line : Lines(bytes, choices.stop)) {
       reader.take(line);
       if (joins && reader.has_other_rows()) return {};

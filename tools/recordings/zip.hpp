@@ -18,8 +18,8 @@ class Zip {
 
   bool has(std::string_view name) const { return entries_.find(name) != entries_.end(); }
 
-  /// Hands a file to `tell` piece by piece, until that returns false. Returns false if it did, and false with `why` set if the
-  /// file is damaged, encrypted or compressed in another way.
+  /// Hands a file to `tell` piece by piece, until that returns false. Returns false if it did, and false with `why` set if
+  /// the file is damaged, encrypted or compressed in another way.
   bool read(std::string_view name, const std::function<bool(std::string_view piece)>& tell, std::string& why) const;
 
  private:

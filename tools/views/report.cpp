@@ -9,6 +9,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/rtu_stream.hpp"
 #include "tools/views/broadcast.hpp"
 #include "tools/views/text_frame.hpp"
@@ -115,6 +116,17 @@ std::string missing_crc_note(const std::vector<serial::Frame>& frames) {
     if (modbus::lacks_crc(serial::bytes_of(frame)))
       return fmt::format("{} would be a Modbus request, but it lacks its CRC; --crc appends it",
                          serial::to_hex(serial::bytes_of(frame)));
+  return {};
+}
+
+std::string modbus_tcp_note(const std::vector<serial::Frame>& frames) {
+  constexpr std::size_t kHead = 6;  // transaction, protocol, length: the unit after them is the station on a line
+  for (const serial::Frame& frame : frames) {
+    const Bytes bytes = serial::bytes_of(frame);
+    if (modbus::is_tcp_request(bytes))
+      return fmt::format("{} is a message of Modbus TCP: a line has no head before the station, but a CRC; send --crc '{}'",
+                         serial::to_hex(bytes), serial::to_hex(std::span(bytes).subspan(kHead)));
+  }
   return {};
 }
 

@@ -26,6 +26,9 @@ std::string torn_frame_note(const std::vector<std::string>& frames);
 /// A note for frames without an answer that would be Modbus requests if they had their CRC. Empty if none is such a frame.
 std::string missing_crc_note(const std::vector<serial::Frame>& frames);
 
+/// A note for frames without an answer that are requests of Modbus TCP: the frame to send instead. Empty if none is one.
+std::string modbus_tcp_note(const std::vector<serial::Frame>& frames);
+
 /// Request, answer with its latency, and what the answer says.
 std::string exchange_text(const serial::Exchange& exchange, Time timeout);
 

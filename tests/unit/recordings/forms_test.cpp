@@ -891,5 +891,57 @@ TEST(TextLines, ARecordingOfTextIsRecognised) {
   }
 }
 
+// --- bytes in other notations ---
+
+TEST(OtherNotations, TextLogsHaveThemInManyForms) {
+  const auto log = [](const char* form, std::string_view before, std::string_view between) {
+    std::string text;
+    for (const Bytes* const frame : {&kRequest, &kAnswer}) {
+      text += before;
+      for (const std::uint8_t byte : *frame) text += fmt::format(fmt::runtime(form), byte) + std::string(between);
+      text += '\n';
+    }
+    return text;
+  };
+  const std::vector<std::string> logs{log("{0} (0x{0:02X})", "", " "),     log("{0}(0x{0:02x})", "", " "),
+                                      log("0x{0:02X} ({0})", "", ", "),    log("\\x{0:02X}", "data: ", ""),
+                                      log("B#16#{0:02X}", "", " "),        log("[{0:03}]", "", ""),
+                                      log("\u201C{0:02X}\u201D", "", " "), log("`{0:02X}`", "", " ")};
+  for (const std::string& text : logs) {
+    SCOPED_TRACE(text);
+    expect_the_conversation(recording_of(text), "text", {});
+  }
+}
+
+TEST(OtherNotations, ACharacterInEachRowMayBeInDecimalAndHex) {
+  std::string text;
+  for (const std::uint8_t byte : kRequest) text += fmt::format("TX {0} 0x{0:02X}\n", byte);
+  for (const std::uint8_t byte : kAnswer) text += fmt::format("RX {0} 0x{0:02X}\n", byte);
+  expect_the_conversation(recording_of(text), "text", {});
+}
+
+TEST(OtherNotations, DumpsWithoutCharactersGoOnByTheirOffsets) {
+  expect_the_conversation(
+      recording_of("00000000  01 03 00 0a 00 02 e4 09\n00000008  01 03 04 12 34 56 78 81\n00000010  07\n"), "text", {});
+}
+
+TEST(OtherNotations, PuttysPacketsHaveADirectionAndATimeInTheHeadingAboveThem) {
+  const std::string asked = "  00000000  01 03 00 0a 00 02 e4 09                          ........\n",
+                    said = "  00000000  01 03 04 12 34 56 78 81 07                       ....4Vx..\n";
+  expect_the_conversation(
+      recording_of("=~=~= PuTTY log 2021.03.24 14:11:10 =~=~=\nOutgoing raw data at 2021-03-24 14:11:10\n" + asked +
+                   "Incoming raw data at 2021-03-24 14:11:11\n" + said),
+      "text", kSecond);
+  expect_the_conversation(recording_of("Outgoing packet\n" + asked + "Incoming packet\n" + said), "text", {});
+}
+
+TEST(OtherNotations, MillisecondsSince1970AreTimes) {
+  for (const char separator : {';', ',', ' ', '\t'})
+    expect_the_conversation(
+        recording_of(
+            fmt::format("1616595070123{0}TX{0}0103000a0002e409\n1616595070160{0}RX{0}010304123456788107\n", separator)),
+        "text", 37 * ms);
+}
+
 }  // namespace
 }  // namespace s7200::tools

@@ -1589,7 +1589,7 @@ TEST(Conversation, ALineOfALogThatIsSeveralRightMessagesIsDivided) {
   EXPECT_EQ(texts(frames),
             (std::vector<std::string>{"> station 1, read holding registers 40001, 1 of them", "< 1 register: 16#1234"}));
   EXPECT_EQ(frames[1].frame.place, "line 1");
-  EXPECT_EQ(frames[1].latency, 0) << "the log does not say more";
+  EXPECT_EQ(frames[1].latency, std::nullopt) << "the log does not say when the answer began";
   EXPECT_EQ(read(log, "modbus", {.exact = true}).size(), 1U) << "on the line of a capture there was no silence between them";
 }
 

@@ -4,6 +4,7 @@
 
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/modbus/crc.hpp"
+#include "serial_sim/modbus/request.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/playback.hpp"
 
@@ -49,6 +50,139 @@ std::string summary(const std::vector<ReadFrame>& frames) {
 }
 
 // --- frames in pieces ---
+
+/// The bytes in hex, cut after the bytes whose bit is set in `cuts`.
+std::vector<std::string> cut_at(const Bytes& bytes, unsigned cuts) {
+  std::vector<std::string> pieces{""};
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    pieces.back() += fmt::format("{}{:02x}", pieces.back().empty() ? "" : " ", bytes[i]);
+    if ((cuts >> i & 1U) != 0 && i + 1 < bytes.size()) pieces.emplace_back();
+  }
+  return pieces;
+}
+
+TEST(RowsOfALog, AnAnswerMayBeCutAnywhere) {
+  const Bytes values = modbus::rtu_frame(11, Bytes{3, 4, 0x0B, 0xB8, 0xFF, 0xFE});
+  const Bytes exception = modbus::rtu_frame(11, Bytes{0x83, 2});
+  const Bytes counts = modbus::rtu_frame(1, Bytes{3, 4, 0x02, 0x11, 0x10, 0x03});  // pieces seem to count their bytes
+  for (const Bytes& answer : {values, exception, counts})
+    for (unsigned cuts = 0; cuts < 1U << (answer.size() - 1); ++cuts)
+      for (const bool timed : {true, false}) {
+        const Bytes request = modbus::rtu_frame(answer[0], Bytes{3, 0, 99, 0, 2});
+        const auto pieces = cut_at(answer, cuts);
+        std::string log = fmt::format("{}TX {}\n", timed ? "10:00:00.000 " : "", serial::to_hex(request));
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+          log += fmt::format("{}RX {}\n", timed ? fmt::format("10:00:00.{:03} ", 20 + 9 * i) : "", pieces[i]);
+        const auto frames = read(log);
+        ASSERT_EQ(frames.size(), 2U) << log;
+        EXPECT_EQ(frames[1].frame.bytes, answer) << log;
+        EXPECT_TRUE(frames[1].right) << log;
+        EXPECT_EQ(frames[1].pieces, pieces.size()) << log;
+      }
+}
+
+TEST(RowsOfALog, ALongAnswerMayHaveARowForEachByte) {
+  Bytes pdu{3, 0xFA};
+  for (std::uint8_t i = 0; i < 0xFA; ++i) pdu.push_back(i);
+  const Bytes answer = modbus::rtu_frame(5, pdu);
+  std::string log = "TX " + serial::to_hex(modbus::rtu_frame(5, Bytes{3, 0, 0, 0, 125})) + "\n";
+  for (const std::uint8_t byte : answer) log += fmt::format("RX {:02X}\n", byte);
+  const auto frames = read(log);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].pieces, answer.size());
+  EXPECT_TRUE(frames[1].right);
+}
+
+TEST(RowsOfALog, RowsWithoutTimeAndDirectionGoOnWithTheFrameAboveThem) {
+  Bytes pdu{3, 40};
+  for (std::uint8_t i = 0; i < 40; ++i) pdu.push_back(static_cast<std::uint8_t>(0xC0 + i));
+  const std::string hex = serial::to_hex(modbus::rtu_frame(5, pdu));
+  const std::string request = serial::to_hex(modbus::rtu_frame(5, Bytes{3, 0, 0, 0, 20}));
+  for (const std::string indent : {"", "                 ", "\t"})
+    for (const std::size_t width : {15U, 48U, 72U}) {  // of three characters each
+      std::string log = "14:11:10.000 TX: " + request + "\n14:11:10.040 RX: " + hex.substr(0, width);
+      for (std::size_t at = width; at < hex.size(); at += width) log += '\n' + indent + hex.substr(at, width);
+      const auto frames = read(log + "\n14:11:11.000 TX: " + request + "\n");
+      ASSERT_EQ(frames.size(), 3U) << log;
+      EXPECT_TRUE(frames[1].right) << log;
+      EXPECT_EQ(frames[1].frame.place, "line 2");
+      EXPECT_EQ(frames[2].direction, Direction::Request);
+    }
+}
+
+TEST(RowsOfALog, ARowOfWordsBetweenRequestAndAnswerIsNamedAndTheExchangeIsAnswered) {
+  for (const std::string words : {"$GPGGA,12,34", "$GPRMC,123519,A,1,2,3,4", "!AIVDM,1,1"}) {
+    const auto frames = read("10:00:00.000 [MODBUS] Send: 01 03 00 0a 00 02 e4 09\n10:00:00.100 [GPS] Recv: " + words +
+                             "\n10:00:00.130 [MODBUS] Receive: 01 03 04 12 34 56 78 81 07\n");
+    ASSERT_EQ(frames.size(), 3U) << words;
+    EXPECT_EQ(frames[1].text, "not read: '" + words + "' is not understood");
+    EXPECT_FALSE(frames[1].may_be_answer);
+    EXPECT_EQ(frames[2].text, kSaid);
+    EXPECT_EQ(frames[2].other, 0U);
+  }
+}
+
+TEST(RowsOfALog, ValuesWithNamesAreNotBytes) {
+  for (const std::string line :
+       {"2021-03-24 14:11:10 register 40001 = 1234", "address = 40001, value = 1234", "counter = 12345678", "D100 = 0042",
+        "D100: 0042", "sensor.temp 2024-01-01T10:00:00 21", "10:00:02 error code 0x86", "10:00:00 temperature: 21",
+        "time=10:00:00 level=info temp=21 data=42", "crc = 34BF", "10:00:00 GPS,12,34"})
+    EXPECT_EQ(refusal_of(line + '\n'), "no frame in it; line 1: left out: no bytes in it") << line;
+}
+
+TEST(RowsOfALog, BytesWithNamesAreBytes) {
+  for (const std::string line : {"data = 0103", "10:00:00 tx: 01", "COM3: 21", "10:00:00 rx_data = 0x86", "frame: 12",
+                                 "/dev/ttyUSB0: 12", "hex 0x86"})
+    EXPECT_EQ(recording_of(line + '\n').frames.size(), 1U) << line;
+}
+
+TEST(RowsOfALog, ARequestAndItsAnswerInOneRowHaveNoLatency) {
+  const auto frames = read("10:00:00.040 01 03 00 0a 00 02 e4 09 01 03 04 12 34 56 78 81 07\n");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].other, 0U);
+  EXPECT_EQ(frames[1].latency, std::nullopt);
+  EXPECT_EQ(frames[1].silence, std::nullopt);
+}
+
+TEST(RowsOfALog, TimesWithAPlusSignCountFromTheRowAbove) {
+  for (const char* const form : {"+{}", "[+{}]", "+{} s"}) {
+    std::string log;
+    for (const char* const row : {"0.000 TX 01 03 00 0a 00 02 e4 09", "0.037 RX 01 03 04 12 34 56 78 81 07",
+                                  "0.963 TX 01 03 00 0a 00 02 e4 09", "0.040 RX 01 03 04 12 34 56 78 81 07"}) {
+      const std::string_view text = row;
+      log += fmt::format(fmt::runtime(form), text.substr(0, 5)) + std::string(text.substr(5)) + '\n';
+    }
+    const auto recording = recording_of(log);
+    ASSERT_EQ(recording.frames.size(), 4U) << log;
+    EXPECT_EQ(recording.frames[2].at, kSecond) << log;
+    EXPECT_EQ(recording.frames[3].at, 1'040 * kMillisecond) << log;
+    EXPECT_EQ(recording.notes, std::vector<std::string>{"its times have a plus sign: each counts from the row above"});
+  }
+}
+
+TEST(RowsOfALog, MicrosecondsThatSocatPadsToNineDigitsAreMicroseconds) {
+  const std::string asked = "  length=8 from=0 to=7\n 01 03 00 0a 00 02 e4 09\n",
+                    said = "  length=9 from=0 to=8\n 01 03 04 12 34 56 78 81 07\n";
+  const auto padded = recording_of("> 2025/12/30 14:58:36.000834907" + asked + "< 2025/12/30 14:58:37.000012001" + said);
+  ASSERT_EQ(padded.frames.size(), 2U);
+  EXPECT_EQ(padded.frames[1].at, 177'094 * kMicrosecond);
+  const auto exact = recording_of("> 2025/12/30 14:58:36.500834907" + asked + "< 2025/12/30 14:58:36.600012001" + said);
+  EXPECT_EQ(exact.frames.at(1).at, 99'177'094) << "nanoseconds";
+}
+
+TEST(ModbusTcpInALog, AnAnswerThatIsNotToTheRequestAboveItNamesItsOwn) {
+  const auto frames = read(
+      "10:00:00.000 TX 00 05 00 00 00 06 01 03 00 0A 00 01\n10:00:00.002 TX 00 06 00 00 00 06 01 03 00 14 00 01\n"
+      "10:00:00.020 RX 00 06 00 00 00 05 01 03 02 00 20\n10:00:00.030 RX 00 05 00 00 00 05 01 03 02 00 10\n");
+  ASSERT_EQ(frames.size(), 4U);
+  EXPECT_EQ(frames[2].other, 1U);
+  EXPECT_EQ(frames[3].other, 0U);
+  EXPECT_NE(decoded_text(frames[3], false, false).find("16#0010; the answer to line 1"), std::string::npos);
+  EXPECT_EQ(decoded_text(frames[2], false, false).find("the answer to"), std::string::npos);
+  EXPECT_EQ(decoded_json(frames[2])["request"], "line 2");
+  EXPECT_EQ(decoded_json(frames[3])["request"], "line 1");
+  EXPECT_TRUE(decoded_json(frames[0])["request"].is_null());
+}
 
 TEST(RowsOfALog, AnAnswerInSeveralRowsIsOneWhateverLiesBetweenThem) {
   for (const char* const log :

@@ -68,7 +68,9 @@ TEST(Zip, ReadingEndsWhenNoMoreIsWanted) {
   const std::string bytes = archive();
   std::string why;
   std::size_t pieces = 0;
-  EXPECT_FALSE(Zip::open(bytes, why)->read("b.txt", [&](std::string_view) { return ++pieces < 1; }, why));
+  EXPECT_FALSE(Zip::open(bytes, why)
+                   ->read(
+                       "b.txt", [&](std::string_view) { return ++pieces < 1; }, why));
   EXPECT_EQ(pieces, 1U);
   EXPECT_EQ(why, "");
 }
