@@ -2503,7 +2503,7 @@ class JsonPage(Case):
                     ["calibrate", MEASURE, "--each", "1s"], ["decode", LOG], ["import-capture", LOG],
                     ["send", SLAVE, "--crc", "0103000a0001", "--times-band", "2"], ["master", SLAVE, "read", "40001", "--times-band", "2"],
                     ["send", stopped, "01", "--times-band", "2"], ["master", stopped, "read", "40001", "--times-band", "2"],
-                    ["test", good, "--times-band", "2"], ["test", good, "--coverage"], ["run", SLAVE, "--coverage"], ["run", waits, "--profile"], ["test", good, "--mutants"], ["bench", "--each", "1ms"],
+                    ["test", good, "--times-band", "2"], ["test", good, "--coverage"], ["run", SLAVE, "--coverage"], ["run", waits, "--profile"], ["test", good, "--profile"], ["test", good, "--mutants"], ["bench", "--each", "1ms"],
                     ["test", good, bad, gap], ["test", good, "--against", SLAVE], ["test", "--conformance", slave, "--only", "SL-crc"],
                     ["test", good, "--list"], ["run", self.system(), "--for", "50ms"],
                     ["send", self.alone(), "0103000a0001", "--timeline"], ["master", self.alone(), "read", "40001"])

@@ -112,7 +112,7 @@ class Case(unittest.TestCase):
 
     # Files about a result, which tests/command_line has, and this file does not: they are written once, at the end.
     RESULTS = {"compare": {"--write"}, "run": {"--coverage-html", "--coverage-lcov", "--profile-folded"},
-               "test": {"--coverage-html", "--coverage-lcov"}}
+               "test": {"--coverage-html", "--coverage-lcov", "--profile-folded"}}
 
     def command(self, verb, out=None):
         """A command of each verb that does something; with all its files, if `out` is a folder for them."""

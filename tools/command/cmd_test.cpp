@@ -53,11 +53,12 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
   const auto result = suite.run(watcher, messages);
   if (!result) return nothing_run(messages, options, to.junit);
   print_messages(messages);
-  output.end(*result, options.coverage);
+  output.end(*result, options.coverage, options.profile);
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
   bool all_written = write_reports(options, to.junit, result->reports);
   all_written &= !options.coverage.wanted() || options.coverage.show(result->coverage, options.json);
+  all_written &= show_profile(options, *result);
   if (to.record) all_written &= growing->any() ? growing->complete() : write_transcript(*to.record, options, *result);
   print_interruption();
   if (!result->unreachable.empty()) print_error(result->unreachable);

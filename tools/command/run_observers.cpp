@@ -8,29 +8,25 @@
 namespace s7200::tools {
 
 RunObservers::RunObservers(Rig& rig, const RunOptions& options) {
-  const Observed observed{.coverage = options.coverage.wanted()};
+  const Observed observed{.coverage = options.coverage.wanted(), .profile = options.profile.wanted()};
   for (std::size_t plc = 0; plc < rig.plan().plcs.size(); ++plc) {
-    PlcObservers& observers = observers_.emplace_back(rig.plan().plcs[plc].program, observed);
+    const PlcPlan& plan = rig.plan().plcs[plc];
+    const std::string name = is_of_one_program(rig.plan()) ? "" : plan.name;
+    PlcObservers& observers = observed_.emplace_back(name, PlcObservers(plan.program, observed)).observers;
     observers.add_to(rig.sinks(plc));
     observers.begin(rig.plc(plc).cpu());
-    if (!options.profile.wanted()) continue;
-    const PlcPlan& plan = rig.plan().plcs[plc];
-    ProfileSink& profile =
-        profiles_.emplace_back(Profiled{is_of_one_program(rig.plan()) ? "" : plan.name, ProfileSink(plan.program)}).sink;
-    rig.sinks(plc).add(&profile);
-    profile.begin(rig.plc(plc).cpu());
   }
 }
 
 CoverageOfPrograms RunObservers::coverage() const {
   CoverageOfPrograms coverage;
-  for (const PlcObservers& each : observers_) each.report(coverage);
+  for (const ObservedPlc& each : observed_) each.observers.report(coverage);
   return coverage;
 }
 
 ProfileOfPrograms RunObservers::profile() const {
   ProfileOfPrograms all;
-  for (const Profiled& each : profiles_) all.add(each.sink.profile(), each.plc);
+  for (const ObservedPlc& each : observed_) each.observers.report(all, each.plc);
   return all;
 }
 

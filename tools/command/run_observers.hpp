@@ -27,12 +27,11 @@ class RunObservers {
   CoverageOfPrograms coverage() const;
   ProfileOfPrograms profile() const;
 
-  std::list<PlcObservers> observers_;  // by PLC, as the profiles
-  struct Profiled {
+  struct ObservedPlc {
     std::string plc;  // its name; empty of the only one
-    ProfileSink sink;
+    PlcObservers observers;
   };
-  std::list<Profiled> profiles_;  // empty: none is wanted
+  std::list<ObservedPlc> observed_;
 };
 
 }  // namespace s7200::tools

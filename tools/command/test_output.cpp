@@ -72,12 +72,13 @@ void TestOutput::show(const Compared& compared) {
              compared.difference.text);
 }
 
-void TestOutput::end(const SuiteResult& result, const CoverageOptions& coverage) {
+void TestOutput::end(const SuiteResult& result, const CoverageOptions& coverage, const ProfileOptions& profile) {
   clear_progress();
   if (streamed_) {
     auto rest = counts_json(result.reports);
     rest["not_run"] = result.not_run;
     coverage.add_to(rest, result.coverage);
+    profile.add_to(rest, result.profile);
     const auto outcome = result.reports.empty() ? nlohmann::ordered_json::object() : outcome_json(result.reports.front());
     fmt::print("{}{}", streamed_->scenario.end(outcome), streamed_->results.end(rest));
   } else if (json_) {
@@ -85,6 +86,7 @@ void TestOutput::end(const SuiteResult& result, const CoverageOptions& coverage)
     results.update(to_json(result.reports));
     results["not_run"] = result.not_run;
     coverage.add_to(results, result.coverage);
+    profile.add_to(results, result.profile);
     fmt::print("{}", lines_of(results));
   } else if (conformance_) {
     print_report(conformance_text(result.reports, result.tested, colour_wanted(stdout)));

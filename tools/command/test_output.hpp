@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/command/options/coverage_options.hpp"
+#include "tools/command/options/profile_options.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/scenario/suite.hpp"
 #include "tools/views/streamed_results.hpp"
@@ -26,8 +27,8 @@ class TestOutput {
   void show(const Scenario& scenario, const Seen& seen);
   void show(const Compared& compared);
 
-  /// `coverage`: what is to be said of it with --json.
-  void end(const SuiteResult& result, const CoverageOptions& coverage = {});
+  /// `coverage`, `profile`: what is to be said of them with --json.
+  void end(const SuiteResult& result, const CoverageOptions& coverage = {}, const ProfileOptions& profile = {});
   void end(const ComparisonResult& result);
 
  private:

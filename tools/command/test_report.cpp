@@ -61,4 +61,11 @@ bool write_reports(const TestOptions& options, const std::optional<Destination>&
   return options.report.write("test", reported_runs(reports)) && junit_written;
 }
 
+bool show_profile(const TestOptions& options, const SuiteResult& result) {
+  if (!options.profile.wanted()) return true;
+  std::vector<ProfiledRun> runs;
+  for (const Report& report : result.reports) runs.push_back({report.scenario->name, &report.result.profile});
+  return options.profile.show(result.profile, options.json, runs);
+}
+
 }  // namespace s7200::tools

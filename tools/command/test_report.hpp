@@ -1,4 +1,4 @@
-// How scenarios went, for --report.
+// How scenarios went, and where their time did, for what the options of reports ask for.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 
 #include "tools/command/options/test_options.hpp"
 #include "tools/scenario/report.hpp"
+#include "tools/scenario/suite.hpp"
 
 namespace s7200::tools {
 
@@ -14,5 +15,8 @@ std::vector<ReportedRun> reported_runs(const std::vector<Report>& reports);
 
 /// Writes the report and the JUnit file that are wanted; that leads to the report. False after a message.
 bool write_reports(const TestOptions& options, const std::optional<Destination>& junit, const std::vector<Report>& reports);
+
+/// Prints and writes the profile that is wanted. False after a message.
+bool show_profile(const TestOptions& options, const SuiteResult& result);
 
 }  // namespace s7200::tools

@@ -6,12 +6,13 @@
 
 #include "interpreter/trace/fan_out.hpp"
 #include "tools/coverage/coverage_report.hpp"
+#include "tools/coverage/profile_report.hpp"
 
 namespace s7200::tools {
 
 /// What is to be observed of each PLC. Nothing of it changes what the program does.
 struct Observed {
-  bool coverage = false;
+  bool coverage = false, profile = false;
 };
 
 /// The observers of one PLC, over all its power-ups.
@@ -26,9 +27,12 @@ class PlcObservers {
 
   /// Adds what was tried so far.
   void report(CoverageOfPrograms& coverage) const;
+  /// Adds where time went so far.
+  void report(ProfileOfPrograms& profile, const std::string& plc) const;
 
  private:
   std::optional<CoverageSink> coverage_;
+  std::optional<ProfileSink> profile_;
 };
 
 }  // namespace s7200::tools

@@ -27,6 +27,38 @@ Time Durations::within(double share) const {
   return 0;
 }
 
+namespace {
+
+/// The least of 1, 2 or 5 times a power of ten that is no less.
+Time round_up(Time time) {
+  Time power = 1;
+  while (power * 10 <= time) power *= 10;
+  for (const Time factor : {1, 2, 5})
+    if (power * factor >= time) return power * factor;
+  return power * 10;
+}
+
+/// Where the bin ends that begins at a round time.
+Time next_round(Time time) { return round_up(time + 1); }
+
+}  // namespace
+
+std::vector<Durations::Bin> Durations::histogram() const {
+  constexpr Time kBins = 10, kNear = 4;
+  std::vector<Bin> bins;
+  const bool near = most() < kNear * least();
+  const Time width = near ? round_up(std::max<Time>(1, (most() - least()) / kBins)) : 0;
+  for (const auto& [duration, times] : counts_) {
+    if (bins.empty() || duration >= bins.back().to) {
+      Time from = near ? duration / width * width : 0, to = near ? from + width : 1;
+      while (!near && to <= duration) from = std::exchange(to, next_round(to));
+      bins.push_back({from, to, 0});
+    }
+    bins.back().count += times;
+  }
+  return bins;
+}
+
 std::vector<Time> Profile::by_op() const {
   std::vector<Time> all(executed.size());
   for (const auto& [stack, of_stack] : stacks)
@@ -41,6 +73,11 @@ Time Profile::entries() const {
 
 namespace {
 
+ProfileOrigin origin_of(const ProfileOrigin& known, ProfileOrigin run) {
+  if (run.plc.empty()) run.plc = known.plc;
+  return run;
+}
+
 void add_times(std::vector<Time>& to, const std::vector<Time>& from) {
   to.resize(std::max(to.size(), from.size()));
   for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
@@ -48,7 +85,7 @@ void add_times(std::vector<Time>& to, const std::vector<Time>& from) {
 
 }  // namespace
 
-void Profile::add(const Profile& other, const std::string& where) {
+void Profile::add(const Profile& other, const ProfileOrigin& origin) {
   total += other.total;
   system += other.system;
   for (const auto& [stack, of_stack] : other.stacks) {
@@ -61,7 +98,7 @@ void Profile::add(const Profile& other, const std::string& where) {
   scans.add(other.scans);
   if (other.worst_scan && (!worst_scan || other.worst_scan->length > worst_scan->length)) {
     worst_scan = other.worst_scan;
-    worst_scan->where = where;
+    worst_scan->in = origin_of(other.worst_scan->in, origin);
   }
   for (const auto& [event, seen] : other.events) {
     ProfiledEvent& own = events[event];
@@ -70,7 +107,7 @@ void Profile::add(const Profile& other, const std::string& where) {
     own.latency.add(seen.latency);
     if (seen.worst.waited <= own.worst.waited) continue;
     own.worst = seen.worst;
-    own.worst.where = where;
+    own.worst.in = origin_of(seen.worst.in, origin);
   }
 }
 
@@ -154,7 +191,7 @@ void ProfileSink::begin_service(const TraceRecord& record) {
   const Time waited = record.at - record.since;
   event.routine = record.routine;
   event.latency.add(waited);
-  if (waited > event.worst.waited) event.worst = {record.at, waited, reasons_.of(record), ""};
+  if (waited > event.worst.waited) event.worst = {record.at, waited, reasons_.of(record), {}};
 }
 
 void ProfileSink::record(const TraceRecord& record) {

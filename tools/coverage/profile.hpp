@@ -32,8 +32,25 @@ class Durations {
   /// The shortest duration that at least this share (0 to 1) of all do not exceed; 0 if there is none.
   Time within(double share) const;
 
+  /// Durations from `from` to before `to`.
+  struct Bin {
+    Time from = 0, to = 0;
+    std::uint64_t count = 0;
+    bool operator==(const Bin&) const = default;
+  };
+  /// The bins that are not empty, ascending: of 1, 2 or 5 times a power of ten, so that there are about ten of the same
+  /// width if the durations are near each other, and three a decade if they are not.
+  std::vector<Bin> histogram() const;
+
  private:
   std::map<Time, std::uint64_t> counts_;
+};
+
+/// The run that something was seen in.
+struct ProfileOrigin {
+  std::string plc{};       ///< empty in a run of one program
+  std::string scenario{};  ///< empty of a run that is none
+  std::string debug{};     ///< the command of the shell that opens it in the debugger; empty of a run that is no scenario
 };
 
 /// A scan, and where its time went.
@@ -42,14 +59,14 @@ struct ProfiledScan {
   Time begin = 0, length = 0;
   std::vector<Time> routines{};  ///< in ControlFlow::routines: their time in it, with that of interrupts
   std::uint64_t interrupts = 0;
-  std::string where{};  ///< the PLC; empty in a run of one program
+  ProfileOrigin in{};
 };
 
 /// The time that an interrupt waited, and why.
 struct ProfiledWait {
   Time at = 0, waited = 0;  ///< when it was served
   std::string why{};        ///< what it waited for, in words
-  std::string where{};      ///< as in ProfiledScan
+  ProfileOrigin in{};
 };
 
 /// The services of an event.
@@ -80,8 +97,8 @@ struct Profile {
   std::vector<Time> by_op() const;
   /// The time to enter interrupt routines.
   Time entries() const;
-  /// Adds another run of the same program, which is called `where`.
-  void add(const Profile& other, const std::string& where);
+  /// Adds another run of the same program. PLCs that it names itself keep their names.
+  void add(const Profile& other, const ProfileOrigin& origin);
 };
 
 /// Watches one CPU with this program over any number of power-ups. Every scan is run.

@@ -18,7 +18,8 @@ namespace {
 
 using Align = TextTable::Align;
 
-constexpr std::size_t kMostRows = 12;  // of networks and of instructions
+constexpr std::size_t kMostRows = 12;    // of networks and of instructions
+constexpr std::size_t kLongestBar = 40;  // of a histogram
 
 double percent_of(Time part, Time all) { return all == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(all); }
 
@@ -41,6 +42,16 @@ class NamedProfile {
   explicit NamedProfile(const Profile& profile)
       : profile_(profile), inspection_(profile.program), networks_(*profile.program), by_op_(profile.by_op()) {}
 
+  nlohmann::ordered_json summary_json() const {
+    nlohmann::ordered_json json{{"program", coverage_name(*profile_.program)},
+                                {"cpu", profile_.program->model->name},
+                                {"time_ns", profile_.total},
+                                {"system_ns", profile_.system},
+                                {"interrupt_entries_ns", profile_.entries()}};
+    add_scans_and_events(json);
+    return json;
+  }
+
   std::string text() const { return heading() + "\n" + routines() + "\n" + places() + scans_text() + events_text(); }
 
   nlohmann::ordered_json json() const {
@@ -49,8 +60,7 @@ class NamedProfile {
                                 {"time_ns", profile_.total},
                                 {"system_ns", profile_.system},
                                 {"interrupt_entries_ns", profile_.entries()}};
-    for (const char* const list : {"routines", "networks", "instructions", "events"})
-      json[list] = nlohmann::ordered_json::array();
+    for (const char* const list : {"routines", "networks", "instructions"}) json[list] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < flow().routines.size(); ++i)
       json["routines"].push_back({{"routine", routine_text(flow().routines[i])}, {"time_ns", time_of_routine(i)}});
     for (const TimeRow& row : networks()) json["networks"].push_back(row_json(row));
@@ -58,18 +68,7 @@ class NamedProfile {
       json["instructions"].push_back(row_json(row));
       json["instructions"].back()["executed"] = profile_.executed[row.op];
     }
-    json["scans"] = durations_json(profile_.scans);
-    json["worst_scan"] = scan_json();
-    for (const auto& [number, event] : profile_.events)
-      json["events"].push_back({{"event", number},
-                                {"routine", event.routine},
-                                {"service", durations_json(event.service)},
-                                {"latency", durations_json(event.latency)},
-                                {"worst_latency",
-                                 {{"at_ns", event.worst.at},
-                                  {"waited_ns", event.worst.waited},
-                                  {"why", without_colon(event.worst.why)},
-                                  {"plc", event.worst.where}}}});
+    add_scans_and_events(json);
     return json;
   }
 
@@ -92,6 +91,35 @@ class NamedProfile {
 
  private:
   const ControlFlow& flow() const { return inspection_.facts.flow; }
+
+  void add_scans_and_events(nlohmann::ordered_json& json) const {
+    json["scans"] = durations_json(profile_.scans);
+    json["worst_scan"] = scan_json();
+    json["events"] = nlohmann::ordered_json::array();
+    for (const auto& [number, event] : profile_.events) {
+      nlohmann::ordered_json worst{
+          {"at_ns", event.worst.at}, {"waited_ns", event.worst.waited}, {"why", without_colon(event.worst.why)}};
+      add_origin(worst, event.worst.in, event.worst.at);
+      json["events"].push_back({{"event", number},
+                                {"routine", event.routine},
+                                {"service", durations_json(event.service)},
+                                {"latency", durations_json(event.latency)},
+                                {"worst_latency", std::move(worst)}});
+    }
+  }
+
+  static void add_origin(nlohmann::ordered_json& json, const ProfileOrigin& in, Time at) {
+    json["plc"] = in.plc;
+    if (in.debug.empty()) return;
+    json["scenario"] = in.scenario;
+    json["debug"] = debug_text(in, at);
+  }
+
+  /// The moment is given to the nanosecond.
+  static std::string debug_text(const ProfileOrigin& in, Time at) {
+    const std::string station = in.plc.empty() ? "" : fmt::format("station {}; ", stl::printable(in.plc));
+    return fmt::format("{} -x '{}at {}ns'", in.debug, station, at);
+  }
 
   std::string heading() const {
     return fmt::format("profile of {}, CPU {}: {} simulated\n", stl::printable(coverage_name(*profile_.program)),
@@ -157,19 +185,46 @@ class NamedProfile {
                        format_duration(durations.within(0.5)), format_duration(durations.within(0.99)));
   }
 
-  static std::string moment(Time at, const std::string& where) {
-    return format_duration(at, 6) + (where.empty() ? "" : fmt::format(" of {}", stl::printable(where)));
+  static std::string moment(Time at, const ProfileOrigin& in) {
+    const std::string plc = in.plc.empty() ? "" : fmt::format(" of {}", stl::printable(in.plc));
+    const std::string scenario = in.scenario.empty() ? "" : fmt::format(" in '{}'", stl::printable(in.scenario));
+    return format_duration(at, 6) + plc + scenario;
+  }
+
+  /// Where it can be looked at: the command of the shell, and that of the debugger.
+  static std::string debug_line(const ProfileOrigin& in, Time at) {
+    if (in.debug.empty()) return {};
+    const std::string station = in.plc.empty() ? "" : fmt::format("station {}; ", stl::printable(in.plc));
+    return "    " + wrapped_at(fmt::format("look: {}", stl::printable(in.debug)), 6, 4) +
+           fmt::format("\n      {}at {}ns\n", station, at);
+  }
+
+  /// A line for each bin; nothing if all durations are the same.
+  static std::string histogram(const Durations& durations) {
+    if (durations.least() == durations.most()) return {};
+    const auto bins = durations.histogram();
+    std::uint64_t most = 0;
+    for (const Durations::Bin& bin : bins) most = std::max(most, bin.count);
+    std::string text;
+    for (const Durations::Bin& bin : bins) {
+      const auto length =
+          static_cast<std::size_t>(1 + static_cast<double>(bin.count) * (kLongestBar - 1) / static_cast<double>(most));
+      text += fmt::format("    {:>10} to {:>10}  {:<{}}  {}\n", format_duration(bin.from), format_duration(bin.to),
+                          std::string(length, '#'), kLongestBar, bin.count);
+    }
+    return text;
   }
 
   std::string scans_text() const {
     if (profile_.scans.empty()) return "no scan has ended\n";
     std::string text = fmt::format("{}\n  {}\n", counted(profile_.scans.count(), "scan"), spread(profile_.scans));
+    text += histogram(profile_.scans);
     const ProfiledScan& worst = *profile_.worst_scan;
     text += "  " +
             wrapped_at(fmt::format("worst: {}, scan {} from {}: {}", format_duration(worst.length), worst.number,
-                                   moment(worst.begin, worst.where), shares_of(worst)),
+                                   moment(worst.begin, worst.in), shares_of(worst)),
                        4, 2) +
-            "\n";
+            "\n" + debug_line(worst.in, worst.begin);
     return text;
   }
 
@@ -193,16 +248,15 @@ class NamedProfile {
     std::string text;
     for (const auto& [number, event] : profile_.events) {
       text += fmt::format("event {}, INT_{}: {}\n", number, event.routine, counted(event.latency.count(), "time"));
-      if (!event.service.empty()) text += "  takes  " + spread(event.service) + "\n";
-      text += "  waits  " + spread(event.latency) + "\n";
+      if (!event.service.empty()) text += "  takes  " + spread(event.service) + "\n" + histogram(event.service);
+      text += "  waits  " + spread(event.latency) + "\n" + histogram(event.latency);
       if (event.worst.waited == 0) continue;
       const std::string why = without_colon(event.worst.why);
-      text +=
-          "  " +
-          wrapped_at(stl::printable(fmt::format("worst: {} at {}{}{}", format_duration(event.worst.waited),
-                                                moment(event.worst.at, event.worst.where), why.empty() ? "" : ": ", why)),
-                     4, 2) +
-          "\n";
+      text += "  " +
+              wrapped_at(stl::printable(fmt::format("worst: {} at {}{}{}", format_duration(event.worst.waited),
+                                                    moment(event.worst.at, event.worst.in), why.empty() ? "" : ": ", why)),
+                         4, 2) +
+              "\n" + debug_line(event.worst.in, event.worst.at);
     }
     return text;
   }
@@ -214,20 +268,25 @@ class NamedProfile {
   }
 
   static nlohmann::ordered_json durations_json(const Durations& durations) {
+    nlohmann::ordered_json bins = nlohmann::ordered_json::array();
+    for (const Durations::Bin& bin : durations.histogram())
+      bins.push_back({{"from_ns", bin.from}, {"to_ns", bin.to}, {"count", bin.count}});
     return {{"count", durations.count()},
             {"least_ns", durations.least()},
             {"most_ns", durations.most()},
             {"mean_ns", durations.mean()},
             {"half_within_ns", durations.within(0.5)},
-            {"99_percent_within_ns", durations.within(0.99)}};
+            {"99_percent_within_ns", durations.within(0.99)},
+            {"histogram", std::move(bins)}};
   }
 
   nlohmann::ordered_json scan_json() const {
     if (!profile_.worst_scan) return nullptr;
     const ProfiledScan& scan = *profile_.worst_scan;
-    nlohmann::ordered_json json{{"number", scan.number},  {"at_ns", scan.begin},
-                                {"time_ns", scan.length}, {"interrupts", scan.interrupts},
-                                {"plc", scan.where},      {"routines", nlohmann::ordered_json::array()}};
+    nlohmann::ordered_json json{
+        {"number", scan.number}, {"at_ns", scan.begin}, {"time_ns", scan.length}, {"interrupts", scan.interrupts}};
+    add_origin(json, scan.in, scan.begin);
+    json["routines"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < scan.routines.size(); ++i)
       if (scan.routines[i] > 0)
         json["routines"].push_back({{"routine", routine_text(flow().routines[i])}, {"time_ns", scan.routines[i]}});
@@ -250,16 +309,38 @@ class NamedProfile {
 
 }  // namespace
 
-void ProfileOfPrograms::add(const Profile& profile, const std::string& where) {
+void ProfileOfPrograms::add(const ProfileOfPrograms& other, const ProfileOrigin& origin) {
+  for (const Profile& each : other.programs_) add(each, origin);
+}
+
+void ProfileOfPrograms::add(const Profile& profile, const ProfileOrigin& origin) {
   for (Profile& known : programs_)
-    if (is_same_program(*known.program, *profile.program)) return known.add(profile, where);
+    if (is_same_program(*known.program, *profile.program)) return known.add(profile, origin);
   programs_.push_back({.program = profile.program});
-  programs_.back().add(profile, where);
+  programs_.back().add(profile, origin);
 }
 
 std::string profile_text(const Profile& profile) { return NamedProfile(profile).text(); }
 
 nlohmann::ordered_json profile_json(const Profile& profile) { return NamedProfile(profile).json(); }
+
+nlohmann::ordered_json profile_summary_json(const Profile& profile) { return NamedProfile(profile).summary_json(); }
+
+std::string profile_by_run_text(const std::vector<ProfiledRun>& runs) {
+  TextTable table({{"time", Align::Right},
+                   {"scans", Align::Right},
+                   {"longest scan", Align::Right},
+                   {"longest wait", Align::Right},
+                   {"scenario"}});
+  for (const ProfiledRun& run : runs)
+    for (const Profile& profile : run.profile->programs()) {
+      Time waited = 0;
+      for (const auto& [event, seen] : profile.events) waited = std::max(waited, seen.worst.waited);
+      table.add({format_duration(profile.total), fmt::format("{}", profile.scans.count()),
+                 format_duration(profile.scans.most()), format_duration(waited), stl::printable(run.name)});
+    }
+  return table.text(100);
+}
 
 std::string profile_folded(const ProfileOfPrograms& profile) {
   std::string text;

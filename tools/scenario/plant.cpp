@@ -193,6 +193,14 @@ std::string Plant::of_plc(const std::string& what) const {
   return is_of_one_program(plan_) ? what : fmt::format("{} of {}", what, name_of(plc_number()));
 }
 
+void Plant::report(CoverageOfPrograms& coverage, ProfileOfPrograms& profile) const {
+  for (std::size_t plc = 0; plc < watches_.size(); ++plc) {
+    const std::string name = is_of_one_program(plan_) ? "" : plan_.plcs[plc].name;
+    watches_[plc]->observers.report(coverage);
+    watches_[plc]->observers.report(profile, name);
+  }
+}
+
 bool Plant::is_in_stop(std::size_t plc) const { return is_powered(plc) && cpu_of(plc).state().mode == Mode::Stop; }
 
 std::string Plant::why_stopped(std::size_t plc) const {

@@ -122,10 +122,8 @@ class Plant {
   std::string why_stopped() { return why_stopped(plc_number()); }
   std::string why_stopped(std::size_t plc) const;
 
-  /// Adds what was tried of its programs so far, if that is observed.
-  void report(CoverageOfPrograms& coverage) const {
-    for (const auto& watch : watches_) watch->observers.report(coverage);
-  }
+  /// Adds what was tried of its programs so far, and where their time went, if that is observed.
+  void report(CoverageOfPrograms& coverage, ProfileOfPrograms& profile) const;
 
   std::size_t plcs() const { return watches_.size(); }
   std::size_t plc_number() const { return spots_[here_].plc; }

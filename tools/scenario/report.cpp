@@ -173,8 +173,10 @@ std::string findings_text(const Report& report, bool colour, std::size_t most, s
 }
 
 std::string debug_command(const Report& report) {
-  const Scenario& scenario = *report.scenario;
-  if (report.result.recordings.empty()) return {};
+  return report.result.recordings.empty() ? "" : opening_command(*report.scenario);
+}
+
+std::string opening_command(const Scenario& scenario) {
   const std::string target = scenario.program_given ? fmt::format(" --target {}", quoted_for_shell(scenario.program)) : "";
   return fmt::format("s7200 debug {} --only {}{}", quoted_for_shell(scenario.source->name), quoted_for_shell(scenario.name),
                      target);

@@ -47,6 +47,9 @@ std::string findings_text(const Report& report, bool colour, std::size_t most, s
 /// cannot be opened: it is not about one program in simulation.
 std::string debug_command(const Report& report);
 
+/// The same of a scenario, whatever became of it.
+std::string opening_command(const Scenario& scenario);
+
 /// What was sent, what was expected, what was found, in one line.
 std::string finding_line(const Scenario& scenario, const Finding& finding);
 

@@ -69,6 +69,7 @@ nlohmann::ordered_json outcome_json(const Report& report) {
     of_program.update(figures_json(figures_of(*each.map, each.tried)));
     json["coverage"].push_back(std::move(of_program));
   }
+  for (const Profile& each : report.result.profile.programs()) json["profile"].push_back(profile_summary_json(each));
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : report.result.findings) json["findings"].push_back(finding_json(scenario, finding));
   if (const std::string command = debug_command(report); !command.empty()) json["debug"] = command;

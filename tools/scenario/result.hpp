@@ -8,6 +8,7 @@
 
 #include "serial_sim/peers/requester.hpp"
 #include "tools/coverage/coverage_report.hpp"
+#include "tools/coverage/profile_report.hpp"
 #include "tools/measuring/band.hpp"
 #include "tools/scenario/text.hpp"
 #include "tools/session/past/history.hpp"
@@ -71,13 +72,14 @@ struct ScenarioResult {
   std::string reason{};             ///< of Skipped and of ExpectedFailure
   std::vector<Finding> findings{};  ///< in the order of the steps
   std::vector<Seen> seen{};
-  std::size_t checks = 0;               ///< steps that expected something and were judged
-  std::size_t skipped_steps = 0;        ///< that look inside, or cannot go this way, on a slave that is not a program
-  Time time = 0;                        ///< on the slave's clock
-  std::vector<Recording> recordings{};  ///< of one that failed on a program in simulation: to run it again, by power-up
+  std::size_t checks = 0;                    ///< steps that expected something and were judged
+  std::size_t skipped_steps = 0;             ///< that look inside, or cannot go this way, on a slave that is not a program
+  Time time = 0;                             ///< on the slave's clock
+  std::vector<Recording> recordings{};       ///< of one that failed on a program in simulation: to run it again, by power-up
   std::shared_ptr<const Program> program{};  ///< of those, that ran it; null of a system
   double host_seconds = 0;
   CoverageOfPrograms coverage{};     ///< if it was observed; of an interrupted scenario up to then
+  ProfileOfPrograms profile{};       ///< the same
   std::optional<BandResult> band{};  ///< all else is of the first table
 };
 

@@ -161,6 +161,7 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
           if (banded) band.asked = benches->of[scenario].band->size();
           if (banded) add_to(band, of_table, benches->of[scenario].band->table_name(table));
           for (const ProgramCoverage& each : of_table.coverage.programs()) result.coverage.add(each.map, each.tried);
+          result.profile.add(of_table.profile, {"", scenarios_[scenario].name, opening_command(scenarios_[scenario])});
           if (table == 0) of_one = std::move(of_table);
           if (banded) of_one.band = band;
           if (!last && !settings_.stop.stop_requested()) return true;

@@ -22,6 +22,7 @@ struct SuiteResult {
   std::string tested{};           ///< what they were run on
   bool live = false;              ///< that is outside simulation: times are of this computer's clock
   CoverageOfPrograms coverage{};  ///< of all reports, if it was observed
+  ProfileOfPrograms profile{};    ///< the same
   std::string unreachable{};      ///< why the way to the slave broke
 
   bool passed() const;

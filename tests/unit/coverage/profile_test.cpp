@@ -44,7 +44,7 @@ TEST(Profile, PartsAddUpToTheSimulatedTime) {
 TEST(Profile, FoldedStacksHaveTheSameSumAndTheWayOfTheCalls) {
   const Profile profile = profile_of(kProgram, kSecond);
   ProfileOfPrograms all;
-  all.add(profile, "");
+  all.add(profile, {});
   const std::string folded = profile_folded(all);
   Time sum = 0;
   for (std::size_t at = 0; at < folded.size();) {
@@ -84,12 +84,40 @@ TEST(Profile, InterruptsAreCountedWithWhatTheyWaitedFor) {
 TEST(Profile, RunsOfAProgramAreMerged) {
   const Profile one = profile_of(kProgram, kSecond), other = profile_of(kProgram, 2 * kSecond);
   ProfileOfPrograms all;
-  all.add(one, "short"), all.add(other, "long");
+  all.add(one, {"pump", "short", "debug short"}), all.add(other, {"", "long", "debug long"});
   ASSERT_EQ(all.programs().size(), 1U);
   const Profile& both = all.programs().front();
   EXPECT_EQ(both.total, one.total + other.total);
   EXPECT_EQ(both.scans.count(), one.scans.count() + other.scans.count());
-  EXPECT_FALSE(both.worst_scan->where.empty());
+  EXPECT_FALSE(both.worst_scan->in.scenario.empty());
+}
+
+TEST(Profile, TheWorstOfSeveralRunsSaysWhereAndHowToLookAtIt) {
+  const Profile one = profile_of(kProgram, kSecond), other = profile_of("LD SM0.0\nMEND\n", 10 * kMillisecond);
+  ProfileOfPrograms of_system, all;
+  of_system.add(one, {"pump", "", ""});
+  all.add(of_system, {"", "it starts", "s7200 debug pump.yaml --only 'it starts'"});
+  const std::string text = profile_text(all.programs().front());
+  EXPECT_NE(text.find(" of pump in 'it starts': SBR_0 "), std::string::npos) << text;
+  EXPECT_NE(text.find("    look: s7200 debug pump.yaml --only 'it starts'\n      station pump; at "), std::string::npos)
+      << text;
+  const auto json = profile_summary_json(all.programs().front());
+  EXPECT_EQ(json["worst_scan"]["scenario"], "it starts");
+  EXPECT_FALSE(json.contains("instructions"));
+  ProfileOfPrograms small;
+  small.add(other, {});
+  const std::string table = profile_by_run_text({{"it starts", &all}, {"it stops", &small}});
+  EXPECT_NE(table.find("it stops"), std::string::npos) << table;
+}
+
+TEST(Profile, TextsFitAHundredColumns) {
+  ProfileOfPrograms all;
+  all.add(profile_of(kProgram, 3 * kSecond), {"", "a scenario", "s7200 debug x.yaml --only 'a scenario'"});
+  const std::string text = profile_text(all.programs().front());
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+    end = text.find('\n', at);
+    EXPECT_LE(end - at, 100U) << text.substr(at, end - at);
+  }
 }
 
 TEST(Profile, DurationsKnowTheirShares) {
@@ -99,6 +127,23 @@ TEST(Profile, DurationsKnowTheirShares) {
   EXPECT_EQ(durations.within(0.99), 99);
   EXPECT_EQ(durations.mean(), 50);
   EXPECT_EQ(Durations().within(0.5), 0);
+}
+
+TEST(Profile, BinsAreOfOneWidthWhereDurationsAreNearEachOther) {
+  Durations durations;
+  for (Time each = 1000; each < 1100; ++each) durations.add(each);
+  const std::vector<Durations::Bin> bins = durations.histogram();
+  ASSERT_EQ(bins.size(), 10U);
+  EXPECT_EQ(bins.front(), (Durations::Bin{1000, 1010, 10}));
+  EXPECT_EQ(bins.back(), (Durations::Bin{1090, 1100, 10}));
+}
+
+TEST(Profile, BinsWidenWithTheDurationsWhereTheyAreFarApart) {
+  Durations durations;
+  durations.add(0), durations.add(3), durations.add(199, 2), durations.add(200), durations.add(7000);
+  const std::vector<Durations::Bin> wanted{{0, 1, 1}, {2, 5, 1}, {100, 200, 2}, {200, 500, 1}, {5000, 10000, 1}};
+  EXPECT_EQ(durations.histogram(), wanted);
+  EXPECT_TRUE(Durations().histogram().empty());
 }
 
 }  // namespace

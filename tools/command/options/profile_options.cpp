@@ -10,9 +10,12 @@
 
 namespace s7200::tools {
 
-void ProfileOptions::add_to(CLI::App& app) {
-  app.add_flag("--profile", shown_, "show where simulated time went: routines, networks, lines, scans, interrupts");
-  app.add_option("--profile-folded", folded_, "write the same as folded stacks, for flame graphs")->type_name("FILE");
+void ProfileOptions::add_to(CLI::App& app, const char* group) {
+  CLI::Option* const options[] = {
+      app.add_flag("--profile", shown_, "show where simulated time went: routines, networks, lines, scans, interrupts"),
+      app.add_option("--profile-folded", folded_, "write the same as folded stacks, for flame graphs")->type_name("FILE")};
+  for (CLI::Option* const option : options)
+    if (group) option->group(group);
 }
 
 void ProfileOptions::claim(WrittenFiles& files) {
@@ -29,9 +32,10 @@ void ProfileOptions::add_to(nlohmann::ordered_json& results, const ProfileOfProg
   for (const Profile& each : profile.programs()) results["profile"].push_back(profile_json(each));
 }
 
-bool ProfileOptions::show(const ProfileOfPrograms& profile, bool json) const {
+bool ProfileOptions::show(const ProfileOfPrograms& profile, bool json, const std::vector<ProfiledRun>& runs) const {
   if (shown_ && !json)
     for (const Profile& each : profile.programs()) fmt::print("\n{}", profile_text(each));
+  if (shown_ && !json && !runs.empty()) fmt::print("\n{}", profile_by_run_text(runs));
   std::string why;
   if (!folded_to_ || write_result(*folded_to_, profile_folded(profile), why)) return true;
   print_error(why);

@@ -1,9 +1,10 @@
-// Where simulated time went: the options of `s7200 run`, and what they print and write.
+// Where simulated time went: the options of `s7200 run` and `s7200 test`, and what they print and write.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/coverage/profile_report.hpp"
 #include "tools/host/written_files.hpp"
@@ -16,7 +17,8 @@ namespace s7200::tools {
 
 class ProfileOptions {
  public:
-  void add_to(CLI::App& app);
+  /// Into a group of the help; null: that of options without one.
+  void add_to(CLI::App& app, const char* group = nullptr);
 
   bool wanted() const { return shown_ || !folded_.empty(); }
 
@@ -26,8 +28,9 @@ class ProfileOptions {
   /// Adds the profile to the results of --json.
   void add_to(nlohmann::ordered_json& results, const ProfileOfPrograms& profile) const;
 
-  /// Prints the profile, but with --json, and writes the file. Returns false after a message if it cannot be written.
-  bool show(const ProfileOfPrograms& profile, bool json) const;
+  /// Prints the profile, but with --json, with a line for each of several runs, and writes the file. Returns false after a
+  /// message if it cannot be written.
+  bool show(const ProfileOfPrograms& profile, bool json, const std::vector<ProfiledRun>& runs = {}) const;
 
  private:
   bool shown_ = false;

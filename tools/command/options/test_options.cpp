@@ -75,6 +75,7 @@ void TestOptions::add_to(CLI::App& app) {
   add_no_skip_option(app, suite.every_scan);
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE")->group(help_group::kResults);
   coverage.add_to(app, help_group::kResults);
+  profile.add_to(app, help_group::kResults);
   report.add_to(app, "a page for browsers of the results, that computes each run again; the JUnit file links to it");
   app.add_flag("--mutants", mutants, "change the program one thing at a time and list what no scenario notices")
       ->group(help_group::kRun);
@@ -89,7 +90,7 @@ void TestOptions::complete_suite() {
   suite.protocol = protocol->name;
   suite.runs_wanted = report.wanted();
   suite.exchanges_wanted = json || !record.empty() || !against.empty();
-  suite.observed.coverage = coverage.wanted();
+  suite.observed = {.coverage = coverage.wanted(), .profile = profile.wanted()};
   suite.stop = interruption();
 }
 
@@ -115,9 +116,10 @@ void TestOptions::check() const {
   refuse_if(tolerance != kNever && !compared && record.empty(),
             "--tolerance goes with --against or --record; a scenario has 'tolerance:'");
   refuse_if(compared && coverage.wanted(), "--against runs two programs; coverage is of one: leave out --against");
-  refuse_if(
-      mutants && (compared || coverage.wanted() || !record.empty() || !junit.empty() || report.wanted() || band.wanted()),
-      "--mutants runs changed programs: it neither compares, records nor observes, and has one table of times");
+  refuse_if(compared && profile.wanted(), "--against runs two programs; a profile is of one: leave out --against");
+  refuse_if(mutants && (compared || coverage.wanted() || profile.wanted() || !record.empty() || !junit.empty() ||
+                        report.wanted() || band.wanted()),
+            "--mutants runs changed programs: it neither compares, records nor observes, and has one table of times");
   refuse_if(compared && (!record.empty() || !junit.empty()), "--against neither records nor writes JUnit");
   refuse_if(band.wanted() && (compared || !record.empty()),
             "--times-band runs scenarios with many tables; --against and --record are about one");
@@ -140,6 +142,7 @@ TestOptions::Destinations TestOptions::claim_files() {
     throw std::invalid_argument(fmt::format("{} exists; --force overwrites it", record));
   to.junit = claim("--junit", junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)});
   coverage.claim(files);
+  profile.claim(files);
   return to;
 }
 

@@ -7,6 +7,7 @@
 #include "tools/command/options/band_options.hpp"
 #include "tools/command/options/coverage_options.hpp"
 #include "tools/command/options/other_plc_options.hpp"
+#include "tools/command/options/profile_options.hpp"
 #include "tools/command/options/report_option.hpp"
 #include "tools/host/written_files.hpp"
 #include "tools/scenario/suite_settings.hpp"
@@ -25,6 +26,7 @@ struct TestOptions {
   std::string against, record, junit;
   BandOptions band;
   CoverageOptions coverage;
+  ProfileOptions profile;
   ReportOption report;
   unsigned jobs = 0;        ///< 0: not given
   Time tolerance = kNever;  ///< kNever: not given
@@ -41,7 +43,7 @@ struct TestOptions {
   /// What `suite` has from the other options, and that an interruption ends it.
   void complete_suite();
 
-  /// Where --record and --junit write; the files of coverage are claimed too.
+  /// Where --record and --junit write; the files of coverage and profile are claimed too.
   struct Destinations {
     std::optional<Destination> record{}, junit{};
   };
