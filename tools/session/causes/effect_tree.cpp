@@ -31,7 +31,7 @@ bool hands_on(const Bits& bits) {
          is_in(bits, image::kInputs, image::kV) || is_in(bits, image::kL, image::kConstants);
 }
 
-std::string characters_text(const std::vector<std::uint16_t>& characters) {
+std::string text_of_characters(const std::vector<std::uint16_t>& characters) {
   std::string text;
   for (std::size_t i = 0; i < std::min(characters.size(), kMostCharacters); ++i)
     text += fmt::format("{}{:02X}", i == 0 ? "" : " ", characters[i]);
@@ -300,8 +300,8 @@ std::vector<Effect> EffectTree::children_of(std::size_t parent) const {
     if (!is_shown(node) && effect.effects.empty()) continue;
     if (!differs_at_the_end(node)) effect.until = node.last;
     if (effect.kind == "sent") {
-      effect.value = characters_text(node.known);
-      effect.otherwise = characters_text(node.without);
+      effect.value = text_of_characters(node.known);
+      effect.otherwise = text_of_characters(node.without);
       effect.text = node.without.empty() ? fmt::format("{} sends {}", effect.name, effect.value)
                     : node.known.empty() ? fmt::format("{} does not send {}", effect.name, effect.otherwise)
                                          : fmt::format("{} sends {}, not {}", effect.name, effect.value, effect.otherwise);
