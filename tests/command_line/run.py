@@ -2458,6 +2458,10 @@ class JsonPage(Case):
         text = pathlib.Path(self.system()).read_text(encoding="utf-8")
         return self.program(text.replace("bridges: {panel: {tcp: 127.0.0.1:0}}\n", "").replace(", panel]", "]"), "alone.yaml")
 
+    SEQUENCE = ("NETWORK 1 // steps\nLD SM0.1\nS S0.0, 1\nNETWORK 2\nLSCR S0.0\nNETWORK 3\nLD I0.0\nSCRT S0.1\nNETWORK 4\nSCRE\n"
+                "NETWORK 5\nLSCR S0.1\nNETWORK 6\nLD SM0.0\n= Q0.0\nNETWORK 7\nSCRE\nNETWORK 8\nLD S0.1\n= Q0.1\n"
+                "NETWORK 9\nLD I0.5\nR S0.0, 2\nNETWORK 10\nLD I0.6\nMOVB 0, SB0\nS M3.0, 1\nNETWORK 11\nLD M3.0\n= Q0.2\nMEND\n")
+    TOLD_TWICE = "LD I0.0\nA I0.1\n= M0.0\nLD M0.0\n= M0.1\nLD M0.0\n= M0.2\nLD M0.1\nA M0.2\n= Q0.0\nMEND\n"
     WIDE = "NETWORK 1 // as long as it may be\nLD I0.0 // start\n" + "A M0.0\n" * 12 + "= Q0.0\nMOVB 1, VB0\nMEND\n"
 
     def runs(self):
@@ -2484,6 +2488,8 @@ class JsonPage(Case):
                     ["compare", self.program("LD I0.0\n= Q0.0\nLD M5.0\n= M5.1\nMEND\n", "one.stl"), self.program("LD I0.0\n= Q0.0\nLD M5.0\n= M5.2\nLD M5.3\nMEND\n", "two.stl"), "--runs", "5"],
                     ["fuzz", EXPORTS / "trusting_slave.stl", "--runs", "5000", "--seconds", "60"], ["fuzz", EXPORTS / "timer_old.stl", "--runs", "1"],
                     ["compare", echo, self.program("// CPU 224\n" + Json.ECHO, "other.stl")],
+                    ["inspect", self.program(self.SEQUENCE, "sequence.stl"), "steps"], ["inspect", self.program(self.SEQUENCE, "sequence.stl")],
+                    ["why", self.program(self.TOLD_TWICE, "told_twice.stl"), "Q0.0"],
                     ["inspect", *Inspect.PUMP], ["inspect", SLAVE, "xref"], ["inspect", SLAVE, "xref", "VW4"], ["inspect", SLAVE, "calls"],
                     ["inspect", self.program("LD SM0.1\nDISI\nMEND\n", "disabled.stl"), "calls"],
                     ["inspect", self.program("LD I0.0\nLD I0.1\nCTU C5, 12\nTON T37, 5\nMOVB 16#81, SMB31\nMEND\n", "eeprom.stl"), "map"],
