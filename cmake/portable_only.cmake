@@ -7,7 +7,7 @@ endif()
 add_subdirectory(interpreter)
 add_subdirectory(serial_sim)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32")
-  add_compile_options(-Os)  # every report carries the engine; a run lives in the libraries above
+  add_compile_options(-Oz)  # every report carries the engine; a run lives in the libraries above
 endif()
 foreach(room views json plan rig session faces/page)
   add_subdirectory(tools/${room})
