@@ -128,10 +128,14 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   if (form->is_log) read_modbus_tcp(*recording);
   recording->over_tcp = std::ranges::any_of(recording->frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
   note_times_that_run_backwards(*recording);
-  if (std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) {
-        return frame.doubt && frame.bytes.empty() && frame.doubt->readings.empty();
-      })) {
-    why = is_table_without_bytes(bytes) ? "no column found for the bytes: name it Hex" : "no frame in it";
+  const bool table = form->looks_like == is_text && is_table_without_bytes(bytes);
+  const bool without_bytes = std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) {
+    return frame.doubt && frame.bytes.empty() && frame.doubt->readings.empty();
+  });
+  const bool one_value_each =  // `10:00:00,21,35` below `time,temp,pressure`
+      std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.bytes.size() <= 1; });
+  if (without_bytes || (table && one_value_each)) {
+    why = table ? "no column found for the bytes: name it Hex" : "no frame in it";
     for (const std::string& note : recording->notes) why += "; " + note;
     return {};
   }

@@ -130,6 +130,11 @@ TEST(RowsOfALog, ValuesWithNamesAreNotBytes) {
     EXPECT_EQ(refusal_of(line + '\n'), "no frame in it; line 1: left out: no bytes in it") << line;
 }
 
+TEST(RowsOfALog, ATableOfValuesHasNoBytes) {
+  for (const std::string table : {"time,temp,pressure\n10:00:00,21,35\n10:00:01,22,36\n", "Time;Level\n10:00:00;21\n10:00:01;22\n"})
+    EXPECT_TRUE(refusal_of(table).starts_with("no column found for the bytes: name it Hex")) << table;
+}
+
 TEST(RowsOfALog, BytesWithNamesAreBytes) {
   for (const std::string line : {"data = 0103", "10:00:00 tx: 01", "COM3: 21", "10:00:00 rx_data = 0x86", "frame: 12",
                                  "/dev/ttyUSB0: 12", "hex 0x86"})
