@@ -340,7 +340,10 @@ class Unpacker {
     bool there = false;
     take(there);
     one.reset();
-    if (there) take(one.emplace());
+    if (!there) return;
+    T value{};
+    take(value);
+    one = std::move(value);
   }
 
   void take(LogicStack& stack) {
