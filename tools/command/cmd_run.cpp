@@ -85,7 +85,8 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   if (bridges->joined) served.push_back(bridges->joined);
   const Ending ending = run_to_end(*rig, *bridges, !served.empty(), options);
   if (ending.reason.empty()) return kUnusable;
-  const bool all_written = write_report(options.report, "run", recorder.get(), options.program.repairs) & finish(*rig);
+  const bool report_written = write_report(options.report, "run", recorder.get(), options.program.repairs);
+  const bool all_written = finish(*rig) && report_written;
   if (options.json)
     print_json(*rig, ending, served, observers.json(options));
   else

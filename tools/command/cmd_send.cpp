@@ -65,7 +65,8 @@ int run_send(const CLI::App& verb, SendOptions& options) {
     }
     slave->wait(options.pause == kNever ? slave->pause() : options.pause);
   }
-  const bool all_written = write_report(options.report, "send", recorder.get(), options.program.repairs) & finish(*rig);
+  const bool report_written = write_report(options.report, "send", recorder.get(), options.program.repairs);
+  const bool all_written = finish(*rig) && report_written;
   const UnansweredRequests why_none = unanswered ? unanswered->explained(options.master.timeout) : UnansweredRequests{};
   fmt::print("{}", options.json ? results.end(with_why(rig_json(*rig), why_none)) : why_text(why_none) + dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));

@@ -194,7 +194,8 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
     if (options.json) output.end(session.statistics(), "the program was not ready for the first request", plant());
     exit_code = kCheckFailed;
   }
-  const bool all_written = write_report(options.report, "master", recorder.get(), options.program.repairs) & finish(*rig);
+  const bool report_written = write_report(options.report, "master", recorder.get(), options.program.repairs);
+  const bool all_written = finish(*rig) && report_written;
   if (ready && !options.json) fmt::print("{}{}", why_text(why_none), dump_text(*rig));
   fmt::print(stderr, "{}", errors_text(*rig));
   const bool fatal = exit_code_of(*rig) == kCpuFatal, stopped = rig->cpu().state().mode == Mode::Stop;

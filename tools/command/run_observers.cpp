@@ -12,7 +12,7 @@ RunObservers::RunObservers(Rig& rig, const RunOptions& options) {
   for (std::size_t plc = 0; plc < rig.plan().plcs.size(); ++plc) {
     const PlcPlan& plan = rig.plan().plcs[plc];
     const std::string name = is_of_one_program(rig.plan()) ? "" : plan.name;
-    PlcObservers& observers = observed_.emplace_back(name, PlcObservers(plan.program, observed)).observers;
+    PlcObservers& observers = observed_.emplace_back(ObservedPlc{name, PlcObservers(plan.program, observed)}).observers;
     observers.add_to(rig.sinks(plc));
     observers.begin(rig.plc(plc).cpu());
   }
