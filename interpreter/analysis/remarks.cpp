@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/analysis/pointers.hpp"
 #include "interpreter/base/among.hpp"
 #include "interpreter/program/unread.hpp"
 
@@ -64,9 +65,7 @@ class RemarkFinder {
         if (access.writes() && access.bits.overlaps(bit) && !is_point(access) && !(sets_or_resets && access.operand == 0))
           return true;
     }
-    return std::ranges::any_of(facts_.program.data, [&](const InitialData& data) {
-      return bit.overlaps({(image::kV + data.offset) * 8u, data.bytes.size() * 8});
-    });
+    return is_set_by_data_block(facts_.program, bit);
   }
   /// The output point that SI writes beside its image.
   static bool is_point(const MemoryAccess& access) { return access.operand == kNoOperand && !access.by_pointer; }

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "interpreter/stl/blocks.hpp"
@@ -258,9 +259,7 @@ class DocumentReader {
   /// The lines above the first statement of a listing and below its last that can be nothing but text: a sentence before
   /// the program, `Code:`, `Regards`.
   std::vector<std::uint32_t> text_around() const {
-    const auto is_stl = [](const LineReading& reading) { return reading.verdict == Verdict::Stl; };
-    const auto first = std::ranges::find_if(readings_, is_stl);
-    const auto last = std::find_if(readings_.rbegin(), readings_.rend(), is_stl).base();
+    const auto [first, last] = statements();
     std::vector<std::uint32_t> lines;
     for (auto i = readings_.begin(); first != readings_.end() && i != readings_.end(); ++i)
       if ((i < first || i >= last) && i->verdict == Verdict::Prose && (is_text(*i) || ends_a_sentence(*i)) &&
@@ -284,11 +283,17 @@ class DocumentReader {
   }
 
  private:
+  using Readings = std::vector<LineReading>::const_iterator;
+
+  /// The lines from the first statement to the one behind the last.
+  std::pair<Readings, Readings> statements() const {
+    const auto is_stl = [](const LineReading& reading) { return reading.verdict == Verdict::Stl; };
+    return {std::ranges::find_if(readings_, is_stl), std::find_if(readings_.rbegin(), readings_.rend(), is_stl).base()};
+  }
+
   /// The number of words of running text above the first statement and below the last.
   std::size_t words_around() const {
-    const auto is_stl = [](const LineReading& reading) { return reading.verdict == Verdict::Stl; };
-    const auto first = std::find_if(readings_.begin(), readings_.end(), is_stl);
-    const auto last = std::find_if(readings_.rbegin(), readings_.rend(), is_stl).base();
+    const auto [first, last] = statements();
     std::size_t words = 0;
     for (auto i = readings_.begin(); i != readings_.end(); ++i) {
       if (i < first || i >= last) words += prose_words(*i);
