@@ -94,11 +94,9 @@ void add_inspect(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("inspect", "what is in a program that nobody knows: who uses what, and where");
   std::vector<std::string> names;
   for (const InspectView& view : inspect_views()) names.emplace_back(view.name);
-  offer_beside_files(verb->add_option("PROGRAM", options->words,
-                                      "STL files or published documents, with symbol tables and data blocks; then a view; "
-                                      "then addresses, symbols, routines (SBR_3) or networks (SBR_3:2) to keep to"),
-                     names)
-      ->required();
+  const auto words = fmt::format("STL files or published documents, with symbol tables and data blocks, then a view: {}; then "
+                                 "addresses, symbols, routines (SBR_3) or networks (SBR_3:2) to keep to", view_names());
+  offer_beside_files(verb->add_option("PROGRAM", options->words, words), names)->required();
   options->cpu.add_cpu_and_times_to(*verb, fmt::format("CPU that they are to run on {}", kCpuFound));
   add_repair_option(*verb, options->cpu.repairs);
   add_no_stand_ins_option(*verb, options->cpu.no_stand_ins);
