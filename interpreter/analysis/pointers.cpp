@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "interpreter/analysis/effects.hpp"
+#include "interpreter/analysis/value_boxes.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/program/unread.hpp"
 

@@ -1,139 +1,26 @@
 #include "interpreter/analysis/reaching_values.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <iterator>
 #include <set>
 #include <span>
 #include <string_view>
-#include <tuple>
 
 #include "interpreter/analysis/cross_reference.hpp"
 #include "interpreter/analysis/effects.hpp"
+#include "interpreter/analysis/followed_cells.hpp"
 #include "interpreter/analysis/pointers.hpp"
-#include "interpreter/base/bytes.hpp"
+#include "interpreter/analysis/value_boxes.hpp"
 #include "interpreter/model/contact_form.hpp"
 
 namespace s7200 {
 namespace {
 
-constexpr std::int64_t kAreaSize = 0x100'0000;  ///< addresses that a pointer's top byte leaves
 constexpr int kNarrowings = 2;
 constexpr int kPatience = 4;  ///< times that a value may grow where ways meet before it is widened
 
 Structure structure_at(const Op& op) { return op.instruction->structure; }
 
-bool is_place_within(std::uint32_t at, std::uint32_t bytes, std::uint32_t from, std::uint32_t to) {
-  return at >= from && at + bytes <= to;
-}
-bool is_accumulator(std::uint32_t at) { return is_place_within(at, 1, image::kAC, image::kTBits); }
-bool is_local_place(std::uint32_t at) { return is_place_within(at, 1, image::kL, image::kConstants); }
-
-/// Memory that neither the CPU nor the field changes by itself.
-bool is_quiet(std::uint32_t at, std::uint32_t bytes) {
-  return is_place_within(at, bytes, image::kM, image::kSM) || is_accumulator(at) ||
-         is_place_within(at, bytes, image::kV, image::kConstants);
-}
-
-// --- what boxes compute ---
-
-using Computes = ValueSet (*)(const ValueSet& in, const ValueSet& old);
-
-ValueSet carried(const ValueSet& in, const ValueSet&) { return in; }
-ValueSet added_up(const ValueSet& in, const ValueSet& old) { return old.plus(in); }
-ValueSet taken_off(const ValueSet& in, const ValueSet& old) { return old.plus(in.negated()); }
-ValueSet multiplied(const ValueSet& in, const ValueSet& old) { return old.times(in); }
-ValueSet one_more(const ValueSet&, const ValueSet& old) { return old.plus({1, 1}); }
-ValueSet one_less(const ValueSet&, const ValueSet& old) { return old.plus({-1, -1}); }
-
-const ValueSet kAnyDouble = ValueSet::all_of(Width::Double);
-
-ValueSet divided(const ValueSet& in, const ValueSet& old) {
-  const auto divisor = in.single();
-  return divisor && *divisor > 0 ? old.divided_by(*divisor) : kAnyDouble;
-}
-ValueSet masked_value(const ValueSet& in, const ValueSet& old) {
-  std::optional<std::int64_t> most;
-  for (const ValueSet* each : {&in, &old}) {
-    if (each->empty()) return {};
-    if (each->least() >= 0) most = std::min(most.value_or(each->most()), each->most());
-  }
-  return most ? ValueSet(0, *most) : kAnyDouble;
-}
-ValueSet shifted_left(const ValueSet& places, const ValueSet& old) {
-  const auto by = places.single();
-  return by && *by <= 31 ? old.times({std::int64_t{1} << *by, std::int64_t{1} << *by}) : kAnyDouble;
-}
-ValueSet shifted_right(const ValueSet& places, const ValueSet& old) {
-  const auto by = places.single();
-  return by && *by <= 31 && !old.empty() && old.least() >= 0 ? old.divided_by(std::int64_t{1} << *by) : kAnyDouble;
-}
-
-struct Computation {
-  std::string_view mnemonic;
-  Computes result;
-};
-constexpr std::array kComputations{
-    Computation{"MOVB", carried},      Computation{"MOVW", carried},      Computation{"MOVD", carried},
-    Computation{"BTI", carried},       Computation{"ITB", carried},       Computation{"ITD", carried},
-    Computation{"DTI", carried},       Computation{"INCB", one_more},     Computation{"INCW", one_more},
-    Computation{"INCD", one_more},     Computation{"DECB", one_less},     Computation{"DECW", one_less},
-    Computation{"DECD", one_less},     Computation{"+I", added_up},       Computation{"+D", added_up},
-    Computation{"-I", taken_off},      Computation{"-D", taken_off},      Computation{"*I", multiplied},
-    Computation{"*D", multiplied},     Computation{"/I", divided},        Computation{"/D", divided},
-    Computation{"ANDB", masked_value}, Computation{"ANDW", masked_value}, Computation{"ANDD", masked_value},
-    Computation{"SLB", shifted_left},  Computation{"SLW", shifted_left},  Computation{"SLD", shifted_left},
-    Computation{"SRB", shifted_right}, Computation{"SRW", shifted_right}, Computation{"SRD", shifted_right}};
-
-/// A box whose result is known from its operands: where it puts it, and the operand that it only reads.
-struct ValueBox {
-  Computes result = nullptr;
-  std::uint8_t to = 0;
-  std::optional<std::uint8_t> from;
-};
-
-std::optional<ValueBox> value_box_of(const Instruction& instruction) {
-  const auto found = std::ranges::find(kComputations, instruction.mnemonic, &Computation::mnemonic);
-  if (found == kComputations.end()) return {};
-  ValueBox box{.result = found->result, .to = 0, .from = {}};
-  for (std::uint8_t i = 0; i < instruction.rules().size(); ++i) {
-    if (instruction.operand[i].role == Role::In)
-      box.from = i;
-    else
-      box.to = i;
-  }
-  return box;
-}
-
-std::optional<std::int64_t> constant_value(const Program& program, const Operand& operand, Width width) {
-  if (operand.pointer || operand.unread() || operand.at < image::kConstants) return {};
-  const std::uint8_t* at = &program.constants[operand.at - image::kConstants];
-  switch (width) {
-    case Width::Double:
-      return static_cast<std::int32_t>(load32(at));
-    case Width::Word:
-      return static_cast<std::int16_t>(load16(at));
-    default:
-      return *at;
-  }
-}
-
-/// Whether an access is one of the op's operands, and not flags, nor what CALL and RET do besides.
-bool is_of_operand(const MemoryAccess& access) {
-  return access.operand != kNoOperand || access.by_pointer || access.bits.contains({0, image::kConstants * 8u});
-}
-
-/// Whether the system goes on writing memory after the op.
-bool lets_the_system_write(const Op& op) {
-  const std::string_view mnemonic = op.instruction->mnemonic;
-  return op.instruction->effect == Effect::Receives || mnemonic == "NETR" || mnemonic == "NETW";
-}
-
 bool is_for(const Op& op) { return structure_at(op) == Structure::For; }
-
-/// CALL clears the local memory of the subroutine, which is another one.
-bool is_local_clearing(const MemoryAccess& access) { return access.bits == Bits{image::kL * 8u, 64 * 8}; }
 
 /// The ops between a FOR and its NEXT, and those that they call.
 std::vector<std::uint32_t> ops_of_passes(const ControlFlow& flow, const Program& program, std::uint32_t loop) {
@@ -163,18 +50,6 @@ std::vector<PointerTarget> places_of(const Program& program, const ValueSet& add
         all.push_back({reach.base + static_cast<std::uint32_t>(first), reach.base + static_cast<std::uint32_t>(end)});
     }
   return all;
-}
-
-std::optional<std::int64_t> step_of(const Program& program, const Op& op) {
-  const std::string_view mnemonic = op.instruction->mnemonic;
-  const auto box = value_box_of(*op.instruction);
-  if (!box) return {};
-  if (box->result == one_more) return 1;
-  if (box->result == one_less) return -1;
-  if (box->result != added_up && box->result != taken_off) return {};
-  const auto added = constant_value(program, op[*box->from], op.instruction->operand[*box->from].width);
-  if (!added || std::abs(*added) >= kAreaSize) return {};
-  return mnemonic.front() == '-' ? -*added : *added;
 }
 
 bool counts_its_passes(const ControlFlow& flow, const Program& program,
@@ -209,12 +84,11 @@ class ValueFollower {
         effects_(effects),
         pointers_(pointers),
         calls_(calls_of(program, flow)),
+        cells_(program, flow, effects, pointers, calls_),
         result_(result) {}
 
   void follow() {
-    find_cells();
     if (cells_.empty()) return;
-    find_writers();
     find_loops();
     find_leaders();
     begin();
@@ -233,19 +107,6 @@ class ValueFollower {
   /// from below, which is known by then.
   enum class Phase : std::uint8_t { Growing, FromBelow, FromAbove, Recording };
 
-  /// A byte, word or double word whose values are followed.
-  struct Cell {
-    std::uint32_t at = 0;
-    Width width = Width::Double;
-    bool kept = false;          ///< from one scan to the next
-    bool set_by_name = false;   ///< some instruction writes it, and not through a pointer
-    bool by_interrupt = false;  ///< an interrupt routine writes it
-    bool by_system = false;     ///< the system does, at any time
-    std::set<std::int64_t> compared{};
-
-    Bits bits() const { return {at * 8u, bytes_of(width) * 8u}; }
-  };
-
   /// The values of all cells; empty where no way leads.
   using Memory = std::vector<ValueSet>;
 
@@ -263,115 +124,6 @@ class ValueFollower {
     ValueSet index{};                      ///< during the passes
   };
 
-  // --- cells ---
-
-  void find_cells() {
-    for (const Op& op : program_.ops) {
-      for (const Operand& operand : op.operand)
-        if (operand.pointer) want(operand.at, Width::Double);
-      if (!is_for(op)) continue;
-      want(op[1], Width::Word);
-      want(op[2], Width::Word);
-    }
-    for (const Parameter& parameter : program_.parameters)
-      if (parameter.actual.pointer) want(parameter.actual.at, Width::Double);
-    for (std::size_t before = 0; before != cells_.size();) {
-      before = cells_.size();
-      want_sources();
-    }
-    for (const Op& op : program_.ops) {
-      note_comparison(op);
-      note_counting(op);
-    }
-  }
-
-  /// What the program counts is its own.
-  void note_counting(const Op& op) {
-    if (!step_of(program_, op)) return;
-    const ValueBox box = *value_box_of(*op.instruction);
-    if (const auto cell = cell_of(op[box.to], op.instruction->operand[box.to].width)) cells_[*cell].kept = true;
-  }
-
-  void want(const Operand& operand, Width width) {
-    if (!operand.pointer && !operand.unread() && operand.at < image::kConstants) want(operand.at, width);
-  }
-  void want(std::uint32_t at, Width width) {
-    if (is_accumulator(at)) std::tie(at, width) = std::pair(image::kAC + (at - image::kAC) / 4 * 4, Width::Double);
-    if (!is_quiet(at, bytes_of(width)) || !number_.try_emplace({at, width}, cells_.size()).second) return;
-    Cell cell{.at = at, .width = width};
-    cell.kept = is_accumulator(at) || (width == Width::Double && pointers_.at_any_time(at));
-    cells_.push_back(cell);
-  }
-
-  void want_sources() {
-    for (const Op& op : program_.ops) {
-      const auto box = value_box_of(*op.instruction);
-      if (!box || !box->from || op[box->to].pointer || !is_followed(op[box->to].at, op.instruction->operand[box->to].width))
-        continue;
-      want(op[*box->from], op.instruction->operand[*box->from].width);
-    }
-    for (const Parameter& parameter : program_.parameters) {
-      if (parameter.width == Width::Bit) continue;
-      if (is_followed(parameter.local.at, parameter.width)) want(parameter.actual, parameter.width);
-      if (!parameter.actual.pointer && is_followed(parameter.actual.at, parameter.width))
-        want(parameter.local, parameter.width);
-    }
-  }
-
-  bool is_followed(std::uint32_t at, Width width) const {
-    const Bits bits{at * 8u, bytes_of(width) * 8u};
-    return std::ranges::any_of(cells_, [&](const Cell& cell) { return cell.bits().overlaps(bits); });
-  }
-
-  std::optional<std::size_t> cell_of(const Operand& operand, Width width) const {
-    if (operand.pointer || operand.unread()) return {};
-    const auto found = number_.find({operand.at, width});
-    return found == number_.end() ? std::nullopt : std::optional(found->second);
-  }
-
-  /// Loops that a comparison ends go on to the constant beside it.
-  void note_comparison(const Op& op) {
-    const ContactForm form = contact_form(*op.instruction);
-    if (form.kind != ContactForm::Kind::Numbers || form.type == ContactForm::Type::Real) return;
-    const Width width = op.instruction->operand[0].width;
-    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-      const auto cell = cell_of(op[i], width);
-      const auto with = constant_value(program_, op[1 - i], width);
-      if (cell && with) cells_[*cell].compared.insert({*with - 1, *with, *with + 1});
-    }
-  }
-
-  // --- who writes them ---
-
-  void find_writers() {
-    direct_.assign(flow_.routines.size(), std::vector<bool>(cells_.size()));
-    for (std::uint32_t op = 0; op < program_.ops.size(); ++op)
-      for (const MemoryAccess& access : effects_[op]) {
-        const bool by_call = structure_at(program_.ops[op]) == Structure::Call && !is_local_clearing(access);
-        if (!access.writes() || !(is_of_operand(access) || by_call)) continue;
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-          if (!access.bits.overlaps(cells_[i].bits())) continue;
-          direct_[flow_.nodes[op].routine][i] = true;
-          if (!access.by_pointer) cells_[i].set_by_name = true;
-          if (lets_the_system_write(program_.ops[op])) cells_[i].by_system = true;
-        }
-      }
-    writes_ = direct_;
-    for (bool more = true; more;) {
-      more = false;
-      for (const CallSite& site : flow_.calls)
-        for (std::size_t i = 0; i < cells_.size(); ++i)
-          if (writes_[site.routine][i] && !writes_[flow_.nodes[site.op].routine][i] && !is_local_place(cells_[i].at))
-            more = writes_[flow_.nodes[site.op].routine][i] = true;
-    }
-    for (std::size_t routine = 0; routine < flow_.routines.size(); ++routine)
-      for (std::size_t i = 0; i < cells_.size(); ++i)
-        if (calls_.nodes[routine].by_interrupt && direct_[routine][i] && !is_own(cells_[i])) cells_[i].by_interrupt = true;
-  }
-
-  /// Saved for interrupts, or memory of its own in each routine.
-  static bool is_own(const Cell& cell) { return is_accumulator(cell.at) || is_local_place(cell.at); }
-
   // --- loops ---
 
   void find_loops() {
@@ -382,7 +134,7 @@ class ValueFollower {
     }
   }
   bool changes_elsewhere(const Operand& index) const {
-    const auto cell = cell_of(index, Width::Word);
+    const auto cell = cells_.of(index, Width::Word);
     return cell && (cells_[*cell].by_interrupt || cells_[*cell].by_system);
   }
 
@@ -404,7 +156,7 @@ class ValueFollower {
     const auto box = value_box_of(*program_.ops[op].instruction);
     const auto repeated = repeats(loop, op);
     if (!step || !repeated ||
-        cell_of(program_.ops[op][box->to], program_.ops[op].instruction->operand[box->to].width) != cell)
+        cells_.of(program_.ops[op][box->to], program_.ops[op].instruction->operand[box->to].width) != cell)
       return drift.reset();
     const std::int64_t added = *step * *repeated;
     drift->least += std::min<std::int64_t>(added, 0);
@@ -425,8 +177,8 @@ class ValueFollower {
   }
 
   bool writes(std::uint32_t op, std::size_t cell) const {
-    if (structure_at(program_.ops[op]) == Structure::Call && writes_[flow_.nodes[program_.ops[op].target].routine][cell] &&
-        !is_local_place(cells_[cell].at))
+    if (structure_at(program_.ops[op]) == Structure::Call &&
+        cells_.written_in(flow_.nodes[program_.ops[op].target].routine, cell) && !is_local_place(cells_[cell].at))
       return true;
     return std::ranges::any_of(effects_[op], [&](const MemoryAccess& access) {
       return access.writes() && !is_local_clearing(access) && access.bits.overlaps(cells_[cell].bits()) &&
@@ -461,32 +213,32 @@ class ValueFollower {
 
   void begin() {
     Memory first;
-    for (const Cell& cell : cells_) {
+    for (const FollowedCell& cell : cells_) {
       first.push_back(!cell.kept || is_set_by_others(cell) ? ValueSet::all_of(cell.width) : before_the_program(cell));
     }
     arrive(flow_.routines[0].first, {first, first});
     for (std::size_t routine = 1; routine < flow_.routines.size(); ++routine) {
       if (calls_.nodes[routine].events.empty()) continue;
       Memory any;
-      for (const Cell& cell : cells_) any.push_back(at_any_time(cell));
+      for (const FollowedCell& cell : cells_) any.push_back(at_any_time(cell));
       arrive(flow_.routines[routine].first, {any, {}});
     }
   }
 
   /// Memory is 0. What a pointer leads to that the program has not set yet is left out, as in pointers.hpp.
-  ValueSet before_the_program(const Cell& cell) const {
+  ValueSet before_the_program(const FollowedCell& cell) const {
     const bool is_pointer = cell.width == Width::Double && pointers_.at_any_time(cell.at);
     return is_pointer ? ValueSet() : ValueSet(0, 0);
   }
 
-  bool is_set_by_others(const Cell& cell) const {
+  bool is_set_by_others(const FollowedCell& cell) const {
     if (!cell.set_by_name || is_set_by_data_block(program_, cell.bits())) return true;
     if (cell.width != Width::Double || !pointers_.at_any_time(cell.at)) return false;
     const auto unknown = pointers_.unknown(cell.at);
     return unknown && unknown->reason != Pointers::Unknown::Reason::Written;
   }
 
-  ValueSet at_any_time(const Cell& cell) const {
+  ValueSet at_any_time(const FollowedCell& cell) const {
     const auto held = cell.width == Width::Double ? pointers_.at_any_time(cell.at) : std::nullopt;
     return held.value_or(ValueSet::all_of(cell.width));
   }
@@ -561,38 +313,6 @@ class ValueFollower {
     }
     return more;
   }
-
-  /// Ranges that grow go on as far as the program compares, or else as far as pointers to the area may lead. `all`: so do
-  /// those that come to others of their area.
-  static ValueSet widened(const Cell& cell, const ValueSet& before, const ValueSet& now, bool all) {
-    ValueSet wide = now;
-    for (const ValueRange& range : now.ranges()) {
-      bool grows_up = true, grows_down = true, is_new = true;
-      for (const ValueRange& old : before.ranges()) {
-        const bool overlaps = old.most >= range.least && old.least <= range.most;
-        const bool near = all && old.least / kAreaSize == range.least / kAreaSize;
-        if (!overlaps && !near) continue;
-        is_new = false;
-        grows_up &= range.most > old.most;
-        grows_down &= range.least < old.least;
-      }
-      if (!is_new && grows_up) wide.add({range.most, upper_limit(cell, range.most)});
-      if (!is_new && grows_down) wide.add({lower_limit(cell, range.least), range.least});
-    }
-    return wide.fitted(cell.width);
-  }
-  static std::int64_t upper_limit(const Cell& cell, std::int64_t value) {
-    const std::int64_t end = ((value + kAreaSize / 2 - 1) & -kAreaSize) + kAreaSize / 2;
-    const auto limit = cell.compared.lower_bound(value);
-    return limit != cell.compared.end() ? std::min(*limit, end) : end;
-  }
-  static std::int64_t lower_limit(const Cell& cell, std::int64_t value) {
-    const std::int64_t end = ((value - kAreaSize / 2) & -kAreaSize) + kAreaSize / 2;
-    const auto limit = cell.compared.upper_bound(value);
-    return limit != cell.compared.begin() ? std::max(*std::prev(limit), end) : end;
-  }
-  /// No area has so many bytes: nothing that counts comes through here.
-  static bool is_limit(std::int64_t value) { return (value & (kAreaSize - 1)) == kAreaSize / 2; }
 
   void walk(std::uint32_t leader) {
     walking_ = leader;
@@ -681,7 +401,7 @@ class ValueFollower {
     for (std::size_t i = 0; i < cells_.size(); ++i)
       if (is_local_place(cells_[i].at)) inside[i] = ValueSet::all_of(cells_[i].width);
     for (const Parameter& parameter : parameters_of(program_.ops[op])) {
-      const auto local = cell_of(parameter.local, parameter.width);
+      const auto local = cells_.of(parameter.local, parameter.width);
       if (!local || parameter.role == Role::Out) continue;
       inside[*local] = value_of(op, parameter.actual, parameter.width, *caller);
     }
@@ -692,11 +412,11 @@ class ValueFollower {
     if (!caller || !exits_[callee]) return {};
     Memory after = *caller;
     for (std::size_t i = 0; i < cells_.size(); ++i)
-      if (!is_local_place(cells_[i].at) && writes_[callee][i]) after[i] = (*exits_[callee])[i];
+      if (!is_local_place(cells_[i].at) && cells_.written_in(callee, i)) after[i] = (*exits_[callee])[i];
     for (const MemoryAccess& access : effects_[op])
       if (access.writes() && !is_local_clearing(access)) overwrite(after, access.bits, op);
     for (const Parameter& parameter : parameters_of(program_.ops[op])) {
-      const auto actual = cell_of(parameter.actual, parameter.width), local = cell_of(parameter.local, parameter.width);
+      const auto actual = cells_.of(parameter.actual, parameter.width), local = cells_.of(parameter.local, parameter.width);
       if (actual && local && parameter.role != Role::In) after[*actual] = (*exits_[callee])[*local];
     }
     return after;
@@ -756,7 +476,7 @@ class ValueFollower {
     for (std::size_t i = 0; loop.passes && i < cells_.size(); ++i) {
       if (!loop.drift[i]) continue;
       const std::int64_t more = *loop.passes - 1;
-      inside[i] = counted(inside[i], {loop.drift[i]->least * more, loop.drift[i]->most * more}).fitted(cells_[i].width);
+      inside[i] = counted_on(inside[i], {loop.drift[i]->least * more, loop.drift[i]->most * more}).fitted(cells_[i].width);
     }
     set_index(inside, op, loop.index);
     return inside;
@@ -779,7 +499,7 @@ class ValueFollower {
     const Operand& index = program_.ops[loop][0];
     for (const MemoryAccess& access : effects_[loop])
       if (access.writes() && is_of_operand(access)) overwrite(memory, access.bits, loop);
-    if (const auto cell = cell_of(index, Width::Word)) memory[*cell] = value;
+    if (const auto cell = cells_.of(index, Width::Word)) memory[*cell] = value;
   }
 
   // --- boxes and contacts ---
@@ -833,41 +553,20 @@ class ValueFollower {
     const ValueSet old = value_of(op, now[box.to], width, memory);
     const ValueSet in =
         box.from ? value_of(op, now[*box.from], now.instruction->operand[*box.from].width, memory) : ValueSet(0, 0);
-    ValueSet result = result_of(op, box, in, old);
+    ValueSet result = result_of(program_, op, box, in, old);
     if (result.is_all_of(Width::Double) && width != Width::Double) result = ValueSet::all_of(width);
     const bool unknown = (box.from && is_unknown(in, now, *box.from)) || in.cause() != ValueSet::kNoCause;
     result = result.fitted(width);
     if (unknown) result.blame(in.cause() != ValueSet::kNoCause ? in.cause() : op);
-    if (box.result != carried && old.cause() != ValueSet::kNoCause) result.blame(old.cause());
+    if (!box.carries() && old.cause() != ValueSet::kNoCause) result.blame(old.cause());
     return result;
   }
   static bool is_unknown(const ValueSet& in, const Op& op, std::uint8_t operand) {
     return in.is_all_of(op.instruction->operand[operand].width);
   }
 
-  ValueSet result_of(std::uint32_t op, const ValueBox& box, const ValueSet& in, const ValueSet& old) const {
-    const auto step = step_of(program_, program_.ops[op]);
-    const bool adds = step || box.result == added_up || box.result == taken_off;
-    const ValueSet by = step ? ValueSet(*step, *step) : box.result == added_up ? in : in.negated();
-    if (!adds || by.empty() || by.least() <= -kAreaSize || by.most() >= kAreaSize) return box.result(in, old);
-    ValueSet result;
-    for (const ValueRange& range : by.ranges()) result.join(counted(old, range));
-    const bool without_end = std::ranges::any_of(
-        old.ranges(), [](const ValueRange& range) { return is_limit(range.least) || is_limit(range.most); });
-    if (without_end) result.blame(op);
-    return result;
-  }
-
-  /// Counted on, and not out of its area: for that it would have to go through 16 million addresses that point nowhere.
-  static ValueSet counted(const ValueSet& old, const ValueRange& by) {
-    ValueSet result;
-    for (const ValueRange& range : old.ranges())
-      result.add({range.least + (is_limit(range.least) ? 0 : by.least), range.most + (is_limit(range.most) ? 0 : by.most)});
-    return result;
-  }
-
   /// What a cell holds after an access to some of it.
-  static ValueSet held_after(std::uint32_t op, const MemoryAccess& access, const Cell& cell, const ValueSet& before,
+  static ValueSet held_after(std::uint32_t op, const MemoryAccess& access, const FollowedCell& cell, const ValueSet& before,
                              const std::optional<ValueSet>& result) {
     const Bits bits = cell.bits();
     const ValueSet any = ValueSet::all_of(cell.width, op);
@@ -878,31 +577,13 @@ class ValueFollower {
     return with_lower_part(before, size, whole ? *result : ValueSet::all_of(Width::Double, op));
   }
 
-  /// `before` with another number below `size` in its lower bits.
-  static ValueSet with_lower_part(const ValueSet& before, std::int64_t size, const ValueSet& part) {
-    const bool fits = !part.empty() && part.least() >= 0 && part.most() < size;
-    ValueSet result;
-    for (const ValueRange& range : before.ranges()) {
-      const std::int64_t least = range.least & -size, most = range.most & -size;
-      if (least == most && fits)
-        result.add({least + part.least(), most + part.most()});
-      else
-        result.add({least, most + size - 1});
-    }
-    for (const ValueSet* each : {&before, &part})
-      if (each->cause() != ValueSet::kNoCause) result.blame(each->cause());
-    return result;
-  }
-
   ValueSet value_of(std::uint32_t op, const Operand& operand, Width width, const Memory& memory) const {
     if (const auto value = constant_value(program_, operand, width)) return {*value, *value};
     if (operand.pointer || operand.unread()) return ValueSet::all_of(width);
-    if (const auto cell = cell_of(operand, width)) return seen(op, *cell, memory);
+    if (const auto cell = cells_.of(operand, width)) return seen(op, *cell, memory);
     if (!is_accumulator(operand.at)) return ValueSet::all_of(width);
-    const auto whole = number_.find({image::kAC + (operand.at - image::kAC) / 4 * 4, Width::Double});
-    if (whole == number_.end()) return ValueSet::all_of(width);
-    const ValueSet& value = memory[whole->second];
-    return value.fitted(width);
+    const auto whole = cells_.at(image::kAC + (operand.at - image::kAC) / 4 * 4, Width::Double);
+    return whole ? memory[*whole].fitted(width) : ValueSet::all_of(width);
   }
 
   /// What an op finds in a cell.
@@ -939,45 +620,10 @@ class ValueFollower {
     const ValueSet first = value_of(op, now[0], width, *memory), second = value_of(op, now[1], width, *memory);
     if (first.empty() || second.empty()) return;
     const Relation relation = holds ? form.relation : opposite(form.relation);
-    const ValueSet kept_first = kept(relation, first, second), kept_second = kept(mirrored(relation), second, first);
+    const ValueSet kept_first = first.that_are(relation, second), kept_second = second.that_are(mirrored(relation), first);
     if (kept_first.empty() || kept_second.empty()) return memory.reset();
-    if (const auto cell = cell_of(now[0], width)) (*memory)[*cell] = kept_first;
-    if (const auto cell = cell_of(now[1], width)) (*memory)[*cell] = kept_second;
-  }
-
-  static Relation opposite(Relation relation) {
-    constexpr std::array kOpposite{Relation::NotEqual, Relation::Equal,        Relation::LessEqual,
-                                   Relation::Less,     Relation::GreaterEqual, Relation::Greater};
-    return kOpposite[static_cast<std::size_t>(relation)];
-  }
-  static Relation mirrored(Relation relation) {
-    constexpr std::array kMirrored{Relation::Equal,     Relation::NotEqual, Relation::Less,
-                                   Relation::LessEqual, Relation::Greater,  Relation::GreaterEqual};
-    return kMirrored[static_cast<std::size_t>(relation)];
-  }
-
-  /// The numbers of `values` that have the relation with some number of `others`.
-  static ValueSet kept(Relation relation, const ValueSet& values, const ValueSet& others) {
-    const std::int64_t least = values.least(), most = values.most();
-    switch (relation) {
-      case Relation::Equal:
-        return values.within(others.least(), others.most());
-      case Relation::NotEqual: {
-        if (!others.single()) return values;
-        ValueSet below = values.within(least, *others.single() - 1);
-        below.join(values.within(*others.single() + 1, most));
-        return below;
-      }
-      case Relation::Greater:
-        return values.within(others.least() + 1, most);
-      case Relation::GreaterEqual:
-        return values.within(others.least(), most);
-      case Relation::Less:
-        return values.within(least, others.most() - 1);
-      case Relation::LessEqual:
-        return values.within(least, others.most());
-    }
-    return values;
+    if (const auto cell = cells_.of(now[0], width)) (*memory)[*cell] = kept_first;
+    if (const auto cell = cells_.of(now[1], width)) (*memory)[*cell] = kept_second;
   }
 
   // --- what was asked for ---
@@ -988,8 +634,8 @@ class ValueFollower {
     if (!memory) return;
     const auto note = [&](const Operand& operand) {
       if (!operand.pointer) return;
-      const auto cell = number_.find({operand.at, Width::Double});
-      if (cell != number_.end()) result_.pointers_[{op, operand.at}] = seen(op, cell->second, *memory);
+      const auto cell = cells_.at(operand.at, Width::Double);
+      if (cell) result_.pointers_[{op, operand.at}] = seen(op, *cell, *memory);
     };
     for (const Operand& operand : now.operand) note(operand);
     if (structure_at(now) == Structure::Call)
@@ -1002,18 +648,16 @@ class ValueFollower {
   const std::vector<std::vector<MemoryAccess>>& effects_;
   const Pointers& pointers_;
   Calls calls_;
+  FollowedCells cells_;
   ReachingValues& result_;
 
-  std::vector<Cell> cells_{};
-  std::map<std::pair<std::uint32_t, Width>, std::size_t> number_{};  // of a cell, by place
-  std::vector<std::vector<bool>> direct_{}, writes_{};               // by routine and cell: itself, and with what it calls
-  std::map<std::uint32_t, Loop> loops_{};                            // by FOR
-  std::vector<bool> leads_{}, heads_{};                              // by op: begins a block; may be reached from below
-  std::vector<std::uint32_t> leader_of_{};                           // by op
-  std::vector<State> reached_{};                                     // by leader
-  std::vector<int> joins_{};                                         // by leader
-  std::vector<std::optional<Memory>> exits_{};                       // by routine
-  std::map<std::uint32_t, int> left_{};                              // by routine
+  std::map<std::uint32_t, Loop> loops_{};       // by FOR
+  std::vector<bool> leads_{}, heads_{};         // by op: begins a block; may be reached from below
+  std::vector<std::uint32_t> leader_of_{};      // by op
+  std::vector<State> reached_{};                // by leader
+  std::vector<int> joins_{};                    // by leader
+  std::vector<std::optional<Memory>> exits_{};  // by routine
+  std::map<std::uint32_t, int> left_{};         // by routine
   std::set<std::uint32_t> waiting_{};
   Phase phase_ = Phase::Growing;
   std::uint32_t walking_ = 0;                            // the leader

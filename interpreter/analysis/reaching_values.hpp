@@ -55,10 +55,6 @@ class ReachingValues {
   std::map<std::uint32_t, std::int64_t> passes_{};                          // by FOR
 };
 
-/// Whether an op adds a constant to its operand, or subtracts one, that is less than an area's worth of addresses: INCD, +D.
-/// The constant is what is added.
-std::optional<std::int64_t> step_of(const Program& program, const Op& op);
-
 /// Whether the passes of the FOR `op`, and what they call, write neither its index nor its final value, and nothing else
 /// leads into the loop. A pointer that may lead anywhere in an area is taken not to lead there.
 bool counts_its_passes(const ControlFlow& flow, const Program& program,

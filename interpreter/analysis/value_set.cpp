@@ -81,6 +81,28 @@ ValueSet ValueSet::within(std::int64_t least, std::int64_t most) const {
   return result;
 }
 
+ValueSet ValueSet::that_are(Relation relation, const ValueSet& others) const {
+  switch (relation) {
+    case Relation::Equal:
+      return within(others.least(), others.most());
+    case Relation::NotEqual: {
+      if (!others.single()) return *this;
+      ValueSet below = within(least(), *others.single() - 1);
+      below.join(within(*others.single() + 1, most()));
+      return below;
+    }
+    case Relation::Greater:
+      return within(others.least() + 1, most());
+    case Relation::GreaterEqual:
+      return within(others.least(), most());
+    case Relation::Less:
+      return within(least(), others.most() - 1);
+    case Relation::LessEqual:
+      return within(least(), others.most());
+  }
+  return *this;
+}
+
 ValueSet ValueSet::fitted(Width width) const {
   const ValueRange all = range_of(width);
   const bool fits = empty() || (least() >= all.least && most() <= all.most);

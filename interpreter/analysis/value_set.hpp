@@ -10,6 +10,7 @@
 #include <span>
 
 #include "interpreter/model/area.hpp"
+#include "interpreter/model/relation.hpp"
 
 namespace s7200 {
 
@@ -48,6 +49,8 @@ class ValueSet {
   void add(ValueRange range);        ///< keeps few ranges: those that are closest become one
   /// The numbers from `least` to `most` of it.
   ValueSet within(std::int64_t least, std::int64_t most) const;
+  /// The numbers of it that have the relation with some number of `others`; neither set is empty.
+  ValueSet that_are(Relation relation, const ValueSet& others) const;
   /// All of a width if some number does not fit it.
   ValueSet fitted(Width width) const;
 

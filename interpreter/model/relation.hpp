@@ -1,6 +1,8 @@
 // The relations of comparisons, contacts and searches in tables.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace s7200 {
@@ -24,6 +26,20 @@ constexpr bool holds(Relation relation, Value a, Value b) {
       return a <= b;
   }
   return false;
+}
+
+/// Holds where `relation` does not.
+constexpr Relation opposite(Relation relation) {
+  constexpr std::array kOpposite{Relation::NotEqual, Relation::Equal,        Relation::LessEqual,
+                                 Relation::Less,     Relation::GreaterEqual, Relation::Greater};
+  return kOpposite[static_cast<std::size_t>(relation)];
+}
+
+/// Holds between b and a where `relation` holds between a and b.
+constexpr Relation mirrored(Relation relation) {
+  constexpr std::array kMirrored{Relation::Equal,     Relation::NotEqual, Relation::Less,
+                                 Relation::LessEqual, Relation::Greater,  Relation::GreaterEqual};
+  return kMirrored[static_cast<std::size_t>(relation)];
 }
 
 }  // namespace s7200
