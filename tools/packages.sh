@@ -65,6 +65,7 @@ needed_to_test=(
   /usr/sbin/ser2net:ser2net
   mbpoll:mbpoll
   sigrok-cli:sigrok-cli
+  vcd2fst:gtkwave
   tshark:tshark
   bash:bash
   fish:fish

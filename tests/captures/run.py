@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Captures, as the decoders of others read them: run.py S7200 SOURCE_DIR sigrok|tshark
+"""Captures, as the decoders of others read them: run.py S7200 SOURCE_DIR sigrok|tshark|gtkwave
 
 Exit code 77: skipped, the decoder is not installed."""
 import collections
@@ -20,7 +20,7 @@ from modbus_crc import crc, framed  # noqa: E402
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = SOURCE / "stl_programs/modbus_slave.stl"
 TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
-DECODER = {"sigrok": "sigrok-cli", "tshark": "tshark"}[GROUP]
+DECODER = {"sigrok": "sigrok-cli", "tshark": "tshark", "gtkwave": "vcd2fst"}[GROUP]
 SKIPPED = 77
 
 # Sends back each character with its error bits forgotten.
@@ -197,6 +197,48 @@ class Sigrok(Case):
                     self.assertEqual(self.frames(path), sent)
 
 
+class Gtkwave(Case):
+    """vcd2fst reads a Value Change Dump as the viewer does; fst2vcd says what it has understood."""
+
+    def understood(self, vcd):
+        """What changes() says of the dump that comes back."""
+        fst = self.folder / "again.fst"
+        done = run("vcd2fst", vcd, fst)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        return self.changes(run("fst2vcd", fst).stdout.decode())
+
+    @staticmethod
+    def changes(text):
+        """[(time in ns, name of a signal, value)] in an order of their own, and the width of each signal."""
+        head, _, body = text.partition("$enddefinitions $end")
+        declared = {code: (name, int(width)) for width, code, name in re.findall(r"\$var \w+\s+(\d+) (\S+) (\S+)", head)}
+        changes, at = [], 0
+        for line in body.splitlines():
+            if line.startswith("#"):
+                at = int(line[1:])
+            elif match := re.fullmatch(r"([br]?)(\S*?) ?(\S+)", line) if line[:1] in "01xzbr" else None:
+                kind, value, code = match.groups() if line[0] in "br" else ("", line[0], line[1:])
+                name, width = declared[code]
+                changes.append((at, name, float(value) if kind == "r" else value.rjust(width, "0")))
+        return sorted(changes), dict(declared.values())
+
+    def test_signals_of_every_width_are_understood_as_they_were_written(self):
+        program = self.folder / "counts.stl"
+        program.write_text("NETWORK\nLD SM0.0\nINCB VB4\nINCW VW10\nDECD VD20\n+R 0.5, VD30\nLDW>= VW10, 3\n= Q0.0\nMEND\n", encoding="utf-8")
+        done = run(S7200, "run", program, "--scans", "6", "--trace", self.vcd, "--signals", "Q0.0,VB4,VW10,VD20,VD30:real,INT")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (changes, widths), (written, _) = self.understood(self.vcd), self.changes(self.vcd.read_text(encoding="utf-8"))
+        self.assertEqual(widths, {"Q0.0": 1, "VB4": 8, "VW10": 16, "VD20": 32, "VD30:real": 64})
+        self.assertEqual(changes, written)
+        self.assertEqual([value for _, name, value in changes if name == "VW10"], [f"{count:016b}" for count in range(7)])
+        self.assertEqual([value for _, name, value in changes if name == "VD20"][1], "1" * 32)
+
+    def test_levels_of_a_line_are_understood_as_they_were_written(self):
+        self.send(SLAVE, with_crc("0103000a0002"))
+        self.assertEqual(self.understood(self.vcd), self.changes(self.vcd.read_text(encoding="utf-8")))
+        self.assertGreater(len(self.changes(self.vcd.read_text(encoding="utf-8"))[0]), 100)
+
+
 Packet = collections.namedtuple("Packet", "time_ns bytes")
 
 
@@ -316,6 +358,6 @@ if __name__ == "__main__":
     if not shutil.which(DECODER):
         print(f"skipped: {DECODER} is not installed")
         sys.exit(SKIPPED)
-    group = {"sigrok": Sigrok, "tshark": Tshark}[GROUP]
+    group = {"sigrok": Sigrok, "tshark": Tshark, "gtkwave": Gtkwave}[GROUP]
     result = unittest.TextTestRunner(stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(group))
     sys.exit(0 if result.wasSuccessful() else 1)
