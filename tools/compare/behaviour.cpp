@@ -285,7 +285,7 @@ class Search {
       result_.end = End::Runs;
     else if (seconds >= settings_.seconds)
       result_.end = End::Seconds;
-    else if (all && result_.runs >= kLeastRuns)
+    else if (all && result_.runs >= last_news_ + kLeastRuns)
       result_.end = End::AllContacts;
     return result_.end != End::Differs;
   }
@@ -310,6 +310,7 @@ class Search {
   void look() {
     ++result_.runs;
     const bool of_older = pair_.old_bench.contacts().add_run(), of_newer = pair_.new_bench.contacts().add_run();
+    if (of_older || of_newer) last_news_ = result_.runs;
     auto found = pair_.difference();
     if (found) {
       if (persists(found->trial))
@@ -378,6 +379,7 @@ class Search {
   Pair pair_;
   std::vector<Pair::State> kept_;
   BehaviourResult result_;
+  std::uint64_t last_news_ = 0;  // the number of the run that has done something new last
   std::chrono::steady_clock::time_point begin_;
 };
 

@@ -15,9 +15,23 @@ namespace {
 
 using Kind = FuzzFinding::Kind;
 
-constexpr Time kReady = 500 * kMillisecond, kSettles = 20 * kMillisecond, kEndlessScan = 600 * kMillisecond;
+bool comes_to_a_port(const Stimulus& stimulus) {
+  return stimulus.what == Stimulus::What::Frame || stimulus.what == Stimulus::What::Break;
+}
+
+/// Sets the port of a scenario to the one that its trial comes to; false if that is both.
+bool choose_port(TrialScenario& scenario, const FuzzFinding& finding) {
+  bool usual = finding.kind == Kind::Unanswered, other = false;
+  for (const Stimulus& stimulus : scenario.trial)
+    if (comes_to_a_port(stimulus)) (stimulus.other_port ? other : usual) = true;
+  if (other) scenario.port = static_cast<std::uint8_t>(1 - scenario.port);
+  return !usual || !other;
+}
+
+constexpr Time kSettles = 20 * kMillisecond, kEndlessScan = 600 * kMillisecond;
 constexpr std::size_t kMostKept = 4000, kMostFindings = 100, kMostShortening = 6000;
-constexpr std::uint64_t kAsksEvery = 512;  ///< runs after which a request is sent, whatever is new
+constexpr std::uint64_t kAsksEvery = 512;     ///< runs after which a request is sent, whatever is new
+constexpr std::uint64_t kDisturbsEvery = 16;  ///< of stimuli; on average
 
 class Search {
  public:
@@ -41,6 +55,7 @@ class Search {
     result_.requests = maker_.words().requests.size();
     result_.port = port();
     result_.listens = maker_.words().port.has_value();
+    result_.both_ports = maker_.words().both_ports;
     bench_.watch_contacts(false);
     for (FuzzFinding& finding : result_.findings) come_down(finding);
     return std::move(result_);
@@ -53,11 +68,11 @@ class Search {
     Time settled = 0;  ///< since the last stimulus was over
   };
 
-  /// What comes over a port is tried there. At a port in PPI mode a panel sets memory.
+  /// What comes over a port is tried there. A panel at a port in PPI mode sets memory.
   static Vocabulary words_of(const Inspection& inspection) {
     Vocabulary words = vocabulary_of(inspection.facts);
     words.requests = answered_requests(inspection.program, words);
-    if (words.port) words.commands.clear();
+    if (words.port && (words.both_ports || inspection.program->model->ports == 1)) words.commands.clear();
     return words;
   }
 
@@ -100,7 +115,7 @@ class Search {
     bench_.restore(kept_[from].state);
     const Time before = bench_.time();
     for (std::uint64_t count = chance.one_in(4) ? 2 : 1; count > 0 && !bench_.stopped(); --count) {
-      given.push_back(maker_.words().port && !chance.one_in(5) ? maker_.frame() : maker_.next(bench_.cpu().state()));
+      given.push_back(stimulus());
       bench_.apply(given.back(), bench_.time() + given.back().wait);
     }
     bench_.run_until(bench_.time() + kSettles);
@@ -111,6 +126,16 @@ class Search {
     if (news || !found.empty() || result_.runs % kAsksEvery == 0)
       look_closer(from, std::move(given), std::move(found), news);
     if (settings_.progress) settings_.progress(result_.runs);
+  }
+
+  Stimulus stimulus() {
+    Chance& chance = maker_.chance();
+    const Vocabulary& words = maker_.words();
+    Stimulus next = chance.one_in(kDisturbsEvery)     ? maker_.disturbance()
+                    : words.port && !chance.one_in(5) ? maker_.frame()
+                                                      : maker_.next(bench_.cpu().state());
+    next.other_port = words.both_ports && comes_to_a_port(next) && chance.one_in(3);
+    return next;
   }
 
   void look_closer(std::size_t from, Trial given, std::vector<FuzzFinding> found, bool news) {
@@ -218,7 +243,11 @@ std::string finding_scenario(const Inspection& inspection, const FuzzResult& res
   TrialScenario scenario{.name = finding.what, .origin = origin, .port = result.port, .trial = finding.trial};
   scenario.begun = finding.begun;
   scenario.end = finding.end;
-  std::string text = scenario_text(scenario, *inspection.program);
+  if (!choose_port(scenario, finding)) {
+    why = "it needs both ports, and a scenario of one program has a line at one of them";
+    return {};
+  }
+  const std::string text = scenario_text(scenario, *inspection.program);
   const auto findings = findings_of(text, path, inspection.program, why);
   if (!findings) return {};
   if (!findings->empty()) return text;

@@ -68,6 +68,7 @@ struct FuzzResult {
   std::size_t snapshots = 0, requests = 0;  ///< kept; that the program answers
   std::uint8_t port = 0;
   bool listens = false;  ///< at that port
+  bool both_ports = false;
   std::size_t contacts = 0, both_ways = 0;
   std::vector<ContactsSeen::Never> never{};
 };

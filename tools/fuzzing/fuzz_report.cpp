@@ -35,10 +35,10 @@ std::string finding_text(const Inspection& inspection, const FuzzFinding& findin
 
 std::string listening_text(const FuzzResult& result) {
   if (!result.listens) return "  it receives at no port: only inputs, memory that a panel sets, and time were tried\n";
-  if (result.requests == 0)
-    return fmt::format("  it receives at port {}, and has answered no request of Modbus RTU\n", result.port);
-  return fmt::format("  it receives at port {}, and answers {} of Modbus RTU\n", result.port,
-                     counted(result.requests, "known request"));
+  const std::string ports =
+      fmt::format("  it receives at port {}{}", result.port, result.both_ports ? " and the other one" : "");
+  if (result.requests == 0) return ports + ", and has answered no request of Modbus RTU\n";
+  return fmt::format("{}, and answers {} of Modbus RTU\n", ports, counted(result.requests, "known request"));
 }
 
 std::string contacts_text(const Inspection& inspection, const FuzzResult& result) {
@@ -55,8 +55,9 @@ std::string contacts_text(const Inspection& inspection, const FuzzResult& result
 }  // namespace
 
 std::string fuzz_text(const Inspection& inspection, const FuzzResult& result) {
-  std::string text = fmt::format("{}; {} of simulated time{}\n", counted(result.runs, "run"), format_duration(result.simulated, 3),
-                                 result.end == FuzzResult::End::Interrupted ? "; interrupted" : "");
+  std::string text =
+      fmt::format("{}; {} of simulated time{}\n", counted(result.runs, "run"), format_duration(result.simulated, 3),
+                  result.end == FuzzResult::End::Interrupted ? "; interrupted" : "");
   text += listening_text(result) + contacts_text(inspection, result);
   if (result.findings.empty()) return text + "\nNothing was found.\n";
   for (std::size_t i = 0; i < result.findings.size(); ++i) text += finding_text(inspection, result.findings[i], i + 1);

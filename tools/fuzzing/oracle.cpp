@@ -50,6 +50,7 @@ void Oracle::watch_rules(TrialBench& bench) {
 std::vector<FuzzFinding> Oracle::look(const TrialBench& bench, const State& before) const {
   std::vector<FuzzFinding> findings;
   const State& now = bench.cpu().state();
+  const bool restarted = bench.powered_up_at() >= before.time;  // which forgets all errors
   if (now.mode == Mode::Stop && !now.stopped_by_master) {
     FuzzFinding finding{.kind = now.fatal_code != 0 ? Kind::Fatal : Kind::Stop, .code = now.fatal_code};
     if (now.fatal_code != 0 && now.fatal_op != kNoRoutine) finding.op = now.fatal_op;
@@ -59,8 +60,8 @@ std::vector<FuzzFinding> Oracle::look(const TrialBench& bench, const State& befo
     findings.push_back(std::move(finding));
   }
   for (const RuntimeError& error : now.errors) {
-    if (error.count == 0 || now.error_count == before.error_count) continue;
-    const auto had = std::ranges::any_of(before.errors, [&](const RuntimeError& old) {
+    if (error.count == 0 || (!restarted && now.error_count == before.error_count)) continue;
+    const auto had = !restarted && std::ranges::any_of(before.errors, [&](const RuntimeError& old) {
       return old.count == error.count && old.code == error.code && old.op == error.op;
     });
     if (had) continue;
@@ -99,7 +100,7 @@ bool Oracle::is_silent(TrialBench& bench, const std::vector<std::uint8_t>& reque
 }
 
 std::string Oracle::end_of_scenario(const FuzzFinding& finding, const TrialBench& bench, const State& first) const {
-  const std::string wait = fmt::format("  - wait: until {}\n", exact(bench.time() + kMillisecond));
+  const std::string wait = fmt::format("  - wait: until {}\n", exact(bench.time() - bench.powered_up_at() + kMillisecond));
   switch (finding.kind) {
     case Kind::Fatal:
       return wait + "  - fatal: none\n";
@@ -140,7 +141,8 @@ std::string Oracle::rule_check(const FuzzFinding& finding, const TrialBench& ben
     std::string why;
     const auto holds = settings_.never[finding.rule].value(changed.cpu(), why);
     if (holds && !holds->truth())
-      return fmt::format("  - wait: until {}\n  - memory: {{{}: {}}}\n", exact(bench.time()), place.range.name_of(0), value);
+      return fmt::format("  - wait: until {}\n  - memory: {{{}: {}}}\n", exact(bench.time() - bench.powered_up_at()),
+                         place.range.name_of(0), value);
   }
   return {};
 }

@@ -96,10 +96,45 @@ std::vector<std::uint8_t> TrialMaker::well_formed() {
   return frame;
 }
 
+/// A write of several coils or registers whose quantity, byte count and data agree, or one of them lies; its CRC is right.
+std::vector<std::uint8_t> TrialMaker::write_of_several() {
+  const bool coils = chance_.one_in(2);
+  const auto bytes_of = [coils](std::uint64_t quantity) { return coils ? (quantity + 7) / 8 : 2 * quantity; };
+  constexpr std::uint16_t kStarts[]{0, 1, 8, 0x3F, 0x40, 0x3FF, 0x7FF, 0x7FFF, 0x8000, 0xFFFF};
+  constexpr std::uint16_t kQuantities[]{0, 1, 2, 8, 0x3C, 0x78, 0x7B, 0x80, 0x7FFF, 0xFFFF};
+  const std::uint16_t start = chance_.one_in(2) ? chance_.one_of(kStarts) : static_cast<std::uint16_t>(value());
+  std::uint64_t quantity = chance_.one_in(2) ? chance_.one_of(kQuantities) : chance_.below(130);
+  std::uint64_t count = bytes_of(quantity), data = count;
+  const auto lies = [&](std::uint64_t& about) { about = chance_.one_in(2) ? about + chance_.below(3) - 1 : chance_.byte(); };
+  switch (chance_.below(5)) {
+    case 0:
+      lies(quantity);
+      break;
+    case 1:
+      lies(count);
+      break;
+    case 2:
+      lies(data);
+      break;
+    default:
+      break;
+  }
+  std::vector<std::uint8_t> frame{words_.requests.front().front(), static_cast<std::uint8_t>(coils ? 15 : 16)};
+  for (const std::uint64_t word : {std::uint64_t{start}, quantity}) {
+    frame.push_back(static_cast<std::uint8_t>(word >> 8));
+    frame.push_back(static_cast<std::uint8_t>(word));
+  }
+  frame.push_back(static_cast<std::uint8_t>(count));
+  while (frame.size() < std::min<std::uint64_t>(7 + (data & 0xFF), kLongestFrame - 2)) frame.push_back(chance_.byte());
+  modbus::add_crc(frame);
+  return frame;
+}
+
 /// What the program compares characters with, now and then ended as lines are.
 std::vector<std::uint8_t> TrialMaker::characters() {
   std::vector<std::uint8_t> frame;
-  const std::uint64_t count = 1 + chance_.below(chance_.one_in(8) ? kLongestFrame - 1 : 12);
+  const std::uint64_t most = chance_.one_in(8) ? kLongestFrame - 1 : chance_.one_in(3) ? 1 : 12;
+  const std::uint64_t count = 1 + chance_.below(most);
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint32_t characters = chance_.one_in(3) ? chance_.byte() : value();
     for (int byte = characters > 0xFFFF ? 3 : characters > 0xFF ? 1 : 0; byte >= 0; --byte)
@@ -138,7 +173,7 @@ Stimulus TrialMaker::frame() {
   std::vector<std::uint8_t>& bytes = stimulus.bytes;
   const bool known = !words_.requests.empty();
   if (known && !chance_.one_in(4))
-    bytes = well_formed();
+    bytes = chance_.one_in(4) ? write_of_several() : well_formed();
   else if (!remembered_.empty() && !chance_.one_in(3))
     bytes = chance_.one_of(remembered_);
   else
@@ -147,6 +182,15 @@ Stimulus TrialMaker::frame() {
   if (bytes.empty()) bytes.push_back(chance_.byte());
   if (bytes.size() > kLongestFrame) bytes.resize(kLongestFrame);
   if (chance_.one_in(12)) stimulus.gap = static_cast<Time>(chance_.below(6)) * kMillisecond;
+  return stimulus;
+}
+
+/// Power fails seldom: to start again takes as long as hundreds of frames.
+Stimulus TrialMaker::disturbance() {
+  if (!words_.port || chance_.one_in(16)) return {.wait = wait(), .what = Stimulus::What::Power};
+  if (chance_.one_in(3)) return {.wait = wait(), .what = Stimulus::What::Break};
+  Stimulus stimulus = frame();
+  stimulus.damaged = static_cast<std::uint16_t>(1 + chance_.below(stimulus.bytes.size()));
   return stimulus;
 }
 

@@ -40,6 +40,9 @@ class TrialMaker {
   /// one; characters that the program compares with; or noise.
   Stimulus frame();
 
+  /// What goes wrong around a program: a character with wrong parity, a break, power that fails.
+  Stimulus disturbance();
+
   /// A frame that is a little different from one that has led to something new.
   void remember(const std::vector<std::uint8_t>& frame);
 
@@ -50,6 +53,7 @@ class TrialMaker {
   Time wait();
   std::uint32_t value();
   std::vector<std::uint8_t> well_formed();
+  std::vector<std::uint8_t> write_of_several();
   std::vector<std::uint8_t> characters();
   void change(std::vector<std::uint8_t>& frame);
 

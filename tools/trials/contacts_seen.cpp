@@ -15,7 +15,7 @@ std::uint8_t magnitude(std::uint16_t count) {
 }  // namespace
 
 ContactsSeen::ContactsSeen(const Cpu& cpu)
-    : cpu_(cpu), counts_(2 * cpu.program().ops.size()), seen_(2 * cpu.program().ops.size()) {
+    : cpu_(cpu), counts_(2 * cpu.program().ops.size()), seen_(counts_.size()), numbers_(counts_.size()) {
   for (const Op& op : cpu.program().ops) {
     forms_.push_back(contact_form(*op.instruction));
     if (forms_.back().is_contact() && why_constant(op, forms_.back()).empty())
@@ -24,7 +24,7 @@ ContactsSeen::ContactsSeen(const Cpu& cpu)
 }
 
 bool ContactsSeen::add_run() {
-  bool news = false;
+  bool news = new_number_;
   for (const std::uint32_t index : touched_) {
     const std::uint8_t is = magnitude(counts_[index]);
     news |= (seen_[index] & is) == 0;
@@ -37,6 +37,7 @@ bool ContactsSeen::add_run() {
 void ContactsSeen::forget_run() {
   for (const std::uint32_t index : touched_) counts_[index] = 0;
   touched_.clear();
+  new_number_ = false;
 }
 
 std::vector<ContactsSeen::Never> ContactsSeen::never() const {

@@ -1,6 +1,7 @@
 // Which contacts of a program were seen closed and open, and whether a run has done something that none before it did.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,7 @@ class ContactsSeen {
       const auto through = lets_through(cpu_, cpu_.program().ops[record.op], form, record);
       if (!through) return;
       state = *through;
+      if (form.kind == ContactForm::Kind::Numbers) look_at_numbers(record);
     }
     std::uint16_t& count = counts_[2 * record.op + state];
     if (count == 0) touched_.push_back(2 * record.op + state);
@@ -30,7 +32,7 @@ class ContactsSeen {
   }
 
   /// Ends a run: adds it to what was seen. True if it has executed an instruction in a way that no run before did, or far
-  /// more often.
+  /// more often, or compared a number of another order of magnitude.
   bool add_run();
   /// Forgets what was seen of the run.
   void forget_run();
@@ -48,12 +50,23 @@ class ContactsSeen {
   std::vector<Never> never() const;
 
  private:
+  void look_at_numbers(const InstructionRecord& record) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::uint64_t is = std::uint64_t{1} << std::bit_width(record.value[i].value_or(0));
+      std::uint64_t& seen = numbers_[2 * record.op + i];
+      new_number_ |= (seen & is) == 0;
+      seen |= is;
+    }
+  }
+
   const Cpu& cpu_;
   std::vector<ContactForm> forms_;       // by op
   std::vector<std::uint32_t> contacts_;  // ops
   std::vector<std::uint16_t> counts_;    // of this run: by op, twice: open or without power flow, closed or with it
   std::vector<std::uint8_t> seen_;       // the same of all runs: a bit for each order of magnitude
   std::vector<std::uint32_t> touched_;   // indices of counts_ that are not 0
+  std::vector<std::uint64_t> numbers_;   // compared in all runs: by op, twice: a bit for each number of significant bits
+  bool new_number_ = false;              // in this run
 };
 
 }  // namespace s7200::tools

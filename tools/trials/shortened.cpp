@@ -22,6 +22,7 @@ class Shortening {
     leave_out_stimuli();
     for (std::size_t i = 0; i < trial_.size(); ++i) {
       if (trial_[i].what == What::Frame) cut_frame(i);
+      mend_parity(i);
       simplify_times(i);
       simplify_bytes(i);
     }
@@ -45,16 +46,16 @@ class Shortening {
       for (const Stimulus& frame : Trial(trial_)) {
         if (frame.what != What::Frame) continue;
         for (std::size_t at = 0; at + length <= frame.bytes.size() && left_ > kept; ++at) {
-          const auto first = frame.bytes.begin() + static_cast<std::ptrdiff_t>(at);
           Stimulus alone = frame;
-          alone.bytes.assign(first, first + static_cast<std::ptrdiff_t>(length));
+          cut(alone, at + length, frame.bytes.size());
+          cut(alone, 0, at);
           alone.wait = std::max(frame.wait, kAlone);
           if (accept({alone})) return;
         }
       }
   }
 
-  /// Without its time, or with it at what comes next.
+  /// Without its time, or with it at what comes next, or with a second instead: then a program is ready again.
   bool leave_out(std::size_t first, std::size_t count) {
     const auto begin = trial_.begin() + static_cast<std::ptrdiff_t>(first);
     Trial candidate(trial_.begin(), begin);
@@ -62,6 +63,8 @@ class Shortening {
     if (accept(candidate)) return true;
     if (first >= candidate.size()) return false;
     for (std::size_t i = 0; i < count; ++i) candidate[first].wait += trial_[first + i].wait;
+    if (accept(candidate)) return true;
+    candidate[first].wait += kAlone;
     return accept(std::move(candidate));
   }
 
@@ -76,33 +79,54 @@ class Shortening {
     }
   }
 
-  bool accept_bytes(std::size_t i, std::vector<std::uint8_t> bytes) {
-    if (bytes.empty()) return false;
+  /// Takes characters out of a frame; the one with wrong parity stays the same one, if it stays.
+  static void cut(Stimulus& frame, std::size_t from, std::size_t to) {
+    const auto begin = frame.bytes.begin();
+    frame.bytes.erase(begin + static_cast<std::ptrdiff_t>(from), begin + static_cast<std::ptrdiff_t>(to));
+    if (frame.damaged > to)
+      frame.damaged = static_cast<std::uint16_t>(frame.damaged - (to - from));
+    else if (frame.damaged > from)
+      frame.damaged = 0;
+  }
+
+  bool accept_at(std::size_t i, Stimulus stimulus) {
+    if (stimulus.bytes.empty()) return false;
     Trial candidate = trial_;
-    candidate[i].bytes = std::move(bytes);
+    candidate[i] = std::move(stimulus);
     return accept(std::move(candidate));
   }
 
+  bool accept_bytes(std::size_t i, std::vector<std::uint8_t> bytes) {
+    Stimulus stimulus = trial_[i];
+    stimulus.bytes = std::move(bytes);
+    return accept_at(i, std::move(stimulus));
+  }
+
   /// The same with a right CRC instead of the last two bytes, if the frame has one.
-  bool accept_body(std::size_t i, std::vector<std::uint8_t> bytes) {
-    if (accept_bytes(i, bytes)) return true;
-    if (!modbus::crc_ok(trial_[i].bytes) || bytes.size() < 3) return false;
-    bytes.resize(bytes.size() - 2);
-    modbus::add_crc(bytes);
-    return accept_bytes(i, std::move(bytes));
+  bool accept_body(std::size_t i, Stimulus frame) {
+    if (accept_at(i, frame)) return true;
+    if (!modbus::crc_ok(trial_[i].bytes) || frame.bytes.size() < 3) return false;
+    frame.bytes.resize(frame.bytes.size() - 2);
+    modbus::add_crc(frame.bytes);
+    return accept_at(i, std::move(frame));
   }
 
   void cut_frame(std::size_t i) {
     for (std::size_t count = std::max<std::size_t>(1, trial_[i].bytes.size() / 2);; count /= 2) {
       for (std::size_t end = trial_[i].bytes.size(); end >= count; --end) {
         if (end > trial_[i].bytes.size()) continue;
-        std::vector<std::uint8_t> bytes = trial_[i].bytes;
-        const auto last = bytes.begin() + static_cast<std::ptrdiff_t>(end);
-        bytes.erase(last - static_cast<std::ptrdiff_t>(count), last);
-        accept_body(i, std::move(bytes));
+        Stimulus shorter = trial_[i];
+        cut(shorter, end - count, end);
+        accept_body(i, std::move(shorter));
       }
       if (count <= 1) return;
     }
+  }
+
+  void mend_parity(std::size_t i) {
+    Trial candidate = trial_;
+    candidate[i].damaged = 0;
+    accept(std::move(candidate));
   }
 
   void simplify_times(std::size_t i) {
@@ -124,10 +148,10 @@ class Shortening {
 
   void simplify_bytes(std::size_t i) {
     for (std::size_t at = 0; at < trial_[i].bytes.size(); ++at) {
-      std::vector<std::uint8_t> bytes = trial_[i].bytes;
-      bytes[at] = 0;
+      Stimulus simple = trial_[i];
+      simple.bytes[at] = 0;
       if (trial_[i].what == What::Frame)
-        accept_body(i, std::move(bytes));
+        accept_body(i, std::move(simple));
       else
         clear_bits(i, at);
     }

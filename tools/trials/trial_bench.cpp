@@ -49,6 +49,7 @@ void TrialBench::power_up() {
   for (Port& port : port_) port.state = {};
   done_ = {};
   ended_ = false;
+  powered_up_at_ = 0;
   cpu_.power_up();
 }
 
@@ -71,19 +72,39 @@ void TrialBench::run_until(Time end) {
   }
 }
 
+std::uint8_t TrialBench::port_of(const Stimulus& stimulus) const {
+  return static_cast<std::uint8_t>(stimulus.other_port ? 1 - number_ : number_);
+}
+
+/// Whether a port takes a character that has begun at `start`.
+bool TrialBench::hears(std::uint8_t port, Time start, const SerialFormat& format) const {
+  const PortState& state = port_[port].state;
+  return state.listens && state.listens_since <= start && state.format == format;
+}
+
+/// Runs until something comes from the line; false if the run has ended before.
+bool TrialBench::reach(Time at) {
+  queue_.schedule(at, kOwnerOfLine, kCharacter);
+  run_until(at);
+  return !stopped() && !ended_;
+}
+
 Time TrialBench::give(const Stimulus& frame) {
-  const SerialFormat format = port_[number_].state.format;
-  const PortState& port = port_[number_].state;
+  const std::uint8_t number = port_of(frame);
+  const PortState& port = port_[number].state;
+  const SerialFormat format = port.format;
   const Time to_report = format.half_bits(2 * (format.bits() - format.stop_bits) + 1);
   Time start = cpu_.time();
-  for (const std::uint8_t byte : frame.bytes) {
-    queue_.schedule(start + to_report, kOwnerOfLine, kCharacter);
-    run_until(start + to_report);
-    if (stopped() || ended_) return cpu_.time();
-    const bool heard = port.listens && port.listens_since <= start && port.format == format;
-    const auto data = static_cast<std::uint8_t>(format.data_bits == 7 ? byte & 0x7F : byte);
+  for (std::size_t i = 0; i < frame.bytes.size(); ++i) {
+    if (!reach(start + to_report)) return cpu_.time();
     done_.interrupted |= port.sent_until > start;
-    if (heard) cpu_.character_received({.byte = data, .start = start, .end = start + to_report}, number_);
+    if (hears(number, start, format))
+      cpu_.character_received(
+          {.byte = static_cast<std::uint8_t>(format.data_bits == 7 ? frame.bytes[i] & 0x7F : frame.bytes[i]),
+           .parity_error = frame.damaged == i + 1 && format.parity != Parity::None,
+           .start = start,
+           .end = start + to_report},
+          number);
     start += format.character_time() + frame.gap;
   }
   const Time end = start - frame.gap, had_sent = port.sent_until;
@@ -94,14 +115,55 @@ Time TrialBench::give(const Stimulus& frame) {
   return cpu_.time();
 }
 
+/// A receiver takes a break for a character of zeros without a stop bit, and hears no more of it.
+Time TrialBench::give_break(const Stimulus& stimulus) {
+  const std::uint8_t number = port_of(stimulus);
+  const SerialFormat format = port_[number].state.format;
+  const Time start = cpu_.time(), end = start + format.half_bits(2 * (format.bits() - format.stop_bits) + 1);
+  if (!reach(end)) return cpu_.time();
+  if (hears(number, start, format))
+    cpu_.character_received({.parity_error = format.parity == Parity::Odd,
+                             .framing_error = true,
+                             .start = start,
+                             .end = end,
+                             .line_break = true},
+                            number);
+  run_until(start + kBreak);
+  return cpu_.time();
+}
+
+Time TrialBench::cycle_power() {
+  const RetentiveMemory memory = cpu_.retentive_memory();
+  const State before = cpu_.state();
+  queue_ = EventQueue();
+  for (Port& port : port_) port.state = {};
+  powered_up_at_ = before.time;
+  cpu_.power_up(true, &memory, before.time);
+  for (std::uint32_t byte = 0; byte < before.terminals.size(); ++byte)
+    cpu_.set_input(byte, before.terminals[byte], before.time);
+  poke(image::kAI, {before.analog_terminals.begin(), before.analog_terminals.end()});
+  watched_value_ = static_cast<std::uint8_t>(cpu_.state().image[watched_place_] & watched_mask_);
+  run_until(before.time + kReady);
+  return cpu_.time();
+}
+
 Time TrialBench::apply(const Stimulus& stimulus, Time at) {
   run_until(at);
   if (stopped() || ended_) return cpu_.time();
-  if (stimulus.what == Stimulus::What::Frame) return give(stimulus);
-  if (stimulus.what == Stimulus::What::Input)
-    cpu_.set_input(stimulus.place, stimulus.bytes.front(), cpu_.time());
-  else
-    poke(stimulus.place, stimulus.bytes);
+  switch (stimulus.what) {
+    case Stimulus::What::Input:
+      cpu_.set_input(stimulus.place, stimulus.bytes.front(), cpu_.time());
+      break;
+    case Stimulus::What::Memory:
+      poke(stimulus.place, stimulus.bytes);
+      break;
+    case Stimulus::What::Frame:
+      return give(stimulus);
+    case Stimulus::What::Break:
+      return give_break(stimulus);
+    case Stimulus::What::Power:
+      return cycle_power();
+  }
   return cpu_.time();
 }
 
@@ -138,7 +200,7 @@ void TrialBench::watch_writes(std::uint32_t place, std::uint8_t mask, const std:
 }
 
 TrialBench::Snapshot TrialBench::snapshot() const {
-  Snapshot snapshot{cpu_.state(), queue_, {}, done_};
+  Snapshot snapshot{cpu_.state(), queue_, {}, done_, powered_up_at_};
   for (std::size_t i = 0; i < port_.size(); ++i) snapshot.port[i] = port_[i].state;
   return snapshot;
 }
@@ -148,6 +210,7 @@ void TrialBench::restore(const Snapshot& snapshot) {
   queue_ = snapshot.queue;
   for (std::size_t i = 0; i < port_.size(); ++i) port_[i].state = snapshot.port[i];
   done_ = snapshot.done;
+  powered_up_at_ = snapshot.powered_up_at;
   ended_ = false;
 }
 

@@ -41,12 +41,15 @@ class TrialBench final : private TraceSink {
 
   /// Power comes at time 0, and with it the first scan.
   void power_up();
+  /// When power came last: at 0, or back after a failure.
+  Time powered_up_at() const { return powered_up_at_; }
 
   /// Runs until then, or until the CPU is in STOP.
   void run_until(Time end);
 
   /// Does it at `at`, or now if that is past, and returns when it is over. A frame has the format that the port has when it
-  /// begins; once the program has set the port otherwise, it hears no more of it.
+  /// begins; once the program has set the port otherwise, it hears no more of it. Inputs keep their levels over a power
+  /// failure, and the clock of the bench goes on.
   Time apply(const Stimulus& stimulus, Time at);
 
   void poke(std::uint32_t place, const std::vector<std::uint8_t>& bytes) { cpu_.poke(place, bytes); }
@@ -84,6 +87,7 @@ class TrialBench final : private TraceSink {
     EventQueue queue;
     std::array<PortState, kPorts.size()> port;
     Done done;
+    Time powered_up_at = 0;
   };
   Snapshot snapshot() const;
   void restore(const Snapshot& snapshot);
@@ -107,7 +111,12 @@ class TrialBench final : private TraceSink {
   Watch watch() const override { return Watch::Flow; }
   bool wants_scans() const override { return false; }
 
+  std::uint8_t port_of(const Stimulus& stimulus) const;
+  bool hears(std::uint8_t port, Time start, const SerialFormat& format) const;
+  bool reach(Time at);
   Time give(const Stimulus& frame);
+  Time give_break(const Stimulus& stimulus);
+  Time cycle_power();
   void handle_due();
 
   EventQueue queue_;
@@ -121,6 +130,7 @@ class TrialBench final : private TraceSink {
   std::uint32_t transmit_op_ = kNoRoutine;
   std::function<bool(const Cpu&)> look_{};
   bool ended_ = false;  // by at_scan_end()
+  Time powered_up_at_ = 0;
   std::uint32_t watched_place_ = 0;
   std::uint8_t watched_mask_ = 0, watched_value_ = 0;
   std::vector<bool> writers_{};  // by op

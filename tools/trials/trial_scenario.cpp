@@ -28,13 +28,31 @@ std::string memory_assignment(const Stimulus& memory) {
   return fmt::format("{}: {}", place_text(memory.place, memory.bytes.size()), value);
 }
 
-std::string hex(const std::vector<std::uint8_t>& bytes) {
-  std::string text;
-  for (const std::uint8_t byte : bytes) text += fmt::format("{}{:02x}", text.empty() ? "" : " ", byte);
-  return text;
+/// The steps of one stimulus. `at`: when, since power came; `before`: the levels of its input byte.
+std::string steps_of(const Stimulus& stimulus, Time at, std::uint8_t before) {
+  using What = Stimulus::What;
+  if (stimulus.what == What::Frame) {
+    std::string text =
+        fmt::format("  - send: {}\n    at: {}\n    timeout: {}\n", frame_text(stimulus), exact(at), exact(kPatience));
+    if (stimulus.gap != 0) text += fmt::format("    gap: {}\n", exact(stimulus.gap));
+    return text;
+  }
+  std::string text = fmt::format("  - wait: until {}\n", exact(at));
+  if (stimulus.what == What::Power) return text + "  - power_cycle: memory kept\n";
+  if (stimulus.what == What::Break)
+    return text +
+           fmt::format("  - fault: break:from=0s,length={}\n  - wait: {}\n  - fault: none\n", exact(kBreak), exact(kBreak));
+  const std::string set = stimulus.what == What::Input ? inputs_text(stimulus, before) : memory_assignment(stimulus);
+  return set.empty() ? text : text + fmt::format("  - set: {{{}}}\n", set);
 }
 
 }  // namespace
+
+std::string frame_text(const Stimulus& frame) {
+  serial::Frame characters = serial::to_frame(frame.bytes);
+  if (frame.damaged != 0 && frame.damaged <= characters.size()) characters[frame.damaged - 1u].wrong_parity = true;
+  return serial::to_hex(characters);
+}
 
 std::string place_text(std::uint32_t place, std::size_t bytes) { return memory_text({place * 8u, bytes * 8u}); }
 
@@ -47,20 +65,14 @@ std::string scenario_text(const TrialScenario& scenario, const Program& program)
   if (scenario.port != 0) text += fmt::format("port: {}\n", scenario.port);
   text += "after: 0 ms\nsteps:\n";
   std::array<std::uint8_t, image::kPointBytes> inputs{};
+  Time powered_up_at = 0;
   for (std::size_t i = 0; i < scenario.trial.size(); ++i) {
     const Stimulus& stimulus = scenario.trial[i];
-    if (stimulus.what == Stimulus::What::Frame) {
-      text += fmt::format("  - send: {}\n    at: {}\n    timeout: {}\n", hex(stimulus.bytes), exact(scenario.begun[i]),
-                          exact(kPatience));
-      if (stimulus.gap != 0) text += fmt::format("    gap: {}\n", exact(stimulus.gap));
-      if (i < scenario.beside.size() && !scenario.beside[i].empty()) text += fmt::format("    {}\n", scenario.beside[i]);
-      continue;
-    }
     const bool input = stimulus.what == Stimulus::What::Input;
-    const std::string set = input ? inputs_text(stimulus, inputs[stimulus.place]) : memory_assignment(stimulus);
+    text += steps_of(stimulus, scenario.begun[i] - powered_up_at, input ? inputs[stimulus.place] : 0);
     if (input) inputs[stimulus.place] = stimulus.bytes.front();
-    text += fmt::format("  - wait: until {}\n", exact(scenario.begun[i]));
-    if (!set.empty()) text += fmt::format("  - set: {{{}}}\n", set);
+    if (stimulus.what == Stimulus::What::Power) powered_up_at = scenario.begun[i];
+    if (i < scenario.beside.size() && !scenario.beside[i].empty()) text += fmt::format("    {}\n", scenario.beside[i]);
   }
   return text + scenario.end;
 }

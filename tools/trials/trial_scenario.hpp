@@ -34,6 +34,9 @@ std::string scenario_text(const TrialScenario& scenario, const Program& program)
 std::optional<std::vector<std::string>> findings_of(const std::string& text, const std::string& path,
                                                     const std::shared_ptr<const Program>& program, std::string& why);
 
+/// The characters of a frame in hex, with `p` after the one whose parity is wrong: `01 03p 00`
+std::string frame_text(const Stimulus& frame);
+
 /// An address of a byte, word or double word in the image, as scenarios name it: `VW10`, `AIW0`, `MB3`.
 std::string place_text(std::uint32_t place, std::size_t bytes);
 

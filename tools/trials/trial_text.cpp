@@ -16,8 +16,12 @@ std::vector<std::string> words(const Trial& trial) {
   std::vector<std::string> all;
   for (const Stimulus& stimulus : trial) {
     std::string text;
-    if (stimulus.what == Stimulus::What::Frame) {
-      text = fmt::format("sends {:02x}", fmt::join(stimulus.bytes, " "));
+    if (stimulus.what == Stimulus::What::Power) {
+      text = "power fails and comes back";
+    } else if (stimulus.what == Stimulus::What::Break) {
+      text = fmt::format("holds the line at space for {}, a break", format_duration(kBreak));
+    } else if (stimulus.what == Stimulus::What::Frame) {
+      text = "sends " + frame_text(stimulus);
       if (stimulus.gap != 0) text += fmt::format(", {} between characters", format_duration(stimulus.gap));
     } else if (stimulus.what == Stimulus::What::Input) {
       const std::uint8_t value = stimulus.bytes.front();
@@ -30,6 +34,7 @@ std::vector<std::string> words(const Trial& trial) {
       for (const std::uint8_t byte : stimulus.bytes) value = value << 8 | byte;
       text = fmt::format("{} = {}", place_text(stimulus.place, stimulus.bytes.size()), value);
     }
+    if (stimulus.other_port) text += ", at the other port";
     all.push_back(text.empty() ? "nothing" : text);
   }
   return all;

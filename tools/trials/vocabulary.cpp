@@ -14,7 +14,6 @@ namespace s7200::tools {
 namespace {
 
 constexpr std::size_t kMostConstants = 4000;
-constexpr Time kReadyAfter = 1 * kSecond;
 
 template <class List, class Value>
 void add_once(List& list, const Value& value) {
@@ -30,7 +29,7 @@ class Listener {
     add_edges();
     add_constants();
     add_presets();
-    add_port();
+    add_ports();
     return std::move(words_);
   }
 
@@ -109,14 +108,16 @@ class Listener {
     }
   }
 
-  /// The first port with RCV, or with a routine for received characters.
-  void add_port() {
-    for (std::uint8_t port = 0; port < kPorts.size() && !words_.port; ++port) {
+  /// Ports with RCV, or with a routine for received characters.
+  void add_ports() {
+    for (std::uint8_t port = 0; port < kPorts.size(); ++port) {
       const auto event = kPorts[port].received;
       const bool attached = std::ranges::any_of(facts_.flow.attachments, [&](const Attachment& attachment) {
         return attachment.event && *attachment.event == event;
       });
-      if (attached || facts_.program.receives_messages[port]) words_.port = port;
+      if (!attached && !facts_.program.receives_messages[port]) continue;
+      words_.both_ports = words_.port.has_value();
+      if (!words_.port) words_.port = port;
     }
   }
 
@@ -149,7 +150,7 @@ std::vector<std::vector<std::uint8_t>> answered_requests(std::shared_ptr<const P
   if (!words.port) return {};
   TrialBench bench(std::move(program), *words.port);
   bench.power_up();
-  bench.run_until(kReadyAfter);
+  bench.run_until(kReady);
   const auto ready = bench.snapshot();
   std::set<std::uint8_t> stations{1, 2, 3};
   for (const std::uint32_t constant : words.constants)

@@ -22,7 +22,8 @@ struct Vocabulary {
   std::vector<Bytes> commands;                        ///< V and M that it reads, and that only its data block or nobody sets
   std::vector<std::uint32_t> constants;               ///< that its instructions have, each once
   std::vector<Time> presets;                          ///< of its timers, in ns
-  std::optional<std::uint8_t> port{};                 ///< at which it receives; nothing: at none
+  std::optional<std::uint8_t> port{};                 ///< the first at which it receives; nothing: at none
+  bool both_ports = false;                            ///< it receives at the other one too
   std::vector<std::vector<std::uint8_t>> requests{};  ///< frames that it has answered
 
   /// Adds what another program listens to.

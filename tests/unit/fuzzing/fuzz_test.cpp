@@ -1,7 +1,11 @@
 // What `s7200 fuzz` finds.
 #include "tools/fuzzing/fuzz.hpp"
 
+#include <set>
+
+#include "serial_sim/modbus/crc.hpp"
 #include "tests/support/inspected.hpp"
+#include "tests/support/tip41.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -20,9 +24,26 @@ const std::string kTrusting =
 const std::string kEcho =
     "LD SM0.1\nMOVB 9, SMB30\nMOVB 1, VB0\nATCH 0, 8\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, VB1\nXMT VB0, 0\n";
 
+/// Receives characters at a port of a CPU 226; what each of the two routines does is left open.
+std::string at_both_ports(const std::string& at_first, const std::string& at_second) {
+  return "LD SM0.1\nMOVB 9, SMB30\nMOVB 9, SMB130\nATCH 0, 8\nATCH 1, 25\nENI\nMEND\nINT 0\n" + at_first + "RETI\nINT 1\n" +
+         at_second + "RETI\n";
+}
+
+/// Our slave, with registers in all of V memory, as one would write it who copies as many bytes as the request says.
+std::string believes_its_byte_count() {
+  const std::string all = test::changed(test::slave_text(), "MOVW    1001, VW3292", "MOVW    2049, VW3292");
+  const std::string unchecked = test::changed(
+      all, "LDB=    VB3334, AC0             // are promised\nAW=     VW3300, AC1             // and have come\nNOT\nCRET\n",
+      "");
+  return test::changed(unchecked, "BMW     VW3335, *AC1, AC2 ",
+                       "MOVB    VB3334, AC2\nANDW 255, AC2\nSRW AC2, 1\nBMW VW3335, *AC1, AC2 ");
+}
+
 struct Fuzzed {
-  explicit Fuzzed(std::string_view text, FuzzSettings settings = {.runs = 20'000, .seconds = 60})
-      : inspection(inspected(text, {}, *find_cpu("214"))), result(fuzz(inspection, settings)) {}
+  explicit Fuzzed(std::string_view text, FuzzSettings settings = {.runs = 20'000, .seconds = 60},
+                  std::string_view cpu = "214")
+      : inspection(inspected(text, {}, *find_cpu(cpu))), result(fuzz(inspection, settings)) {}
   Inspection inspection;
   FuzzResult result;
 
@@ -125,6 +146,74 @@ TEST(Fuzz, TheSameSeedFindsTheSame) {
   ASSERT_EQ(once.result.findings.size(), again.result.findings.size());
   for (std::size_t i = 0; i < once.result.findings.size(); ++i)
     EXPECT_EQ(once.result.findings[i].trial, again.result.findings[i].trial);
+}
+
+TEST(Fuzz, AByteCountThatLiesIsFoundThoughTheFrameIsWhole) {
+  const Fuzzed fuzzed(believes_its_byte_count(), {.runs = 30'000, .seconds = 60});
+  const FuzzFinding* const count = fuzzed.of(Kind::Error, 0x0091);
+  ASSERT_TRUE(count) << fuzz_text(fuzzed.inspection, fuzzed.result);
+  EXPECT_TRUE(modbus::crc_ok(count->trial.back().bytes));
+  EXPECT_TRUE(fuzzed.is_shown(*count));
+}
+
+TEST(Fuzz, ACharacterWithWrongParityIsTriedAndWritten) {
+  const Fuzzed fuzzed("LD SM0.1\nMOVB 16#49, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nLD SM3.0\nSTOP\nRETI\n",
+                      {.runs = 1000, .seconds = 60});
+  const FuzzFinding* const stop = fuzzed.of(Kind::Stop);
+  ASSERT_TRUE(stop) << fuzz_text(fuzzed.inspection, fuzzed.result);
+  ASSERT_EQ(stop->trial.size(), 1U);
+  EXPECT_EQ(stop->trial[0].damaged, 1U);
+  EXPECT_NE(fuzz_text(fuzzed.inspection, fuzzed.result).find("p\n"), std::string::npos);
+  EXPECT_TRUE(fuzzed.is_shown(*stop));
+}
+
+TEST(Fuzz, ABreakIsTriedAndWritten) {
+  const std::string waits_for_a_break =
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#86, SMB87\nMOVB 3, SMB94\nMOVW 50, SMW92\nATCH 0, 23\nENI\nRCV VB100, 0\nMEND\n"
+      "INT 0\nLDB>= VB100, 1\nSTOP\nLD SM0.0\nRCV VB100, 0\nRETI\n";
+  const Fuzzed fuzzed(waits_for_a_break, {.runs = 5000, .seconds = 60}, "224");
+  const FuzzFinding* const stop = fuzzed.of(Kind::Stop);
+  ASSERT_TRUE(stop) << fuzz_text(fuzzed.inspection, fuzzed.result);
+  EXPECT_EQ(stop->trial.front().what, Stimulus::What::Break);
+  EXPECT_TRUE(fuzzed.is_shown(*stop));
+}
+
+TEST(Fuzz, APowerFailureIsTriedAndWritten) {
+  const Fuzzed fuzzed("LD SM0.1\nA M20.0\nSTOP\nLD I0.0\nS M20.0, 1\nMEND\n", {.runs = 10'000, .seconds = 60});
+  const FuzzFinding* const stop = fuzzed.of(Kind::Stop);
+  ASSERT_TRUE(stop) << fuzz_text(fuzzed.inspection, fuzzed.result);
+  ASSERT_EQ(stop->trial.size(), 2U);
+  EXPECT_EQ(stop->trial[1].what, Stimulus::What::Power);
+  EXPECT_TRUE(fuzzed.is_shown(*stop));
+}
+
+TEST(Fuzz, TheSecondPortIsTriedAndWritten) {
+  const Fuzzed fuzzed(at_both_ports("LDB= SMB2, 16#21\nS Q0.0, 1\n", "LDB= SMB2, 16#3F\nSTOP\n"),
+                      {.runs = 2000, .seconds = 60}, "226");
+  const FuzzFinding* const stop = fuzzed.of(Kind::Stop);
+  ASSERT_TRUE(stop) << fuzz_text(fuzzed.inspection, fuzzed.result);
+  ASSERT_EQ(stop->trial.size(), 1U);
+  EXPECT_TRUE(stop->trial[0].other_port);
+  EXPECT_TRUE(fuzzed.is_shown(*stop));
+}
+
+TEST(Fuzz, AFindingThatNeedsBothPortsIsNotWritten) {
+  const Fuzzed fuzzed(at_both_ports("LDB= SMB2, 16#21\nS M0.0, 1\n", "LDB= SMB2, 16#3F\nA M0.0\nSTOP\n"),
+                      {.runs = 10'000, .seconds = 60}, "226");
+  const FuzzFinding* const stop = fuzzed.of(Kind::Stop);
+  ASSERT_TRUE(stop) << fuzz_text(fuzzed.inspection, fuzzed.result);
+  EXPECT_FALSE(fuzzed.is_shown(*stop));
+}
+
+TEST(Fuzz, TheTipIsFoundOutByBlocksOfNothingAndByAPointerBeyondItsOutputs) {
+  if (!test::tip41::available()) GTEST_SKIP() << "Application Tip 41 is not here";
+  const Fuzzed fuzzed(test::tip41::text(), {.runs = 30'000, .seconds = 60});
+  std::set<std::string> blocks;
+  for (const FuzzFinding& finding : fuzzed.result.findings)
+    if (finding.code == 0x0092) blocks.insert(fuzzed.inspection.program->statement(*finding.op).mnemonic);
+  EXPECT_EQ(blocks, (std::set<std::string>{"BMB", "BMW"})) << fuzz_text(fuzzed.inspection, fuzzed.result);
+  ASSERT_TRUE(fuzzed.of(Kind::Error, 0x0006));
+  EXPECT_TRUE(fuzzed.is_shown(*fuzzed.of(Kind::Error, 0x0006)));
 }
 
 }  // namespace

@@ -96,6 +96,40 @@ TEST(Shortened, LeavesOutWhatDoesNotMatter) {
   EXPECT_EQ(shortest[0].wait, 0);
 }
 
+TEST(Shortened, ACharacterWithWrongParityStaysTheOneThatItWas) {
+  const auto holds = [](const Trial& of) {
+    return of.size() == 1 && of[0].damaged != 0 && of[0].bytes[of[0].damaged - 1u] == 0x55;
+  };
+  const Trial shortest = shortened({{.what = What::Frame, .bytes = {1, 2, 0x55, 3}, .damaged = 3}}, holds, 2000);
+  EXPECT_EQ(shortest[0].bytes, std::vector<std::uint8_t>{0x55});
+  EXPECT_EQ(shortest[0].damaged, 1);
+}
+
+TEST(TrialBench, APowerFailureKeepsRetentiveMemoryAndTheLevelsOfInputs) {
+  TrialBench bench(checked("LD SM0.1\nINCW VW4000\nLD I0.0\nS M20.0, 1\n= Q0.0\nMEND\n"), 0);
+  bench.power_up();
+  bench.apply({.what = What::Input, .bytes = {1}}, 50 * kMillisecond);
+  bench.run_until(100 * kMillisecond);
+  bench.poke(image::kM + 3, {7});
+  bench.apply({.what = What::Power}, 100 * kMillisecond);
+  EXPECT_EQ(bench.powered_up_at(), bench.cpu().state().time - kReady);
+  EXPECT_EQ(bench.cpu().state().image[image::kM + 20], 1);
+  EXPECT_EQ(bench.cpu().state().image[image::kM + 3], 0);
+  EXPECT_EQ(bench.cpu().state().image[image::kQ], 1);
+}
+
+TEST(TrialBench, ABreakIsACharacterOfZerosWithoutItsStopBit) {
+  TrialBench bench(checked("LD SM0.1\nMOVB 16#C9, SMB30\nATCH 0, 8\nENI\nMEND\n"
+                           "INT 0\nLD SM3.0\nMOVB 1, VB1\nLD SM0.0\nMOVB SMB2, VB0\nINCW VW2\nRETI\n"),
+                   0);
+  bench.power_up();
+  bench.poke(image::kV, {0xFF});
+  bench.apply({.what = What::Break}, 100 * kMillisecond);
+  EXPECT_EQ(bench.cpu().state().image[image::kV], 0);
+  EXPECT_EQ(bench.cpu().state().image[image::kV + 1], 1);  // odd parity wants a parity bit of 1
+  EXPECT_EQ(bench.cpu().state().image[image::kV + 3], 1);
+}
+
 TEST(Shortened, AFrameKeepsItsCrcWhereThatMatters) {
   Stimulus frame{.what = What::Frame, .bytes = {1, 3, 0x12, 0x34, 0, 9}};
   modbus::add_crc(frame.bytes);
