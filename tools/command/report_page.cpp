@@ -8,9 +8,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text.hpp"
 #include "interpreter/program/stand_ins.hpp"
 #include "tools/faces/page/engine/engine.hpp"
+#include "tools/json/base64.hpp"
 #include "tools/json/json_text.hpp"
 #include "tools/session/commands/recording_json.hpp"
 #include "tools/views/results_json.hpp"
@@ -26,23 +28,11 @@ constexpr int kElements = 400;               ///< of a track of the picture
 constexpr std::size_t kCheckpoints = 288;    ///< of a long run at most: one each five minutes of a day
 constexpr Time kBetweenCheckpoints = 10 * kSecond;
 
-std::string in_base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-std::string compressed(const std::string& text) {
+Bytes compressed(const std::string& text) {
   uLongf size = compressBound(static_cast<uLong>(text.size()));
-  std::string bytes(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
-                static_cast<uLong>(text.size()), Z_BEST_COMPRESSION) != Z_OK)
+  Bytes bytes(size);
+  if (compress2(bytes.data(), &size, reinterpret_cast<const Bytef*>(text.data()), static_cast<uLong>(text.size()),
+                Z_BEST_COMPRESSION) != Z_OK)
     throw std::runtime_error("a report needs more memory than there is");
   bytes.resize(size);
   return bytes;
@@ -124,7 +114,7 @@ std::string with_report(std::string_view page, const Json& report) {
   const std::size_t place = page.find(kPlace), content = kPlace.find("</");
   if (place == std::string_view::npos) throw std::runtime_error("the page has no place for a report");
   std::string text(page.substr(0, place + content));
-  text += in_base64(compressed(line_of(report)));
+  text += to_base64(compressed(line_of(report)));
   return text.append(page.substr(place + content));
 }
 

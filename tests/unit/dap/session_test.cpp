@@ -6,7 +6,7 @@
 #include "interpreter/program/load.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/dap/editor.hpp"
-#include "tools/faces/dap/base64.hpp"
+#include "tools/json/base64.hpp"
 #include "tools/session/commands/command_table.hpp"
 
 namespace s7200::tools::dap {

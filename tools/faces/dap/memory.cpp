@@ -8,10 +8,10 @@
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/faces/dap/addresses.hpp"
-#include "tools/faces/dap/base64.hpp"
 #include "tools/faces/dap/conversation.hpp"
 #include "tools/faces/dap/requests.hpp"
 #include "tools/faces/dap/variables.hpp"
+#include "tools/json/base64.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/words/force_words.hpp"
 

@@ -1,8 +1,8 @@
-#include "tools/faces/dap/base64.hpp"
+#include "tools/json/base64.hpp"
 
 #include <algorithm>
 
-namespace s7200::tools::dap {
+namespace s7200::tools {
 namespace {
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -38,4 +38,4 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   return bytes;
 }
 
-}  // namespace s7200::tools::dap
+}  // namespace s7200::tools
