@@ -28,6 +28,9 @@ constexpr std::string_view kOther = "a mnemonic of other controllers";
 constexpr std::string_view kContact = "a contact of the ladder editor";
 constexpr std::string_view kLadderBox = "a box of the ladder editor";
 constexpr std::string_view kHeading = "the heading of a network in another language";
+constexpr std::string_view kMainHeading = "the heading of the main program in another language";
+constexpr std::string_view kSubroutineHeading = "the heading of a subroutine in another form";
+constexpr std::string_view kInterruptHeading = "the heading of an interrupt routine in another form";
 constexpr std::string_view kSmart = "an instruction of the S7-200 SMART";
 constexpr std::string_view kAsCpu226 =
     "a program for the SMART runs here as CPU 226 as far as it goes; what GET and PUT do there, NETR and NETW do on a 226";
@@ -133,6 +136,13 @@ constexpr ForeignRow kForeignRows[] = {
     {"CMP_I",    kLadderBox, "write LDW, AW or OW with =, <>, >=, <=, > or <: LDW>= IN1, IN2"},
     {"CMP_DI",   kLadderBox, "write LDD, AD or OD with =, <>, >=, <=, > or <: LDD>= IN1, IN2"},
     {"CMP_R",    kLadderBox, "write LDR, AR or OR with =, <>, >=, <=, > or <: LDR>= IN1, IN2"},
+    {"HAUPTPROGRAMM",     kMainHeading,       "write MAIN, or nothing: a listing begins with the main program"},
+    {"UNTERPROGRAMM",     kSubroutineHeading, "write SBR_0 for subroutine 0"},
+    {"SUBRUTINA",         kSubroutineHeading, "write SBR_0 for subroutine 0"},
+    {"SUBROUTINE",        kSubroutineHeading, "write SBR_0 for subroutine 0"},
+    {"SOTTOPROGRAMMA",    kSubroutineHeading, "write SBR_0 for subroutine 0"},
+    {"INTERRUPTPROGRAMM", kInterruptHeading,  "write INT_0 for interrupt routine 0"},
+    {"INTERRUPTROUTINE",  kInterruptHeading,  "write INT_0 for interrupt routine 0"},
     {"NETWERK",  kHeading, "write NETWORK"},
     {"REDE",     kHeading, "write NETWORK"},
     {"RESEAU",   kHeading, "write NETWORK"},

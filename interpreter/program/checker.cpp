@@ -233,7 +233,7 @@ class Checker {
             "give the file that has it too");
     ProgramStructure structure;
     const std::size_t before = diagnostics_.size();
-    if (!lacks_main_program()) structure = check_structure(statements_, model_, diagnostics_);
+    if (!lacks_main_program()) structure = check_structure(statements_, source_.text, model_, diagnostics_);
     note_broken_structure(before);
     check_logic_stack(statements_, diagnostics_);
     check_size();

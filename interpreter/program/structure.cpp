@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "interpreter/base/among.hpp"
+#include "interpreter/base/text.hpp"
 #include "interpreter/program/unread.hpp"
 #include "interpreter/program/warnings.hpp"
 
@@ -26,10 +28,34 @@ std::uint32_t number_of(const CheckedStatement& s, std::size_t i = 0) {
   return static_cast<std::uint32_t>(std::get<stl::Integer>(s.statement->operands[i].value).value);
 }
 
+/// Beginnings of words for a routine in headings that people translate: `INTERRUPTPROGRAMM 0`, `Sous-programme 1`.
+struct WordOfHeading {
+  Part part;
+  std::string_view word;
+};
+constexpr std::array kWordsOfHeadings{WordOfHeading{kSubroutine, "SBR"},   WordOfHeading{kSubroutine, "SUB"},
+                                      WordOfHeading{kSubroutine, "UNTER"}, WordOfHeading{kSubroutine, "SOUS"},
+                                      WordOfHeading{kSubroutine, "SOTTO"}, WordOfHeading{kSubroutine, "\u5B50\u7A0B\u5E8F"},
+                                      WordOfHeading{kInterrupt, "INT"},    WordOfHeading{kInterrupt, "\u4E2D\u65AD"}};
+
+/// Whether a line that could not be read may be the heading of a routine: it has the routine's number and such a word.
+bool may_be_heading(std::string_view line, Part part, std::uint32_t number) {
+  const std::string capitals = stl::upper_case(line), digits = std::to_string(number);
+  const auto is_in_line = [&](const WordOfHeading& each) {
+    return each.part == part && capitals.find(each.word) != std::string::npos;
+  };
+  if (std::ranges::none_of(kWordsOfHeadings, is_in_line)) return false;
+  const auto has_digit = [&](std::size_t at) { return at < line.size() && stl::is_digit(line[at]); };
+  for (std::size_t at = line.find(digits); at != std::string_view::npos; at = line.find(digits, at + 1))
+    if ((at == 0 || !has_digit(at - 1)) && !has_digit(at + digits.size())) return true;
+  return false;
+}
+
 class StructureCheck {
  public:
-  StructureCheck(const std::vector<CheckedStatement>& statements, const CpuModel& model, stl::Diagnostics& diagnostics)
-      : statements_(statements), model_(model), diagnostics_(diagnostics) {
+  StructureCheck(const std::vector<CheckedStatement>& statements, const std::vector<std::string>& text,
+                 const CpuModel& model, stl::Diagnostics& diagnostics)
+      : statements_(statements), text_(text), model_(model), diagnostics_(diagnostics) {
     result_.target.assign(statements.size(), 0);
     result_.head.assign(statements.size(), 0);
     result_.in_segment.assign(statements.size(), false);
@@ -76,7 +102,7 @@ class StructureCheck {
 
   void visit(std::uint32_t i) {
     const CheckedStatement& s = statements_[i];
-    if (s.instruction == &unread_instruction()) return may_be_anything();
+    if (s.instruction == &unread_instruction()) return may_be_anything(i);
     switch (s.instruction->structure) {
       case Structure::SubroutineHead:
         return begin_routine(i, kSubroutine, subroutines_);
@@ -96,9 +122,17 @@ class StructureCheck {
   }
 
   /// A statement that could not be read may jump to any label, and call or attach any routine.
-  void may_be_anything() {
+  void may_be_anything(std::uint32_t i) {
+    unread_lines_.push_back(position(i).line);
     all_jumps_known_ = all_calls_known_ = all_attachments_known_ = false;
     some_unread_ = true;
+  }
+
+  /// Whether the heading of a routine may be in the program, and could not be read: that is the only mistake then.
+  bool may_have_heading(Part part, std::uint32_t number) const {
+    return std::ranges::any_of(unread_lines_, [&](std::uint32_t line) {
+      return line > 0 && line <= text_.size() && may_be_heading(text_[line - 1], part, number);
+    });
   }
 
   /// Notes what a statement means for the structure of its routine.
@@ -331,6 +365,7 @@ class StructureCheck {
     for (const Place& call : calls_) {
       const std::uint32_t number = number_of(statements_[call.statement]);
       if (!subroutines_.contains(number)) {
+        if (may_have_heading(kSubroutine, number)) continue;
         error(position(call.statement), fmt::format("subroutine {} is missing (compile rule 0087)", number),
               fmt::format("the program has no SBR {}", number), fmt::format("no SBR {}", number));
         continue;
@@ -343,7 +378,7 @@ class StructureCheck {
   void check_attachments() {
     for (const Place& attach : attachments_) {
       const std::uint32_t number = number_of(statements_[attach.statement]);
-      if (!interrupts_.contains(number))
+      if (!interrupts_.contains(number) && !may_have_heading(kInterrupt, number))
         error(position(attach.statement), fmt::format("interrupt routine {} is missing (compile rule 0087)", number),
               fmt::format("the program has no INT {}", number), fmt::format("no INT {}", number));
       attached_.insert(number);
@@ -392,12 +427,13 @@ class StructureCheck {
   }
 
   const std::vector<CheckedStatement>& statements_;
+  const std::vector<std::string>& text_;
   const CpuModel& model_;
   stl::Diagnostics& diagnostics_;
   ProgramStructure result_;
 
   Routine routine_{};
-  bool ended_ = false;  // the routine's last instruction has been seen
+  bool ended_ = false;                            // the routine's last instruction has been seen
   bool some_unread_ = false, some_read_ = false;  // statements of the routine so far
   bool stray_reported_ = false;
   std::vector<std::uint32_t> loops_;                                      // open FORs
@@ -410,6 +446,7 @@ class StructureCheck {
   std::vector<Place> jumps_, calls_, attachments_;
   std::map<Routine, std::set<std::uint32_t>> called_;
   std::set<std::uint32_t> attached_;
+  std::vector<std::uint32_t> unread_lines_;
   bool all_jumps_known_ = true, all_calls_known_ = true, all_attachments_known_ = true;
 };
 
@@ -530,9 +567,9 @@ class StackCheck {
 
 }  // namespace
 
-ProgramStructure check_structure(const std::vector<CheckedStatement>& statements, const CpuModel& model,
-                                 stl::Diagnostics& diagnostics) {
-  return StructureCheck(statements, model, diagnostics).run();
+ProgramStructure check_structure(const std::vector<CheckedStatement>& statements, const std::vector<std::string>& text,
+                                 const CpuModel& model, stl::Diagnostics& diagnostics) {
+  return StructureCheck(statements, text, model, diagnostics).run();
 }
 
 void check_logic_stack(const std::vector<CheckedStatement>& statements, stl::Diagnostics& diagnostics) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
@@ -26,9 +27,10 @@ struct ProgramStructure {
   std::array<std::uint32_t, 128> interrupt{};
 };
 
-/// Adds what is wrong to `diagnostics`; the result is useful only if nothing is.
-ProgramStructure check_structure(const std::vector<CheckedStatement>& statements, const CpuModel& model,
-                                 stl::Diagnostics& diagnostics);
+/// Adds what is wrong to `diagnostics`; the result is useful only if nothing is. `text`: the lines of the source; a routine
+/// whose heading may be one that could not be read is not missing.
+ProgramStructure check_structure(const std::vector<CheckedStatement>& statements, const std::vector<std::string>& text,
+                                 const CpuModel& model, stl::Diagnostics& diagnostics);
 
 /// Follows the depth of the logic stack through each network and its rungs. A rung begins at a NETWORK head, a routine head,
 /// a label or loop, and at an LD after a coil or box.

@@ -156,6 +156,28 @@ TEST(Headings, ARoutineThatIsMissingIsNamedByItsNumber) {
   EXPECT_EQ(errors(checked("LD SM0.0\nCALL INT_5\n")), "2: INT_5 is not a subroutine\n");
 }
 
+TEST(Headings, ARoutineWhoseHeadingCouldNotBeReadIsNotMissing) {
+  for (const std::string heading : {"\u4E2D\u65AD\u7A0B\u5E8FINT_0", "INTERRUPTPROGRAMM INT_0",
+                                    "Interrupt-Programm 0:", "RUTINA DE INTERRUPCI\u00D3N INT_0",
+                                    "PROGRAMME D'INTERRUPTION 0", "INT_0 (Takt", "INTERRUPT_BLOK Takt:INT0"}) {
+    const std::string said = errors(checked("LD SM0.1\nATCH INT_0, 10\nENI\n" + heading + "\nLD SM0.0\nINCW VW0\n"));
+    EXPECT_TRUE(said.starts_with("4: ")) << said;
+    EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+  }
+  for (const std::string heading : {"UNTERPROGRAMM 1", "Sous-programme 1", "\u5B50\u7A0B\u5E8F 1", "Subrutina SBR_1"}) {
+    const std::string said = errors(checked("LD SM0.0\nCALL SBR_1\n" + heading + "\nLD SM0.0\nINCW VW0\n"));
+    EXPECT_TRUE(said.starts_with("3: ")) << said;
+    EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+  }
+}
+
+TEST(Headings, ARoutineThatNoUnreadLineMentionsIsMissing) {
+  EXPECT_EQ(errors(checked("LD SM0.0\nCALL 1\nATCH 3, 10\nXYZ 13, VB1\nINTERRUPTPROGRAMM 13\n")),
+            "2: subroutine 1 is missing (compile rule 0087)\n3: interrupt routine 3 is missing (compile rule 0087)\n"
+            "4: unknown instruction 'XYZ'\n"
+            "5: INTERRUPTPROGRAMM is the heading of an interrupt routine in another form\n");
+}
+
 TEST(Headings, InAnExportNamesAreThoseOfItsBlocks) {
   EXPECT_EQ(errors(checked("ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNetwork 1\nLD SM0.0\nCALL SBR_0\nEND_ORGANIZATION_BLOCK\n"
                            "SUBROUTINE_BLOCK Pump:SBR0\nBEGIN\nNetwork 1\nLD SM0.0\nINCW VW0\nEND_SUBROUTINE_BLOCK\n")),
