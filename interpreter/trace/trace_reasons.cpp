@@ -241,9 +241,12 @@ std::string TraceReasons::contacts_text(const std::vector<InstructionRecord>& co
 }
 
 std::string TraceReasons::text_of(const Decision& decision) const {
-  if (decision.by_contacts)
-    return fmt::format("the contacts from {} on ({})", line_of(decision.contacts.front().op),
-                       contacts_text(decision.contacts));
+  if (decision.by_contacts) {
+    const std::string first = line_of(decision.contacts.front().op), last = line_of(decision.contacts.back().op);
+    const std::string place =
+        first == last ? "the contact in " + first : fmt::format("the contacts from {} to {}", first, last);
+    return fmt::format("{} ({})", place, contacts_text(decision.contacts));
+  }
   const stl::Statement& statement = program_.statement(decision.by.op);
   const std::string_view skipped = role_[decision.by.op] == Role::Other ? ", without power flow" : ", not taken";
   return fmt::format("{} in {}{}{}{}", short_text(statement), line_of(decision.by.op), decision.by.powered ? "" : skipped,
@@ -380,9 +383,8 @@ std::optional<TraceReasons::Unanswered> TraceReasons::taken(const Reception& rec
   all.characters -= all.lost;
   const std::optional<Cause> cause = cause_of(frame);
   const std::string text =
-      fmt::format("{} took {}{}, and nothing was sent since{}",
-                  all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV", all.characters == 1 ? "it" : "them",
-                  broken_off_text(reception.ended, " and ended"), because(cause));
+      fmt::format("{} took {}{}, and nothing was sent since{}", all.served > 0 ? fmt::format("INT {}", all.routine) : "RCV",
+                  all.characters == 1 ? "it" : "them", broken_off_text(reception.ended, " and ended"), because(cause));
   return Unanswered{all.characters, all.since, frame.last, text, cause, reception.message_open, !frame.attached_anew};
 }
 

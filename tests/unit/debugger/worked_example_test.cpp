@@ -65,7 +65,7 @@ TEST(WorkedExample, WhyNamesWhatDecidedWithoutGoingThereAndGoesOnFromThere) {
   EXPECT_EQ(session.line(), 8u);
   session("rwhy");
   EXPECT_EQ(session.line(), 3u) << "in front of the jump";
-  EXPECT_TRUE(has(session("rwhy"), "the contacts from line 1 on")) << "which has contacts of its own";
+  EXPECT_TRUE(has(session("rwhy"), "the contacts from line 1 to line 2 (LD SM0.0: SM0.0=1; AN I0.0: I0.0=0)")) << "which has contacts of its own";
   EXPECT_EQ(session.line(), 1u);
   EXPECT_TRUE(has(session("rwhy"), "nothing has decided"));
   EXPECT_EQ(session.line(), 1u);
