@@ -76,7 +76,10 @@ std::string wrapped_by(std::string_view text, std::size_t width, Indent indent) 
   std::string wrapped;
   while (!text.empty()) {
     const std::string_view line = take_line(text);
-    add_wrapped(wrapped, std::string(line), width, indent(line));
+    if (line.size() <= width)  // no character has less than a byte
+      wrapped.append(trim_end(line)).append(1, '\n');
+    else
+      add_wrapped(wrapped, std::string(line), width, indent(line));
   }
   return wrapped;
 }

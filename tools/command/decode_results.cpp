@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "interpreter/base/wrapped.hpp"
 #include "tools/command/terminal.hpp"
 
 namespace s7200::tools {
@@ -16,6 +17,7 @@ DecodeResults::DecodeResults(Json head, bool as_json, const ReportOption& report
       head_(std::move(head)),
       as_json_(as_json),
       colour_(!as_json && colour_wanted(stdout)),
+      width_(output_width()),
       streamed_(head_, "frames"),
       frames_(Json::array()) {
   if (!as_json_) fmt::print("{}", decoded_heading(colour_));
@@ -27,7 +29,7 @@ void DecodeResults::add(const ReadFrame& frame, bool unanswered) {
   if (as_json_)
     fmt::print("{}", streamed_.entry(json));
   else
-    print_report(decoded_text(frame, unanswered, colour_));
+    fmt::print("{}", stl::wrapped(decoded_text(frame, unanswered, colour_), width_));
   if (report_.wanted()) frames_.push_back(std::move(json));
 }
 

@@ -29,6 +29,7 @@ class DecodeResults {
   const ReportOption& report_;
   nlohmann::ordered_json head_;
   bool as_json_, colour_;
+  std::size_t width_;  ///< of the output: asking the terminal for each of many frames takes longer than reading them
   StreamedResults streamed_;
   DecodedSummary summary_{};
   nlohmann::ordered_json frames_;
