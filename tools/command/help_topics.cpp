@@ -131,6 +131,8 @@ std::string recordings() {
       "Given a serial device or tcp://HOST:PORT instead, they listen until Ctrl-C or --for, and send nothing. Times are "
       "then "
       "those of arrival: a USB adapter delivers up to 16 ms late.\n"
+      "Tables may be those of Markdown or of a web page, or drawn. Bytes may be hex, marked as a language does, decimal or "
+      "binary; frames of Modbus ASCII are read as well. docs/recordings.md lists the notations.\n"
       "A pcap does not say which characters had parity errors. Behind a --pty of 's7200 run' only what the simulated line "
       "says is heard, not what others ask it. Messages of Modbus TCP are shown as on a serial line, with CRCs that are not "
       "in the recording.\n",

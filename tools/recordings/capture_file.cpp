@@ -178,6 +178,7 @@ std::optional<CaptureFile::Packet> CaptureFile::packet_in(std::uint32_t type, st
     return fail(fmt::format("a packet is of interface {}, which it does not have", interface_number));
   const Interface& from = interfaces_[interface_number];
   if (type == kSimplePacket) {
+    has_times_ = false;
     std::size_t count = std::min<std::size_t>(word(at), length - head);
     if (from.longest != 0) count = std::min<std::size_t>(count, from.longest);
     return packet(from, 0, at + head, count);

@@ -17,7 +17,7 @@ namespace s7200::tools {
 /// Link types by their numbers in files (draft-ietf-opsawg-pcaplinktype). Raw IP has had others too.
 namespace link_types {
 inline constexpr int kEthernet = 1, kRawIp = 101, kRawIpOnce = 12, kRawIpOfOpenBsd = 14, kLinuxCooked = 113,
-                     kLinuxCooked2 = 276, kIp4 = 228, kIp6 = 229;
+                     kLinuxCooked2 = 276, kIp4 = 228, kIp6 = 229, kLoopback = 0, kLoopbackOfOpenBsd = 108;
 }  // namespace link_types
 
 class CaptureFile {
@@ -38,6 +38,9 @@ class CaptureFile {
 
   /// Where and why the rest cannot be read; empty if there is nothing wrong.
   const std::string& error() const { return error_; }
+
+  /// Whether all packets so far have a time; simple packets of pcapng have none.
+  bool has_times() const { return has_times_; }
 
   /// The link types that the file has told so far.
   const std::set<int>& link_types() const { return link_types_; }
@@ -63,7 +66,7 @@ class CaptureFile {
   std::nullopt_t fail(std::string_view what);
 
   std::string_view bytes_;
-  bool is_pcapng_ = false, big_endian_ = false;
+  bool is_pcapng_ = false, big_endian_ = false, has_times_ = true;
   bool old_lengths_ = false;  ///< of a pcap before 2.4: which of the two lengths comes first is not certain
   std::size_t at_ = 0, packets_ = 0;
   std::vector<Interface> interfaces_{};  ///< of the section; of a pcap the one that it has

@@ -482,6 +482,10 @@ const RecordedProtocol* likelier_protocol(const LineRecording& recording, const 
                                           const RightFrames& in_chosen, const Stamps& stamps) {
   constexpr std::size_t kHardlyAny = 10, kHalf = 50;
   if (in_chosen.percent() > kHardlyAny) return nullptr;
+  const auto reader = chosen.reader(chosen.chosen);
+  const auto of_chosen =
+      std::ranges::count_if(recording.frames, [&](const RecordedFrame& frame) { return reader->has_form(frame.bytes); });
+  if (2 * static_cast<std::size_t>(of_chosen) > recording.frames.size()) return nullptr;
   const RecordedProtocol& best = *std::ranges::max_element(kProtocols, {}, [&](const RecordedProtocol& each) {
     const Fitting found = fitting(recording, each, stamps);
     return std::pair(found.fitting, found.right);

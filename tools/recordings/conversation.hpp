@@ -51,6 +51,12 @@ class FrameReader {
   /// Reads a frame, perhaps without its text, for callers that only count.
   virtual ReadFrame judge(const RecordedFrame& frame, const RecordedFrame* open) { return read(frame, open); }
 
+  /// Whether a frame has a form that only this protocol has, right or not.
+  virtual bool has_form(std::span<const std::uint8_t> bytes) const {
+    static_cast<void>(bytes);
+    return false;
+  }
+
   /// Whether a slave may answer a frame with the same bytes.
   virtual bool may_be_echoed(const RecordedFrame& frame) const = 0;
 
@@ -216,7 +222,7 @@ class ConversationNotes {
 };
 
 /// Another protocol in which most frames of a recording can be read, and at least half of them, if hardly any can be read in
-/// `chosen`; null if there is none.
+/// `chosen`; null if there is none, or if most frames have the form of `chosen`.
 const RecordedProtocol* likelier_protocol(const LineRecording& recording, const RecordedProtocol& chosen,
                                           const RightFrames& in_chosen, const Stamps& stamps);
 

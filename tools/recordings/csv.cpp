@@ -10,7 +10,6 @@
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/lines.hpp"
 #include "tools/recordings/notation.hpp"
 #include "tools/recordings/table_rows.hpp"
 
@@ -46,10 +45,10 @@ bool is_unit(std::string_view name) {
   return unit_of(word).has_value();
 }
 
-/// Finds a column with the bytes of each direction: `Time,TX,RX`. A row with digits has bytes already, and names nothing.
+/// Finds a column with the bytes of each direction: `Time,TX,RX`. A row with bytes or times names nothing.
 void find_one_for_each_direction(const std::vector<std::string>& names, Columns& columns) {
-  const auto has_digit = [](const std::string& name) { return std::ranges::any_of(name, stl::is_digit); };
-  if (std::ranges::any_of(names, has_digit)) return;
+  const auto is_value = [](const std::string& name) { return bytes_of_text(name) || leading_time(name); };
+  if (std::ranges::any_of(names, is_value)) return;
   const auto found = [&](Direction direction) -> std::optional<std::size_t> {
     const auto name = std::ranges::find(names, direction, [](const std::string& each) { return direction_of(each); });
     return name == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(name - names.begin()));
@@ -75,6 +74,7 @@ Columns columns_of(std::string_view line) {
   Columns columns{.separator = separator_of(line)};
   if (columns.separator == 0) return columns;
   const auto names = fields_of(line, columns.separator);
+  if (std::ranges::any_of(names, [](const std::string& name) { return leading_time(name).has_value(); })) return columns;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (contains(names[i], {"ERROR"})) {
       columns.errors.push_back(i);
@@ -175,18 +175,25 @@ void find_by_cells(const TableRows& rows, Columns& columns) {
   if (found != cells.end()) columns.direction = static_cast<std::size_t>(found - cells.begin());
 }
 
+/// The next row that is not blank; nothing at the end.
+std::optional<TableRow> next_filled(TableRows& rows) {
+  auto row = rows.next();
+  while (row && stl::trim(row->text).empty()) row = rows.next();
+  return row;
+}
+
 /// The columns of a table, whose names are taken off it.
 Columns take_columns(TableRows& rows) {
-  Columns columns = columns_of(rows.next()->text);
+  const auto names = next_filled(rows);
+  Columns columns = columns_of(names ? names->text : "");
   find_by_cells(rows, columns);
   return columns;
 }
 
 /// A list without times is one of bytes in its second row already.
-bool has_bytes_below(std::string_view bytes, const Columns& columns) {
-  const std::size_t end = bytes.find('\n');
-  if (end == std::string_view::npos) return false;
-  const auto fields = fields_of(first_line(bytes.substr(end + 1)), columns.separator);
+bool has_bytes_below(TableRows rows, const Columns& columns) {
+  const auto second = next_filled(rows);
+  const auto fields = second ? fields_of(second->text, columns.separator) : std::vector<std::string>{};
   return *columns.data < fields.size() && bytes_of_text(fields[*columns.data]);
 }
 
@@ -223,7 +230,7 @@ bool looks_like_csv(std::string_view bytes) {
   const Columns columns = take_columns(rows);
   if (columns.sent) return true;
   if (!columns.data || columns.time) return columns.data.has_value();
-  return columns.direction && has_bytes_below(bytes, columns);
+  return columns.direction && has_bytes_below(rows, columns);
 }
 
 bool is_table_without_bytes(std::string_view bytes) {

@@ -16,7 +16,13 @@ namespace {
 
 constexpr Time kDay = 86'400 * kSecond, kFarthest = 36'525 * kDay;
 
-constexpr std::string_view kBeforeTime = " \t\n\v\f\r[(", kAfterTime = " \t\n\v\f\r]):,;|";
+constexpr std::string_view kBeforeTime = " \t\n\v\f\r[(\"", kAfterTime = " \t\n\v\f\r]):,;|";
+
+/// Skips what divides a time from the rest of its line, and the quotation mark of a time that one is before.
+void skip_after_time(Scan& scan) {
+  if (scan.since(0).find('"') != std::string_view::npos) scan.take("\"");
+  scan.skip(kAfterTime);
+}
 
 /// The time of a fraction's digits in seconds: `5` is 500 ms.
 Time fraction(std::string_view digits) {
@@ -52,8 +58,36 @@ constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "
                                                    "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
 constexpr std::array<std::string_view, 7> kWeekdays{"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
 
-/// Takes a date with the name of its month: `Nov 27 ` of syslog, `Fri Nov 27 ` of ctime. The year is not before the time:
-/// any leap year has all days.
+/// The number of the month with that name, from 1; 0 if there is none.
+unsigned month_of(std::string_view name) {
+  const auto month = std::ranges::find(kMonths, name);
+  return month == kMonths.end() ? 0 : static_cast<unsigned>(month - kMonths.begin()) + 1;
+}
+
+constexpr int kLeapYear = 2000;  // of a date without its year: it has all days
+
+/// Takes a date with its day before the name of its month: `24 Mar `, `24 Mar 2021 `, `24-Mar-21 `, `24/Mar/2021 `.
+std::optional<ReadDate> take_date_with_day_first(Scan& scan) {
+  constexpr std::string_view kSigns = " -/.";
+  const std::size_t begin = scan.at();
+  const std::string_view day = scan.take_digits(2);
+  const char sign = day.empty() ? '\0' : scan.take(kSigns);
+  const unsigned month = sign != '\0' ? month_of(scan.take_while(stl::is_letter, 3)) : 0;
+  const char after = month != 0 ? scan.take(" -/.:") : '\0';
+  const std::size_t at_year = scan.at();
+  const std::string_view written = after != '\0' ? scan.take_digits(4) : "";
+  const bool has_year = (written.size() == 4 || (written.size() == 2 && after != ' ')) && scan.take(" :T") != '\0';
+  if (!has_year) scan.go_back_to(at_year);
+  const int year = !has_year ? kLeapYear : static_cast<int>(decimal_number(written)) + (written.size() == 2 ? 2000 : 0);
+  const auto number = after != '\0' && (has_year || after == ' ')
+                          ? day_number(year, month, static_cast<unsigned>(decimal_number(day)))
+                          : std::nullopt;
+  if (number) return ReadDate{number, number};
+  scan.go_back_to(begin);
+  return {};
+}
+
+/// Takes a date with the name of its month: `Nov 27 ` of syslog, `Fri Nov 27 ` of ctime. The year is not before the time.
 std::optional<ReadDate> take_date_with_name(Scan& scan) {
   const std::size_t begin = scan.at();
   std::string_view name = scan.take_while(stl::is_letter, 3);
@@ -61,12 +95,10 @@ std::optional<ReadDate> take_date_with_name(Scan& scan) {
     scan.skip(", ");
     name = scan.take_while(stl::is_letter, 3);
   }
-  const auto month = std::ranges::find(kMonths, name);
-  const std::string_view day = month != kMonths.end() && scan.skip(" ") > 0 ? scan.take_digits(2) : "";
-  constexpr int kLeapYear = 2000;
+  const unsigned month = month_of(name);
+  const std::string_view day = month != 0 && scan.skip(" ") > 0 ? scan.take_digits(2) : "";
   const auto number = !day.empty() && scan.skip(" ") > 0
-                          ? day_number(kLeapYear, static_cast<unsigned>(month - kMonths.begin()) + 1,
-                                       static_cast<unsigned>(decimal_number(day)))
+                          ? day_number(kLeapYear, month, static_cast<unsigned>(decimal_number(day)))
                           : std::nullopt;
   if (number) return ReadDate{number, number};
   scan.go_back_to(begin);
@@ -99,7 +131,8 @@ std::optional<ReadDate> take_date(Scan& scan) {
 std::optional<LeadingTime> time_of_day(std::string_view text) {
   Scan scan(text);
   scan.skip(kBeforeTime);
-  const auto named_date = take_date_with_name(scan), date = named_date ? named_date : take_date(scan);
+  const auto named_date = take_date_with_name(scan), day_first = named_date ? std::nullopt : take_date_with_day_first(scan);
+  const auto date = named_date ? named_date : day_first ? day_first : take_date(scan);
   const std::string_view hours = scan.take_digits(2);
   if (hours.empty() || scan.take(":") == '\0') return {};
   const std::string_view minutes = scan.take_digits(2);
@@ -118,7 +151,7 @@ std::optional<LeadingTime> time_of_day(std::string_view text) {
   const bool of_half_a_day = half != '\0' && scan.take("M") != '\0';
   if (!of_half_a_day) scan.go_back_to(end);
   if (named_date) skip_year(scan);
-  scan.skip(kAfterTime);
+  skip_after_time(scan);
   const Time written = decimal_number(hours), hour = !of_half_a_day ? written : written % 12 + (half == 'P' ? 12 : 0);
   const Time time = ((hour * 60 + decimal_number(minutes)) * 60 + decimal_number(seconds)) * kSecond + fraction(part);
   return LeadingTime{.time = time, .length = scan.at(), .of_day = true, .date = date.value_or(ReadDate{})};
@@ -152,6 +185,22 @@ bool is_list_of_bytes(std::string_view whole, std::string_view part, std::string
          std::isxdigit(static_cast<unsigned char>(after[2])) != 0;
 }
 
+/// A time since the start in minutes and seconds with a fraction: `00:12.345`. Without one it may be of a day.
+std::optional<LeadingTime> minutes_since(std::string_view text) {
+  constexpr std::size_t kSeconds = 2, kMostMinutes = 4;
+  Scan scan(text);
+  scan.skip(kBeforeTime);
+  const std::string_view minutes = scan.take_digits(kMostMinutes);
+  if (minutes.empty() || scan.take(":") == '\0') return {};
+  const std::string_view seconds = scan.take_digits(kSeconds);
+  if (seconds.size() != kSeconds || scan.take(".,") == '\0') return {};
+  const std::string_view part = scan.take_digits(9);
+  if (part.empty() || goes_on_as_word(scan.next())) return {};
+  skip_after_time(scan);
+  const Time time = (decimal_number(minutes) * 60 + decimal_number(seconds)) * kSecond + fraction(part);
+  return LeadingTime{.time = time, .length = scan.at()};
+}
+
 /// A time since 1970 in milliseconds or nanoseconds: `1616595070123`. Numbers of so many digits are no pairs of digits.
 std::optional<LeadingTime> time_since_1970(std::string_view text) {
   constexpr std::size_t kMilliseconds = 13, kNanoseconds = 19;
@@ -160,8 +209,8 @@ std::optional<LeadingTime> time_since_1970(std::string_view text) {
   if (scan.next() != '1') return {};  // from 2001 to 2033
   const std::string_view digits = scan.take_digits(kNanoseconds + 1);
   if (digits.size() != kMilliseconds && digits.size() != kNanoseconds) return {};
-  if (!scan.at_end() && !is_any_of(scan.next(), kAfterTime)) return {};
-  scan.skip(kAfterTime);
+  if (!scan.at_end() && scan.next() != '"' && !is_any_of(scan.next(), kAfterTime)) return {};
+  skip_after_time(scan);
   return LeadingTime{.time = decimal_number(digits) * (digits.size() == kMilliseconds ? kMillisecond : 1),
                      .length = scan.at()};
 }
@@ -169,9 +218,9 @@ std::optional<LeadingTime> time_since_1970(std::string_view text) {
 /// A time since the start: `0.123456`, `-12.3 ms`, `+7us`
 std::optional<LeadingTime> time_since(std::string_view text) {
   Scan scan(text);
-  scan.skip(" \t\n\v\f\r[(+");
-  const bool has_plus = scan.since(0).find('+') != std::string_view::npos;
-  const bool below_zero = scan.take("-") != '\0';
+  scan.skip(" \t\n\v\f\r[(\"");
+  const char sign = scan.take("+-");
+  const bool below_zero = sign == '-';
   const std::string_view whole = scan.take_digits(10);
   if (whole.empty()) return {};
   const std::size_t end = scan.at();
@@ -181,11 +230,11 @@ std::optional<LeadingTime> time_since(std::string_view text) {
   if (point == ',' && is_list_of_bytes(whole, part, text.substr(scan.at()))) return {};
   const TimeUnit* const unit = take_unit(scan);
   if (unit == nullptr && (part.empty() || goes_on_as_word(scan.next()))) return {};
-  scan.skip(kAfterTime);
+  skip_after_time(scan);
   const Time of_unit = unit == nullptr ? kSecond : unit->time, number = decimal_number(whole);
   if (number >= kFurthestTime / of_unit) return {};
   const Time time = number * of_unit + fraction(part) / (kSecond / of_unit);
-  return LeadingTime{.time = below_zero ? -time : time, .length = scan.at(), .has_plus = has_plus};
+  return LeadingTime{.time = below_zero ? -time : time, .length = scan.at(), .has_sign = sign != '\0'};
 }
 
 using Words = std::span<const Word>;
@@ -332,8 +381,8 @@ constexpr std::array kBeforeNumbers{NumberName{"LENGTH", true}, NumberName{"LEN"
                                     NumberName{"NUMBER", true}, NumberName{"NO", false},      NumberName{"NR", false},
                                     NumberName{"LINE", false},  NumberName{"PACKET", false},  NumberName{"SEQ", false},
                                     NumberName{"ID", false},    NumberName{"NETWORK", true}};
-constexpr std::array<std::string_view, 10> kAfterNumbers{"BYTE",    "BYTES", "CHARS",   "CHARACTERS", "OCTETS",
-                                                         "SECONDS", "BAUD",  "RETRIES", "REGISTERS",  "COILS"};
+constexpr std::array<std::string_view, 11> kAfterNumbers{"BYTE", "BYTES", "CHARS",   "CHARACTERS", "OCTETS", "SECONDS",
+                                                         "BAUD", "BAUDS", "RETRIES", "REGISTERS",  "COILS"};
 
 /// Words before a number that is not a byte: `slave 1 01 03`
 constexpr std::array<std::string_view, 8> kStations{"SLAVE", "MASTER", "STATION", "UNIT",
@@ -383,6 +432,16 @@ bool counts_bytes_after(Words words, std::string_view digits) {
   return decimal == bytes || (hex && *hex == static_cast<std::int64_t>(bytes));
 }
 
+/// Whether the number in brackets after bytes is how many they are: `01 03 … (8)`
+bool counts_bytes_before(Words words, std::string_view inner) {
+  std::size_t bytes = 0;
+  for (auto word = words.rbegin(); word != words.rend() && word->bytes > 0; ++word) {
+    if (!in_brackets(word->text).empty()) return false;
+    bytes += word->bytes;
+  }
+  return bytes > 1 && parse_decimal<std::size_t>(inner) == bytes;
+}
+
 /// Marks numbers that are not bytes, by the words beside them: `length 12`, `12 bytes`, `18 (0X12)`. A number with bytes
 /// after it may be the first of them.
 void take_numbers_out(std::vector<Word>& words) {
@@ -393,6 +452,10 @@ void take_numbers_out(std::vector<Word>& words) {
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string_view text = words[i].text, inner = in_brackets(text);
+    if (!inner.empty() && counts_bytes_before(Words(words).first(i), inner)) {
+      is_number(words[i]);
+      continue;
+    }
     if (text.size() == 2 && i > 0 && words[i - 1].bytes > 0) continue;  // a pair of digits after bytes is one
     if (i > 0 && is_decimal(inner) && say_the_same(inner, words[i - 1].text)) is_number(words[i]);
     if (i > 0 && is_marked(inner) && say_the_same(words[i - 1].text, inner)) is_number(words[i - 1]);
@@ -806,6 +869,7 @@ constexpr std::array kWrittenUnits{WrittenUnit{"S", kSecond},
 
 std::optional<LeadingTime> leading_time(std::string_view text) {
   if (const auto time = time_of_day(text)) return time;
+  if (const auto time = minutes_since(text)) return time;
   if (const auto time = time_since(text)) return time;
   return time_since_1970(text);
 }
@@ -840,7 +904,8 @@ std::optional<Time> unit_of(std::string_view name) {
 }
 
 bool is_name_of_time(std::string_view name) {
-  constexpr std::array<std::string_view, 6> kTimes{"TIME", "ZEIT", "TEMPS", "TIEMPO", "TEMPO", "START"};
+  constexpr std::array<std::string_view, 9> kTimes{"TIME",  "ZEIT",  "TEMPS", "TIEMPO", "TEMPO",
+                                                   "START", "STAMP", "HORA",  "HEURE"};
   const std::string capitals = stl::upper_case(name);
   return std::ranges::any_of(kTimes, [&](std::string_view time) { return capitals.find(time) != std::string::npos; });
 }

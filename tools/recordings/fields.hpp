@@ -20,14 +20,14 @@ inline constexpr Time kFurthestTime = 4'000'000'000 * kSecond;
 /// tools write both; nothing for one that does not exist.
 using ReadDate = std::array<std::optional<std::int32_t>, 2>;
 
-/// A time at the beginning of a text: `12:34:56.789`, `2026-11-22 12:34:56,789`, `3/1/2026 1:02:03.5 PM`, `[0.123456]`,
-/// `-12.3 ms`. A plain number is a time only with a fraction or a unit, or if it has the 13 digits of milliseconds since
-/// 1970 or the 19 of nanoseconds. The time is no further than kFurthestTime from 0.
+/// A time at the beginning of a text: `12:34:56.789`, `2026-11-22 12:34:56,789`, `3/1/2026 1:02:03.5 PM`, `24 Mar 2021
+/// 1:02:03`, `02:03.456`, `[0.123456]`, `-12.3 ms`. A plain number is a time only with a fraction or a unit, or if it has
+/// the 13 digits of milliseconds since 1970 or the 19 of nanoseconds. The time is no further than kFurthestTime from 0.
 struct LeadingTime {
   Time time = 0;           ///< of day: since midnight
   std::size_t length = 0;  ///< of the time's text
   bool of_day = false;
-  bool has_plus = false;  ///< `+0.037`: it may count from the row above
+  bool has_sign = false;  ///< `+0.037`: it may count from the row above
   ReadDate date{};        ///< of a time of day
 };
 std::optional<LeadingTime> leading_time(std::string_view text);

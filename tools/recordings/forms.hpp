@@ -58,6 +58,11 @@ std::optional<LineRecording> read_levels_table(std::string_view bytes, const Rea
 bool looks_like_dsview(std::string_view bytes);
 std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
+/// Recognises a table of an oscilloscope by its columns of numbers, and by a unit of voltage or a name of a channel above
+/// them.
+bool looks_like_volts_table(std::string_view bytes);
+std::optional<LineRecording> read_volts_table(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
 /// Recognises sigrok's annotations by a line of its decoder `uart`.
 bool looks_like_sigrok_annotations(std::string_view bytes);
 std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, const ReadingChoices& choices,
@@ -90,6 +95,10 @@ std::optional<LineRecording> read_tcpdump(std::string_view bytes, const ReadingC
 /// Recognises tshark by rows of a packet with the head of IP, or by lines about packets alone, which are refused.
 bool looks_like_tshark(std::string_view bytes);
 std::optional<LineRecording> read_tshark(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
+/// Recognises a followed TCP stream by rows of two peers whose offsets go on, by an array of C, or by the keys of its YAML.
+bool looks_like_followed_stream(std::string_view bytes);
+std::optional<LineRecording> read_followed_stream(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
 /// Recognises JSON lines by an object in a line that has bytes.
 bool looks_like_json_lines(std::string_view bytes);

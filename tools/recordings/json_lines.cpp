@@ -1,7 +1,10 @@
 // Objects of JSON: one in each line, after whatever a logger puts before it, or lists of them, also over several lines.
 // Nodes of Node-RED, loggers and our own users write such.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
 #include "tools/json/json.hpp"
 #include "tools/recordings/forms.hpp"
@@ -22,6 +25,7 @@ struct Piece {
   std::string_view before{};  ///< what stands in the line before the object
   std::string_view text{};
   std::size_t number = 0;  ///< of the line
+  std::string why{};       ///< it is beyond the limits; empty: nothing is known
 };
 
 std::size_t count_lines(std::string_view text) {
@@ -41,9 +45,9 @@ std::size_t begin_of_object(std::string_view line) {
   return std::string_view::npos;
 }
 
-/// The length of an object up to its last brace; 0 if it does not end within its line, or not far below it. A string of JSON
-/// ends in its line.
-std::size_t length_of_object(std::string_view text) {
+/// The length of an object up to its last brace; 0 if it does not end within its line, or not far below it, with `why` set
+/// if it is too deep. A string of JSON ends in its line.
+std::size_t length_of_object(std::string_view text, std::string& why) {
   constexpr std::size_t kFarthest = std::size_t{1} << 16;
   std::size_t depth = 0;
   bool quoted = false, in_first_line = true;
@@ -61,7 +65,10 @@ std::size_t length_of_object(std::string_view text) {
     else if (!quoted && (c == '}' || c == ']'))
       --depth;
     if (depth == 0) return i + 1;
-    if (depth > kLimits.depth) return 0;
+    if (depth > kLimits.depth) {
+      why = fmt::format("it is JSON of more than {} maps and lists inside each other", kLimits.depth);
+      return 0;
+    }
   }
   return 0;
 }
@@ -80,7 +87,7 @@ class Pieces {
     Piece piece{.text = stl::trim(line), .number = number_};
     std::size_t end = line.size();
     if (begin != std::string_view::npos) {
-      const std::size_t length = length_of_object(rest_.substr(begin));
+      const std::size_t length = length_of_object(rest_.substr(begin), piece.why);
       const std::string_view after = first_line(rest_.substr(begin + length));
       const std::size_t more = std::min(after.find_first_not_of(kBetween), after.size());
       const bool ends = length > 0 && (more == after.size() || begin_of_object(after.substr(more)) == 0);
@@ -131,8 +138,37 @@ void add_fields(const json& object, const std::string& outer, NamedFields& field
   }
 }
 
+/// A member of a layer of a packet as text; empty if it is not there.
+std::string text_in(const json& layers, const char* layer, const char* name) {
+  const auto of_layer = layers.find(layer);
+  if (of_layer == layers.end() || !of_layer->is_object()) return {};
+  const auto member = of_layer->find(name);
+  return member != of_layer->end() && member->is_string() ? member->get<std::string>() : "";
+}
+
+/// The fields of a packet of tshark -T json and of Wireshark's export: what TCP or a serial line carries. The server has the
+/// lower port. Nothing for any other object.
+std::optional<NamedFields> fields_of_packet(const json& object) {
+  const auto source = object.find("_source");
+  if (source == object.end() || !source->is_object()) return {};
+  const auto layers = source->find("layers");
+  if (layers == source->end() || !layers->is_object()) return {};
+  NamedFields fields;
+  for (const char* const name : {"frame.time_relative", "frame.time_epoch"})
+    if (fields.empty() && !text_in(*layers, "frame", name).empty())
+      fields.push_back({.name = "time", .value = text_in(*layers, "frame", name), .quoted = true});
+  const auto from = parse_decimal<std::uint16_t>(text_in(*layers, "tcp", "tcp.srcport"));
+  const auto to = parse_decimal<std::uint16_t>(text_in(*layers, "tcp", "tcp.dstport"));
+  if (from && to) fields.push_back({.name = "dir", .value = *to < *from ? "tx" : "rx", .quoted = true});
+  const std::string payload = text_in(*layers, "tcp", "tcp.payload");
+  const std::string data = payload.empty() ? text_in(*layers, "data", "data.data") : payload;
+  if (!data.empty()) fields.push_back({.name = "data", .value = data, .quoted = true});
+  return fields;
+}
+
 /// The records of an object: those in a list that it has, otherwise itself.
 void add_records(const json& object, std::vector<NamedFields>& records) {
+  if (auto packet = fields_of_packet(object)) return records.push_back(*std::move(packet));
   for (const json& value : object) {
     const bool is_list = value.is_array() && !value.empty() && std::ranges::all_of(value, &json::is_object);
     if (!is_list) continue;
@@ -142,7 +178,22 @@ void add_records(const json& object, std::vector<NamedFields>& records) {
   add_fields(object, "", records.emplace_back());
 }
 
-/// The records of a piece; none if it is not JSON.
+/// A number of JSON that no arithmetic holds, `1e400`; empty if there is none.
+std::string_view number_too_large(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789", kOfNumber = "0123456789+-.eE";
+  bool quoted = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '\\') ++at;
+    if (at < text.size() && text[at] == '"') quoted = !quoted;
+    if (quoted || at >= text.size() || kDigits.find(text[at]) == std::string_view::npos) continue;
+    const std::string_view number = text.substr(at, std::min(text.find_first_not_of(kOfNumber, at), text.size()) - at);
+    if (is_real_number(number) && !parse_decimal<double>(number)) return number;
+    at += number.size() - 1;
+  }
+  return {};
+}
+
+/// The records of a piece; none if it cannot be read.
 std::vector<NamedFields> records_of(const Piece& piece) {
   std::vector<NamedFields> records;
   std::string why;
@@ -151,23 +202,43 @@ std::vector<NamedFields> records_of(const Piece& piece) {
   return records;
 }
 
-/// Whether a record at the beginning is so.
-bool any_record(std::string_view bytes, bool (*is_so)(const NamedFields& fields)) {
+/// The reason for a piece that has no records.
+std::string why_unreadable(const Piece& piece) {
+  if (!piece.why.empty()) return piece.why;
+  const std::string_view number = number_too_large(piece.text);
+  return number.empty() ? not_understood(piece.text)
+                        : fmt::format("its number {} is too large", stl::printable(stl::shortened(number)));
+}
+
+/// The number of records at the beginning that are so.
+std::size_t count_records(std::string_view bytes, bool (*is_so)(const NamedFields& fields)) {
   Pieces pieces(beginning_of(bytes));
+  std::size_t count = 0;
   while (const auto piece = pieces.next())
-    if (std::ranges::any_of(records_of(*piece), is_so)) return true;
-  return false;
+    count += static_cast<std::size_t>(std::ranges::count_if(records_of(*piece), is_so));
+  return count;
+}
+
+/// Whether a text begins with an object, be it readable or not.
+bool begins_with_object(std::string_view bytes) {
+  const auto first = Pieces(beginning_of(bytes)).next();
+  return first && first->kind != Piece::Kind::Other && first->before.empty() && bytes.find('"') != std::string_view::npos;
 }
 
 }  // namespace
 
 bool looks_like_json_lines(std::string_view bytes) {
-  return is_text(bytes) && (any_record(bytes, has_frame) || any_record(bytes, has_characters));
+  if (!is_text(bytes)) return false;
+  return begins_with_object(bytes) || count_records(bytes, has_frame) > 0 || count_records(bytes, has_characters) > 0 ||
+         count_records(bytes, has_base64) > 0;
 }
 
 std::optional<LineRecording> read_json_lines(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   NamedFieldsReader reader;
-  if (any_record(bytes, has_characters)) reader.take_characters();
+  if (count_records(bytes, has_characters) > 0)
+    reader.take_characters();
+  else if (count_records(bytes, has_base64) > count_records(bytes, has_frame))
+    reader.take_base64();
   Pieces pieces(bytes);
   while (const auto piece = choices.stop.stop_requested() ? std::nullopt : pieces.next()) {
     const auto records = records_of(*piece);
@@ -175,7 +246,7 @@ std::optional<LineRecording> read_json_lines(std::string_view bytes, const Readi
     if (piece->kind == Piece::Kind::Other)
       reader.take_other(piece->number);
     else if (records.empty())
-      reader.take_unreadable(piece->number, piece->text);
+      reader.take_unreadable(piece->number, why_unreadable(*piece));
   }
   return reader.finish();
 }

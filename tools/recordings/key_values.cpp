@@ -47,24 +47,30 @@ Pairs pairs_of(std::string_view line) {
   }
 }
 
-/// Whether the pairs of a line at the beginning are so.
-bool any_line(std::string_view bytes, bool (*is_so)(const NamedFields& fields)) {
+/// The number of lines at the beginning whose pairs are so.
+std::ptrdiff_t count_lines_that(std::string_view bytes, bool (*is_so)(const NamedFields& fields)) {
   constexpr std::size_t kFewest = 2;  // pairs of a line with a frame: `tx=0103` alone may stand in any log
-  return std::ranges::any_of(Lines(beginning_of(bytes)), [&](std::string_view line) {
+  std::ptrdiff_t count = 0;
+  for (const std::string_view line : Lines(beginning_of(bytes))) {
     const Pairs pairs = pairs_of(line);
-    return pairs.fields.size() >= kFewest && is_so(pairs.fields);
-  });
+    count += pairs.fields.size() >= kFewest && is_so(pairs.fields);
+  }
+  return count;
 }
 
 }  // namespace
 
 bool looks_like_key_values(std::string_view bytes) {
-  return is_text(bytes) && (any_line(bytes, has_frame) || any_line(bytes, has_characters));
+  return is_text(bytes) && (count_lines_that(bytes, has_frame) > 0 || count_lines_that(bytes, has_characters) > 0 ||
+                            count_lines_that(bytes, has_base64) > 0);
 }
 
 std::optional<LineRecording> read_key_values(std::string_view bytes, const ReadingChoices& choices, std::string&) {
   NamedFieldsReader reader;
-  if (any_line(bytes, has_characters)) reader.take_characters();
+  if (count_lines_that(bytes, has_characters) > 0)
+    reader.take_characters();
+  else if (count_lines_that(bytes, has_base64) > count_lines_that(bytes, has_frame))
+    reader.take_base64();
   std::size_t number = 0;
   for (const std::string_view line : Lines(bytes, choices.stop)) {
     ++number;

@@ -24,9 +24,10 @@ struct ByteMark {
   std::size_t digits;
 };
 constexpr std::array kByteMarks{
-    ByteMark{"", "h", 16, 2},   ByteMark{"", "H", 16, 2}, ByteMark{"$", "", 16, 2},     ByteMark{"&H", "", 16, 2},
-    ByteMark{"16#", "", 16, 2}, ByteMark{"#", "", 16, 2}, ByteMark{"B#16#", "", 16, 2}, ByteMark{"b#16#", "", 16, 2},
-    ByteMark{"\\x", "", 16, 2}, ByteMark{"0b", "", 2, 8}, ByteMark{"2#", "", 2, 8},     ByteMark{"", "", 2, 8},
+    ByteMark{"", "h", 16, 2},    ByteMark{"", "H", 16, 2},  ByteMark{"$", "", 16, 2},      ByteMark{"&H", "", 16, 2},
+    ByteMark{"16#", "", 16, 2},  ByteMark{"#", "", 16, 2},  ByteMark{"B#16#", "", 16, 2},  ByteMark{"b#16#", "", 16, 2},
+    ByteMark{"\\x", "", 16, 2},  ByteMark{"0b", "", 2, 8},  ByteMark{"2#", "", 2, 8},      ByteMark{"", "", 2, 8},
+    ByteMark{"'0x", "'", 16, 2}, ByteMark{"'", "'", 16, 2}, ByteMark{"\"0x", "\"", 16, 2}, ByteMark{"\"", "\"", 16, 2},
 };
 
 struct PlainSign {

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/ppi_frame.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/answer.hpp"
@@ -131,11 +133,6 @@ bool is_ppi(Data bytes) {
   return length == bytes.size() && (ppi::token_of(bytes) || ppi::body_of(bytes));
 }
 
-bool is_modbus_ascii(Data bytes) {
-  constexpr std::size_t kShortest = 9;  // a colon, station, function, check, CR LF
-  return bytes.size() >= kShortest && bytes.front() == ':' && bytes[bytes.size() - 2] == '\r' && bytes.back() == '\n';
-}
-
 bool has_crc_turned_round(Data bytes) {
   Bytes turned(bytes.begin(), bytes.end());
   if (turned.size() >= kShortestRtu) std::swap(turned[turned.size() - 2], turned.back());
@@ -146,7 +143,6 @@ bool has_crc_turned_round(Data bytes) {
 std::string what_it_is_instead(Data bytes, const RecordedFrame* open) {
   if (is_ppi(bytes)) return "a frame of PPI, not of Modbus RTU";
   if (is_modbus_tcp(bytes)) return "a message of Modbus TCP, not of Modbus RTU: it has a head and no CRC";
-  if (is_modbus_ascii(bytes)) return "a frame of Modbus ASCII, not of Modbus RTU";
   const Bytes completed = with_crc(bytes);
   if (open != nullptr && fits(modbus::check_answer(open->bytes, completed))) return "an answer without its CRC";
   if (bytes.size() >= 2 && modbus::find_function(bytes[1]) != nullptr && has_length_of_request(completed) &&
@@ -196,15 +192,87 @@ std::string modbus_text(const RecordedFrame& frame, const RecordedFrame* open, c
   return read.right ? modbus_request_text(frame) : "no request: it does not have the length of its function";
 }
 
-ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) {
+// --- Modbus ASCII (Modbus over Serial Line V1.02, 2.5.2): a colon, two digits for each byte and for the LRC, CR LF ---
+
+bool is_digit_of_ascii(std::uint8_t character) { return hex_digit(static_cast<char>(character)).has_value(); }
+
+/// Whether the bytes are, or begin, a frame of Modbus ASCII. A frame of RTU to station 58 has no digit after its colon.
+bool begins_ascii(Data bytes) {
+  return !bytes.empty() && bytes.front() == ':' && (bytes.size() == 1 || is_digit_of_ascii(bytes[1]));
+}
+
+/// The length of the frame with its CR LF; 0 if that is not there.
+std::size_t first_ascii_message(Data bytes) {
+  for (std::size_t at = 1; at < bytes.size(); ++at)
+    if (bytes[at - 1] == '\r' && bytes[at] == '\n') return at + 1;
+  return 0;
+}
+
+/// A frame of Modbus ASCII.
+struct AsciiFrame {
+  Bytes rtu{};          ///< the same frame as Modbus RTU has it; its CRC is wrong if the LRC is
+  std::string wrong{};  ///< `wrong LRC: 8E, expected 8D`; empty if nothing is
+};
+
+/// Returns nothing for a frame that is not of Modbus ASCII.
+std::optional<AsciiFrame> ascii_frame_of(Data bytes) {
+  constexpr std::size_t kShortest = 9;  // a colon, station, function, LRC, CR LF
+  if (bytes.size() < kShortest || !begins_ascii(bytes) || first_ascii_message(bytes) != bytes.size()) return {};
+  const Data digits = bytes.subspan(1, bytes.size() - 3);
+  AsciiFrame frame;
+  std::uint8_t sum = 0;
+  for (std::size_t at = 0; at + 1 < digits.size(); at += 2) {
+    const auto high = hex_digit(static_cast<char>(digits[at])), low = hex_digit(static_cast<char>(digits[at + 1]));
+    frame.rtu.push_back(static_cast<std::uint8_t>(high.value_or(0) << 4 | low.value_or(0)));
+    sum = static_cast<std::uint8_t>(sum + frame.rtu.back());
+  }
+  const std::uint8_t lrc = frame.rtu.back(), expected = static_cast<std::uint8_t>(lrc - sum);
+  frame.rtu.pop_back();
+  modbus::add_crc(frame.rtu);
+  if (!std::ranges::all_of(digits, is_digit_of_ascii))
+    frame.wrong = "a character of it is not a hex digit";
+  else if (digits.size() % 2 != 0)
+    frame.wrong = "a hex digit of it is missing";
+  else if (lrc != expected)
+    frame.wrong = fmt::format("wrong LRC: {:02X}, expected {:02X}", lrc, expected);
+  if (!frame.wrong.empty()) frame.rtu.back() ^= 0xFF;
+  return frame;
+}
+
+/// A frame of either mode with what the readers of RTU need.
+struct InRtu {
+  RecordedFrame frame{};
+  std::string wrong{};
+
+  InRtu(const RecordedFrame& recorded, AsciiFrame ascii)
+      : frame{.direction = recorded.direction, .bytes = std::move(ascii.rtu), .stream = recorded.stream},
+        wrong(std::move(ascii.wrong)) {}
+};
+std::optional<InRtu> in_rtu(const RecordedFrame* recorded) {
+  auto ascii = recorded != nullptr ? ascii_frame_of(recorded->bytes) : std::nullopt;
+  return ascii ? std::optional(InRtu(*recorded, *std::move(ascii))) : std::nullopt;
+}
+
+ReadFrame read_rtu(const RecordedFrame& frame, const RecordedFrame* open, bool with_text) {
   ReadFrame read = judge_modbus(frame, open);
-  read.text = modbus_text(frame, open, read);
+  if (with_text) read.text = modbus_text(frame, open, read);
   return read;
 }
+
+/// Reads a frame of RTU or ASCII after a request of either.
+ReadFrame read_either(const RecordedFrame& frame, const RecordedFrame* open, bool with_text) {
+  const auto ascii = in_rtu(&frame), asked = in_rtu(open);
+  ReadFrame read = read_rtu(ascii ? ascii->frame : frame, asked ? &asked->frame : open, with_text);
+  if (ascii && !ascii->wrong.empty()) read.text = ascii->wrong;
+  return read;
+}
+
+ReadFrame read_modbus(const RecordedFrame& frame, const RecordedFrame* open) { return read_either(frame, open, true); }
 
 /// The length of the first message. Only the length that the function determines counts: part of a long frame may have a
 /// right CRC by chance.
 std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
+  if (begins_ascii(bytes)) return first_ascii_message(bytes);
   constexpr std::size_t kLongest = 2 * modbus::kLongestRtuFrame;  // PLCs with limits of their own
   modbus::Crc crc;
   for (std::size_t length = 1; length <= std::min(bytes.size(), kLongest); ++length) {
@@ -220,8 +288,10 @@ std::size_t first_modbus_message(Data bytes, const RecordedFrame* open) {
 /// The messages of Modbus say how long they are.
 class ModbusReader final : public PlainReader<read_modbus, first_modbus_message> {
  public:
-  ReadFrame judge(const RecordedFrame& frame, const RecordedFrame* open) override { return judge_modbus(frame, open); }
+  ReadFrame judge(const RecordedFrame& frame, const RecordedFrame* open) override { return read_either(frame, open, false); }
+  bool has_form(Data bytes) const override { return ascii_frame_of(bytes).has_value(); }
   bool announces_more(Data bytes, Direction direction, const RecordedFrame* open) const override {
+    if (begins_ascii(bytes)) return first_ascii_message(bytes) == 0;
     const bool begins_answer =
         direction != Direction::Request && open != nullptr && bytes.size() < modbus::length_of_answer(open->bytes, bytes);
     return begins_answer || (direction != Direction::Answer && modbus::extent_of_request(bytes) == modbus::Extent::Part);

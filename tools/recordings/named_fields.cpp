@@ -8,6 +8,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "tools/json/base64.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -46,7 +47,21 @@ constexpr std::array kNames{
     Name{"packet", Holds::Data},
     Name{"pdu", Holds::Data},
     Name{"adu", Holds::Data},
+    Name{"length", Holds::Nothing},  // what follows says how many, or which: `data_length`, `frame.number`
+    Name{"len", Holds::Nothing},
+    Name{"size", Holds::Nothing},
+    Name{"count", Holds::Nothing},
+    Name{"number", Holds::Nothing},
+    Name{"nr", Holds::Nothing},
+    Name{"id", Holds::Nothing},
+    Name{"index", Holds::Nothing},
+    Name{"crc", Holds::Nothing},
+    Name{"checksum", Holds::Nothing},
+    Name{"base64", Holds::Data},
+    Name{"b64", Holds::Data},
 };
+
+bool says_base64(std::string_view word) { return word == "base64" || word == "b64"; }
 
 /// The words of a name: `serial received` for `SerialReceived`, `tx data` for `tx_data`.
 std::string words_of_name(std::string_view name) {
@@ -66,6 +81,7 @@ FieldMeaning meaning_of(std::string_view name) {
   for (const std::string& word : stl::split_words(words)) {
     const auto known = std::ranges::find(kNames, word, &Name::word);
     if (known != kNames.end()) meaning.holds = known->holds;
+    meaning.base64 |= says_base64(word);
   }
   return meaning;
 }
@@ -80,6 +96,22 @@ std::optional<Bytes> bytes_with_signs_between(std::string_view text) {
     plain[i] = ' ';
   }
   return bytes_of_text(plain);
+}
+
+/// Base64 with the signs of either alphabet of RFC 4648; the signs that fill its end may be missing.
+std::optional<Bytes> bytes_of_base64(std::string text) {
+  constexpr std::size_t kGroup = 4;
+  std::ranges::replace(text, '-', '+');
+  std::ranges::replace(text, '_', '/');
+  while (text.size() % kGroup > 1) text += '=';
+  auto bytes = from_base64(text);
+  return bytes && !bytes->empty() ? std::move(bytes) : std::nullopt;
+}
+
+/// Whether a text can hardly be anything but base64: whole groups of which the last is filled. `/dev/tty` has whole groups.
+bool is_surely_base64(std::string_view text) {
+  constexpr std::size_t kShortest = 8;
+  return text.size() >= kShortest && text.ends_with('=') && from_base64(text).has_value();
 }
 
 std::optional<Bytes> bytes_of(const NamedField& field) {
@@ -101,10 +133,17 @@ bool is_figure(const NamedField& field) {
 }
 
 /// The frame in the field `data`, or in `tx` where that is not a count, as in `tx=8`. Nothing if the field holds no frame.
-/// `said`: the direction that other fields of the record give.
-std::optional<Bytes> frame_in(const NamedField& field, const FieldMeaning& meaning, Direction said) {
+/// `said`: the direction that other fields of the record give; `base64`: so do they that its texts are base64.
+std::optional<Bytes> frame_in(const NamedField& field, const FieldMeaning& meaning, Direction said, bool base64) {
+  if (!may_hold_frame(meaning)) return {};
+  if ((base64 || meaning.base64) && !field.bytes) return bytes_of_base64(field.value);
   const bool has_direction = said != Direction::Unknown || meaning.direction != Direction::Unknown;
-  return may_hold_frame(meaning) && (has_direction || !is_figure(field)) ? bytes_of(field) : std::nullopt;
+  return has_direction || !is_figure(field) ? bytes_of(field) : std::nullopt;
+}
+
+/// Whether a field says what the bytes beside it are written in: `encoding: base64`
+bool names_base64(const NamedFields& fields) {
+  return std::ranges::any_of(fields, [](const NamedField& field) { return says_base64(stl::lower_case(field.value)); });
 }
 
 Direction direction_in(const NamedFields& fields) {
@@ -144,8 +183,15 @@ std::optional<LeadingTime> time_of(std::string_view text, std::optional<Time> un
 
 bool has_frame(const NamedFields& fields) {
   const Direction said = direction_in(fields);
+  const bool base64 = names_base64(fields);
   return std::ranges::any_of(
-      fields, [&](const NamedField& field) { return frame_in(field, meaning_of(field.name), said).has_value(); });
+      fields, [&](const NamedField& field) { return frame_in(field, meaning_of(field.name), said, base64).has_value(); });
+}
+
+bool has_base64(const NamedFields& fields) {
+  return std::ranges::any_of(fields, [](const NamedField& field) {
+    return meaning_of(field.name).holds == Holds::Data && !field.bytes && !bytes_of(field) && is_surely_base64(field.value);
+  });
 }
 
 bool has_characters(const NamedFields& fields) {
@@ -172,13 +218,14 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
   }
   if (!time) time = leading_time(before);
   const auto at = time ? std::optional(days_.since_first_midnight(*time)) : std::nullopt;
+  const bool base64 = in_base64_ || names_base64(fields);
   std::size_t frames = 0;
   bool has_data = false;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const NamedField& field = fields[i];
     const FieldMeaning& meaning = meaning_of(i, field.name);
-    auto bytes = are_characters_ ? characters_in(field, meaning) : frame_in(field, meaning, said);
-    const bool should_hold = meaning.holds == Holds::Data && !field.value.empty();
+    auto bytes = are_characters_ ? characters_in(field, meaning) : frame_in(field, meaning, said, base64);
+    const bool should_hold = meaning.holds == Holds::Data && !field.value.empty() && !says_base64(field.value);
     has_data |= should_hold;
     if (!bytes) {
       if (should_hold)
@@ -197,6 +244,7 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
 LineRecording NamedFieldsReader::finish() {
   count_from_first(recording_);
   left_out_.tell(recording_);
+  if (in_base64_) recording_.notes.emplace_back("its bytes are read as base64: they are not hex");
   return std::move(recording_);
 }
 

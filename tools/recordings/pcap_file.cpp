@@ -67,12 +67,16 @@ std::optional<Segment> tcp_of(Data packet) {
   return segment;
 }
 
+/// Whether a tag of a virtual network follows: IEEE 802.1Q, 802.1ad, and what was there before that.
+bool is_tag(std::uint16_t ether_type) { return ether_type == 0x8100 || ether_type == 0x88A8 || ether_type == 0x9100; }
+
 /// The IP packet in a packet of the link layer, if there is one.
 Data ip_of(Data packet, int link_type) {
+  constexpr std::size_t kFamily = 4;  // bytes before a packet of the loopback
   const auto after = [&](std::size_t head, std::size_t type) {
     if (packet.size() < head) return Data{};
     std::uint16_t ether_type = load16(&packet[type]);
-    for (; ether_type == 0x8100 && packet.size() >= head + 4; head += 4) ether_type = load16(&packet[head + 2]);
+    for (; is_tag(ether_type) && packet.size() >= head + 4; head += 4) ether_type = load16(&packet[head + 2]);
     return ether_type == 0x0800 || ether_type == 0x86DD ? packet.subspan(head) : Data{};
   };
   switch (link_type) {
@@ -82,6 +86,9 @@ Data ip_of(Data packet, int link_type) {
       return after(16, 14);
     case link_types::kLinuxCooked2:
       return after(20, 0);
+    case link_types::kLoopback:
+    case link_types::kLoopbackOfOpenBsd:
+      return packet.subspan(std::min(kFamily, packet.size()));
     default:
       return packet;
   }
@@ -114,6 +121,13 @@ std::optional<std::size_t> first_message_in(Data data) {
   return {};
 }
 
+/// Whether a segment is a frame of Modbus RTU, as servers of serial ports send it, and no message of Modbus TCP.
+bool is_rtu(Data data) {
+  constexpr std::size_t kHead = 6, kShortest = 4;
+  const bool has_head = data.size() > kHead && load16(&data[2]) == 0 && kHead + load16(&data[4]) == data.size();
+  return data.size() >= kShortest && !has_head && modbus::crc_ok(data);
+}
+
 class PacketFrames {
  public:
   explicit PacketFrames(const ReadingChoices& choices) : choices_(choices) {}
@@ -127,7 +141,7 @@ class PacketFrames {
     else if (segment && (segment->source_port == choices_.tcp_port || segment->destination_port == choices_.tcp_port))
       take(*segment, at, place);
     else
-      ++others_;
+      leave_out(segment);
   }
 
   /// The capture lacks everything after the last frame of each connection.
@@ -140,6 +154,12 @@ class PacketFrames {
   std::optional<LineRecording> finish(std::string& why) {
     if (!serial_.finish(recording_, why)) return {};
     note_left_out(others_, fmt::format("not of TCP port {}", choices_.tcp_port));
+    if (recording_.frames.empty() && !other_ports_.empty()) {
+      const auto most = std::ranges::max_element(other_ports_, {}, [](const auto& each) { return each.second; });
+      recording_.notes.push_back(fmt::format("most have port {}: --tcp-port {}", most->first, most->first));
+    }
+    if (of_rtu_)
+      recording_.notes.emplace_back("its TCP carries Modbus RTU: the frames have a CRC, and no head of Modbus TCP");
     note_left_out(broken_, "of TCP in fragments or cut off");
     for (const auto& [reason, losses] : losses_) {
       const std::string more = losses.count == 1 ? "" : fmt::format(", and {} more", losses.count - 1);
@@ -151,6 +171,12 @@ class PacketFrames {
   }
 
  private:
+  /// Counts packets with data by the port of the server, which is the lower one.
+  void leave_out(const std::optional<Segment>& segment) {
+    ++others_;
+    if (segment && !segment->data.empty()) ++other_ports_[std::min(segment->source_port, segment->destination_port)];
+  }
+
   void add(RecordedFrame frame) {
     last_[frame.stream] = recording_.frames.size();
     recording_.frames.push_back(std::move(frame));
@@ -183,6 +209,13 @@ class PacketFrames {
       data = data.subspan(*begin);
       stream.reader = {};
       stream.out_of_step = false;
+    }
+    if (stream.reader.pending() == 0 && is_rtu(data)) {
+      recording_.is_log = of_rtu_ = true;  // its times are those of TCP
+      return recording_.frames.push_back({.at = at,
+                                          .direction = asks ? Direction::Request : Direction::Answer,
+                                          .bytes = Bytes(data.begin(), data.end()),
+                                          .place = place});
     }
     stream.reader.take(data);
     while (const auto message = stream.reader.next())
@@ -219,15 +252,18 @@ class PacketFrames {
   LineRecording recording_;
   SerialLinks serial_;
   std::map<std::pair<Bytes, Bytes>, Stream> streams_;
-  std::map<std::uint32_t, std::size_t> last_;  // frame of each connection
-  std::map<std::string, Losses> losses_;       // by their reason
+  std::map<std::uint32_t, std::size_t> last_;         // frame of each connection
+  std::map<std::string, Losses> losses_;              // by their reason
+  std::map<std::uint16_t, std::size_t> other_ports_;  // packets of each that is not the one chosen
+  bool of_rtu_ = false;
   std::uint32_t connections_ = 0;
   std::size_t others_ = 0, broken_ = 0;
 };
 
 bool is_known(int link_type) {
   using namespace link_types;
-  constexpr std::array kOfIp{kEthernet, kLinuxCooked, kLinuxCooked2, kRawIp, kRawIpOnce, kRawIpOfOpenBsd, kIp4, kIp6};
+  constexpr std::array kOfIp{kEthernet,       kLinuxCooked, kLinuxCooked2, kRawIp,    kRawIpOnce,
+                             kRawIpOfOpenBsd, kIp4,         kIp6,          kLoopback, kLoopbackOfOpenBsd};
   return SerialLinks::carry(link_type) || std::ranges::find(kOfIp, link_type) != kOfIp.end();
 }
 
@@ -253,13 +289,17 @@ std::optional<LineRecording> read_pcap(std::string_view bytes, const ReadingChoi
   if (only_unknown) {
     why = fmt::format(
         "link type {} is not one of 147 to 162 (serial), 250 (RTAC serial), 189, 220 and 249 (USB), Ethernet, "
-        "Linux cooked or raw IP",
+        "Linux cooked, loopback or raw IP",
         *unknown.begin());
     return {};
   }
   if (!capture->error().empty()) reader.cut_off();
   auto recording = reader.finish(why);
   if (!recording) return {};
+  if (!capture->has_times()) {
+    for (RecordedFrame& frame : recording->frames) frame.at.reset(), frame.times.clear();
+    recording->notes.emplace_back("it has simple packets of pcapng, which have no times");
+  }
   for (const int link_type : unknown)
     recording->notes.push_back(fmt::format("what has link type {} was left out", link_type));
   if (!capture->error().empty()) recording->notes.push_back(capture->error());

@@ -13,6 +13,7 @@
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
 #include "tools/recordings/lines.hpp"
+#include "tools/recordings/markup.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -30,12 +31,16 @@ constexpr std::array kForms{
                   read_sigrok_session},
     RecordingForm{"levels", "CSV of levels: sigrok-cli -O csv, PulseView, DSView, raw data of Saleae Logic", false,
                   looks_like_levels_table, read_levels_table},
+    RecordingForm{"volts", "CSV of an oscilloscope: times and the volts of each channel, four samples or more in each bit",
+                  false, looks_like_volts_table, read_volts_table},
     RecordingForm{"DSView", "the decoder list that DSView exports", true, looks_like_dsview, read_dsview},
     RecordingForm{"sigrok", "what sigrok-cli -A uart prints; with --protocol-decoder-samplenum it says where frames end",
                   true, looks_like_sigrok_annotations, read_sigrok_annotations},
     RecordingForm{"tcpdump", "what tcpdump -x or -X prints of Modbus TCP", false, looks_like_tcpdump, read_tcpdump},
     RecordingForm{"tshark", "what tshark -x, or -P -x with times, prints of Modbus TCP", false, looks_like_tshark,
                   read_tshark},
+    RecordingForm{"followed", "a TCP stream that Wireshark follows, saved as hex dump, C arrays or YAML", true,
+                  looks_like_followed_stream, read_followed_stream},
     RecordingForm{"strace", "what strace prints of a program's reads and writes", true, looks_like_strace, read_strace},
     RecordingForm{"ESPHome", "what ESPHome logs with uart: debug:", true, looks_like_esphome, read_esphome},
     RecordingForm{"ESPHome modbus", "what ESPHome's component modbus logs: Modbus write, Modbus received Byte", true,
@@ -82,6 +87,8 @@ std::string_view in_utf8(std::string_view file, std::string& decoded) {
   return decoded = std::move(text->text);
 }
 
+constexpr std::string_view kIsProgram = "it is a program in STL, not a recording; s7200 check reads it, s7200 run runs it";
+
 /// A mnemonic with an operand, or one that cannot be hex; or the heading of a network or a block.
 bool is_statement(const std::vector<std::string>& words) {
   const std::string first = stl::upper_case(words.front());
@@ -102,6 +109,34 @@ bool is_stl_program(std::string_view bytes) {
   return statements > others;
 }
 
+/// Whether a file is a recording of a CAN bus: of candump, `(1.5) can0 601#2B40` or `can0  601   [4]  2B 40`, or of CANoe,
+/// whose head says how identifiers are written.
+bool is_of_can(std::string_view bytes) {
+  constexpr std::size_t kHead = 10;
+  std::size_t number = 0;
+  for (const std::string_view line : Lines(beginning_of(bytes))) {
+    if (++number > kHead) return false;
+    const std::vector<std::string> words = stl::split_words(line);
+    if (words.size() > 2 && words[0] == "base" && words[2] == "timestamps") return true;
+    const auto is_bus = [](std::string_view word) { return word.starts_with("can") || word.starts_with("vcan"); };
+    const auto bus = std::ranges::find_if(words, is_bus);
+    if (words.end() - bus < 2 || bus - words.begin() > 1) continue;
+    if (bus[1].find('#') != std::string::npos || (words.end() - bus > 2 && bus[2].starts_with('['))) return true;
+  }
+  return false;
+}
+
+/// A text that is no recording of a line, and what to say of it.
+struct OtherText {
+  bool (*is_it)(std::string_view bytes);
+  std::string_view why;
+};
+constexpr std::array kOtherTexts{
+    OtherText{begins_as_step7, kIsProgram},
+    OtherText{is_stl_program, kIsProgram},
+    OtherText{is_of_can, "it is a recording of a CAN bus, not of a serial line"},
+};
+
 }  // namespace
 
 std::span<const RecordingForm> recording_forms() { return kForms; }
@@ -110,21 +145,22 @@ bool is_text(std::string_view bytes) { return bytes.find('\0') == std::string_vi
 
 std::optional<LineRecording> read_recording(std::string_view file, const ReadingChoices& choices, std::string& why) {
   std::string decoded;
-  const std::string_view bytes = in_utf8(file, decoded);
+  std::string_view bytes = in_utf8(file, decoded);
+  const auto plain = without_markup(bytes);
+  if (plain) bytes = plain->text;
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
     why = fmt::format("it has none of the forms {}", stl::joined(kForms, &RecordingForm::name));
     return {};
   }
-  if (form->looks_like == is_text && (begins_as_step7(bytes) || is_stl_program(bytes))) {
-    why = "it is a program in STL, not a recording; s7200 check reads it, s7200 run runs it";
-    return {};
-  }
+  const auto other = std::ranges::find_if(kOtherTexts, [&](const OtherText& each) { return each.is_it(bytes); });
+  if (form->looks_like == is_text && other != kOtherTexts.end()) return why = other->why, std::nullopt;
   auto recording = form->read(bytes, choices, why);
   if (!recording) return {};
   recording->form = form->name;
   recording->is_log |= form->is_log;
   name_rows_not_read(*recording);
+  if (plain && !plain->note.empty()) recording->notes.push_back(plain->note);
   if (form->is_log) read_modbus_tcp(*recording);
   recording->over_tcp = std::ranges::any_of(recording->frames, [](const RecordedFrame& frame) { return frame.stream != 0; });
   note_times_that_run_backwards(*recording);

@@ -45,22 +45,43 @@ std::size_t length_of_counter(std::string_view line) {
 }
 
 /// A direction that stands before the time, and how long it is: `> 2026/11/22 10:00:00.5  length=8` of socat, `[RTU]>Tx >
-/// 10:00:00:500 - 01  03` of QModMaster.
+/// 10:00:00:500 - 01  03` of QModMaster, and other words: `[COM1] 10:00:00.5`, `DEBUG TX 10:00:00.5`.
 struct LeadingDirection {
   Direction direction = Direction::Unknown;
   std::size_t length = 0;
 };
+
+/// Words before a time of day, of a row that names its direction before or after the time; none if a byte is among them.
+LeadingDirection words_before_time(std::string_view line) {
+  constexpr std::size_t kMostWords = 4, kMostAfter = 40;
+  Scan scan(line);
+  scan.skip(kAllBlanks);
+  for (std::size_t words = 0; words < kMostWords && !scan.at_end(); ++words) {
+    const std::string_view word = scan.take_while([](char c) { return !is_any_of(c, kAllBlanks); });
+    if (bytes_of_text(word)) return {};
+    scan.skip(kAllBlanks);
+    if (!stl::is_digit(scan.next()) && scan.next() != '[' && scan.next() != '(') continue;
+    const auto time = leading_time(line.substr(scan.at()));
+    if (!time || !time->of_day) continue;
+    const Direction before = direction_of(line.substr(0, scan.at()));
+    const bool named = before != Direction::Unknown ||
+                       direction_of(line.substr(scan.at() + time->length, kMostAfter)) != Direction::Unknown;
+    return named ? LeadingDirection{before, scan.at()} : LeadingDirection{};
+  }
+  return {};
+}
+
 LeadingDirection leading_direction(std::string_view line) {
   Scan scan(line);
   Direction named = Direction::Unknown;
   if (scan.take("[") != '\0') {
     const bool is_named = !scan.take_while(is_word_sign).empty() && scan.take_word("]>");
     const std::string_view name = is_named ? scan.take_while(stl::is_letter, 2) : "";
-    if ((name != "Tx" && name != "Rx") || scan.take(" ") == '\0') return {};
+    if ((name != "Tx" && name != "Rx") || scan.take(" ") == '\0') return words_before_time(line);
     named = direction_of(name);
   }
   const char arrow = scan.take("<>");
-  if (arrow == '\0' || scan.take(" ") == '\0' || !leading_time(line.substr(scan.at()))) return {};
+  if (arrow == '\0' || scan.take(" ") == '\0' || !leading_time(line.substr(scan.at()))) return words_before_time(line);
   if (named == Direction::Unknown) named = arrow == '>' ? Direction::Request : Direction::Answer;
   return {named, scan.at()};
 }
@@ -78,21 +99,37 @@ std::string figure_after_direction(std::string_view line) {
   return is_last && has_digit && figure.find_first_of("=:([") == std::string::npos ? figure : std::string();
 }
 
-/// The time at the beginning of a line, after its number and an arrow.
-std::optional<LeadingTime> time_of_line(std::string_view line) {
-  line.remove_prefix(length_of_index(line));
-  return leading_time(line.substr(leading_direction(line).length));
+/// The time in front of a row, and what stands before it.
+struct TimeOfRow {
+  LeadingDirection before{};
+  std::optional<LeadingTime> time{};
+};
+TimeOfRow time_of_row(std::string_view line) {
+  if (const auto time = leading_time(line)) return {{}, time};
+  const LeadingDirection before = leading_direction(line);
+  return {before, before.length > 0 ? leading_time(line.substr(before.length)) : std::nullopt};
 }
 
-/// Whether all times have a plus sign. Such a time counts from the row above: `+0.037`.
+/// The time at the beginning of a line, after its number and other words.
+std::optional<LeadingTime> time_of_line(std::string_view line) {
+  return time_of_row(line.substr(length_of_index(line))).time;
+}
+
+/// Whether all times have a sign, and count from the row above: `+0.037`. Times around a trigger ascend from below 0
+/// instead.
 bool has_deltas(std::string_view text) {
-  std::size_t times = 0;
+  std::size_t times = 0, after = 0;
+  bool ascend = true;
+  Time last = -kFurthestTime;
   for (const std::string_view line : Lines(beginning_of(text)))
     if (const auto time = time_of_line(line)) {
-      if (!time->has_plus) return false;
+      if (!time->has_sign) return false;
       ++times;
+      after += time->time >= 0;
+      ascend = ascend && time->time >= last;
+      last = time->time;
     }
-  return times > 1;
+  return times > 1 && 2 * after > times && (after == times || !ascend);
 }
 
 /// The nine digits after the seconds in a head of socat: `> 2025/12/30 14:58:36.000834907  length=8 from=0 to=7`. Empty: it
@@ -169,10 +206,9 @@ class LogReader {
     if (ends_dump(line)) return;
     if (const auto character = character_of_interceptty(line)) return take(*character);
     line.remove_prefix(length_of_index(line));
-    const auto [said, length] = leading_direction(line);
-    const auto time = leading_time(line.substr(length));
+    const auto [before, time] = time_of_row(line);
     const std::optional<Time> at = time ? std::optional(time_of(*time, line)) : std::nullopt;
-    if (time) line.remove_prefix(length + time->length);
+    if (time) line.remove_prefix(before.length + time->length);
     const std::string_view whole = line;
     const bool is_of_dump = !at && (has_offsets_ || is_dump(line));
     const bool may_be_row = is_of_dump || (!at && (heading_ || goes_on_));
@@ -187,7 +223,7 @@ class LogReader {
     const std::size_t counter = length_of_counter(line);
     in_characters_ = false;
     const std::string_view rest = stl::trim_end(line.substr(counter));
-    const auto direction = [&, told = said](Direction read) { return time && told != Direction::Unknown ? told : read; };
+    const auto direction = [&, told = before.direction](Direction read) { return told != Direction::Unknown ? told : read; };
     auto found = bytes_of_lines_.in(rest);
     in_dump_ = !at && (rest.size() < whole.size() || (found && found->has_characters)) && is_dump(whole);
     if (!found)
@@ -382,7 +418,7 @@ class LogReader {
     lost_row_ = false;
     if (at)
       heading_ = {at, direction, number_, direction == Direction::Unknown ? "" : figure_after_direction(line)};
-    else if (const auto time = direction == Direction::Unknown ? std::nullopt : time_at_end(line))
+    else if (const auto time = direction == Direction::Unknown ? std::nullopt : time_within(line))
       heading_ = {days_.since_first_midnight(*time), direction, number_, ""};
     else if (direction != Direction::Unknown && is_only_direction(line))
       heading_ = {{}, direction, number_, ""};
@@ -390,11 +426,12 @@ class LogReader {
       left_out_.add(number_);
   }
 
-  /// The date and time at the end of a heading: `Outgoing raw data at 2021-03-24 14:11:10`
-  static std::optional<LeadingTime> time_at_end(std::string_view line) {
+  /// The date and time in a heading: `Outgoing raw data at 2021-03-24 14:11:10`, `000001: Bytes written, 2021-03-24
+  /// 14:11:10.5 +0.0`; at its end also a time without a date.
+  static std::optional<LeadingTime> time_within(std::string_view line) {
     for (std::size_t at = line.find(' '); at != std::string_view::npos && at < kLongestHead; at = line.find(' ', at + 1)) {
       const auto time = leading_time(line.substr(at));
-      if (time && time->of_day && time->length == line.size() - at) return time;
+      if (time && time->of_day && (time->date[0] || time->length == line.size() - at)) return time;
     }
     return {};
   }

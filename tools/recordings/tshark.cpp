@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
@@ -76,10 +77,18 @@ std::optional<Packets> packets_of(std::string_view text, StopToken stop, std::st
   return packets;
 }
 
+/// The list of packets that Wireshark exports as CSV, by the names of its columns.
+bool is_list_of_packets(std::string_view bytes) {
+  const std::string names = stl::lower_case(first_line(bytes));
+  return std::ranges::all_of(std::array{"time", "source", "destination", "protocol", "info"},
+                             [&](std::string_view name) { return names.find(name) != std::string::npos; });
+}
+
 }  // namespace
 
 bool looks_like_tshark(std::string_view bytes) {
   if (!is_text(bytes)) return false;
+  if (is_list_of_packets(bytes)) return true;
   const std::string_view beginning = beginning_of(bytes);
   Bytes first;
   std::size_t listed = 0;
@@ -93,6 +102,10 @@ bool looks_like_tshark(std::string_view bytes) {
 }
 
 std::optional<LineRecording> read_tshark(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+  if (is_list_of_packets(bytes)) {
+    why = "it is Wireshark's list of packets without their bytes; save the capture itself, with File, Save As";
+    return {};
+  }
   const auto packets = packets_of(bytes, choices.stop, why);
   if (!packets) return {};
   if (packets->all.empty()) {

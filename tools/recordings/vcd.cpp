@@ -64,7 +64,7 @@ class VcdReader {
   std::optional<Levels> read(std::string& why) {
     while (true) {
       const std::string_view word = take_word(rest_);
-      if (word.empty()) return levels_.end = now_, std::move(levels_);
+      if (word.empty()) return finish();
       if (!take(word, why)) return {};
     }
   }
@@ -78,14 +78,14 @@ class VcdReader {
         return take_time(word.substr(1), why);
       case 'b':
       case 'B':
-        set(take_word(rest_), word.back(), word.size() == 2);
+        set_bits(take_word(rest_), word.substr(1));
         return true;
       case 'r':
       case 'R':
         take_word(rest_);
         return true;
       default:
-        set(word.substr(1), word.front(), true);
+        set_bits(word.substr(1), word.substr(0, 1));
         return true;
     }
   }
@@ -105,17 +105,43 @@ class VcdReader {
     return true;
   }
 
-  /// Adds a variable: `wire 1 ! rx`
+  /// Adds a variable: `wire 1 ! rx`, `wire 2 ! bus [1:0]` with a channel for each bit, the highest first.
   void add_variable(const std::vector<std::string_view>& words) {
-    constexpr std::size_t kWidth = 1, kCode = 2, kName = 3;
+    constexpr std::size_t kKind = 0, kWidth = 1, kCode = 2, kName = 3;
+    constexpr std::size_t kWidest = 16;
     if (words.size() <= kName) return;
-    if (words[kWidth] != "1") {
-      levels_.notes.push_back(fmt::format("channel {} was left out: it has {} bits", stl::shortened(words[kName]),
-                                          stl::shortened(words[kWidth])));
+    const auto width = parse_decimal<std::size_t>(words[kWidth]);
+    if (!width || *width == 0 || *width > kWidest || words[kKind] == "real") {
+      note_left_out(words[kName], words[kWidth]);
       return;
     }
-    const auto [code, is_new] = channels_.try_emplace(std::string(words[kCode]), levels_.channels.size());
-    if (is_new) levels_.channels.push_back({.name = std::string(words[kName])});
+    const auto [code, is_new] = variables_.try_emplace(std::string(words[kCode]));
+    if (!is_new) return;
+    code->second = {.name = std::string(words[kName]), .first = levels_.channels.size(), .width = *width};
+    for (std::size_t bit = *width; bit-- > 0;) {
+      levels_.channels.push_back({.name = *width == 1 ? code->second.name : fmt::format("{}[{}]", code->second.name, bit)});
+      is_line_.push_back(*width == 1);
+    }
+  }
+
+  void note_left_out(std::string_view name, std::string_view width) {
+    levels_.notes.push_back(
+        fmt::format("channel {} was left out: it has {} bits", stl::shortened(name), stl::shortened(width)));
+  }
+
+  /// Where a variable of one bit changes, those of several are numbers, not lines.
+  Levels finish() {
+    levels_.end = now_;
+    std::vector<Channel> lines;
+    for (std::size_t i = 0; i < levels_.channels.size(); ++i)
+      if (is_line_[i] && !levels_.channels[i].edges.empty()) lines.push_back(levels_.channels[i]);
+    if (lines.empty()) return std::move(levels_);
+    const auto said = static_cast<std::ptrdiff_t>(levels_.notes.size());
+    for (const auto& [code, variable] : variables_)
+      if (variable.width > 1) note_left_out(variable.name, std::to_string(variable.width));
+    std::ranges::rotate(levels_.notes, levels_.notes.begin() + said);
+    levels_.channels = std::move(lines);
+    return std::move(levels_);
   }
 
   bool take_time(std::string_view digits, std::string& why) {
@@ -130,21 +156,34 @@ class VcdReader {
     return true;
   }
 
-  void set(std::string_view code, char level, bool is_one_bit) {
-    const auto found = channels_.find(code);
-    if (found == channels_.end() || !is_one_bit) return;
-    Channel& channel = levels_.channels[found->second];
+  /// Sets the bits of a variable; before the first that are written stand more like it, or 0 before a 1.
+  void set_bits(std::string_view code, std::string_view bits) {
+    const auto found = variables_.find(code);
+    if (found == variables_.end() || bits.empty() || bits.size() > found->second.width) return;
+    const std::size_t unwritten = found->second.width - bits.size();
+    for (std::size_t i = 0; i < found->second.width; ++i)
+      set(found->second.first + i, i >= unwritten ? bits[i - unwritten] : bits.front() == '1' ? '0' : bits.front());
+  }
+
+  void set(std::size_t place, char level) {
+    Channel& channel = levels_.channels[place];
     if (level == '0' || level == '1')
       channel.set(now_, level == '1');
-    else if (now_ > 0 && undefined_.insert(found->second).second)
+    else if (now_ > 0 && undefined_.insert(place).second)
       levels_.notes.push_back(fmt::format("channel {} has undefined levels at {}: there it keeps the level before",
                                           stl::shortened(channel.name), format_duration(now_)));
   }
 
+  struct Variable {
+    std::string name{};
+    std::size_t first = 0, width = 0;  ///< its channels
+  };
+
   std::string_view rest_;
   Levels levels_;
-  std::map<std::string, std::size_t, std::less<>> channels_;  // by their codes
-  std::set<std::size_t> undefined_;                           // channels of which that was said
+  std::map<std::string, Variable, std::less<>> variables_;  // by their codes
+  std::vector<bool> is_line_;                               // a channel is a variable of one bit
+  std::set<std::size_t> undefined_;                         // channels of which that was said
   Scale scale_;
   Time now_ = 0;
 };

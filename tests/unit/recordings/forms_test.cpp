@@ -339,6 +339,37 @@ TEST(Forms, AnObjectOfJsonInEachLineHasItsFieldsByName) {
                                                       "line 4: left out: no bytes in it"}));
 }
 
+TEST(Forms, BytesInBase64AreReadWhereTheirNameOrTheirTextSaysSo) {
+  const std::string asked = "AQMACgAC5Ak=", said = "AQMEEjRWeIEH";
+  for (const std::string form : {"{{\"time\":{},\"dir\":\"{}\",\"data\":\"{}\"}}\n",
+                                 "{{\"timestamp\":{},\"type\":\"{}\",\"payloadBase64\":\"{}\"}}\n",
+                                 "{{\"t\":{},\"dir\":\"{}\",\"encoding\":\"base64\",\"frame\":\"{}\"}}\n"}) {
+    const auto recording = recording_of(fmt::format(fmt::runtime(form), "1.000", "tx", asked) +
+                                        fmt::format(fmt::runtime(form), "1.025", "rx", said));
+    expect_the_conversation(recording, "JSON", 25 * ms);
+  }
+  expect_the_conversation(recording_of("time=1.000 dir=tx data=" + asked + "\ntime=1.025 dir=rx data=\"" + said + "\"\n"),
+                          "key=value", 25 * ms);
+  expect_the_conversation(recording_of("time=1.000 dir=tx b64=AQMACgAC5Ak\ntime=1.025 dir=rx b64=" + said + "\n"),
+                          "key=value", 25 * ms);
+}
+
+TEST(Forms, WhatIsNoBase64IsNotReadAsSuch) {
+  for (const std::string value : {"/dev/tty", "SensorA1", "readings", "AQM="})
+    EXPECT_FALSE(refusal_of("{\"time\":1.0,\"dir\":\"tx\",\"data\":\"" + value + "\"}\n").empty()) << value;
+}
+
+TEST(Forms, JsonThatIsNotReadHasItsReason) {
+  EXPECT_EQ(refusal_of("{\"time\":1e400,\"dir\":\"tx\",\"data\":\"0b03\"}\n"),
+            "no frame in it; line 1: left out: its number 1e400 is too large");
+  EXPECT_EQ(refusal_of("{\"time\":1,\"data\":\"0b03\",\"x\":" + std::string(100, '[') + std::string(100, ']') + "}\n"),
+            "no frame in it; line 1: left out: it is JSON of more than 16 maps and lists inside each other");
+  EXPECT_EQ(refusal_of("[{\"time\":1,\"value\":1234},\n{\"time\":2,\"value\":5678}]\n"),
+            "no frame in it; line 1: left out, and 1 more: no bytes in it");
+  EXPECT_EQ(refusal_of("{\"time\":1,\"data\":\"0b03\"\n"),
+            "no frame in it; line 1: left out: '{\"time\":1,\"data\":\"0b03\"' is not understood");
+}
+
 TEST(Forms, DeepJsonIsNotUnderstood) {
   std::string deep = "{\"data\":\"0103\"}\n{\"a\":";
   for (int i = 0; i < 100'000; ++i) deep += "{\"a\":";
@@ -467,6 +498,62 @@ TEST(Forms, TsharkPrintsPacketsInHex) {
             "line 4: rows before it are missing; record with tshark -w FILE.pcap");
 }
 
+TEST(Forms, PacketsAsJsonHaveWhatTcpCarries) {
+  const auto packet = [](const std::string& at, int from, int to, const std::string& payload) {
+    return fmt::format(
+        R"({{
+    "_index": "packets-2026-11-28", "_score": null,
+    "_source": {{
+      "layers": {{
+        "frame": {{"frame.time_relative": "{}", "frame.number": "1", "frame.protocols": "eth:ethertype:ip:tcp:mbtcp"}},
+        "ip": {{"ip.src": "192.168.0.5"}},
+        "tcp": {{"tcp.srcport": "{}", "tcp.dstport": "{}", "tcp.len": "12", "tcp.payload": "{}"}},
+        "modbus": {{"modbus.func_code": "3", "modbus.data": "00:01"}}
+      }}
+    }}
+  }})",
+        at, from, to, payload);
+  };
+  const auto recording = recording_of("[\n  " + packet("0.000000000", 50312, 502, "00:01:00:00:00:06:01:03:00:0a:00:02") +
+                                      ",\n  " + packet("0.010000000", 502, 50312, "") + ",\n  " +
+                                      packet("0.025000000", 502, 50312, "00:01:00:00:00:07:01:03:04:12:34:56:78") + "\n]\n");
+  expect_the_conversation(recording, "JSON", 25 * ms);
+  EXPECT_TRUE(recording.over_tcp);
+}
+
+TEST(Forms, AFollowedStreamIsReadAsWiresharkSavesIt) {
+  const std::string dump =
+      "00000000  00 01 00 00 00 06 01 03  00 0a 00 02               ........ ....\n"
+      "    00000000  00 01 00 00 00 07 01 03  04 12 34 56 78            ........ ..4Vx\n";
+  expect_the_conversation(recording_of(dump), "followed", {});
+  const LineRecording longer =
+      recording_of(dump +
+                   "0000000C  00 02 00 00 00 06 01 03  00 0a 00 08               ........ ....\n"
+                   "    0000000D  00 02 00 00 00 13 01 03  10 00 01 00 02 00 03 00   ........ ........\n"
+                   "    0000001D  04 00 05 00 06 00 07 00  08                        ........ .\n");
+  ASSERT_EQ(longer.frames.size(), 4U);
+  EXPECT_EQ(longer.frames[3].bytes.size(), 21U) << "with the CRC in place of the head";
+  EXPECT_EQ(longer.frames[3].place, "line 4");
+  expect_the_conversation(
+      recording_of("char peer0_0[] = { /* Packet 4 */\n0x00, 0x01, 0x00, 0x00, 0x00, 0x06, 0x01, 0x03, \n"
+                   "0x00, 0x0a, 0x00, 0x02 };\n"
+                   "char peer1_0[] = { /* Packet 6 */\n0x00, 0x01, 0x00, 0x00, 0x00, 0x07, 0x01, 0x03, \n"
+                   "0x04, 0x12, 0x34, 0x56, 0x78 };\n"),
+      "followed", {});
+  const std::string head =
+      "peers:\n  - peer: 0\n    host: 192.168.0.5\n    port: 50312\n  - peer: 1\n    host: 192.168.0.9\n    port: 502\n"
+      "packets:\n";
+  expect_the_conversation(
+      recording_of(head +
+                   "  - packet: 4\n    peer: 0\n    index: 0\n    timestamp: 1616595070.000000000\n    data: !!binary |\n"
+                   "      AAEAAAAGAQMACgAC\n"
+                   "  - packet: 6\n    peer: 1\n    index: 0\n    timestamp: 1616595070.025000000\n    data: !!binary |\n"
+                   "      AAEAAAAHAQMEEjRWeA==\n"),
+      "followed", 25 * ms);
+  EXPECT_EQ(refusal_of(head + "  - packet: 4\n    peer: 0\n    data: !!binary |\n      A*E\n"),
+            "line 9: its bytes are not base64");
+}
+
 TEST(Forms, ADumpOfASerialLineIsNoPacketOfTshark) {
   const LineRecording dump = recording_of("0000  01 03 00 00 00 01 84 0a   ........\n");
   EXPECT_NE(dump.form, "tshark");
@@ -550,6 +637,23 @@ Bytes usb_packet(Usb form, bool in, bool completed, const Bytes& data, std::uint
 }
 
 const Bytes kFtdiStatus{0x01, 0x60};
+
+TEST(OtherNotations, ATableMayHaveAColumnForEachDirectionWithNumbersInItsName) {
+  std::string table = "\"Timestamp\";\"CH0(TX)\";\"CH1(RX)\";\"Information\"\n";
+  table += rows_of("", [count = std::size_t{0}](Time at, std::uint8_t byte) mutable {
+    const bool sent = count++ < kRequest.size();
+    std::string time = fmt::format("{:.4f}", static_cast<double>(at) / ms);
+    std::ranges::replace(time, '.', ',');
+    return fmt::format("\"{} ms\";\"{}\";\"{}\";\"\"", time, sent ? fmt::format("{:02X}", byte) : "",
+                       sent ? "" : fmt::format("{:02X}", byte));
+  });
+  const auto recording = recording_of(table);
+  EXPECT_EQ(recording.form, "CSV");
+  ASSERT_EQ(recording.frames.size(), 2U);
+  EXPECT_EQ(recording.frames[0].bytes, kRequest);
+  EXPECT_EQ(recording.frames[1].bytes, kAnswer);
+  EXPECT_EQ(recording.frames[1].direction, Direction::Answer);
+}
 
 TEST(SerialLinks, ThePacketsOfTheLinkTypesForUsersAreFrames) {
   for (const std::uint32_t link_type : {147U, 150U, 162U})
@@ -793,6 +897,33 @@ TEST(Levels, AVcdHasATimescaleVectorsAndUndefinedLevels) {
   EXPECT_EQ(refusal_of("$timescale 1 ns $end\n$enddefinitions $end\n#5\n#4\n"), "#4 is not a time after the one before it");
   EXPECT_EQ(refusal_of("$timescale 1 s $end\n$enddefinitions $end\n#9000000000000000000\n"),
             "#9000000000000000000 is not a time after the one before it");
+}
+
+TEST(Levels, TheBitsOfAVectorAreLinesWhereNoOtherVariableIsOne) {
+  const auto asked = edges_of({{5 * ms, kRequest}}, kUsual), said = edges_of({{100 * ms, kAnswer}}, kUsual);
+  std::string vcd =
+      "$timescale 10 ns $end\r\n$scope module logic $end $var wire 2 ! bus [1:0] $end $upscope $end\r\n"
+      "$enddefinitions $end\r\n#0 b11 !\r\n";
+  for (const Edge& edge : asked) vcd += fmt::format("#{} b{}{} !\r\n", edge.at / 10, 1, edge.level ? 1 : 0);
+  for (const Edge& edge : said) vcd += fmt::format("#{} b{} !\r\n", edge.at / 10, edge.level ? "11" : "1");
+  expect_the_conversation(recording_of(vcd), "VCD", 95 * ms);
+}
+
+TEST(Levels, AVcdOfASimulatorHasScopesCommentsAndReals) {
+  std::string vcd = vcd_of({{"rxd", conversation_edges(kUsual)}}, "1ps", 1);
+  vcd.insert(0, "$date\n  today\n$end\n$version 12.0 $end\n$comment\nseveral\nlines\n$end\n");
+  vcd.insert(vcd.find("$upscope"),
+             "$var real 64 & temp $end\n$scope begin inner $end\n$var reg 8 % data [7:0] $end\n$upscope $end\n");
+  const std::string noise = "\nr3.25 &\nb1x %";
+  for (std::size_t at = vcd.find("\n#5"); at != std::string::npos; at = vcd.find("\n#5", at + noise.size() + 1))
+    vcd.insert(at, noise);
+  std::string in_ps;
+  for (std::size_t at = 0, end; at < vcd.size(); at = end) {  // vcd_of counts in ns
+    end = std::min(vcd.find('\n', at) + 1, vcd.size());
+    const std::string line = vcd.substr(at, end - at);
+    in_ps += line.front() == '#' && line != "#0\n" ? line.substr(0, line.size() - 1) + "000\n" : line;
+  }
+  expect_one_wire(recording_of(in_ps), "VCD", kUsual);
 }
 
 /// The level of each microsecond.

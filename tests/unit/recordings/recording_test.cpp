@@ -414,10 +414,10 @@ TEST(Recordings, ARequestOnASerialLineThatLooksLikeTheHeadOfModbusTcpIsNone) {
 }
 
 TEST(Recordings, TimesThatAreNotUnderstoodOrRunBackwardsAreNoted) {
-  EXPECT_EQ(recording_of("Mon 12:00:00 TX 01 03 00 00 00 01 84 0A\n").notes,
+  EXPECT_EQ(recording_of("Mon 12:00 TX 01 03 00 00 00 01 84 0A\n").notes,
             std::vector<std::string>{"line 1: read without its time: the form of that is not understood"});
   EXPECT_EQ(recording_of("10:15:01:103 TX 01 03 00 00 00 01 84 0A\n10:15:01:128 RX 01 03 02 12 34 B5 33\n"
-                         "TX 10:15:02:000 01 03 00 00 00 01 84 0A\nRX 10:15:02:025 01 03 02 12 34 B5 33\n")
+                         "TX at 10:15 01 03 00 00 00 01 84 0A\nRX at 10:15 01 03 02 12 34 B5 33\n")
                 .notes,
             std::vector<std::string>{"line 3: read without its time, and 1 more: the form of that is not understood"});
   const LineRecording log = recording_of(
@@ -554,6 +554,26 @@ std::string block(std::uint32_t type, const std::string& body) {
   };
   const auto length = static_cast<std::uint32_t>(body.size() + 12);
   return word(type) + word(length) + body + word(length);
+}
+
+TEST(Recordings, SimplePacketsOfAPcapngHaveNoTimes) {
+  const auto words = [](std::initializer_list<std::uint32_t> values) {
+    std::string bytes;
+    for (const std::uint32_t value : values)
+      for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> 8 * i & 0xFF);
+    return bytes;
+  };
+  std::string file = block(0x0A0D0D0A, words({0x1A2B3C4D, 1, 0xFFFFFFFF, 0xFFFFFFFF})) + block(1, words({147, 0}));
+  for (const Bytes& frame : {kRequest, kAnswer}) {
+    std::string data(frame.begin(), frame.end());
+    data.resize((data.size() + 3) / 4 * 4);
+    file += block(3, words({static_cast<std::uint32_t>(frame.size())}) + data);
+  }
+  const LineRecording read = recording_of(file);
+  ASSERT_EQ(read.frames.size(), 2U);
+  EXPECT_EQ(read.frames[1].bytes, kAnswer);
+  EXPECT_FALSE(read.frames[1].at);
+  EXPECT_EQ(read.notes, std::vector<std::string>{"it has simple packets of pcapng, which have no times"});
 }
 
 TEST(Recordings, APcapngMayHaveInterfacesOfSeveralLinkTypes) {
@@ -838,6 +858,69 @@ TEST(Recordings, ModbusTcpIsReadAsOnASerialLine) {
   EXPECT_EQ(recording.frames[0].stream, recording.frames[1].stream);
 }
 
+/// A capture of that link type with the IP packets of a request and its answer after `head`.
+std::string capture_with_head(
+    std::uint8_t link_type, const Bytes& head, std::uint16_t port = 502,
+    const Bytes& asked = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}}),
+    const Bytes& said = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 2, 0x12, 0x34}})) {
+  constexpr std::size_t kOfEthernet = 14;
+  std::vector<Bytes> packets;
+  for (const bool to_server : {true, false}) {
+    Bytes packet = segment(to_server, 100, to_server ? asked : said);
+    store16(&packet[to_server ? 36 : 34], port);
+    packet.erase(packet.begin(), packet.begin() + kOfEthernet);
+    packet.insert(packet.begin(), head.begin(), head.end());
+    packets.push_back(packet);
+  }
+  std::string bytes = ethernet_pcap(packets);
+  bytes[20] = static_cast<char>(link_type);
+  return bytes;
+}
+
+TEST(Recordings, ModbusTcpIsFoundBelowTheHeadsOfManyLinks) {
+  const Bytes addresses(12, 0);
+  const auto ethernet = [&](const Bytes& types) {
+    Bytes head = addresses;
+    head.insert(head.end(), types.begin(), types.end());
+    return head;
+  };
+  for (const auto& [link_type, head] : std::initializer_list<std::pair<std::uint8_t, Bytes>>{
+           {1, ethernet({0x08, 0x00})},
+           {1, ethernet({0x81, 0x00, 0, 5, 0x08, 0x00})},
+           {1, ethernet({0x88, 0xA8, 0, 5, 0x81, 0x00, 0, 7, 0x08, 0x00})},
+           {0, {2, 0, 0, 0}},
+           {108, {0, 0, 0, 2}},
+           {101, {}},
+           {113, {0, 0, 0, 1, 0, 6, 0, 0, 0, 0, 0, 0, 0, 0, 0x08, 0x00}}}) {
+    const LineRecording recording = recording_of(capture_with_head(link_type, head));
+    ASSERT_EQ(recording.frames.size(), 2U) << int{link_type};
+    EXPECT_EQ(recording.frames[0].bytes, kRequest);
+    EXPECT_EQ(recording.frames[1].bytes, kAnswer);
+    EXPECT_TRUE(recording.over_tcp);
+  }
+}
+
+TEST(Recordings, ACaptureWithoutTheChosenPortNamesTheOneThatItHas) {
+  std::string why;
+  EXPECT_FALSE(read_recording(capture_with_head(101, {}, 5020), {}, why));
+  EXPECT_EQ(why, "no frame in it; 2 packets not of TCP port 502 were left out; most have port 5020: --tcp-port 5020");
+  EXPECT_TRUE(read_recording(capture_with_head(101, {}, 5020), {.tcp_port = 5020}, why));
+}
+
+TEST(Recordings, TcpMayCarryModbusRtu) {
+  std::string why;
+  const auto recording = read_recording(capture_with_head(101, {}, 4001, kRequest, kAnswer), {.tcp_port = 4001}, why);
+  ASSERT_TRUE(recording) << why;
+  ASSERT_EQ(recording->frames.size(), 2U);
+  EXPECT_EQ(recording->frames[0].bytes, kRequest);
+  EXPECT_EQ(recording->frames[0].direction, Direction::Request);
+  EXPECT_EQ(recording->frames[1].bytes, kAnswer);
+  EXPECT_EQ(recording->frames[1].direction, Direction::Answer);
+  EXPECT_FALSE(recording->over_tcp) << "they are frames of a serial line";
+  EXPECT_EQ(recording->notes,
+            std::vector<std::string>{"its TCP carries Modbus RTU: the frames have a CRC, and no head of Modbus TCP"});
+}
+
 TEST(Recordings, ASegmentThatIsSentAgainWithMoreHasItsNewPartRead) {
   const Bytes request = modbus::to_bytes({.transaction = 7, .unit = 1, .pdu = {3, 0, 0, 0, 1}});
   const Bytes head(request.begin(), request.begin() + 6);
@@ -916,8 +999,8 @@ TEST(Recordings, WhatIsNoRecordingIsRefused) {
   other[20] = 105;
   EXPECT_EQ(
       refusal_of(other),
-      "link type 105 is not one of 147 to 162 (serial), 250 (RTAC serial), 189, 220 and 249 (USB), Ethernet, Linux cooked "
-      "or raw IP");
+      "link type 105 is not one of 147 to 162 (serial), 250 (RTAC serial), 189, 220 and 249 (USB), Ethernet, Linux cooked, "
+      "loopback or raw IP");
 }
 
 TEST(Recordings, RandomPacketsAreNeverReadBeyondTheirEnd) {
