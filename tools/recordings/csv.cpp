@@ -94,16 +94,6 @@ Columns columns_of(std::string_view line) {
   return columns;
 }
 
-/// The time without its zone: `2026-11-27T10:00:00.123Z`, `…+02:00` of Logic 2. All times of a table have the same zone.
-std::string_view without_zone(std::string_view time) {
-  constexpr std::size_t kZone = 6, kSign = 0, kColon = 3;
-  if (time.find('T') == std::string_view::npos) return time;
-  if (time.ends_with('Z')) return time.substr(0, time.size() - 1);
-  const std::string_view zone = time.substr(time.size() - std::min(kZone, time.size()));
-  const bool has_zone = zone.size() == kZone && (zone[kSign] == '+' || zone[kSign] == '-') && zone[kColon] == ':';
-  return has_zone ? time.substr(0, time.size() - kZone) : time;
-}
-
 /// A number in the column's unit, or a time as in a text. Where commas divide the columns, one in a number may stand for
 /// thousands, and is not read.
 std::optional<LeadingTime> time_of(std::string_view field, const Columns& columns) {
@@ -115,9 +105,7 @@ std::optional<LeadingTime> time_of(std::string_view field, const Columns& column
     if (!readable || !(std::abs(time) < static_cast<long double>(kFurthestTime))) return {};
     return LeadingTime{.time = std::llround(time)};
   }
-  const std::string_view local = without_zone(field);
-  const auto time = leading_time(local);
-  return time && time->length == local.size() ? time : std::nullopt;
+  return time_in_cell(field);
 }
 
 /// Whether a field of an error column reports an error.

@@ -567,10 +567,20 @@ bool is_assigned(Words before, Words run) {
   return !names_bytes(name);
 }
 
+/// Whether the last word is the name after an arrow: `CPU -> PC`
+bool ends_with_name_after_arrow(Words words) {
+  constexpr std::string_view kArrow = "-=<>";
+  return words.size() > 1 &&
+         std::ranges::all_of(words[words.size() - 2].text, [&](char c) { return is_any_of(c, kArrow); }) &&
+         std::ranges::any_of(words.back().text, is_letter);
+}
+
 /// A word before or after the bytes that makes them doubtful; null if there is none. Bytes before them may be a number or a
 /// date in front of the direction.
 const Word* what_is_doubtful(Words before, Words run, Words after) {
-  if (!before.empty() && (may_be_a_damaged_byte(before.back()) || ends_with_digits(before.back()))) return &before.back();
+  if (!before.empty() && !ends_with_name_after_arrow(before) &&
+      (may_be_a_damaged_byte(before.back()) || ends_with_digits(before.back())))
+    return &before.back();
   const auto other = std::ranges::find_if(before, [](const Word& word) { return word.bytes > 0; });
   if (other != before.end()) {
     const bool after_direction = std::any_of(before.begin(), other, names_a_direction);
@@ -872,6 +882,22 @@ std::optional<LeadingTime> leading_time(std::string_view text) {
   if (const auto time = minutes_since(text)) return time;
   if (const auto time = time_since(text)) return time;
   return time_since_1970(text);
+}
+
+/// The time without its zone.
+std::string_view without_zone(std::string_view time) {
+  constexpr std::size_t kZone = 6, kSign = 0, kColon = 3;
+  if (time.find('T') == std::string_view::npos) return time;
+  if (time.ends_with('Z')) return time.substr(0, time.size() - 1);
+  const std::string_view zone = time.substr(time.size() - std::min(kZone, time.size()));
+  const bool has_zone = zone.size() == kZone && (zone[kSign] == '+' || zone[kSign] == '-') && zone[kColon] == ':';
+  return has_zone ? time.substr(0, time.size() - kZone) : time;
+}
+
+std::optional<LeadingTime> time_in_cell(std::string_view cell) {
+  const std::string_view local = without_zone(cell);
+  const auto time = leading_time(local);
+  return time && time->length == local.size() ? time : std::nullopt;
 }
 
 std::size_t length_of_index(std::string_view text) {

@@ -32,6 +32,10 @@ struct LeadingTime {
 };
 std::optional<LeadingTime> leading_time(std::string_view text);
 
+/// The time that all of a cell of a table is, with a zone or without: `2026-11-27T10:00:00.123Z`, `…+02:00`. All times of a
+/// table have the same zone.
+std::optional<LeadingTime> time_in_cell(std::string_view cell);
+
 /// The length of a row's number before its time, with the signs between them: `17 12:34:56.789`, `17;12:34:56.789`. 0: the
 /// text does not begin so.
 std::size_t length_of_index(std::string_view text);

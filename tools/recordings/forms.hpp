@@ -63,6 +63,10 @@ std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingCh
 bool looks_like_volts_table(std::string_view bytes);
 std::optional<LineRecording> read_volts_table(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
+/// Recognises the samples that sigrok-cli prints by the line about its acquisition; rows of bits are read.
+bool looks_like_sigrok_bits(std::string_view bytes);
+std::optional<LineRecording> read_sigrok_bits(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
 /// Recognises sigrok's annotations by a line of its decoder `uart`.
 bool looks_like_sigrok_annotations(std::string_view bytes);
 std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, const ReadingChoices& choices,

@@ -52,6 +52,7 @@ std::ptrdiff_t count_lines_that(std::string_view bytes, bool (*is_so)(const Name
   constexpr std::size_t kFewest = 2;  // pairs of a line with a frame: `tx=0103` alone may stand in any log
   std::ptrdiff_t count = 0;
   for (const std::string_view line : Lines(beginning_of(bytes))) {
+    if (stl::trim(line).starts_with('<')) continue;  // attributes of XML
     const Pairs pairs = pairs_of(line);
     count += pairs.fields.size() >= kFewest && is_so(pairs.fields);
   }

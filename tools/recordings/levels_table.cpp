@@ -135,9 +135,11 @@ class LevelsTableReader {
 
   std::optional<Time> time_of(std::string_view cell) {
     const auto figure = head_.has_time ? figure_in(cell) : std::nullopt;
-    if (head_.has_time && !figure) return {};
-    long double time = head_.has_time ? *figure * static_cast<long double>(head_.unit)
-                                      : static_cast<long double>(sample_) / static_cast<long double>(samplerate_) * kSecond;
+    const auto clock = head_.has_time && !figure ? time_in_cell(stl::trim(cell)) : std::nullopt;
+    if (head_.has_time && !figure && !clock) return {};
+    long double time = figure  ? *figure * static_cast<long double>(head_.unit)
+                       : clock ? static_cast<long double>(days_.since_first_midnight(*clock))
+                               : static_cast<long double>(sample_) / static_cast<long double>(samplerate_) * kSecond;
     if (!begin_) begin_ = time;  // a trigger may make it negative
     time -= *begin_;
     if (!(time >= static_cast<long double>(now_) && time < static_cast<long double>(kFurthestTime))) return {};
@@ -146,6 +148,7 @@ class LevelsTableReader {
 
   Head head_;
   std::uint64_t samplerate_, sample_ = 0;
+  DayCounter days_;
   std::optional<long double> begin_;
   Time now_ = 0;
   Levels levels_;

@@ -29,6 +29,8 @@ constexpr std::array kForms{
                   read_vcd},
     RecordingForm{".sr", "sessions of sigrok and PulseView with its levels", false, looks_like_sigrok_session,
                   read_sigrok_session},
+    RecordingForm{"bits", "the samples that sigrok-cli prints by itself, and with -O bits", false, looks_like_sigrok_bits,
+                  read_sigrok_bits},
     RecordingForm{"levels", "CSV of levels: sigrok-cli -O csv, PulseView, DSView, raw data of Saleae Logic", false,
                   looks_like_levels_table, read_levels_table},
     RecordingForm{"volts", "CSV of an oscilloscope: times and the volts of each channel, four samples or more in each bit",
@@ -126,6 +128,15 @@ bool is_of_can(std::string_view bytes) {
   return false;
 }
 
+/// Whether a text is XML: a declaration, or an element around it all.
+bool is_xml(std::string_view bytes) {
+  const std::string_view text = bytes.substr(0, bytes.find_last_not_of(" \t\r\n") + 1);
+  if (text.starts_with("<?xml")) return true;
+  const std::size_t end = std::min(text.find_first_of(" >\r\n"), text.size());
+  return end > 1 && text.front() == '<' && stl::is_letter(text[1]) &&
+         text.ends_with(fmt::format("</{}>", text.substr(1, end - 1)));
+}
+
 /// A text that is no recording of a line, and what to say of it.
 struct OtherText {
   bool (*is_it)(std::string_view bytes);
@@ -135,6 +146,7 @@ constexpr std::array kOtherTexts{
     OtherText{begins_as_step7, kIsProgram},
     OtherText{is_stl_program, kIsProgram},
     OtherText{is_of_can, "it is a recording of a CAN bus, not of a serial line"},
+    OtherText{is_xml, "it is XML; write a line for each frame, with its time, its direction and its bytes in hex"},
 };
 
 }  // namespace

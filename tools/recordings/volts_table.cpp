@@ -65,6 +65,7 @@ struct VoltsHead {
   std::size_t lines = 0;                  ///< before the first row
   std::size_t first = 0;                  ///< column of the times, or of the first channel
   std::size_t columns = 0;                ///< with it
+  bool counts = false;                    ///< the first column has numbers of samples
   bool has_time = true;                   ///< the first column has times, or numbers of samples if `interval` is known
   long double unit = kSecond;             ///< of the times, in nanoseconds
   std::optional<long double> interval{};  ///< between samples, in nanoseconds
@@ -115,6 +116,21 @@ std::optional<double> interval_in(const std::vector<std::vector<std::string>>& r
   return {};
 }
 
+/// Whether a cell above the first column says that it has times.
+bool names_time(const std::vector<std::vector<std::string>>& rows, const VoltsHead& head) {
+  return std::any_of(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(head.lines), [&](const auto& row) {
+    return head.first < row.size() && (is_name_of_time(row[head.first]) || unit_of(row[head.first]) ||
+                                       stl::lower_case(row[head.first]).starts_with("x-axis"));
+  });
+}
+
+/// Whether the first column counts the rows.
+bool counts_up(const std::vector<std::vector<std::string>>& rows, const VoltsHead& head) {
+  const auto last = number_in(rows[rows.size() - 2][head.first], head.separator);
+  const auto before = number_in(rows[rows.size() - 3][head.first], head.separator);
+  return last && before && *last == *before + 1;
+}
+
 void take_head(const std::vector<std::vector<std::string>>& rows, VoltsHead& head) {
   for (std::size_t line = 0; line < head.lines; ++line) {
     for (std::size_t column = 0; column < rows[line].size(); ++column)
@@ -127,6 +143,7 @@ void take_head(const std::vector<std::vector<std::string>>& rows, VoltsHead& hea
                                    rows[line].begin() + static_cast<std::ptrdiff_t>(head.first + head.columns));
     if (std::ranges::any_of(names, is_name_of_channel) || head.names.empty()) head.names = std::move(names);
   }
+  head.counts = !names_time(rows, head) && counts_up(rows, head);
   head.has_time = head.columns > 1 && !(head.names.size() == head.columns && is_name_of_channel(head.names.front()));
 }
 
@@ -226,7 +243,8 @@ std::optional<bool> level_of(double volts, const Swing& swing) {
 std::string name_of_channel(const VoltsHead& head, std::size_t channel) {
   const std::size_t column = head.first_channel() + channel;
   const std::string name = column < head.names.size() ? std::string(stl::trim(head.names[column])) : "";
-  return name.empty() ? fmt::format("channel {}", channel + 1) : name;
+  const bool is_number = std::ranges::all_of(name, stl::is_digit);
+  return is_number ? fmt::format("channel {}", channel + 1) : name;
 }
 
 }  // namespace
@@ -235,7 +253,7 @@ bool looks_like_volts_table(std::string_view bytes) { return is_text(bytes) && v
 
 std::optional<LineRecording> read_volts_table(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
   const VoltsHead head = *volts_head_of(bytes);
-  if (!head.has_time && !head.interval && choices.samplerate == 0) {
+  if ((!head.has_time || head.counts) && !head.interval && choices.samplerate == 0) {
     why = "it has volts and no times: name the rate of its samples with --samplerate, as 1MHz, or export the times, too";
     return {};
   }
@@ -258,10 +276,12 @@ std::optional<LineRecording> read_volts_table(std::string_view bytes, const Read
         if (const auto level = level_of(*volts, swings[i])) levels.channels[i].set(at, *level);
   };
   if (!reader.each_row(bytes, why, take)) return {};
-  for (std::size_t i = 0; i < swings.size(); ++i)
+  for (std::size_t i = 0; i < swings.size(); ++i) {
+    if (levels.channels[i].edges.empty()) continue;
     levels.notes.push_back(fmt::format("{}: its volts from {:g} to {:g} are levels by a threshold of {:g}",
                                        stl::printable(stl::shortened(levels.channels[i].name)), swings[i].low,
                                        swings[i].high, (swings[i].low + swings[i].high) / 2));
+  }
   auto recording = frames_of(std::move(levels), choices, why);
   if (!recording && rows > 1)
     why += fmt::format(

@@ -955,6 +955,30 @@ TEST(Levels, ATableOfSamplesSaysItsRateOrNeedsIt) {
             "line 8: '0,2' is not a row of levels");
 }
 
+TEST(Levels, SigrokCliPrintsRowsOfBits) {
+  const std::string samples = samples_of(conversation_edges(kUsual), 130 * ms);
+  std::string rows = "libsigrok 0.5.2\nAcquisition with 2/8 channels at 100 kHz\n";
+  std::string line, clock;
+  for (std::size_t i = 0; i < samples.size(); i += 10) {  // of a microsecond each
+    line += samples[i];
+    clock += '0';
+    if (line.size() % 9 == 8) line += ' ', clock += ' ';
+    if (line.size() < 72 && i + 10 < samples.size()) continue;
+    rows += "D0:" + line + "\nD1:" + clock + "\n";
+    line.clear(), clock.clear();
+  }
+  expect_one_wire(recording_of(rows), "bits", kUsual);
+  EXPECT_EQ(refusal_of("libsigrok 0.5.2\nAcquisition with 1/8 channels at 1 MHz\nD0:ff 00 ff\n"),
+            "'D0:ff 00 ff' is not a row of bits; print them with sigrok-cli -O bits, -O vcd or -O csv");
+}
+
+TEST(Levels, ATableOfChangesMayHaveDates) {
+  std::string table = "Time,Channel 0\n2026-11-28T09:15:02.000000000+01:00,1\n";
+  for (const Edge& edge : conversation_edges(kUsual))
+    table += fmt::format("2026-11-28T09:15:02.{:09}+01:00,{}\n", edge.at, edge.level ? 1 : 0);
+  expect_one_wire(recording_of(table), "levels", kUsual);
+}
+
 TEST(Levels, ATableOfChangesHasTimes) {
   const auto table = [](std::string_view head, double unit) {
     std::string text = fmt::format("{}\n{:.9f}, 1\n", head, -0.001 / unit);

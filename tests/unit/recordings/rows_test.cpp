@@ -856,6 +856,22 @@ TEST(NumbersInALog, ARecordingOfACanBusIsNamed) {
     EXPECT_EQ(refusal_of(log), "it is a recording of a CAN bus, not of a serial line") << log;
 }
 
+TEST(NumbersInALog, XmlIsNamed) {
+  const std::string refusal = "it is XML; write a line for each frame, with its time, its direction and its bytes in hex";
+  EXPECT_EQ(refusal_of("<?xml version=\"1.0\"?>\n<log/>\n"), refusal);
+  EXPECT_EQ(refusal_of("<log>\n <frame time=\"09:15:02.123\" dir=\"TX\">01 03</frame>\n</log>\n"), refusal);
+  EXPECT_EQ(recording_of("<01><03>\n").frames.size(), 1U) << "characters that were received";
+}
+
+TEST(NumbersInALog, ANameAfterAnArrowIsNoDamagedByte) {
+  const auto frames =
+      read("10:00:00.100 PC -> CPU 01 03 00 0a 00 02 e4 09\n10:00:00.140 CPU -> PC  01 03 04 12 34 56 78 81 07\n");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].frame.bytes.size(), 9U);
+  EXPECT_FALSE(frames[1].not_read);
+  EXPECT_EQ(read("10:00:00.100 M -> S 01\n").front().frame.bytes, Bytes{0x01});
+}
+
 TEST(NumbersInALog, WiresharksListOfPacketsIsNamed) {
   EXPECT_EQ(refusal_of("\"No.\",\"Time\",\"Source\",\"Destination\",\"Protocol\",\"Length\",\"Info\"\n"
                        "\"1\",\"0.0\",\"192.168.0.5\",\"192.168.0.9\",\"Modbus/TCP\",\"66\",\"Query: Trans: 1\"\n"),

@@ -100,6 +100,16 @@ TEST(Volts, RowsMayCountSamplesOfAnIntervalThatTheHeadHas) {
                                    [](std::size_t, double, bool level) { return fmt::format("{:e},,", volts_of(level)); }));
 }
 
+TEST(Volts, AColumnThatCountsRowsHasNoTimes) {
+  const std::string table = table_of("Unit:(mV)\n,CH1,CH2\nFrequency,?,?\n", [](std::size_t i, double, bool level) {
+    return fmt::format("{},{:.2f},0.00", i + 1, 1e3 * volts_of(level));
+  });
+  std::string why;
+  EXPECT_FALSE(read_recording(table, {}, why));
+  EXPECT_TRUE(why.starts_with("it has volts and no times")) << why;
+  expect_the_conversation(table, {.samplerate = 50'000});
+}
+
 TEST(Volts, WithoutTimesTheUserNamesTheRateOfTheSamples) {
   const std::string table =
       table_of("CH1V\n", [](std::size_t, double, bool level) { return fmt::format("{:.2f}", volts_of(level)); });
