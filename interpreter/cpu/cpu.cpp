@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "interpreter/cpu/clock.hpp"
+#include "interpreter/cpu/execute.hpp"
 #include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/freeport.hpp"
 #include "interpreter/cpu/interrupts.hpp"
@@ -40,19 +41,28 @@ void Cpu::run(Time limit, Time work) {
     core_.loop.until = std::min({end, event, s.watchdog});
     if (interrupts::due(core_)) interrupts::take(core_);
     if (!s.in_interrupt && s.phase != Phase::Program) {
-      const Time passed = s.phase == Phase::Communication ? steady_scans_.pass_over(core_, limit) : 0;
+      const Time passed = steady_scans_.pass_over(core_, limit);
       if (passed == 0) {
+        core_.loop.until = std::min(core_.loop.until, steady_scans_.stop_at());
         scan::advance(core_);
       } else {
         end = passed < limit - end ? end + passed : limit;
       }
       if (s.phase != Phase::Program) continue;
     }
+    const bool learns = steady_scans_.learns(s);
     if (core_.sink() && core_.sink()->wants_instructions())
       execute_observed(core_.sink()->watcher());
+    else if (learns)
+      steady_scans_.learn(core_);
     else
       execute_plain();
   }
+}
+
+Time Cpu::look_ahead() {
+  const bool acts = core_.s.in_interrupt || core_.s.phase == Phase::Program || interrupts::due(core_);
+  return acts ? core_.s.time : steady_scans_.look_ahead(core_);
 }
 
 /// The fast loop goes as far as whole chains go.
@@ -64,18 +74,8 @@ void Cpu::execute_plain() {
   const Time no_power_flow = core_.program().no_power_flow;
   std::uint64_t executed = 0;
   while (s.time < loop.until) {
-    loop.op = s.pc;
-    const Op& op = ops[loop.op];
+    execute_next(core_, ops, no_power_flow);
     ++executed;
-    if (op.power_mask & ~s.stack.bits()) {
-      s.time += no_power_flow;
-      s.pc = op.skip_to;
-      s.eno &= !op.sets_eno;
-    } else {
-      s.time += op.cost;
-      s.pc = loop.op + 1;
-      op.body(core_, op);
-    }
   }
   s.instructions += executed;
 }

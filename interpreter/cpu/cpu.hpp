@@ -48,6 +48,8 @@ class Cpu {
   /// The instant until which the CPU does nothing but the same scan again, unless something comes from outside; time() if
   /// that is not known. Until then it sends nothing.
   Time alike_until() const { return steady_scans_.alike_until(core_); }
+  /// The same, after a look at what has come from outside since it ran last.
+  Time look_ahead();
 
   /// Whether run() stops at the end of each scan.
   void pause_at_scan_end(bool on) { core_.loop.pause_at_scan_end = on; }

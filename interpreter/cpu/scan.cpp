@@ -41,9 +41,8 @@ void update_status(Core& core) {
   if (s.time >= s.next_clock) update_clocks(core, s, s.time);
 }
 
-void update_times(Core& core) {
-  State& s = core.s;
-  const Time scan = s.time - s.scan_begin;
+/// A scan has taken so long.
+void update_times(const Core& core, State& s, Time scan) {
   const std::uint16_t last = whole_milliseconds(core, scan);
   store16(&s.image[sm::kLastScan], last);
   if (scan < s.shortest_scan) {
@@ -60,7 +59,7 @@ void end(Core& core) {
   if (core.s.mode == Mode::Run) {
     ++core.s.scans;
     update_status(core);
-    update_times(core);
+    update_times(core, core.s, core.s.time - core.s.scan_begin);
     if (core.s.stop_after_scan) enter_stop(core);
     core.loop.paused = core.loop.pause_at_scan_end;
   }
@@ -215,6 +214,16 @@ void advance(Core& core) {
 void pass(const Core& core, State& s, Time by) {
   s.scan_begin += by;
   update_clocks(core, s, s.scan_begin);  // as at the end of the scan before
+}
+
+void end_alike(const Core& core, State& s, Time scans, Time at, Time each) {
+  s.scans += static_cast<std::uint64_t>(scans);
+  if (scans % 2 != 0) s.image[sm::kScanStatus] ^= sm::kAlternatingScan;
+  if (at >= s.next_clock) update_clocks(core, s, at);
+  update_times(core, s, at - (scans - 1) * each - s.scan_begin);
+  if (scans > 1) update_times(core, s, each);
+  s.scan_begin = at;
+  s.watchdog = at + core.by_own_clock(core.model().watchdog);
 }
 
 void end_main_program(Core& core) {

@@ -29,6 +29,8 @@ void advance(Core& core);
 
 /// Moves on, by that time, what goes on by itself over scans that are all alike.
 void pass(const Core& core, State& s, Time by);
+/// So many scans have ended, the last one at `at`: one that is under way, and others that have taken `each`.
+void end_alike(const Core& core, State& s, Time scans, Time at, Time each);
 
 /// END and MEND.
 void end_main_program(Core& core);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "interpreter/cpu/clock.hpp"
+#include "interpreter/cpu/idle_scans.hpp"
 #include "interpreter/cpu/scan.hpp"
 #include "interpreter/cpu/timers.hpp"
 
@@ -44,7 +45,11 @@ bool may_pass(const Core& core) {
 
 }  // namespace
 
+SteadyScans::SteadyScans() : idle_(std::make_unique<IdleScans>(use_)) {}
+SteadyScans::~SteadyScans() = default;
+
 void SteadyScans::use(SteadyScansUse use) {
+  idle_ = std::make_unique<IdleScans>(use);
   use_ = use;
   known_ = Known::Nothing;
   look_at_ = use == SteadyScansUse::Off ? std::numeric_limits<std::uint64_t>::max() : 0;
@@ -60,6 +65,43 @@ void SteadyScans::move_on(const Core& core, State& s, std::uint64_t pairs) const
   s.instructions += pairs * instructions_;
   scan::pass(core, s, by);
   timers::pass(core, s, by, second_);
+}
+
+bool SteadyScans::learns(const State& s) const { return idle_->learns(s); }
+void SteadyScans::learn(Core& core) { idle_->learn(core); }
+Time SteadyScans::stop_at() const { return idle_->stop_at(); }
+
+Time SteadyScans::alike_until(const Core& core) const {
+  if (idle_->known(core)) return std::min(idle_->next_change(), core.next_event());
+  return known_ == Known::Pair && !core.touched ? std::min(change_, core.next_event()) : core.s.time;
+}
+
+/// Whether idle scans follow from here. Then pairs are not looked for.
+bool SteadyScans::is_idle(Core& core) {
+  if (!may_pass(core))
+    idle_->forget();
+  else if (idle_->look(core)) {
+    known_ = Known::Nothing;
+    expected_.reset();
+    return true;
+  }
+  return false;
+}
+
+Time SteadyScans::look_ahead(Core& core) {
+  if (use_ != SteadyScansUse::Off) is_idle(core);
+  return alike_until(core);
+}
+
+Time SteadyScans::pass_over(Core& core, Time limit) {
+  if (use_ == SteadyScansUse::Off) return 0;
+  if (is_idle(core)) {
+    const Time passed = idle_->pass_over(core, std::min({limit, core.next_event(), core.s.time + kFurthest}));
+    passed_ += passed;
+    return passed;
+  }
+  const bool looks = known_ != Known::Nothing || core.s.instructions >= look_at_;
+  return core.s.phase == Phase::Communication && looks ? go_on(core, limit) : 0;
 }
 
 Time SteadyScans::go_on(Core& core, Time limit) {

@@ -13,12 +13,14 @@
 //
 // The same function moves the state on by one pair for the comparison, and by many to pass them over.
 //
+// A program that changes nothing is known by what it reads and writes, which is quicker and lasts longer (idle_scans.hpp);
+// where that is known, pairs are not looked for.
+//
 // When does it pay? A look costs about as much as a thousand instructions. What it may bring, the instructions until the
 // horizon and the parts of the scans besides them, has to be worth a stake, which doubles with each look that was in vain
 // and is halved with each that was not. In real time a look is always worth it: it may spare waking up (alike_until).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 
@@ -40,14 +42,25 @@ inline constexpr SteadyScansUse kUsualUse = SteadyScansUse::Check;
 inline constexpr SteadyScansUse kUsualUse = SteadyScansUse::On;
 #endif
 
+class IdleScans;
+
 class SteadyScans {
  public:
+  SteadyScans();
+  ~SteadyScans();
+
   void use(SteadyScansUse use);
 
-  /// Moves the CPU on, at the end of the program's part of a scan, by scans that end before `limit`. Returns by how much.
-  Time pass_over(Core& core, Time limit) {
-    return known_ == Known::Nothing && core.s.instructions < look_at_ ? 0 : go_on(core, limit);
-  }
+  /// Moves the CPU on, in the system's part of a scan, until before `limit` at most. Returns by how much.
+  Time pass_over(Core& core, Time limit);
+
+  /// Whether the program that is about to begin is to be executed by learn(), up to the loop's `until`.
+  bool learns(const State& s) const;
+  void learn(Core& core);
+
+  /// The instant at which the CPU has to stop so that Check can compare; kNever for none.
+  Time stop_at() const;
+
   /// Simulated time that was passed over so far.
   Time passed_over() const { return passed_; }
 
@@ -56,14 +69,15 @@ class SteadyScans {
 
   /// The instant until which all scans are alike, unless something comes from outside; the CPU's time as long as that is not
   /// known.
-  Time alike_until(const Core& core) const {
-    return known_ == Known::Pair && !core.touched ? std::min(change_, core.next_event()) : core.s.time;
-  }
+  Time alike_until(const Core& core) const;
+  /// The same, after a look whether the program is an idle one, in the system's part of a scan.
+  Time look_ahead(Core& core);
 
  private:
   enum class Known : std::uint8_t { Nothing, Before, Middle, Pair };
 
   bool is_looking() const { return known_ == Known::Before || known_ == Known::Middle; }
+  bool is_idle(Core& core);
   Time go_on(Core& core, Time limit);
   void begin_look(const Core& core, Time horizon);
   void in_vain(const Core& core);
@@ -72,6 +86,7 @@ class SteadyScans {
   void check(const Core& core);
   void move_on(const Core& core, State& s, std::uint64_t pairs) const;
 
+  std::unique_ptr<IdleScans> idle_;
   SteadyScansUse use_ = kUsualUse;
   Known known_ = Known::Nothing;
   std::unique_ptr<State> before_{};  // the pair

@@ -143,9 +143,16 @@ Time next_change(const Core& core) {
   return next;
 }
 
-void pass(const Core& core, State& s, Time by, Time last_scan) {
+bool any_counts(const Core& core) {
   const Program& program = core.program();
-  if (!program.uses_timers) return;
+  const auto counts = [&](std::uint8_t number) { return core.s.timer[number].enabled; };
+  return program.uses_timers &&
+         (std::ranges::any_of(program.timers_1ms, counts) || std::ranges::any_of(program.timers_10ms, counts) ||
+          std::ranges::any_of(program.timers_100ms, counts));
+}
+
+void move_on(const Core& core, State& s, Time by, Time last_scan) {
+  const Program& program = core.program();
   const Time from = s.previous_scan_begin, to = from + by;
   s.previous_scan_begin = to;
   s.ticks_100ms = static_cast<std::int16_t>(ticks(core, 100 * kMillisecond, to - last_scan, to));

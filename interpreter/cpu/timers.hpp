@@ -22,8 +22,13 @@ void clear_current_values(Core& core, const Operand& first, std::uint32_t count)
 
 /// The instant at which the timers next change something that the program looks at; kNever if none does.
 Time next_change(const Core& core);
+/// Whether any timer counts.
+bool any_counts(const Core& core);
+void move_on(const Core& core, State& s, Time by, Time last_scan);
 /// Moves the timers on. `last_scan`: from the begin of the program in one scan to that in the last.
-void pass(const Core& core, State& s, Time by, Time last_scan);
+inline void pass(const Core& core, State& s, Time by, Time last_scan) {
+  if (core.program().uses_timers) move_on(core, s, by, last_scan);
+}
 
 // For the table of units.
 void power_up(Core& core, const RetentiveMemory* memory);

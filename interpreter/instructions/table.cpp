@@ -22,6 +22,7 @@
 #include "interpreter/instructions/tables.hpp"
 #include "interpreter/instructions/timer_counter.hpp"
 #include "interpreter/model/instruction.hpp"
+#include "interpreter/model/memory_alone.hpp"
 
 namespace s7200 {
 namespace {
@@ -38,6 +39,7 @@ constexpr Allowed kInterruptR2(kMain | kSubroutine, kCpu22xRelease2);
 struct Group {
   std::string_view heading;
   std::span<const Instruction> rows;
+  bool memory_alone = false;  ///< its instructions work on memory alone, except those of works_on_more()
 };
 
 // clang-format off
@@ -391,21 +393,21 @@ constexpr Instruction kNotModelled[] = {
 
 /// The groups in the order of the manual.
 constexpr Group kGroups[] = {
-    {"Bit logic", kBitLogic},
-    {"Compare contacts", kCompareContacts},
-    {"Move", kMove},
-    {"Integer arithmetic", kIntegerArithmetic},
-    {"Logic operations", kLogicOperations},
-    {"Shift and rotate", kShiftAndRotate},
-    {"Program control", kProgramControl},
+    {"Bit logic", kBitLogic, true},
+    {"Compare contacts", kCompareContacts, true},
+    {"Move", kMove, true},
+    {"Integer arithmetic", kIntegerArithmetic, true},
+    {"Logic operations", kLogicOperations, true},
+    {"Shift and rotate", kShiftAndRotate, true},
+    {"Program control", kProgramControl, true},
     {"Interrupts", kInterrupts},
     {"Communication", kCommunication},
     {"Timers and counters", kTimersAndCounters},
-    {"Real arithmetic", kRealArithmetic},
-    {"Conversion", kConversion},
-    {"Tables", kTables},
-    {"Strings", kStrings},
-    {"Sequence control relays", kSequenceControl},
+    {"Real arithmetic", kRealArithmetic, true},
+    {"Conversion", kConversion, true},
+    {"Tables", kTables, true},
+    {"Strings", kStrings, true},
+    {"Sequence control relays", kSequenceControl, true},
     {"Clock, high-speed counters, pulse outputs", kPeripherals},
     {"Not modelled yet", kNotModelled},
 };
@@ -417,12 +419,27 @@ constexpr std::size_t kRows = std::accumulate(std::begin(kGroups), std::end(kGro
 constexpr std::array<Instruction, kRows> kInstructions = [] {
   std::array<Instruction, kRows> table;
   auto next = table.begin();
-  for (const auto& [heading, rows] : kGroups)
-    for (Instruction row : rows) {
-      row.group = heading;
+  for (const Group& group : kGroups)
+    for (Instruction row : group.rows) {
+      row.group = group.heading;
       *next++ = row;
     }
   return table;
+}();
+
+/// These write output points, the watchdog, a lamp or the mode; PID begins anew with each change to RUN.
+constexpr bool works_on_more(const Instruction& row) {
+  constexpr Body kBodies[] = {write_points, stop, reset_watchdog, switch_diagnostic_led};
+  return row.hidden == Hidden::OutputPoint || row.hidden == Hidden::LoopMemory || std::ranges::count(kBodies, row.body.usual) != 0;
+}
+
+/// Whether each row works on memory alone.
+constexpr std::array<bool, kRows> kMemoryAlone = [] {
+  std::array<bool, kRows> alone{};
+  auto next = alone.begin();
+  for (const Group& group : kGroups)
+    for (const Instruction& row : group.rows) *next++ = group.memory_alone && !works_on_more(row);
+  return alone;
 }();
 
 // --- what has to be true of every row ---
@@ -459,6 +476,10 @@ static_assert(std::ranges::all_of(kInstructions, has_room_for_a_hidden_operand))
 }  // namespace
 
 std::span<const Instruction> all_instructions() { return kInstructions; }
+
+bool works_on_memory_alone(const Instruction& instruction) {
+  return kMemoryAlone[static_cast<std::size_t>(&instruction - kInstructions.data())];
+}
 
 Link link_of_any() { return linked::kTailCalls ? linked::on_core<nullptr> : nullptr; }
 Link link_of_step(Body step) {

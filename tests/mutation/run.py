@@ -46,10 +46,11 @@ RULES = f"{BODIES}/operand_rules.hpp"
 CHAINS = f"{BODIES}/contact_chains.cpp"
 LINKS = [f"{BODIES}/linked.hpp", CHAINS]
 CHAINS_ARE_MADE_OF = [*LINKS, f"{BODIES}/bit_logic.hpp"]
-STEADY_SCANS = ["interpreter/cpu/steady_scans.cpp", "interpreter/cpu/timers.cpp", "interpreter/analysis/looks.cpp"]
+STEADY_SCANS = ["interpreter/cpu/steady_scans.cpp", "interpreter/cpu/idle_scans.cpp", "interpreter/cpu/footprint.cpp",
+                "interpreter/cpu/timers.cpp", "interpreter/analysis/looks.cpp"]
 # Of other files what those about scans hang on: these lines only, each file a library by itself too.
 BESIDE_STEADY_SCANS = {"interpreter/cpu/cpu.cpp": r"touched = true", "interpreter/cpu/clock.cpp": r"/ second \+ 1",
-                       "interpreter/cpu/scan.cpp": r"scan_begin \+= by|update_clocks\(core, s, s\.scan_begin\)|^  s\.next_clock = "}
+                       "interpreter/cpu/scan.cpp": r"scan_begin \+= by|update_clocks\(core, s, s\.scan_begin\)|^  s\.next_clock = |scans [%>]|s\.scans \+="}
 COMPILER = os.environ.get("CXX") or shutil.which("clang++") or "c++"
 EQUIVALENT = pathlib.Path(__file__).resolve().parent / "equivalent.txt"
 GOAL = 0.95
@@ -90,7 +91,7 @@ IN_STEADY_SCANS = IN_BODIES + [
     (CONDITION, r"if (true || (\1))"), (r" \+= ", " -= "), (r" \|= ", " = "), (r"std::min\b", "std::max"), (r"std::max\b", "std::min"),
     (r"(?<=return )[^;()&]*(?:\([^()]*\)[^;()&]*)* && ", ""), (r" && [^&;]+?(?=;$| &&)", ""), (r"(?<= && )[^&]+ &&$", ""), (r" &&$", " ||"),
 ]
-WHEN_IT_PAYS = re.compile("stake|look_at_|kAskAgain|kBesides|kFurthest|done")  # not what is passed over
+WHEN_IT_PAYS = re.compile("stake|look_at_|kAskAgain|kBesides|kFurthest|done|patience_|wait_|learn_at_|worth_|kFirst|kCheckEvery")  # not what is passed over
 
 class Mutant:
     """One line changed. `nth` tells apart equal lines of a file, so that a mutant is known again when lines move."""
@@ -193,7 +194,7 @@ class Tests:
         bad_input = [sys.executable, self.tree / "tests/bad_input/run.py", command]
         quick, no_matter = "*Vectors*:InstructionTable*", "Parser.*:Document.*:Encoding.*"  # texts and files
         self.stages = dict(zip(self.STAGES, [
-            [unit, "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=Looks.*:SteadyScans.*"],
+            [unit, "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=Looks.*:SteadyScans.*:IdleScans.*"],
             [unit, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={quick}"],
             ["env", "S7200_LOCKSTEP_INSTRUCTIONS=20000", lockstep, "--gtest_fail_fast", "--gtest_filter=*Agrees*"],
             [unit, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter=-{quick}:{no_matter}"],

@@ -6,46 +6,10 @@
 #include <utility>
 
 #include "interpreter/cpu/units.hpp"
-#include "tests/support/plc.hpp"
+#include "tests/support/with_and_without.hpp"
 
 namespace s7200::test {
 namespace {
-
-struct PlcThat : Plc {
-  PlcThat(SteadyScansUse use, std::string_view text, const CpuModel& model = cpu214()) : Plc(text, model) {
-    cpu.use_steady_scans(use);
-  }
-};
-
-/// The same program twice: with and without.
-class Both {
- public:
-  explicit Both(std::string_view text, const CpuModel& model = cpu214())
-      : text_(text), with_(SteadyScansUse::Eager, text, model), without_(SteadyScansUse::Off, text, model) {}
-
-  template <class What>
-  void each(What what) {
-    what(with_);
-    what(without_);
-  }
-
-  /// Whether both are in the same state there, and have done the same to the outside.
-  void run_until(Time end) {
-    each([end](Plc& plc) { plc.run_until(end); });
-    ASSERT_EQ(with_.cpu.state(), without_.cpu.state()) << "at " << end << " ns of\n" << text_;
-    ASSERT_EQ(with_.queue, without_.queue) << text_;
-    ASSERT_EQ(with_.records.all.size(), without_.records.all.size()) << text_;
-    ASSERT_LE(passed(), with_.cpu.time());
-  }
-
-  const Plc& plc() const { return with_; }
-  /// Simulated time that was passed over.
-  Time passed() const { return with_.cpu.passed_over(); }
-
- private:
-  std::string text_;
-  PlcThat with_, without_;
-};
 
 constexpr std::string_view kContactsOnly = "LD I0.0\nA M0.0\n= Q0.0\nMEND\n";
 
