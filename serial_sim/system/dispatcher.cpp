@@ -38,8 +38,7 @@ void Dispatcher::handle_those_due(Time at) {
 
 void Dispatcher::handle(const Event& event) {
   ++handled_;
-  const auto owner = static_cast<std::size_t>(event.owner);
-  handlers_[owner / kMostOfARank][owner % kMostOfARank]->handle(event);
+  handler_of(event).handle(event);
 }
 
 std::vector<EventQueue> Dispatcher::state() const {

@@ -66,6 +66,14 @@ class Dispatcher {
   /// is left to the next call unless its rank is still to come in its queue.
   void handle(const Due& due);
 
+  /// Whether the first event of the next instant is for another than `handler`. Unknown, so false, if several queues have
+  /// events then.
+  bool is_for_another(const Due& due, const EventHandler& handler) const {
+    return due.queue && !due.in_several_queues && &handler_of(due.queue->front()) != &handler;
+  }
+  /// Handles just that event.
+  void handle_first(const Due& due) { handle(due.queue->pop()); }
+
   /// The number of events so far: the cost of a run, whatever the host.
   std::uint64_t handled() const { return handled_; }
 
@@ -77,6 +85,10 @@ class Dispatcher {
 
   void handle_those_due(Time at);
   void handle(const Event& event);
+  EventHandler& handler_of(const Event& event) const {
+    const auto owner = static_cast<std::size_t>(event.owner);
+    return *handlers_[owner / kMostOfARank][owner % kMostOfARank];
+  }
   static std::size_t next_rank(const EventQueue& queue) { return static_cast<std::size_t>(rank_of(queue.front().owner)); }
 
   std::vector<std::unique_ptr<EventQueue>> queues_;

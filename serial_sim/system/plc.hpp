@@ -79,6 +79,9 @@ class Plc final : private EventHandler, private OutputListener {
   /// Instructions since the beginning, however often power came back in between.
   std::uint64_t executed() const { return executed_before_ + cpu_.state().instructions; }
 
+  /// Who handles the events of the CPU, its ports and its field.
+  const EventHandler& handler() const { return *this; }
+
   Cpu& cpu() { return cpu_; }
   const Cpu& cpu() const { return cpu_; }
 

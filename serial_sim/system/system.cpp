@@ -194,8 +194,22 @@ Time System::next_action_besides(const Plc& plc) const {
 Halt System::run_until(Time end) {
   Halt halt = Halt::Time;
   Time next_event = events_.next();
-  while (halt == Halt::Time && time() < end) halt = step(end, next_event);
+  while (halt == Halt::Time && time() < end)
+    if (!handle_ahead(end, next_event)) halt = step(end, next_event);
   return halt;
+}
+
+/// Handles the next event if the only CPU is known to do nothing before it, or at it, that anyone could notice: it stays
+/// behind. Whether it was so.
+bool System::handle_ahead(Time end, Time& next_event) {
+  const bool alone = plcs_.size() == 1 && plcs_.front()->powered();
+  if (!alone || next_event >= std::min(end, next_scheduled_) || watched()) return false;
+  const Dispatcher::Due next = events_.due();
+  if (!events_.is_for_another(next, plcs_.front()->handler()) || next_event >= plcs_.front()->cpu().look_ahead())
+    return false;
+  events_.handle_first(next);
+  next_event = events_.next();
+  return true;
 }
 
 /// Completes the exchange. No CPU has run ahead of an event, so that the caller can act exactly at the exchange's end.
@@ -203,7 +217,13 @@ const Exchange& System::finish_exchange(const RequesterStation& station) {
   const Requester& requester = station.requester();
   Halt halt = paused() ? Halt::Paused : Halt::Time;
   Time next_event = events_.next();
-  while (requester.busy() && halt == Halt::Time) halt = step(plcs_.size() == 1 ? kNever : next_event, next_event);
+  Time ahead = 0;  // the instant of an event that the CPU has still to come to
+  while (requester.busy() && halt == Halt::Time) {
+    const Time next = next_event;
+    ahead = handle_ahead(kNever, next_event) ? next : 0;
+    if (ahead == 0) halt = step(plcs_.size() == 1 ? kNever : next, next_event);
+  }
+  for (bool behind = ahead != 0; behind && halt == Halt::Time; behind = time() < ahead) halt = step(ahead, next_event);
   return requester.exchange();
 }
 

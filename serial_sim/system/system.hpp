@@ -13,6 +13,7 @@
 // can make it act. CPUs run one after the other, each for most of a character, and which one is first does not matter: the
 // order of events follows from their instants alone. It is the same in one run or in slices, traced or not. With one PLC
 // there is no one to run ahead of, and it stops at every event, so that whoever looks finds all at the same instant.
+// During a run nobody looks: then events of others are handled before it while it is known to do nothing but the same scan.
 //
 // In step. Who looks at several CPUs between two instructions has them run in step: none ahead of another one, and all stop
 // at every event. Their instructions then come in the order of the instants at which they start, and of the numbers of the
@@ -153,6 +154,7 @@ class System {
   void do_scheduled();
   void look_at_next_scheduled() { next_scheduled_ = done_ < schedule_.size() ? schedule_[done_].at : kNever; }
   Time handle_due_events(Time now);
+  bool handle_ahead(Time end, Time& next_event);
   bool watched() const;
   void settle(Time until);
 

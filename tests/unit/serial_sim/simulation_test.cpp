@@ -1,6 +1,7 @@
 // A simulation ends early when it is asked to, wherever it is.
 #include "serial_sim/system/simulation.hpp"
 
+#include <random>
 #include <sstream>
 
 #include "interpreter/trace/text_trace.hpp"
@@ -104,6 +105,51 @@ TEST(SimulationTrace, ATraceWithItsReasonsChangesNothingOfTheRun) {
   EXPECT_TRUE(state_after(&instructions) == untraced);
   for (const char* said : {"main program: ", "no answer to 8 characters", "the receiver is off while the port sends"})
     EXPECT_NE(out.str().find(said), std::string::npos) << said << '\n' << out.str();
+}
+
+/// Requests at random, right and wrong ones, with and without a trace of events.
+TEST(SimulationScans, EventsOfTheMasterThatAreHandledAheadOfAnIdleCpuChangeNothing) {
+  const auto program = test::compile(test::slave_text());
+  for (const bool traced : {false, true}) {
+    std::ostringstream with_text, without_text;
+    TextTrace with_trace(with_text, program, TraceDetail::Events), without_trace(without_text, program, TraceDetail::Events);
+    Simulation with(program), without(program);
+    if (traced) {
+      with.cpu().set_sink(&with_trace);
+      without.cpu().set_sink(&without_trace);
+    }
+    with.cpu().use_steady_scans(SteadyScansUse::Eager);
+    without.cpu().use_steady_scans(SteadyScansUse::Off);
+    std::mt19937 draw(7200);
+    const auto below = [&](unsigned n) { return static_cast<std::uint8_t>(draw() % n); };
+    const auto both = [&](auto what) { what(with), what(without); };
+    both([](Simulation& each) {
+      each.power_up();
+      each.run_until(kSecond);
+      each.configure_master(each.cpu().state().port[0].format);
+    });
+    int answered = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Bytes pdu{static_cast<std::uint8_t>(1 + below(7)), 0, below(20), 0, below(12)};
+      Request request{.frame = to_frame(modbus::rtu_frame(below(8) == 0 ? 2 : 1, pdu)), .timeout = 100 * kMillisecond};
+      request.frame.back().wrong_parity = below(10) == 0;
+      if (below(4) == 0) request.gap = below(200) * 50 * kMicrosecond;
+      const Time pause = below(5) == 0 ? below(255) * 9 * kMillisecond : 4 * kMillisecond + below(255) * 13 * kMicrosecond;
+      const bool stops_early = below(6) == 0;
+      both([&](Simulation& each) {
+        each.master().start(request, each.time());
+        if (stops_early) each.run_until(each.time() + pause);
+        each.finish_exchange();
+      });
+      ASSERT_TRUE(with.snapshot() == without.snapshot()) << "after exchange " << i;
+      both([&](Simulation& each) { each.run_until(each.time() + pause); });
+      ASSERT_TRUE(with.snapshot() == without.snapshot()) << "after the pause " << i;
+      answered += !with.master().exchange().response.empty();
+    }
+    EXPECT_GT(answered, 100);
+    EXPECT_EQ(with_text.str(), without_text.str());
+    EXPECT_GT(with.cpu().passed_over(), 10 * kSecond);
+  }
 }
 
 }  // namespace
