@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/looks.hpp"
 #include "interpreter/model/named_times.hpp"
 #include "interpreter/program/load_times.hpp"
 
@@ -39,17 +39,24 @@ ProgramBand::ProgramBand(stl::ParseResult parsed, const CpuModel& model, TimesBa
       model_(model),
       tables_(std::move(tables)),
       block_(block),
+      looks_(looks_of(*decoded(0))),
       kept_(std::min(tables_.size(), kMostKept)) {}
+
+std::shared_ptr<Program> ProgramBand::decoded(std::size_t table) const {
+  return decode_program(parsed_, model_, tables_[table]).program;
+}
 
 std::shared_ptr<const Program> ProgramBand::program(std::size_t table) const {
   if (table < kept_.size()) {
     const std::lock_guard lock(mutex_);
     if (kept_[table]) return kept_[table];
   }
-  auto program = with_system_block(*check(parsed_, model_, tables_[table]).program, block_);
+  const auto program = decoded(table);
+  program->looks = looks_;
+  program->system_block = block_;
   if (table >= kept_.size()) return program;
   const std::lock_guard lock(mutex_);
-  return kept_[table] = std::move(program);
+  return kept_[table] = program;
 }
 
 void LatencyRange::add(Time latency) { add({latency, latency}); }

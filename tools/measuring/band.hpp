@@ -28,8 +28,8 @@ std::optional<TimesBand> load_band(const CpuModel& model, const std::string& tab
 /// Makes the band around a table that has been read already, as `times`.
 TimesBand band_around(const CpuModel& model, const std::string& table, TimeTable times, const BandSettings& settings);
 
-/// A program that has no errors, with each of the tables. It is checked for a table when that is first asked for, from any
-/// thread; with one of the first tables it is kept, with the others checked anew each time, so that a hundred thousand of
+/// A program that has no errors, with each of the tables. It is decoded for a table when that is first asked for, from any
+/// thread; with one of the first tables it is kept, with the others decoded anew each time, so that a hundred thousand of
 /// them need no more memory than a few hundred.
 class ProgramBand {
  public:
@@ -42,10 +42,13 @@ class ProgramBand {
   std::shared_ptr<const Program> program(std::size_t table) const;
 
  private:
+  std::shared_ptr<Program> decoded(std::size_t table) const;
+
   stl::ParseResult parsed_;
   const CpuModel& model_;
   TimesBand tables_;
   SystemBlock block_;
+  Looks looks_;  // of the program with any of the tables
   static constexpr std::size_t kMostKept = 300;
   mutable std::mutex mutex_;
   mutable std::vector<std::shared_ptr<const Program>> kept_;
