@@ -172,6 +172,13 @@ TEST(IdleScans, WhatTheSystemHasToDoIsDoneInItsScan) {
   }
 }
 
+TEST(IdleScans, AnAnalogOutputThatChangesWithinAScanKeepsItFromBeingIdle) {
+  Both both("LD SM0.0\nMOVW 1, AQW0\nMOVW 2, AQW0\nMEND\n", *find_cpu("224"));
+  both.run_until(kSecond);
+  EXPECT_EQ(both.passed(), 0);
+  EXPECT_GT(both.plc().records.of(TraceKind::AnalogChanged).size(), 1000U);
+}
+
 TEST(IdleScans, OfWhatAWatcherWantsEachIsExecuted) {
   PlcThat plc(SteadyScansUse::Eager, "LD M0.0\n= Q0.0\nMEND\n");
   plc.run_until(100 * ms);
