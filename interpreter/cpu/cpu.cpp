@@ -40,14 +40,13 @@ void Cpu::run(Time limit, Time work) {
     }
     core_.loop.until = std::min({end, event, s.watchdog});
     if (interrupts::due(core_)) interrupts::take(core_);
-    if (!s.in_interrupt && s.phase != Phase::Program) {
-      const Time passed = steady_scans_.pass_over(core_, limit);
-      if (passed == 0) {
-        core_.loop.until = std::min(core_.loop.until, steady_scans_.stop_at());
-        scan::advance(core_);
-      } else {
+    if (!s.in_interrupt) {
+      if (const Time passed = steady_scans_.pass_over(core_, limit); passed != 0) {
         end = passed < limit - end ? end + passed : limit;
+        continue;
       }
+      core_.loop.until = std::min(core_.loop.until, steady_scans_.stop_at());
+      if (s.phase != Phase::Program) scan::advance(core_);
       if (s.phase != Phase::Program) continue;
     }
     const bool learns = steady_scans_.learns(s);
@@ -61,7 +60,7 @@ void Cpu::run(Time limit, Time work) {
 }
 
 Time Cpu::look_ahead() {
-  const bool acts = core_.s.in_interrupt || core_.s.phase == Phase::Program || interrupts::due(core_);
+  const bool acts = core_.s.in_interrupt || interrupts::due(core_);
   return acts ? core_.s.time : steady_scans_.look_ahead(core_);
 }
 

@@ -37,6 +37,7 @@ bool Footprint::add_next(const Core& core) {
   for (const MemoryAccess& access : effects_now(core.program(), s.pc, s.image)) {
     if (!has_number && access.writes() && access.bits.overlaps(kTimerBits)) return false;
     add(access.bits);
+    if (access.writes()) changed_.push_back(access.bits);
   }
   return true;
 }
@@ -48,6 +49,14 @@ bool Footprint::add_number(const Op& op) {
   const bool known = std::ranges::find(those, number) != those.end();
   if (!known) those.push_back(number);
   return !(known && is_timer(op));
+}
+
+bool Footprint::unchanged(const State& before, const State& now) {
+  std::erase_if(changed_, [&](const Bits& bits) {
+    const std::uint64_t first = bits.first / 8, end = (bits.end() + 7) / 8;
+    return std::memcmp(&before.image[first], &now.image[first], end - first) == 0;
+  });
+  return changed_.empty() && same_besides_memory(before, now, calls_ + 1);
 }
 
 void Footprint::add(const Bits& bits) {
@@ -69,18 +78,22 @@ void Footprint::complete(const Program& program) {
   for (std::uint32_t at = 0; at < image::kSize; at += kBytes)
     if (const std::uint64_t mask = eight_bytes(&bits_[at])) memory_.push_back({at, mask});
   bits_.clear();
+  changed_.clear();
 }
 
 bool Footprint::same_in(const State& a, const State& b) const {
   const auto same = [&](const Bytes& each) {
     return ((eight_bytes(&a.image[each.at]) ^ eight_bytes(&b.image[each.at])) & each.mask) == 0;
   };
-  return std::ranges::all_of(memory_, same) &&
-         std::ranges::all_of(timers_, [&](std::uint8_t each) { return a.timer[each] == b.timer[each]; }) &&
+  return std::ranges::all_of(memory_, same) && same_besides_memory(a, b, levels_);
+}
+
+bool Footprint::same_besides_memory(const State& a, const State& b, std::size_t levels) const {
+  return std::ranges::all_of(timers_, [&](std::uint8_t each) { return a.timer[each] == b.timer[each]; }) &&
          std::ranges::all_of(counters_,
                              [&](std::uint8_t each) { return a.counter_inputs[each] == b.counter_inputs[each]; }) &&
          std::equal(a.calls.begin(), a.calls.begin() + calls_, b.calls.begin()) &&
-         std::equal(a.local.begin(), a.local.begin() + levels_, b.local.begin());
+         std::equal(a.local.begin(), a.local.begin() + levels, b.local.begin());
 }
 
 }  // namespace s7200

@@ -21,6 +21,9 @@ class Footprint {
   /// is no footprint of this program.
   bool add_next(const Core& core);
 
+  /// Whether all that has been written so far is now as it was before the program.
+  bool unchanged(const State& before, const State& now);
+
   /// The program has ended: nothing is added any more.
   void complete(const Program& program);
 
@@ -40,10 +43,12 @@ class Footprint {
   };
 
   bool add_number(const Op& op);
+  bool same_besides_memory(const State& a, const State& b, std::size_t levels) const;
   void add(const Bits& bits);
   bool has(std::uint32_t at, std::uint32_t count, std::uint8_t bits = 0xFF) const;
 
   std::vector<std::uint8_t> bits_;  // of each byte of the image, until it is complete
+  std::vector<Bits> changed_{};     // written, and not known to be as before
   std::vector<Bytes> memory_{};
   std::vector<std::uint8_t> timers_{}, counters_{};
   std::size_t calls_ = 0;   // levels of subroutines

@@ -1,6 +1,8 @@
 // The same program twice: with scans passed over wherever that is possible, and without.
 #pragma once
 
+#include <tuple>
+
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -28,6 +30,8 @@ class Both {
     ASSERT_EQ(with_.cpu.state(), without_.cpu.state()) << "at " << end << " ns of\n" << text_;
     ASSERT_EQ(with_.queue, without_.queue) << text_;
     ASSERT_EQ(with_.records.all.size(), without_.records.all.size()) << text_;
+    for (; compared_ < with_.records.all.size(); ++compared_)
+      ASSERT_EQ(told(with_), told(without_)) << "at " << end << " ns of\n" << text_;
     ASSERT_LE(passed(), with_.cpu.time());
   }
 
@@ -36,7 +40,14 @@ class Both {
   Time passed() const { return with_.cpu.passed_over(); }
 
  private:
+  /// Of a record: what, when, and of which instruction.
+  std::tuple<TraceKind, Time, std::uint32_t> told(const Plc& plc) const {
+    const TraceRecord& record = plc.records.all[compared_];
+    return {record.kind, record.at, record.op};
+  }
+
   std::string text_;
+  std::size_t compared_ = 0;
   PlcThat with_, without_;
 };
 

@@ -41,6 +41,43 @@ TEST(IdleScans, AreTheSameWhereverARunEnds) {
   EXPECT_GT(both.passed(), 5 * ms);
 }
 
+/// Most characters come while it is being executed.
+TEST(IdleScans, AProgramThatTakesLongerThanACharacterIsPassedOverInPieces) {
+  std::string main = "LDN M0.0\nS M0.1, 1\nLD M0.1\n= M0.2\nLD SM0.0\nR M0.1, 1\n";
+  for (int i = 0; i < 100; ++i) main += "LD M0.0\nA I0.0\n= Q0.0\n";
+  main += "LD SM0.0\nFOR VW20, 1, 3\nLD SM0.0\nMOVW 7, VW22\nNEXT\nLBL 1\nLBL 2\nLD SM0.0\nMOVW 8, VW24\n";
+  Both both(with_interrupt(main, "INCW VW0\n"));
+  characters(both, 200);
+  both.run_until(100 * ms);
+  const Time before = both.passed();
+  for (Time at = 100 * ms; at < 100 * ms + 200 * kCharacter; at += 777'777 * us / 1000) both.run_until(at);
+  both.run_until(100 * ms + 200 * kCharacter);
+  EXPECT_EQ(both.plc().value("VW0"), 200);
+  EXPECT_GT(both.passed() - before, 150 * kCharacter);
+}
+
+TEST(IdleScans, WhoWatchesInstructionsIsToldOfWholeProgramsOnly) {
+  struct Watcher final : TraceSink {
+    void instruction(const InstructionRecord& record) override {
+      if (record.op == 0) whole &= std::exchange(next, 0U) == 3U;
+      whole &= record.op == next++;
+    }
+    bool wants_instructions() const override { return true; }
+    bool wants_scans() const override { return false; }
+    std::uint32_t next = 3;
+    bool whole = true;
+  } watcher;
+  PlcThat plc(SteadyScansUse::Eager, "LD M0.0\n= Q0.0\nMEND\n");
+  plc.run_until(50 * ms);
+  while (plc.cpu.state().phase == Phase::Program) plc.run_until(plc.cpu.time() + 10 * us);
+  plc.cpu.set_sink(&watcher);
+  const Time before = plc.cpu.passed_over();
+  for (int i = 0; i < 1000; ++i) plc.run_until(plc.cpu.time() + 123 * us);
+  plc.cpu.set_sink(&plc.records);
+  EXPECT_TRUE(watcher.whole);
+  EXPECT_GT(plc.cpu.passed_over(), before);
+}
+
 TEST(IdleScans, AnInterruptThatWritesWhatTheProgramReadsIsSeenInTheNextScan) {
   Both both(with_interrupt("LDW>= VW0, 50\n= Q0.0\nLDB= SMB2, 77\nEU\nINCW VW4\n", "INCW VW0\n"));
   characters(both, 200);
