@@ -525,8 +525,9 @@ class Verbs(Case):
 
     def test_a_wrong_answer_in_a_recording_is_neither_counted_nor_expected_again(self):
         log = self.program("0.000 TX 01 03 00 00 00 01 84 0a\n0.020 RX 01 03 02 12 34 b5 34\n", "damaged.log")
-        summary = self.json(FINE, "decode", log, "--json")["summary"]
-        self.assertEqual([summary[key] for key in ("requests", "answered", "wrong", "shortest_latency_us")], [1, 0, 1, None])
+        decoded = self.json(FINE, "decode", log, "--json")
+        self.assertEqual([decoded["summary"][key] for key in ("requests", "answered", "wrong", "shortest_latency_us")], [1, 0, 1, None])
+        self.assertEqual([frame["unanswered"] for frame in decoded["frames"]], [True, False])
         refused = self.ends(UNUSABLE, "import-capture", log).stderr
         self.assertIn("line 1: left out: its answer (line 2): wrong CRC", refused)
         self.assertIn("no request in it that can be asked again", refused)

@@ -25,7 +25,7 @@ DecodeResults::DecodeResults(Json head, bool as_json, const ReportOption& report
 
 void DecodeResults::add(const ReadFrame& frame, bool unanswered) {
   summary_.add(frame);
-  Json json = as_json_ || report_.wanted() ? decoded_json(frame) : Json();
+  Json json = as_json_ || report_.wanted() ? decoded_json(frame, unanswered) : Json();
   if (as_json_)
     fmt::print("{}", streamed_.entry(json));
   else

@@ -48,6 +48,11 @@ nlohmann::ordered_json microseconds(std::optional<Time> time) {
   return static_cast<double>(*time) / kMicrosecond;
 }
 
+/// Of a recording that is complete.
+bool is_unanswered(const ReadFrame& frame) {
+  return frame.direction == Direction::Request && !frame.other && !frame.needs_no_answer;
+}
+
 }  // namespace
 
 void DecodedSummary::add(const ReadFrame& frame) {
@@ -110,7 +115,7 @@ std::string decoded_text(const ReadFrame& read, bool unanswered, bool colour) {
   return (trouble ? painted(line, kYellow, colour) : std::move(line)) + '\n';
 }
 
-nlohmann::ordered_json decoded_json(const ReadFrame& read) {
+nlohmann::ordered_json decoded_json(const ReadFrame& read, bool unanswered) {
   return {{"place", read.frame.place},
           {"at_us", microseconds(read.frame.at)},
           {"silence_us", microseconds(read.silence)},
@@ -119,7 +124,8 @@ nlohmann::ordered_json decoded_json(const ReadFrame& read) {
           {"right", read.right},
           {"text", read.text},
           {"request", read.asked_at.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(read.asked_at)},
-          {"latency_us", microseconds(read.latency)}};
+          {"latency_us", microseconds(read.latency)},
+          {"unanswered", unanswered}};
 }
 
 std::string decoded_text(const std::vector<ReadFrame>& frames, bool colour) {
@@ -127,8 +133,7 @@ std::string decoded_text(const std::vector<ReadFrame>& frames, bool colour) {
   DecodedSummary summary;
   for (const ReadFrame& frame : frames) {
     summary.add(frame);
-    const bool unanswered = frame.direction == Direction::Request && !frame.other && !frame.needs_no_answer;
-    text += decoded_text(frame, unanswered, colour);
+    text += decoded_text(frame, is_unanswered(frame), colour);
   }
   return text + summary.text();
 }
@@ -138,7 +143,7 @@ void add_decoded(nlohmann::ordered_json& results, const std::vector<ReadFrame>& 
   results["frames"] = nlohmann::ordered_json::array();
   for (const ReadFrame& frame : frames) {
     summary.add(frame);
-    results["frames"].push_back(decoded_json(frame));
+    results["frames"].push_back(decoded_json(frame, is_unanswered(frame)));
   }
   results["summary"] = summary.json();
 }

@@ -31,7 +31,7 @@ class DecodedSummary {
 /// yellow, and so is a request if it is known that it was not answered.
 std::string decoded_heading(bool colour);
 std::string decoded_text(const ReadFrame& frame, bool unanswered, bool colour);
-nlohmann::ordered_json decoded_json(const ReadFrame& frame);
+nlohmann::ordered_json decoded_json(const ReadFrame& frame, bool unanswered);
 
 /// All frames and a summary, as text.
 std::string decoded_text(const std::vector<ReadFrame>& frames, bool colour);

@@ -265,9 +265,10 @@ TEST(ModbusTcpInALog, AnAnswerThatIsNotToTheRequestAboveItNamesItsOwn) {
   EXPECT_EQ(frames[3].other, 0U);
   EXPECT_NE(decoded_text(frames[3], false, false).find("16#0010; the answer to line 1"), std::string::npos);
   EXPECT_EQ(decoded_text(frames[2], false, false).find("the answer to"), std::string::npos);
-  EXPECT_EQ(decoded_json(frames[2])["request"], "line 2");
-  EXPECT_EQ(decoded_json(frames[3])["request"], "line 1");
-  EXPECT_TRUE(decoded_json(frames[0])["request"].is_null());
+  EXPECT_EQ(decoded_json(frames[2], false)["request"], "line 2");
+  EXPECT_EQ(decoded_json(frames[3], false)["request"], "line 1");
+  EXPECT_TRUE(decoded_json(frames[0], false)["request"].is_null());
+  EXPECT_EQ(decoded_json(frames[0], true)["unanswered"], true);
 }
 
 TEST(RowsOfALog, AnAnswerInSeveralRowsIsOneWhateverLiesBetweenThem) {

@@ -75,6 +75,8 @@ export interface DecodedFrame {
   right: boolean;
   text: string;
   latency_us: number | null;
+  /** It is known that no answer to it came. */
+  unanswered: boolean;
 }
 
 export interface ReportedRun {

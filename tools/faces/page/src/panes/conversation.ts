@@ -10,9 +10,18 @@ import type { DecodedConversation, DecodedFrame } from '../protocol';
 const kPage = 500;  // rows that are shown at once
 let filter = '', only_wrong = false, shown_from = 0;
 
+function is_trouble(one: DecodedFrame): boolean {
+  return !one.right || one.unanswered || one.kind === 'stray';
+}
+
+/** What a frame says, and what became of it. */
+function said(one: DecodedFrame): string {
+  return one.unanswered ? `${one.text}: no answer` : one.text;
+}
+
 function matches(one: DecodedFrame): boolean {
-  if (only_wrong && one.right && one.kind !== 'stray') return false;
-  const words = `${one.place} ${one.kind} ${spaced(one.bytes)} ${one.text}`.toLowerCase();
+  if (only_wrong && !is_trouble(one)) return false;
+  const words = `${one.place} ${one.kind} ${spaced(one.bytes)} ${said(one)}`.toLowerCase();
   return words.includes(filter.toLowerCase());
 }
 
@@ -25,12 +34,12 @@ function us_text(us: number | null): string {
 }
 
 function row(one: DecodedFrame, number: number): Part {
-  return h('tr', { key: number, class: one.right ? one.kind : `${one.kind} trouble` },
+  return h('tr', { key: number, class: is_trouble(one) ? `${one.kind} trouble` : one.kind },
     h('td', { class: 'number' }, one.at_us === null ? '' : (one.at_us / 1e3).toFixed(3)),
     h('td', { class: 'number' }, us_text(one.silence_us)),
     h('td', {}, one.kind),
     h('td', { class: 'frame' }, spaced(one.bytes)),
-    h('td', {}, one.text),
+    h('td', {}, said(one)),
     h('td', { class: 'number' }, us_text(one.latency_us)),
     h('td', { class: 'hint' }, one.place));
 }
