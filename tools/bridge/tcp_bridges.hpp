@@ -5,7 +5,7 @@
 
 #include "serial_sim/peers/requester.hpp"
 #include "tools/bridge/bridge.hpp"
-#include "tools/host/listen_address.hpp"
+#include "interpreter/base/listen_address.hpp"
 
 namespace s7200::tools {
 

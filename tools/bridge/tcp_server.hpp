@@ -20,7 +20,7 @@
 #include <string>
 
 #include "tools/bridge/bridge.hpp"
-#include "tools/host/listen_address.hpp"
+#include "interpreter/base/listen_address.hpp"
 #include "tools/host/server_rules.hpp"
 
 namespace boost::asio {

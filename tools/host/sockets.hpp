@@ -17,11 +17,6 @@ namespace s7200::tools {
 using NativeSocket = std::intptr_t;
 inline constexpr NativeSocket kNoSocket = -1;
 
-enum class IpVersion : std::uint8_t { Four, Six };
-
-/// Whether a text is an address of that version, without brackets.
-bool is_ip_address(const std::string& text, IpVersion version);
-
 /// The words for an error of sockets, as Boost.Asio reports its number: on Windows not those of the system, which come in
 /// its language, or not at all.
 std::string socket_error_text(int error);

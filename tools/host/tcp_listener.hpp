@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tools/host/input_stream.hpp"
-#include "tools/host/listen_address.hpp"
+#include "interpreter/base/listen_address.hpp"
 #include "tools/host/sockets.hpp"
 
 namespace s7200::tools {

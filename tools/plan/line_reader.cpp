@@ -8,7 +8,7 @@
 #include "interpreter/base/joined.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "serial_sim/line/line.hpp"
-#include "tools/host/listen_address.hpp"
+#include "interpreter/base/listen_address.hpp"
 #include "tools/yaml/names.hpp"
 
 namespace s7200::tools {

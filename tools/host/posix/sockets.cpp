@@ -78,11 +78,6 @@ std::uint16_t port_of(int fd) {
 
 std::string socket_error_text(int error) { return std::strerror(error); }
 
-bool is_ip_address(const std::string& text, IpVersion version) {
-  std::array<unsigned char, sizeof(in6_addr)> address{};
-  return inet_pton(version == IpVersion::Six ? AF_INET6 : AF_INET, text.c_str(), address.data()) == 1;
-}
-
 bool allow_next_listener(NativeSocket socket) {
   const int on = 1;
   return setsockopt(descriptor_of(socket), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0;

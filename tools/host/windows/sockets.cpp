@@ -90,12 +90,6 @@ void never_wait(SOCKET socket) {
 
 std::string socket_error_text(int error) { return words_of(static_cast<DWORD>(error)); }
 
-bool is_ip_address(const std::string& text, IpVersion version) {
-  start_sockets();
-  std::array<unsigned char, sizeof(in6_addr)> address{};
-  return inet_pton(version == IpVersion::Six ? AF_INET6 : AF_INET, text.c_str(), address.data()) == 1;
-}
-
 /// A port is free at once in Windows; SO_REUSEADDR would let two programs have it at the same time.
 bool allow_next_listener(NativeSocket socket) { return set_option(socket_of(socket), SOL_SOCKET, SO_EXCLUSIVEADDRUSE, 1); }
 

@@ -4,13 +4,18 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
-namespace s7200::tools {
+namespace s7200 {
 
 struct ListenAddress {
   std::string host = "127.0.0.1";  ///< an IP address; this computer alone, if none is written
   std::uint16_t port = 0;          ///< 0: a free one
 };
+
+/// Whether a text is four numbers below 256 with dots between them, or an IPv6 address, without brackets (RFC 4291, 2.2).
+bool is_ipv4_address(std::string_view text);
+bool is_ipv6_address(std::string_view text);
 
 /// Returns nothing and sets `why` for anything else.
 std::optional<ListenAddress> parse_listen_address(const std::string& text, std::string& why);
@@ -18,4 +23,4 @@ std::optional<ListenAddress> parse_listen_address(const std::string& text, std::
 /// An address as text: `127.0.0.1:502`, `[::1]:502`
 std::string to_text(const ListenAddress& address);
 
-}  // namespace s7200::tools
+}  // namespace s7200
