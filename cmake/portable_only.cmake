@@ -9,7 +9,7 @@ add_subdirectory(serial_sim)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32")
   add_compile_options(-Oz)  # every report carries the engine; a run lives in the libraries above
 endif()
-foreach(room views json plan rig session faces/page)
+foreach(room views yaml json plan rig session faces/page)
   add_subdirectory(tools/${room})
 endforeach()
 if(EXISTS ${PROJECT_SOURCE_DIR}/tests)

@@ -21,7 +21,7 @@ namespace {
 
 /// Runs with the clock. Of a PROGRAM its STOP ends the run, unless a bridge carries PPI, in which a master may start it
 /// again.
-std::string_view run_with_clock(LiveRun& live, Rig& rig, const RunLimits& limits, bool to_ppi) {
+std::string_view run_with_clock(LiveRun& live, RecordedRig& rig, const RunLimits& limits, bool to_ppi) {
   if (is_of_one_program(rig.plan())) {
     LiveLimits of_program{limits.end, limits.scans, limits.strict};
     if (to_ppi)
@@ -34,7 +34,7 @@ std::string_view run_with_clock(LiveRun& live, Rig& rig, const RunLimits& limits
   return !live.failure().empty() ? "bridge" : halt == serial::Halt::Time ? "time" : "interrupted";
 }
 
-Ending run_to_end(Rig& rig, const RunBridges& bridges, bool serves, const RunOptions& options) {
+Ending run_to_end(RecordedRig& rig, const RunBridges& bridges, bool serves, const RunOptions& options) {
   const RunLimits limits{options.end(serves), options.scans, options.rig.strict()};
   if (!serves && !options.bridge.realtime())
     return {run(rig, limits, Progress([&] { return rig.system().time(); }, limits))};

@@ -34,7 +34,7 @@ using dap::Json;
 /// A rig, and the bridge that its line may be joined to.
 class RigDebuggee final : public dap::Debuggee {
  public:
-  RigDebuggee(std::shared_ptr<DebuggeeOptions> options, std::unique_ptr<Rig> rig, SystemBridges bridges,
+  RigDebuggee(std::shared_ptr<DebuggeeOptions> options, std::unique_ptr<RecordedRig> rig, SystemBridges bridges,
               StopToken stop_request, bool may_use_files)
       : options_(std::move(options)),
         rig_(std::move(rig)),
@@ -82,7 +82,7 @@ class RigDebuggee final : public dap::Debuggee {
   std::vector<std::string> unsaid_;  ///< before anyone listens
   std::function<void(const std::string&)> say_ = [this](const std::string& text) { unsaid_.push_back(text); };
   std::shared_ptr<DebuggeeOptions> options_;
-  std::unique_ptr<Rig> rig_;
+  std::unique_ptr<RecordedRig> rig_;
   HostFiles files_;  ///< for commands
   bool may_use_files_;
   DebuggeeRun live_;

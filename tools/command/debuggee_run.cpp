@@ -8,8 +8,8 @@
 
 namespace s7200::tools {
 
-DebuggeeRun::DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges bridges, const LiveMessages& messages,
-                         StopToken pause)
+DebuggeeRun::DebuggeeRun(RecordedRig& rig, const DebuggeeOptions& options, SystemBridges bridges,
+                         const LiveMessages& messages, StopToken pause)
     : rig_(rig), bridges_(std::move(bridges)) {
   Bridge* const bridge = options.bridge.bridge();
   has_bridges_ = bridge != nullptr || !bridges_.empty();

@@ -17,7 +17,7 @@ class DebuggeeRun {
  public:
   /// `bridges` are those of a system file, besides the one of the options. Rig and options are not owned; Runs with the
   /// clock end at an interruption and when `pause` asks for it.
-  DebuggeeRun(Rig& rig, const DebuggeeOptions& options, SystemBridges bridges, const LiveMessages& messages,
+  DebuggeeRun(RecordedRig& rig, const DebuggeeOptions& options, SystemBridges bridges, const LiveMessages& messages,
               StopToken pause);
 
   /// Lets the bridges serve. Returns false and sets `why` if they cannot.
@@ -37,7 +37,7 @@ class DebuggeeRun {
   History::Settings history();
 
  private:
-  Rig& rig_;
+  RecordedRig& rig_;
   SystemBridges bridges_;
   std::unique_ptr<LiveRun> live_;
   bool has_bridges_ = false, realtime_ = false;

@@ -114,7 +114,7 @@ int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>&
 }
 
 /// A line of a system where all PLCs are of another make.
-static int run_on_line(MasterOptions& options, Rig& rig, const std::vector<MasterAction>& actions) {
+static int run_on_line(MasterOptions& options, RecordedRig& rig, const std::vector<MasterAction>& actions) {
   const std::size_t line = options.rig.line();
   LineOfOtherPlcs slave(rig, line, options.master, options.rig.target());
   if (!slave.wait_until_ready(options.after)) return print_interruption(), kCheckFailed;

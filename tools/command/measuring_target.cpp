@@ -16,6 +16,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/rig/recorded_rig.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/slave/slave_target.hpp"
 #include "tools/views/report.hpp"
@@ -94,7 +95,7 @@ std::unique_ptr<MeasuringTarget> MeasuringTarget::open(const std::string& name, 
   if (!program) return nullptr;
   std::vector<std::string> problems;
   const SystemPlan plan = plan_of(program);
-  result->rig_ = Rig::assemble(plan, {.spots = spots_of_plcs(plan), .stop = interruption()}, problems);
+  result->rig_ = RecordedRig::assemble(plan, {.seen = {.spots = spots_of_plcs(plan)}, .stop = interruption()}, problems);
   if (!result->rig_) throw std::runtime_error(problems.empty() ? "interrupted" : problems.front());
   result->rig_->power_up();
   auto slave = std::make_unique<SimulatedSlave>(result->rig_->simulation(), serial::MasterSettings{}, program->source.name);

@@ -38,7 +38,7 @@ std::string text_of(const SameCause& cause) {
 
 }  // namespace
 
-Unanswered::Unanswered(Rig& rig, const Spot& spot)
+Unanswered::Unanswered(RecordedRig& rig, const Spot& spot)
     : rig_(rig), seen_(rig, {spot}), station_(spot.plc), begin_(rig.system().snapshot()), journal_(rig.simulation()) {}
 
 void Unanswered::listen_to(SimulatedSlave& slave) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/rig/rig.hpp"
+#include "tools/rig/recorded_rig.hpp"
 #include "tools/session/past/journal.hpp"
 #include "tools/session/past/seen_rig.hpp"
 #include "tools/slave/simulated_slave.hpp"
@@ -34,7 +34,7 @@ class Unanswered {
   static constexpr std::size_t kMostExplained = 50;  ///< each of them takes a part of the run once more
 
   /// Of a rig that has just been powered up, with an S7-200 at `spot`, where the requests are asked.
-  Unanswered(Rig& rig, const Spot& spot);
+  Unanswered(RecordedRig& rig, const Spot& spot);
 
   /// Writes down what is asked from now on.
   void listen_to(SimulatedSlave& slave);
@@ -52,7 +52,7 @@ class Unanswered {
     Moment given_up{};
   };
 
-  Rig& rig_;
+  RecordedRig& rig_;
   SeenRig seen_;
   std::size_t station_;  ///< beside which the master stands
   serial::System::Snapshot begin_;

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "serial_sim/modbus/answer.hpp"
-#include "tools/rig/system_trace.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/rig/event_words.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools {
@@ -16,17 +15,6 @@ namespace {
 serial::Verdict verdict_on(const serial::Exchange& exchange) {
   if (!exchange.damage().empty()) return serial::Verdict::Wrong;
   return modbus::check_answer(serial::bytes_of(exchange.request), exchange.response_bytes()).verdict;
-}
-
-/// Messages such as `the run ends, and RCV at port 0 still waits for the end of its message: …`
-std::vector<std::string> open_messages(const serial::Plc& plc) {
-  std::vector<std::string> texts;
-  if (!plc.powered()) return texts;
-  const CpuModel& model = *plc.cpu().program().model;
-  for (std::size_t port = 0; port < model.ports; ++port)
-    if (const std::string awaited = awaited_text(plc.cpu().state().port[port].message, model.receive); !awaited.empty())
-      texts.push_back(fmt::format("the run ends, and RCV at port {} still waits for {}", port, awaited));
-  return texts;
 }
 
 /// A master that has joined the line raises the sync signal of the PLCs there that no output drives.
@@ -44,15 +32,12 @@ void drive_sync(serial::RequesterStation& master, const SystemPlan& plan, const 
 
 }  // namespace
 
-Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
+Rig::Rig(SystemPlan plan, const RigSpots& seen)
     : plan_(std::move(plan)),
-      surroundings_(surroundings),
-      files_(surroundings.standard_output),
+      sinks_(plan_.plcs.size()),
       pollers_(plan_.peers.size()),
       responders_(plan_.peers.size()),
       hosts_(plan_.bridges.size()) {
-  for (const PlcPlan& plc : plan_.plcs) plc_rigs_.emplace_back(plc);
-  captures_.resize(plan_.lines.size());
   for (std::size_t line = 0; line < plan_.lines.size(); ++line) lines_.push_back(&system_.add_line());
   for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) add_plc(plc);
   for (std::size_t line = 0; line < plan_.lines.size(); ++line)
@@ -60,8 +45,8 @@ Rig::Rig(SystemPlan plan, const RigSurroundings& surroundings)
   wire_sync();
   for (const EventPlan& event : plan_.events) system_.schedule(event.at, [this, &event] { carry_out(event); });
   askers_.resize(lines_.size());
-  for (const Spot& spot : surroundings.spots) join(spot);
-  for (const std::size_t line : surroundings.lines) {
+  for (const Spot& spot : seen.spots) join(spot);
+  for (const std::size_t line : seen.lines) {
     askers_[line].requester = &system_.add_requester(*lines_[line]);
     drive_sync(*askers_[line].requester, plan_, plan_.lines[line], responders_);
   }
@@ -120,101 +105,38 @@ void Rig::wire_sync() {
     if (const auto& sync = plan_.peers[peer].sync) system_.wire_sync(*plcs_[sync->plc], sync->point, *responders_[peer]);
 }
 
-/// Watches the line at its first PLC: an S7-200, or one of another make if there is none.
-void Rig::watch(std::size_t line, CaptureFiles& captures) {
-  captures.read_as(plan_.lines[line].settings);
-  if (const StationPlan* const first = first_plc(plan_.lines[line]))
-    captures.watch(*plcs_[first->number], first->port);
-  else if (const StationPlan* const other = first_other_plc(plan_, plan_.lines[line]))
-    captures.watch(*responders_[other->number], system_.time());
-}
-
-std::unique_ptr<Rig> Rig::assemble(SystemPlan plan, const RigSurroundings& surroundings,
-                                   std::vector<std::string>& problems) {
-  std::unique_ptr<Rig> rig(new Rig(std::move(plan), surroundings));
-  std::string why;
-  bool good = rig->claim_files(why);
-  for (PlcRig& plc : rig->plc_rigs_) good = good && plc.read_memory(why);
-  if (good) {
-    if (surroundings.begun) surroundings.begun();
-    good = rig->open_records(why);
-  }
-  if (good) return rig;
-  if (!why.empty()) problems.push_back(why);
-  return nullptr;
-}
-
-bool Rig::claim_files(std::string& why) {
-  if (!surroundings_.trace.empty()) trace_ = std::make_unique<SystemTrace>(plan_, system_, surroundings_.trace_detail);
-  if (!surroundings_.path.empty()) files_.reads(surroundings_.path);
-  for (const PlcPlan& plc : plan_.plcs) files_.reads(plc.settings.input);
-  files_.links("--pty", surroundings_.link);
-  for (const BridgePlan& bridge : plan_.bridges)
-    if (bridge.kind == BridgeKind::Pty) files_.links("a bridge", bridge.where);
-  auto line = plan_.lines.begin();
-  if (trace_ && !trace_->claim(files_, surroundings_.trace, why)) return false;
-  return std::ranges::all_of(plc_rigs_, [&](PlcRig& plc) { return plc.claim(files_, why); }) &&
-         std::ranges::all_of(captures_, [&](CaptureFiles& each) { return each.claim(files_, (line++)->captures, why); });
-}
-
-bool Rig::open_records(std::string& why) {
-  const auto all = [&](auto& those, auto open) {
-    return std::ranges::all_of(those, [&](auto& each) { return (each.*open)(why); });
-  };
-  if (trace_ && !(trace_->open(why) && trace_->put(why))) return false;
-  for (std::size_t plc = 0; trace_ && plc < plan_.plcs.size(); ++plc) sinks(plc).add(&trace_->station(plc));
-  return all(plc_rigs_, &PlcRig::open) && all(captures_, &CaptureFiles::open) && all(plc_rigs_, &PlcRig::put) &&
-         all(captures_, &CaptureFiles::put);
-}
-
 void Rig::power_up() {
-  system_.stop_when(surroundings_.stop);
-  auto captures = captures_.begin();
-  for (std::size_t line = 0; line < lines_.size(); ++line, ++captures) {
-    watch(line, *captures);
+  system_.stop_when(stop_);
+  for (std::size_t line = 0; line < lines_.size(); ++line) {
     if (const auto master = plan_.lines[line].master)
       lines_[line]->faults().set_master(driver_of(plan_.lines[line].stations[*master]));
     for (const FaultPlan& fault : plan_.lines[line].faults) inject(line, fault, 0);
     if (const auto seed = plan_.lines[line].contention) lines_[line]->line().leave_contention_to_chance(*seed);
   }
-  auto rig = plc_rigs_.begin();
-  for (std::size_t number = 0; number < plcs_.size(); ++number, ++rig) {
+  for (std::size_t number = 0; number < plcs_.size(); ++number) {
     if (plan_.plcs[number].settings.starts == 0) {
-      rig->power_up(*plcs_[number], 0);
+      power_up_plc(number, 0);
       continue;
     }
-    if (!rig->sinks().empty()) plcs_[number]->cpu().set_sink(&rig->sinks());
+    if (!sinks_[number].empty()) plcs_[number]->cpu().set_sink(&sinks_[number]);
     system_.power_off(*plcs_[number]);
   }
   for (std::size_t peer = 0; peer < pollers_.size(); ++peer)
     if (pollers_[peer]) pollers_[peer]->poller().start(plan_.peers[peer].polls.starts);
 }
 
-void Rig::flush_records() {
-  if (trace_) trace_->flush();
-  for (PlcRig& plc : plc_rigs_) plc.flush();
-  for (CaptureFiles& captures : captures_) captures.flush();
+/// Gives a PLC power for the first time: the program begins with its memory, clock and assignments, and the sinks watch it.
+void Rig::power_up_plc(std::size_t number, Time at) {
+  serial::Plc& plc = *plcs_[number];
+  const PlcSettings& settings = plan_.plcs[number].settings;
+  FanOut& sinks = sinks_[number];
+  if (plc.powered() && !sinks.empty()) plc.cpu().set_sink(&sinks);  // without sinks, another watcher may be set by now
+  plc.cpu().set_clock_error(settings.clock_error);
+  plc.power_up(kept_memory(number), at);
+  if (settings.clock) plc.cpu().set_clock(*settings.clock);
+  for (const Assignment& assignment : settings.set) assign(plc.cpu(), assignment);
 }
 
-std::vector<std::string> Rig::finish() {
-  std::vector<std::string> problems;
-  std::string why;
-  auto traced = plc_rigs_.begin();
-  for (std::size_t number = 0; number < plcs_.size(); ++number, ++traced)
-    for (const std::string& open : open_messages(*plcs_[number])) {
-      traced->note(system_.now(), open);
-      if (trace_) trace_->note(number, system_.now(), open);
-    }
-  if (trace_ && !trace_->close(why)) problems.push_back(why);
-  for (PlcRig& plc : plc_rigs_) plc.close(problems);
-  for (CaptureFiles& captures : captures_) captures.close(problems);
-  auto rig = plc_rigs_.begin();
-  for (std::size_t number = 0; number < plcs_.size(); ++number, ++rig)
-    if (has_begun(number)) rig->keep_memory(plcs_[number]->cpu(), problems);
-  return problems;
-}
-
-/// Whether it has had power. Until then it has read nothing of what it is to begin with.
 bool Rig::has_begun(std::size_t plc) const {
   return plan_.plcs[plc].settings.starts == 0 || plcs_[plc]->powered() || plcs_[plc]->cpu().time() > 0;
 }
@@ -250,9 +172,8 @@ void Rig::carry_out(const EventPlan& event) {
 void Rig::tell(const EventPlan& event, Time at) {
   const bool is_set = event.what == EventPlan::What::Set;
   const std::string what = event_text(event, plan_, is_set && !plcs_[event.plc]->powered());
-  if (trace_) trace_->tell(event, at, what);
+  for (const EventOnlooker& onlooker : system_onlookers_) onlooker(event, at, what);
   const auto tell_plc = [&](std::size_t plc, const std::string& said) {
-    std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->note(at, said);
     for (const Onlooker& onlooker : onlookers_) onlooker(plc, at, said);
   };
   const EventSubject subject = subject_of(event);
@@ -295,8 +216,7 @@ void Rig::switch_power(const StationPlan& station, bool on) {
   if (station.kind == StationPlan::Kind::Plc) {
     serial::Plc& plc = *plcs_[station.number];
     if (plc.powered() == on) return;
-    if (!has_begun(station.number))
-      return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(station.number))->power_up(plc, now);
+    if (!has_begun(station.number)) return power_up_plc(station.number, now);
     on ? system_.power_on(plc) : system_.power_off(plc);
   } else if (serial::ResponderStation* const responder = responders_[station.number]) {
     if (responder->powered() == on) return;

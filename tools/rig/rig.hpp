@@ -1,11 +1,9 @@
-// PLCs with everything attached: what they have kept, what drives their inputs, what disturbs their lines, who else is on
-// them, and what is recorded. Every verb and every test bench assembles them here, be it one PLC from the command line or a
-// system from a file.
+// PLCs with everything attached: what they have kept, what drives their inputs, what disturbs their lines, and who else is
+// on them. Every verb, every test bench and every page assembles them here, be it one PLC from the command line or a system
+// from a file. A rig touches no file: recorded_rig.hpp does.
 #pragma once
 
 #include <functional>
-#include <iosfwd>
-#include <list>
 #include <memory>
 #include <optional>
 #include <set>
@@ -13,43 +11,32 @@
 #include <utility>
 #include <vector>
 
+#include "interpreter/base/stop_token.hpp"
+#include "interpreter/trace/fan_out.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/host/written_files.hpp"
 #include "tools/plan/system_plan.hpp"
-#include "tools/rig/capture_files.hpp"
-#include "tools/rig/plc_rig.hpp"
 
 namespace s7200::tools {
 
-class SystemTrace;
-
-/// What a rig is told besides its plan.
-struct RigSurroundings {
-  std::string path{};                       ///< of the system file
-  std::string link{};                       ///< a pty's link: nothing is written there, and no output may have its name
-  std::ostream* standard_output = nullptr;  ///< `-` for a trace and the outputs
-  std::string trace{};                      ///< of a system, all its PLCs in one file
-  TraceDetail trace_detail = TraceDetail::Way;
-  /// The spots from which callers look at the system, see simulation(). On each line a master stands beside the PLC of the
-  /// first of its spots.
+/// From where a rig is looked at.
+struct RigSpots {
+  /// See simulation(). On each line a master stands beside the PLC of the first of its spots.
   std::vector<Spot> spots{};
-  StopToken stop{};                  ///< ends what runs
-  std::function<void()> begun{};     ///< told when all has been read, before files are written
   std::vector<std::size_t> lines{};  ///< without an S7-200: a master joins each of them, on the first part of a cut cable
 };
 
-class Rig final {
+class Rig {
  public:
-  /// Reads and opens all files that the plan and its surroundings name. Returns null with all `problems` if one of them
-  /// cannot be opened; then no file has been changed.
-  static std::unique_ptr<Rig> assemble(SystemPlan plan, const RigSurroundings& surroundings,
-                                       std::vector<std::string>& problems);
+  Rig(SystemPlan plan, const RigSpots& seen);
+  virtual ~Rig();
+  Rig(const Rig&) = delete;
+  Rig& operator=(const Rig&) = delete;
 
-  ~Rig();
+  /// All that runs from power_up() on ends early when this asks for it.
+  void stop_when(StopToken stop) { stop_ = std::move(stop); }
 
-  /// Every PLC begins with its memory, clock and assignments, at time 0 or when it starts, the lines with their faults, the
-  /// records watch them, and every master asks its first request 1 s later or when it starts. All that runs ends early when
-  /// the stop token of the surroundings asks for it.
+  /// Every PLC begins with its memory, clock and assignments, at time 0 or when it starts, the lines with their faults, and
+  /// every master asks its first request 1 s later or when it starts.
   void power_up();
 
   serial::System& system() { return system_; }
@@ -84,46 +71,41 @@ class Rig final {
   using Onlooker = std::function<void(std::size_t plc, Time at, const std::string& what)>;
   void tell_of_events(Onlooker onlooker) { onlookers_.push_back(std::move(onlooker)); }
 
-  /// The files that are read and written already.
-  const WrittenFiles& files() const { return files_; }
+  /// An event is told, in words, to whoever looks at the system as a whole.
+  using EventOnlooker = std::function<void(const EventPlan& event, Time at, const std::string& what)>;
+  void tell_of_system(EventOnlooker onlooker) { system_onlookers_.push_back(std::move(onlooker)); }
 
   /// The sinks that watch a CPU; others may be added.
-  FanOut& sinks(std::size_t plc = 0) { return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->sinks(); }
+  FanOut& sinks(std::size_t plc = 0) { return sinks_[plc]; }
 
   /// The memory with which a PLC powers up first; null if nothing was kept.
   const RetentiveMemory* kept_memory(std::size_t plc = 0) const {
-    return std::next(plc_rigs_.begin(), static_cast<std::ptrdiff_t>(plc))->kept();
+    const auto& kept = plan_.plcs[plc].kept;
+    return kept ? &*kept : nullptr;
   }
 
-  /// Writes the records so far to their files, for readers who follow a run in real time. A trace of a system is a second
-  /// behind.
-  void flush_records();
+ protected:
+  SystemPlan plan_;
 
-  /// Completes the records and keeps the memories of the PLCs that have had power. Returns what could not be written.
-  std::vector<std::string> finish();
+  /// Whether it has had power. Until then it has read nothing of what it is to begin with.
+  bool has_begun(std::size_t plc) const;
+  /// Another PLC of a line, by its number among the peers; null if the peer is a master.
+  serial::ResponderStation* responder(std::size_t peer) { return responders_[peer]; }
 
  private:
-  Rig(SystemPlan plan, const RigSurroundings& surroundings);
+  void power_up_plc(std::size_t number, Time at);
   void add_plc(std::size_t number);
   void wire_sync();
   void tell(const EventPlan& event, Time at);
-  bool has_begun(std::size_t plc) const;
   void switch_power(const StationPlan& station, bool on);
   void add_other(const LinePlan& plan, serial::SharedLine& line, const StationPlan& station);
   void join(const Spot& spot);
-  void watch(std::size_t line, CaptureFiles& captures);
   void inject(std::size_t line, const FaultPlan& fault, Time now);
   int driver_of(const StationPlan& station) const;
   std::uint32_t beyond(const EventPlan& cut) const;
-  bool claim_files(std::string& why);
-  bool open_records(std::string& why);
 
-  SystemPlan plan_;
-  RigSurroundings surroundings_;
-  WrittenFiles files_;
-  std::unique_ptr<SystemTrace> trace_;  // null: none; outlives the system, as all records do
-  std::list<PlcRig> plc_rigs_;
-  std::list<CaptureFiles> captures_;  // by line
+  StopToken stop_{};
+  std::vector<FanOut> sinks_;  // by PLC; they outlive the system
   serial::System system_;
   std::vector<serial::SharedLine*> lines_;
   std::vector<serial::Plc*> plcs_;
@@ -138,6 +120,7 @@ class Rig final {
   std::vector<Asker> askers_;                                     // by line
   std::vector<std::unique_ptr<serial::Simulation>> simulations_;  // by spot
   std::vector<Onlooker> onlookers_;
+  std::vector<EventOnlooker> system_onlookers_;
   std::set<std::pair<Time, const EventPlan*>> told_;  // by their places in the plan: two of one instant may read the same
 };
 

@@ -14,9 +14,6 @@
 
 namespace s7200::tools {
 
-/// An event in words: `power off`. `in_vain`: it was done to a PLC without power.
-std::string event_text(const EventPlan& event, const SystemPlan& plan, bool in_vain);
-
 /// claim(), open(), put() when the first line is written, close(). Each returns false and sets `why` if the file cannot be
 /// written. CPUs run ahead of each other: lines wait until no other one can come before them.
 class SystemTrace final {
@@ -60,11 +57,5 @@ class SystemTrace final {
   std::vector<std::unique_ptr<TraceWriter>> stations_;  // by PLC
   std::vector<Line> waiting_;
 };
-
-/// An event in words, with whom it happens to: `slave2: power off`.
-std::string named_event_text(const EventPlan& event, const SystemPlan& plan);
-
-/// The events of a system in words, in their order: `slave2: power off`.
-std::vector<std::string> event_texts(const SystemPlan& plan);
 
 }  // namespace s7200::tools

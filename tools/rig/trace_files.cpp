@@ -13,12 +13,12 @@ bool TraceFiles::claim(WrittenFiles& files, std::string_view option, const std::
   return record.file.claim(files, option, path, std::move(kind), why);
 }
 
-bool TraceFiles::open(std::string& why) {
+bool TraceFiles::open(FanOut& sinks, std::string& why) {
   for (Record& record : records_) {
     std::ostream* const out = record.file.open(why);
     if (!out) return false;
     record.sink = record.make(*out);
-    sinks_.add(record.sink.get());
+    sinks.add(record.sink.get());
   }
   return true;
 }

@@ -20,14 +20,12 @@ class TraceFiles {
   /// Claims `path` for what `make` makes; an empty path is none. `kind` without its beginning is not recognised later.
   bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, Make make,
              std::string& why);
-  bool open(std::string& why);
+  /// The records are told what the CPU does by `sinks`.
+  bool open(FanOut& sinks, std::string& why);
   bool put(std::string& why);
 
   /// Writes the records so far to their files.
   void flush();
-
-  /// The sinks that watch the CPU; others may be added.
-  FanOut& sinks() { return sinks_; }
 
   /// Closes all of them; adds to `problems` what could not be written.
   void close(std::vector<std::string>& problems);
@@ -39,7 +37,6 @@ class TraceFiles {
     std::unique_ptr<TraceSink> sink;
   };
   std::list<Record> records_;  // sinks hold on to the files' streams
-  FanOut sinks_;
 };
 
 }  // namespace s7200::tools

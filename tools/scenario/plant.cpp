@@ -6,7 +6,8 @@
 #include <stdexcept>
 
 #include "tools/rig/first_scans.hpp"
-#include "tools/rig/system_trace.hpp"
+#include "tools/rig/event_words.hpp"
+#include "tools/rig/recorded_rig.hpp"
 #include "tools/views/machine_text.hpp"
 #include "tools/views/memory.hpp"
 #include "tools/views/report.hpp"
@@ -59,7 +60,7 @@ void Plant::power_up() {
   seen_.reset();
   journal_.reset();
   std::vector<std::string> problems;
-  rig_ = Rig::assemble(plan_, {.path = scenario_.system, .spots = spots_, .stop = stop_}, problems);
+  rig_ = RecordedRig::assemble(plan_, {.path = scenario_.system, .seen = {.spots = spots_}, .stop = stop_}, problems);
   if (!rig_) throw std::logic_error(problems.empty() ? "interrupted" : problems.front());
   for (std::size_t plc = 0; plc < plan_.plcs.size(); ++plc) {
     rig_->sinks(plc).add(&watches_[plc]->sinks);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/rig/first_scans.hpp"
+#include "tools/rig/recorded_rig.hpp"
 #include "tools/slave/line_of_other_plcs.hpp"
 #include "tools/slave/simulated_slave.hpp"
 
@@ -23,7 +24,7 @@ bool another_answers(const SystemPlan& plan, const Spot& spot) {
 
 std::unique_ptr<Rig> powered_up(const SystemPlan& plan, const RigSurroundings& surroundings) {
   std::vector<std::string> problems;
-  auto rig = Rig::assemble(plan, surroundings, problems);
+  auto rig = RecordedRig::assemble(plan, surroundings, problems);
   if (!rig) throw SlaveUnreachable(problems.empty() ? "interrupted" : problems.front());
   rig->power_up();
   return rig;
@@ -43,7 +44,7 @@ std::string place_text(const std::string& path, const SystemPlan& plan, const Sp
 
 std::unique_ptr<SlaveInRig> join_spot(const SystemPlan& plan, const Spot& spot, const serial::MasterSettings& master,
                                       Time after, const std::string& path, StopToken stop) {
-  auto rig = powered_up(plan, {.path = path, .spots = {spot}, .stop = stop});
+  auto rig = powered_up(plan, {.path = path, .seen = {.spots = {spot}}, .stop = stop});
   auto slave = std::make_unique<SimulatedSlave>(rig->simulation(), on_line(master, plan.lines[spot.line]),
                                                 place_text(path, plan, spot), another_answers(plan, spot));
   if (after == kNever) run_first_scans(*rig, kReadyWithin);
@@ -59,10 +60,10 @@ std::unique_ptr<SlaveInRig> join_lines(const SystemPlan& plan, std::size_t first
                                        Time after, const std::string& path, StopToken stop) {
   RigSurroundings surroundings{.path = path, .stop = stop};
   for (std::size_t line = 0; line < plan.lines.size(); ++line)
-    if (why_no_other_plc(plan, line).empty()) surroundings.lines.push_back(line);
+    if (why_no_other_plc(plan, line).empty()) surroundings.seen.lines.push_back(line);
   auto rig = powered_up(plan, surroundings);
   SlaveInRig::Masters masters;
-  for (const std::size_t line : surroundings.lines)
+  for (const std::size_t line : surroundings.seen.lines)
     masters[line] = std::make_unique<LineOfOtherPlcs>(*rig, line, master, line_text(path, plan.lines[line]));
   auto slave = std::make_unique<SlaveInRig>(std::move(rig), std::move(masters), first);
   slave->wait(after == kNever ? slave->pause() : after);

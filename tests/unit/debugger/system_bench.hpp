@@ -11,7 +11,7 @@
 #include "tests/support/source_path.hpp"
 #include "tools/host/files.hpp"
 #include "tools/plan/system_reader.hpp"
-#include "tools/rig/rig.hpp"
+#include "tools/rig/recorded_rig.hpp"
 
 namespace s7200::tools {
 
@@ -44,7 +44,7 @@ struct SystemBench {
       if (d.severity == stl::Severity::Error) ADD_FAILURE() << d.position.line << ": " << d.message;
     std::vector<std::string> problems;
     const std::vector<Spot> spots = spots_of_plcs(file.plan);
-    rig = Rig::assemble(std::move(file.plan), {.path = path, .spots = spots}, problems);
+    rig = RecordedRig::assemble(std::move(file.plan), {.path = path, .seen = {.spots = spots}}, problems);
     for (const std::string& problem : problems) ADD_FAILURE() << problem;
     rig->power_up();
     rig->system().stop_when(StopToken());

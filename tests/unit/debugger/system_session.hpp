@@ -6,7 +6,7 @@
 
 #include "tests/unit/debugger/session.hpp"
 #include "tests/unit/debugger/system_bench.hpp"
-#include "tools/rig/system_trace.hpp"
+#include "tools/rig/event_words.hpp"
 #include "tools/session/past/seen_rig.hpp"
 
 namespace s7200::tools {

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "interpreter/analysis/check.hpp"
-#include "tools/rig/rig.hpp"
+#include "tools/rig/recorded_rig.hpp"
 #include "tools/rig/run.hpp"
 
 namespace s7200::tools {
@@ -16,7 +16,7 @@ std::unique_ptr<Rig> rig_with(StopToken stop) {
   const auto program = check_text("LD SM0.0\nINCW VW0\nMEND\n", "counts.stl", cpu214(), default_times(cpu214())).program;
   std::vector<std::string> problems;
   const SystemPlan plan = plan_of(program);
-  auto rig = Rig::assemble(plan, {.spots = spots_of_plcs(plan), .stop = stop}, problems);
+  auto rig = RecordedRig::assemble(plan, {.seen = {.spots = spots_of_plcs(plan)}, .stop = stop}, problems);
   rig->power_up();
   return rig;
 }

@@ -10,25 +10,25 @@
 #include "tests/support/source_path.hpp"
 #include "tools/host/files.hpp"
 #include "tools/plan/system_reader.hpp"
-#include "tools/rig/rig.hpp"
+#include "tools/rig/recorded_rig.hpp"
 
 namespace s7200::tools {
 namespace {
 
 std::string example(const std::string& name) { return test::source_path("stl_programs/systems/" + name); }
 
-std::unique_ptr<Rig> rig_of(const std::string& text) {
+std::unique_ptr<RecordedRig> rig_of(const std::string& text) {
   SystemFile file = read_system(text, example("test.yaml"), host_files());
   for (const stl::Diagnostic& d : file.file.diagnostics)
     if (d.severity == stl::Severity::Error) ADD_FAILURE() << d.position.line << ": " << d.message;
   std::vector<std::string> problems;
-  auto rig = file.ok() ? Rig::assemble(std::move(file.plan), {.path = example("test.yaml")}, problems) : nullptr;
+  auto rig = file.ok() ? RecordedRig::assemble(std::move(file.plan), {.path = example("test.yaml")}, problems) : nullptr;
   for (const std::string& problem : problems) ADD_FAILURE() << problem;
   if (rig) rig->power_up();
   return rig;
 }
 
-std::unique_ptr<Rig> rig_of_file(const std::string& name) {
+std::unique_ptr<RecordedRig> rig_of_file(const std::string& name) {
   std::string why;
   const auto text = read_text(example(name), why);
   EXPECT_TRUE(text) << why;
@@ -222,7 +222,7 @@ TEST(SystemRig, APlcThatStartsLaterHasItsFirstScanThen) {
 }
 
 /// A PLC that starts at 5 s, with the memory of one whose VW100 was 7 when its power went off.
-std::unique_ptr<Rig> late_starter(const std::string& memory, const std::string& events) {
+std::unique_ptr<RecordedRig> late_starter(const std::string& memory, const std::string& events) {
   const auto before = rig_of(fmt::format(
       "plcs: {{a: {{program: ../edge_counter.stl, memory: {}, set: {{VW100: 7}}}}}}\nlines: {{bus: {{stations: [a]}}}}\n",
       memory));
@@ -683,7 +683,7 @@ struct Unmodelled final : TraceSink {
 };
 
 /// The other one asks in that scan.
-std::unique_ptr<Rig> two_masters_of_ppi(int scan) {
+std::unique_ptr<RecordedRig> two_masters_of_ppi(int scan) {
   return rig_of(fmt::format(
       "plcs:\n  one: {{program: {}, cpu: 224}}\n  other: {{program: {}, cpu: 224}}\n  slave: {{program: {}, cpu: 224}}\n"
       "lines: {{bus: {{stations: [one, other, slave], contention: 1}}}}\n",
@@ -819,11 +819,11 @@ TEST(SystemRig, ASpotIsALineOrAPlcOrOneOfItsPorts) {
 }
 
 /// The three slaves and who joins beside one of them, 100 ms after the cable was cut after slave1.
-std::unique_ptr<Rig> cut_after_slave1(std::size_t beside) {
+std::unique_ptr<RecordedRig> cut_after_slave1(std::size_t beside) {
   SystemFile file = read_system(kThreeSlaves, example("test.yaml"), host_files());
   file.plan.events.push_back({.what = EventPlan::What::Cut, .at = 100 * kMillisecond, .line = 0, .near = 2});
   std::vector<std::string> problems;
-  auto rig = Rig::assemble(std::move(file.plan), {.spots = {Spot{0, beside, 0}}}, problems);
+  auto rig = RecordedRig::assemble(std::move(file.plan), {.seen = {.spots = {Spot{0, beside, 0}}}}, problems);
   if (!rig) return rig;
   rig->power_up();
   rig->system().run_until(200 * kMillisecond);

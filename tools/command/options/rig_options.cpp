@@ -198,7 +198,7 @@ bool RigOptions::may_have_standard_output(bool json) const {
   return false;
 }
 
-std::unique_ptr<Rig> RigOptions::assemble(bool json, const std::string& link) {
+std::unique_ptr<RecordedRig> RigOptions::assemble(bool json, const std::string& link) {
   if (!may_have_standard_output(json)) return nullptr;
   std::vector<std::string> problems;
   std::vector<Spot> spots;
@@ -207,18 +207,18 @@ std::unique_ptr<Rig> RigOptions::assemble(bool json, const std::string& link) {
     spots.insert(spots.end(), stations_.begin(), stations_.end());
   }
   RigSurroundings surroundings = this->surroundings(link, std::move(spots));
-  if (joins_ && without_s7200()) surroundings.lines = {spot_.line};
-  auto rig = Rig::assemble(plan_, surroundings, problems);
+  if (joins_ && without_s7200()) surroundings.seen.lines = {spot_.line};
+  auto rig = RecordedRig::assemble(plan_, surroundings, problems);
   for (const std::string& problem : problems) print_error(problem);
   only_interrupted_ = problems.empty() && interrupted();
   return rig;
 }
 
-std::unique_ptr<Rig> RigOptions::assemble_another(std::shared_ptr<const Program> program,
+std::unique_ptr<RecordedRig> RigOptions::assemble_another(std::shared_ptr<const Program> program,
                                                   std::vector<std::string>& problems) const {
   SystemPlan plan = plan_;
   plan.plcs.front().program = std::move(program);
-  return Rig::assemble(std::move(plan), surroundings({}, {spot_}), problems);
+  return RecordedRig::assemble(std::move(plan), surroundings({}, {spot_}), problems);
 }
 
 RigSurroundings RigOptions::surroundings(const std::string& link, std::vector<Spot> spots) const {
@@ -227,7 +227,7 @@ RigSurroundings RigOptions::surroundings(const std::string& link, std::vector<Sp
           .standard_output = &std::cout,
           .trace = is_system() ? settings_.trace : "",
           .trace_detail = settings_.trace_detail,
-          .spots = std::move(spots),
+          .seen = {.spots = std::move(spots), .lines = {}},
           .stop = interruption(),
           .begun = catch_interruption};
 }
@@ -259,7 +259,7 @@ int RigOptions::exit_code_without_rig() const {
 
 bool is_about_the_line(std::string_view option) { return option == "--fault" || option == "--capture"; }
 
-bool finish(Rig& rig) {
+bool finish(RecordedRig& rig) {
   const std::vector<std::string> problems = rig.finish();
   for (const std::string& problem : problems) print_error(problem);
   return problems.empty();

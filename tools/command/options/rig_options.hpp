@@ -14,7 +14,7 @@
 
 #include "tools/command/options/fault_options.hpp"
 #include "tools/command/options/program_options.hpp"
-#include "tools/rig/rig.hpp"
+#include "tools/rig/recorded_rig.hpp"
 
 namespace CLI {
 class App;
@@ -86,10 +86,10 @@ class RigOptions {
 
   /// Reads and opens what the plan and the options name. Null after messages. `json`: standard output is taken; `link`: so
   /// is this name, by --pty.
-  std::unique_ptr<Rig> assemble(bool json, const std::string& link = {});
+  std::unique_ptr<RecordedRig> assemble(bool json, const std::string& link = {});
 
   /// A rig like that of assemble() for another program, from any thread. Null, with `problems` if it is not for a signal.
-  std::unique_ptr<Rig> assemble_another(std::shared_ptr<const Program> program, std::vector<std::string>& problems) const;
+  std::unique_ptr<RecordedRig> assemble_another(std::shared_ptr<const Program> program, std::vector<std::string>& problems) const;
 
   /// How a master talks on the line of what was loaded: as `given`, and for the rest as a system file says.
   serial::MasterSettings on_line(const serial::MasterSettings& given) const {
@@ -155,6 +155,6 @@ class RigOptions {
 bool is_about_the_line(std::string_view option);
 
 /// Completes the records and keeps the memory. False after messages.
-bool finish(Rig& rig);
+bool finish(RecordedRig& rig);
 
 }  // namespace s7200::tools

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/rig/system_trace.hpp"
+#include "tools/rig/event_words.hpp"
 
 namespace s7200::tools {
 namespace {

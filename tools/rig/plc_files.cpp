@@ -1,4 +1,4 @@
-#include "tools/rig/plc_rig.hpp"
+#include "tools/rig/plc_files.hpp"
 
 #include <fmt/format.h>
 
@@ -10,20 +10,20 @@
 #include "interpreter/trace/output_record.hpp"
 #include "interpreter/trace/output_waves.hpp"
 #include "tools/record/trace_formats.hpp"
-#include "tools/views/memory.hpp"
 
 namespace s7200::tools {
 
-PlcRig::PlcRig(const PlcPlan& plan) : program_(plan.program), settings_(plan.settings), kept_(plan.kept) {}
+PlcFiles::PlcFiles(const PlcPlan& plan, const serial::Plc& plc)
+    : program_(plan.program), settings_(plan.settings), plc_(plc) {}
 
-bool PlcRig::claim(WrittenFiles& files, std::string& why) {
+bool PlcFiles::claim(WrittenFiles& files, std::string& why) {
   files.reads(program_->source.name);
   for (const stl::FurtherFile& file : program_->source.further_files) files.reads(file.name);
   const TraceFormat& format = trace_format_of(settings_.trace);
   const auto trace = [this, &format](std::ostream& out) {
     out << format.first_line;
     const auto take = [&out](Time, std::string_view line) { out << line; };
-    const auto state = [this] { return plc_ && plc_->powered() ? &plc_->cpu().state() : nullptr; };
+    const auto state = [this] { return plc_.powered() ? &plc_.cpu().state() : nullptr; };
     auto made = format.writer({take, program_, settings_.trace_detail, {}, signals_of(settings_.signals, *program_), state});
     trace_ = made.get();
     return made;
@@ -41,20 +41,15 @@ bool PlcRig::claim(WrittenFiles& files, std::string& why) {
          traces_.claim(files, "--output", settings_.output, waves ? dump : rows, output, why);
 }
 
-bool PlcRig::read_memory(std::string& why) { return memory_.read(*program_->model, why); }
-
-void PlcRig::power_up(serial::Plc& plc, Time at) {
-  plc_ = &plc;
-  if (plc.powered() && !sinks().empty()) plc.cpu().set_sink(&sinks());  // without sinks, another watcher may be set by now
-  plc.cpu().set_clock_error(settings_.clock_error);
-  plc.power_up(kept(), at);
-  if (settings_.clock) plc.cpu().set_clock(*settings_.clock);
-  for (const Assignment& assignment : settings_.set) assign(plc.cpu(), assignment);
+bool PlcFiles::read_memory(std::optional<RetentiveMemory>& kept, std::string& why) {
+  if (!memory_.read(*program_->model, why)) return false;
+  if (!kept && memory_.memory()) kept = *memory_.memory();
+  return true;
 }
 
-void PlcRig::keep_memory(const Cpu& cpu, std::vector<std::string>& problems) const {
+void PlcFiles::keep_memory(std::vector<std::string>& problems) const {
   std::string why;
-  if (!memory_.write(cpu, why)) problems.push_back(why);
+  if (!memory_.write(plc_.cpu(), why)) problems.push_back(why);
 }
 
 }  // namespace s7200::tools
