@@ -102,7 +102,8 @@ std::optional<Destination> WrittenFiles::claim(std::string_view option, const st
   if (found && file_system::is_being_written(path))
     return refuse(fmt::format("{} {}: another command is still writing it; name another", option, path));
   if (const int error = file_system::why_no_new_file(folder_of(path)); error != 0)
-    return refuse(fmt::format("cannot write {}: {}", path, error_text(error)));
+    return refuse(fmt::format("cannot write {}: {}", path,
+                              error == ENOENT ? fmt::format("there is no folder {}", folder_of(path)) : error_text(error)));
   if (found) destination.replaced = {found->identity, found->size == 0};
   return destination;
 }

@@ -68,7 +68,7 @@ TEST_F(WrittenFilesTest, OnlyWhatIsNotThereOrHasTheMarkMayBeWritten) {
   EXPECT_TRUE(refusal(file("own"), kNote, Replace::Never).ends_with("own exists")) << "the caller says how to overwrite it";
   EXPECT_EQ(refusal(file("other"), kNote, Replace::Judged), "");
   EXPECT_TRUE(says(refusal(folder_), "it is a folder"));
-  EXPECT_TRUE(says(refusal(file("nowhere/new")), "No such file or directory"));
+  EXPECT_TRUE(says(refusal(file("nowhere/new")), "there is no folder " + file("nowhere")));
 }
 
 TEST_F(WrittenFilesTest, AnEmptyFileHoldsNothingAndIsReplacedUnlessItHasBeenFilledMeanwhile) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <io.h>
 
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <streambuf>
@@ -13,6 +14,7 @@
 #include "tools/command/terminal.hpp"
 #include "tools/host/console.hpp"
 #include "tools/host/file_system.hpp"
+#include "tools/host/windows/native_text.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -40,6 +42,14 @@ class ConsoleBuffer final : public std::streambuf {
   std::string text_;
 };
 
+/// Whether Windows has opened a console for this command alone, which it closes behind it: a double click, or files dropped
+/// on the program.
+bool has_console_of_its_own() {
+  std::array<DWORD, 2> processes{};
+  return GetConsoleProcessList(processes.data(), static_cast<DWORD>(processes.size())) == 1 &&
+         is_terminal(Standard::Input) && is_terminal(Standard::Error);
+}
+
 }  // namespace
 
 /// Lines end as they do elsewhere, also in files that output is directed to: programs of Windows read both.
@@ -54,6 +64,13 @@ void open_standard_streams() {
 }
 
 int close_standard_streams(int exit_code) {
+  if (has_console_of_its_own()) {
+    fmt::print(
+        stderr,
+        "\nThe Enter key closes this window. s7200 is a command: open a terminal in its folder and type s7200 --help\n");
+    std::fflush(stdout);
+    std::getchar();
+  }
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
   print_error(fmt::format("cannot write to standard output: {}", error_text(errno)));

@@ -82,6 +82,13 @@ std::optional<Found> look(const std::string& path, DWORD flags) {
   return handle ? look_at_handle(handle.get()) : std::nullopt;
 }
 
+/// A file that another program holds and one that may not be written give the same error when they are to be replaced.
+int why_not_replaced(const std::string& path) {
+  const Handle file(CreateFileW(native_path(path).c_str(), DELETE, kShareAll, nullptr, OPEN_EXISTING,
+                                FILE_FLAG_OPEN_REPARSE_POINT, nullptr));
+  return !file && GetLastError() == ERROR_SHARING_VIOLATION ? EBUSY : EACCES;
+}
+
 /// 0 or the error; tried again for a moment, because a virus scanner or an index may have a new file open just now.
 int move_file(const std::string& from, const std::string& to, DWORD flags) {
   constexpr int kTries = 20;
@@ -89,7 +96,8 @@ int move_file(const std::string& from, const std::string& to, DWORD flags) {
     if (MoveFileExW(native_path(from).c_str(), native_path(to).c_str(), flags | MOVEFILE_WRITE_THROUGH) != 0) return 0;
     const DWORD error = GetLastError();
     const bool held = error == ERROR_SHARING_VIOLATION || error == ERROR_ACCESS_DENIED;
-    if (!held || tries == kTries) return error == ERROR_ACCESS_DENIED && look_at(to) ? EBUSY : errno_of(error);
+    if (!held || tries == kTries)
+      return error == ERROR_ACCESS_DENIED && look_at(to) ? why_not_replaced(to) : errno_of(error);
     Sleep(50);
   }
 }

@@ -111,7 +111,11 @@ bool is_device_name(const std::string& path) {
   return numbered || std::ranges::find(kAlone, name) != kAlone.end() || path.starts_with("\\\\.\\");
 }
 
-bool is_null_device(const std::string& path) { return device_part(path) == "NUL"; }
+/// NUL.txt is a file on Windows 11, and NUL before it: who writes that means neither.
+bool is_null_device(const std::string& path) {
+  const std::string name = stl::upper_case(path.substr(path.find_last_of("/\\") + 1));
+  return name == "NUL" || name == "NUL:";
+}
 
 int errno_of(DWORD error) {
   const KnownError* const row = known(error);

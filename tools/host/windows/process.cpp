@@ -1,7 +1,9 @@
 #include "tools/host/process.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "tools/host/windows/native_text.hpp"
 
@@ -23,14 +25,33 @@ std::wstring quoted(const std::string& word) {
   return text.append(backslashes, L'\\') + L"\"";
 }
 
+/// The files that a word such as *.awl stands for, in the order of their names; the word itself if there is none.
+std::vector<std::string> files_meant(const std::string& word) {
+  const std::string folder = word.substr(0, word.find_last_of("/\\:") + 1);
+  const bool is_pattern = !word.starts_with('-') && word.find_first_of("*?", folder.size()) != std::string::npos;
+  std::vector<std::string> files;
+  WIN32_FIND_DATAW found{};
+  const HANDLE search = is_pattern ? FindFirstFileW(native_path(word).c_str(), &found) : INVALID_HANDLE_VALUE;
+  if (search == INVALID_HANDLE_VALUE) return {word};
+  do
+    if ((found.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) == 0) files.push_back(folder + utf8(found.cFileName));
+  while (FindNextFileW(search, &found) != 0);
+  FindClose(search);
+  if (files.empty()) files.push_back(word);
+  std::ranges::sort(files);
+  return files;
+}
+
 }  // namespace
 
-/// The words that the runtime hands to main() are in the code page of the system, which lacks most characters.
+/// The console of Windows leaves it to programs to look for the files that a pattern stands for. The words that the runtime
+/// hands to main() are in the code page of the system, which lacks most characters.
 std::vector<std::string> words_of_command_line(int, char**) {
   int count = 0;
   LPWSTR* const words = CommandLineToArgvW(GetCommandLineW(), &count);
   std::vector<std::string> result;
-  for (int i = 0; i < count; ++i) result.push_back(utf8(words[i]));
+  for (int i = 0; i < count; ++i)
+    for (std::string& word : files_meant(utf8(words[i]))) result.push_back(std::move(word));
   LocalFree(words);
   return result;
 }

@@ -17,9 +17,13 @@ namespace {
 /// COM3 and \\.\COM12 are the same kind of name, and from COM10 on only the second is one that a file can be opened by.
 constexpr std::string_view kDevices = "\\\\.\\";
 
-bool is_port_name(std::string_view word) {
-  const std::string name = stl::upper_case(word.starts_with(kDevices) ? word.substr(kDevices.size()) : word);
-  return name.starts_with("COM") && name.size() > 3 && name.find_first_not_of("0123456789", 3) == std::string::npos;
+/// The port that a word names, COM3; empty if it is none. `mode COM3:` writes a colon behind it.
+std::string port_named(std::string_view word) {
+  std::string name = stl::upper_case(word.starts_with(kDevices) ? word.substr(kDevices.size()) : word);
+  name.erase(name.find_last_not_of(": ") + 1);
+  const bool is_port =
+      name.starts_with("COM") && name.size() > 3 && name.find_first_not_of("0123456789", 3) == std::string::npos;
+  return is_port ? name : "";
 }
 
 /// The COM ports of this computer, for whoever has named another: `COM1 and COM3`.
@@ -29,7 +33,7 @@ std::string ports_there_are() {
   std::vector<std::string> ports;
   for (std::size_t begin = 0; begin < length && names[begin] != L'\0';) {
     const std::wstring_view name(names.data() + begin);
-    if (is_port_name(utf8(name))) ports.push_back(utf8(name));
+    if (!port_named(utf8(name)).empty()) ports.push_back(utf8(name));
     begin += name.size() + 1;
   }
   std::ranges::sort(ports, {}, [](const std::string& port) { return std::pair(port.size(), port); });
@@ -74,7 +78,7 @@ DWORD milliseconds(std::chrono::nanoseconds time) {
 
 }  // namespace
 
-bool names_serial_device(const std::string& word) { return is_port_name(word); }
+bool names_serial_device(const std::string& word) { return !port_named(word).empty(); }
 
 std::string_view example_of_serial_device() { return "COM3"; }
 
@@ -170,11 +174,12 @@ SerialDevice::SerialDevice(SerialDevice&& other) noexcept = default;
 SerialDevice::~SerialDevice() = default;
 
 std::optional<SerialDevice> SerialDevice::open(const std::string& path, const SerialFormat& format, std::string& why) {
-  if (!is_port_name(path)) {
+  const std::string device = port_named(path);
+  if (device.empty()) {
     why = "it is not a COM port; " + ports_there_are();
     return {};
   }
-  const std::string name = path.starts_with(kDevices) ? path : std::string(kDevices) + path;
+  const std::string name = std::string(kDevices) + device;
   Handle port(CreateFileW(wide(name).c_str(), GENERIC_READ | GENERIC_WRITE, 0, nullptr, OPEN_EXISTING, FILE_FLAG_OVERLAPPED,
                           nullptr));
   if (!port) {
