@@ -39,12 +39,17 @@ inline void to_bcd(Core& core, const Op& op) {
 
 inline void integer_to_real(Core& core, const Op& op) { core.put(op[1], static_cast<float>(core.get<std::int32_t>(op[0]))); }
 
+/// std::round of Windows makes 1 of 0.49999997: its sum is rounded itself, and in double it is exact.
+inline float rounded(float real) {
+  return static_cast<float>(std::trunc(static_cast<double>(real) + std::copysign(0.5, static_cast<double>(real))));
+}
+
 /// TRUNC: toward zero; ROUND: to the nearest. A value that does not fit sets SM1.1 and stores nothing.
 /// Not documented, modelled so: ROUND takes a half away from zero. [Vectors.ROUND]
 template <bool nearest>
 void to_integer(Core& core, const Op& op) {
   const auto real = core.get<float>(op[0]);
-  const float value = nearest ? std::round(real) : std::trunc(real);
+  const float value = nearest ? rounded(real) : std::trunc(real);
   if (!(value >= -2147483648.0f && value < 2147483648.0f)) return core.set_flags(kOverflow, kOverflow);
   core.put(op[1], static_cast<std::int32_t>(value));
   core.set_flags(kOverflow, 0);
