@@ -65,7 +65,7 @@ ROOMS = {
     "tools/faces/console": CORE + ["tools/host", "tools/views", "tools/plan", "tools/rig"] + COMMANDS,
     "tools/faces/dap": CORE + ["tools/host", "tools/views", "tools/json", "tools/plan", "tools/rig"] + COMMANDS,
     "tools/faces/page": CORE + ["tools/views", "tools/json", "tools/plan", "tools/rig"] + COMMANDS,
-    "tools/faces/page/engine": CORE + ["tools/views", "tools/json", "tools/plan", "tools/rig", "tools/faces/page"] + COMMANDS,
+    "tools/faces/page/engine": CORE + ["tools/views", "tools/yaml", "tools/json", "tools/plan", "tools/rig", "tools/faces/page"] + COMMANDS,
     "tools/faces/page/server": CORE + ["tools/host", "tools/views", "tools/json", "tools/plan", "tools/rig", "tools/faces/page"] + COMMANDS,
 }
 ROOMS["tools/command"] = list(ROOMS)

@@ -179,6 +179,21 @@ test('a link of the JUnit file leads to its scenario', async () => {
   await page.end();
 });
 
+test('a system is in its report, each of its PLCs at any moment', async () => {
+  s7200(0, 'run', 'stl_programs/systems/polled_slaves.yaml', '--for', '3s', '--report', file('system.html'));
+  const page = await open('system.html');
+  assert.match(await page.textContent('.report-pane'), /System.*polled_slaves\.yaml.*Simulated time3 s/s);
+  const names = await page.locator('#station option').allTextContents();
+  assert.ok(names.length > 1, names.join());
+  await page.selectOption('#station', names[1]);
+  await page.waitForFunction((name) => document.querySelector('#station').value === name, names[1]);
+  await page.click('#tab-line');
+  await page.waitForSelector('.exchanges tbody tr');
+  assert.ok(await page.locator('.exchanges tbody tr').count() > 2, 'what the master of the file has asked');
+  await picture(page, 'system_report');
+  await page.end();
+});
+
 test('a recording is a page with its conversation: table, latencies, filter', async () => {
   s7200(0, 'decode', 'tests/recordings/plant.log', '--report', file('plant.html'));
   const context = await chrome.newContext({ offline: true, viewport: kDesktop });

@@ -64,7 +64,8 @@ int run_debug(const CLI::App& verb, DebugOptions& options) {
     expectation_failed = !good && debugger.expectation_failed();
     good &= live.failure().empty();
     in_the_past = debugger.in_the_past();
-    all_written = options.report.write("debug", {reported_run(*rig, debugger.recording(), options.program.repairs)});
+    all_written = write_run(options.report, "debug", *rig, options.rig.system_path(), options.rig.spot(),
+                            debugger.recording(), options.program.repairs);
   }
   fmt::print("{}", dump_text(*rig));
   const std::vector<std::string> notes = fault_notes(*rig);

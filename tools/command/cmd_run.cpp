@@ -79,7 +79,8 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   options.profile.claim(files);
   const RunObservers observers(*rig, options);
   rig->power_up();
-  const auto recorder = options.report.wanted() ? std::make_unique<RunRecorder>(*rig) : nullptr;
+  const auto recorder =
+      options.report.wanted() ? std::make_unique<RunRecorder>(*rig, options.rig.system_path(), options.rig.spot()) : nullptr;
   if (is_of_one_program(rig->plan())) rig->simulation().cpu().pause_at_error(options.rig.strict());
   std::vector<Bridge*> served = bridges->of_plan;
   if (bridges->joined) served.push_back(bridges->joined);

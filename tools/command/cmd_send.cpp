@@ -30,7 +30,8 @@ int run_send(const CLI::App& verb, SendOptions& options) {
   const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
-  const auto recorder = options.report.wanted() ? std::make_unique<RunRecorder>(*rig) : nullptr;
+  const auto recorder =
+      options.report.wanted() ? std::make_unique<RunRecorder>(*rig, options.rig.system_path(), options.rig.spot()) : nullptr;
   const std::size_t line = options.rig.line();
   const serial::Requester& master = rig->requester(line)->requester();
   const auto failed_strictly = [&] { return !options.rig.without_s7200() && options.rig.failed_strictly(rig->cpu()); };

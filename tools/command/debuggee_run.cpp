@@ -27,8 +27,7 @@ DebuggeeRun::DebuggeeRun(RecordedRig& rig, const DebuggeeOptions& options, Syste
 History::Settings DebuggeeRun::history() {
   History::Settings settings = history_settings(rig_);
   for (std::size_t plc = 0; plc < rig_.plan().plcs.size(); ++plc) settings.records.push_back(&rig_.sinks(plc));
-  if (rig_.simulation().has_host_port()) settings.hosts.push_back(&rig_.simulation().host_port());
-  for (std::size_t bridge = 0; bridge < bridges_.size(); ++bridge) settings.hosts.push_back(&rig_.host_port(bridge));
+  settings.hosts = hosts_of(rig_);
   if (realtime_)
     settings.drive = [this](Time end, const std::function<void()>& meanwhile) {
       return live_->run_until(

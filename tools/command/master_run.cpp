@@ -151,7 +151,8 @@ int run_on_program(const CLI::App& verb, MasterOptions& options, const std::vect
   const auto rig = options.rig.assemble(options.json);
   if (!rig) return options.rig.exit_code_without_rig();
   rig->power_up();
-  const auto recorder = options.report.wanted() ? std::make_unique<RunRecorder>(*rig) : nullptr;
+  const auto recorder =
+      options.report.wanted() ? std::make_unique<RunRecorder>(*rig, options.rig.system_path(), options.rig.spot()) : nullptr;
   if (options.rig.without_s7200()) return run_on_line(options, *rig, actions);
   Unanswered unanswered(*rig, options.rig.spot());
   UnansweredRequests why_none;

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -54,14 +55,15 @@ Json sources_json(const stl::Source& source) {
 }
 
 /// What the page has of a long run before it has computed it: what the timeline of all of it shows, as the engine says it,
-/// and checkpoints. Without them if the engine does not open it.
-void add_shortcuts(Json& recorded, Time end, const Json& sources, const Json& run) {
+/// and checkpoints. Without them if the engine does not open it. `opened`: how it is opened, but for the recording.
+void add_shortcuts(Json& recorded, Time end, Json opened) {
   Json last;
   page::Engine engine([&last](const std::string& message) {
     std::string why;
     if (auto json = parse_json(message, why); json && json->contains("id")) last = std::move(*json);
   });
-  engine.take(line_of({{"id", 1}, {"open", {{"sources", sources}, {"options", run["options"]}, {"recording", recorded}}}}));
+  opened["recording"] = recorded;
+  engine.take(line_of({{"id", 1}, {"open", opened}}));
   if (!engine.history()) return;
   engine.take(line_of({{"id", 2}, {"command", fmt::format("spans start end {}", kElements)}}));
   recorded["picture"] = last.value("json", Json());
@@ -86,11 +88,14 @@ class RunsJson {
     if (!run.reason.empty()) json["reason"] = run.reason;
     for (const ReportedFinding& finding : run.findings) json["findings"].push_back(finding_json(finding));
     if (run.program && !run.recordings.empty()) add_program(json, run);
+    if (run.system && !run.recordings.empty()) add_system(json, run);
     runs_.push_back(std::move(json));
   }
 
   Json taken(std::string_view verb) && {
-    return {{"version", version()}, {"verb", verb}, {"programs", std::move(programs_)}, {"runs", std::move(runs_)}};
+    Json report{{"version", version()}, {"verb", verb}, {"programs", std::move(programs_)}, {"runs", std::move(runs_)}};
+    if (!systems_.empty()) report["systems"] = std::move(systems_);
+    return report;
   }
 
  private:
@@ -99,14 +104,25 @@ class RunsJson {
     if (is_new) programs_.push_back(sources_json(run.program->source));
     json["program"] = known->second;
     json["options"] = page::options_of(*run.program, run.around, run.repairs);
+    add_recordings(json, run, std::array{run.program->model},
+                   {{"sources", programs_[known->second]}, {"options", json["options"]}});
+  }
+
+  void add_system(Json& json, const ReportedRun& run) {
+    json["system"] = systems_.size();
+    systems_.push_back(page::system_json(*run.system));
+    add_recordings(json, run, run.system->models, {{"system", systems_.back()}});
+  }
+
+  static void add_recordings(Json& json, const ReportedRun& run, Models models, const Json& opened) {
     for (const Recording& recording : run.recordings) {
-      Json one = json_of(recording, *run.program->model);
-      if (recording.end.time > kWithPicture) add_shortcuts(one, recording.end.time, programs_[known->second], json);
+      Json one = json_of(recording, models);
+      if (recording.end.time > kWithPicture) add_shortcuts(one, recording.end.time, opened);
       json["recordings"].push_back(std::move(one));
     }
   }
 
-  Json programs_ = Json::array(), runs_ = Json::array();
+  Json programs_ = Json::array(), systems_ = Json::array(), runs_ = Json::array();
   std::map<std::vector<std::string>, std::size_t> numbers_{};  ///< of the programs, by their text
 };
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/faces/page/engine/carried_system.hpp"
 #include "tools/faces/page/engine/surroundings.hpp"
 #include "tools/session/past/history.hpp"
 
@@ -24,13 +25,14 @@ struct ReportedFinding {
   Time at = 0;                            ///< there
 };
 
-/// A run of one PLC, or a scenario that ran otherwise.
+/// A run of one PLC or of a system, or a scenario that ran otherwise.
 struct ReportedRun {
   std::string file{}, name{}, outcome{}, reason{};  ///< of a scenario; empty: it is none
-  std::shared_ptr<const Program> program{};         ///< null: it cannot be run again
+  std::shared_ptr<const Program> program{};         ///< of one PLC; null: it is none, or cannot be run again
   page::Surroundings around{};
   Repairs repairs{};
-  std::vector<Recording> recordings{};  ///< by power-up
+  std::shared_ptr<const page::CarriedSystem> system{};  ///< null: it is none
+  std::vector<Recording> recordings{};                  ///< by power-up
   std::vector<ReportedFinding> findings{};
 };
 

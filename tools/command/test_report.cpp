@@ -1,7 +1,10 @@
 #include "tools/command/test_report.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <variant>
 
+#include "tools/command/reported_system.hpp"
 #include "tools/command/test_output.hpp"
 #include "tools/scenario/junit.hpp"
 
@@ -31,14 +34,26 @@ ReportedFinding reported_finding(const Scenario& scenario, const Finding& findin
   return reported;
 }
 
+/// An event of a system is words in a recording.
+bool can_be_carried(const std::vector<Recording>& recordings) {
+  return std::ranges::none_of(recordings, [](const Recording& recording) {
+    return std::ranges::any_of(recording.actions,
+                               [](const Action& one) { return std::holds_alternative<SystemEvent>(one); });
+  });
+}
+
 ReportedRun reported(const Report& report) {
   const Scenario& scenario = *report.scenario;
   const ScenarioResult& result = report.result;
   ReportedRun run{
       .file = scenario.source->name, .name = scenario.name, .outcome = outcome_of(report), .reason = result.reason};
   for (const Finding& finding : result.findings) run.findings.push_back(reported_finding(scenario, finding));
-  if (!result.program || result.band) return run;
+  if (result.band) return run;
   std::string why;
+  if (scenario.plan && !result.recordings.empty() && can_be_carried(result.recordings))
+    run.system = reported_system(scenario.system, *scenario.plan, result.spots, why);
+  if (run.system) run.recordings = result.recordings;
+  if (!result.program) return run;
   run.program = result.program;
   run.around = {.port = scenario.port, .plc = scenario.plc, .field = scenario.field, .faults = {}, .kept = {}};
   run.repairs = parse_repairs(scenario.repair.empty() ? "none" : scenario.repair, why);

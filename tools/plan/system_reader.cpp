@@ -47,6 +47,16 @@ void read_file(const YamlNode& root, SystemReading& reading) {
   if (values.complaints.count() == 0) warn_of_system(reading, events);
 }
 
+/// Null: it could not be read as YAML.
+void read_tree(const YamlNode* root, SystemFile& file, const std::string& path, const FileSource& files) {
+  stl::Diagnostics& diagnostics = file.file.diagnostics;
+  YamlValues values(diagnostics);
+  SystemReading reading{file, path, files, values};
+  if (root) read_file(*root, reading);
+  std::ranges::move(reading.notes, std::back_inserter(diagnostics));
+  stl::sort(diagnostics);
+}
+
 }  // namespace
 
 bool is_system_file(std::string_view path) { return is_yaml_file(path); }
@@ -54,13 +64,15 @@ bool is_system_file(std::string_view path) { return is_yaml_file(path); }
 SystemFile read_system(const std::string& text, const std::string& path, const FileSource& files) {
   SystemFile file;
   file.file.source = source_of(text, path);
-  stl::Diagnostics& diagnostics = file.file.diagnostics;
-  const auto root = read_yaml(text, *file.file.source, diagnostics, {"a system file", "'plcs:' and 'lines:'"});
-  YamlValues values(diagnostics);
-  SystemReading reading{file, path, files, values};
-  if (root) read_file(*root, reading);
-  std::ranges::move(reading.notes, std::back_inserter(diagnostics));
-  stl::sort(diagnostics);
+  const auto root = read_yaml(text, *file.file.source, file.file.diagnostics, kSystemDocument);
+  read_tree(root ? &*root : nullptr, file, path, files);
+  return file;
+}
+
+SystemFile read_system(const YamlNode& root, const std::string& path, const FileSource& files) {
+  SystemFile file;
+  file.file.source = source_of("", path);
+  read_tree(&root, file, path, files);
   return file;
 }
 

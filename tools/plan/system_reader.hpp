@@ -35,4 +35,10 @@ struct SystemFile {
 /// Reads the text of the file `path`; the files that it names are read from `files`.
 SystemFile read_system(const std::string& text, const std::string& path, const FileSource& files);
 
+/// The same of the tree of such a file.
+SystemFile read_system(const YamlNode& root, const std::string& path, const FileSource& files);
+
+/// What a system file is called in complaints about its YAML.
+inline constexpr YamlDocument kSystemDocument{"a system file", "'plcs:' and 'lines:'"};
+
 }  // namespace s7200::tools

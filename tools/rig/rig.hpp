@@ -44,6 +44,7 @@ class Rig {
   const SystemPlan& plan() const { return plan_; }
 
   /// The simulation as seen from one of the spots.
+  bool has_simulation() const { return !simulations_.empty(); }
   serial::Simulation& simulation(std::size_t spot = 0) { return *simulations_[spot]; }
   const serial::Simulation& simulation() const { return *simulations_.front(); }
   const Cpu& cpu() const { return simulation().cpu(); }

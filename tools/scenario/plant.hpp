@@ -72,6 +72,9 @@ class Plant {
   /// on two lines where no other one is.
   std::vector<Recording> recordings() const;
 
+  /// From which it is looked at, and where masters ask.
+  const std::vector<Spot>& spots() const { return spots_; }
+
   /// Where that stands now; nothing without recordings, and where more has been done than they keep.
   std::optional<PlaceInRun> place() const;
 

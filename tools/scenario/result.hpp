@@ -75,6 +75,7 @@ struct ScenarioResult {
   std::size_t checks = 0;                    ///< steps that expected something and were judged
   std::size_t skipped_steps = 0;             ///< that look inside, or cannot go this way, on a slave that is not a program
   Time time = 0;                             ///< on the slave's clock
+  std::vector<Spot> spots{};                 ///< of a system: where its masters have joined
   std::vector<Recording> recordings{};       ///< of one that failed on a program in simulation: to run it again, by power-up
   std::shared_ptr<const Program> program{};  ///< of those, that ran it; null of a system
   double host_seconds = 0;

@@ -46,7 +46,10 @@ ScenarioResult Run::result() {
     look_at_mode();
   }
   result_.time = plant_ ? plant_->time() : slave().now() - begin_;
-  if (plant_ && (bench_.recordings_wanted || !result_.findings.empty())) result_.recordings = plant_->recordings();
+  if (plant_ && (bench_.recordings_wanted || !result_.findings.empty())) {
+    result_.recordings = plant_->recordings();
+    result_.spots = plant_->spots();
+  }
   if (plant_) plant_->report(result_.coverage, result_.profile);
   if (!scenario_.plan) result_.program = bench_.program;
   settle_outcome();

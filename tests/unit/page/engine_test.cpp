@@ -4,16 +4,21 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "interpreter/analysis/check.hpp"
+#include "interpreter/base/bytes.hpp"
 #include "tests/support/slave_bench.hpp"
+#include "tools/faces/page/engine/carried_system.hpp"
 #include "tools/faces/page/engine/surroundings.hpp"
 #include "tools/json/json_text.hpp"
+#include "tools/rig/rig.hpp"
 #include "tools/session/commands/recording_json.hpp"
 #include "tools/session/past/journal.hpp"
+#include "tools/session/past/seen_rig.hpp"
 #include "tools/views/memory.hpp"
 
 namespace s7200::tools::page {
@@ -41,6 +46,8 @@ struct Page {
     said.push_back(parse_json(message, why).value_or(Json()));
   }};
 };
+
+const std::array<const CpuModel*, 1> kOne{&cpu214()};
 
 constexpr const char* kCounts = "LD SM0.0\nINCW VW10\nLD I0.0\n= Q0.0\nMEND\n";
 
@@ -94,7 +101,7 @@ struct Asked {
 
 TEST(Engine, ComesToTheSameStateAsTheRunThatWasRecorded) {
   Asked asked;
-  const Json recording = json_of(asked.journal.recording(), cpu214());
+  const Json recording = json_of(asked.journal.recording(), kOne);
   EXPECT_EQ(recording["actions"].size(), 2U) << "the same request is there once";
   EXPECT_EQ(recording["count"], 3);
   Page page;
@@ -118,7 +125,7 @@ TEST(Engine, ComesToTheSameStateAsTheRunThatWasRecorded) {
 TEST(Engine, RunsOnFromTheEndOfARecording) {
   Asked asked;
   Page page;
-  page.open(test::slave_text(), {{"cpu", "214"}}, json_of(asked.journal.recording(), cpu214()));
+  page.open(test::slave_text(), {{"cpu", "214"}}, json_of(asked.journal.recording(), kOne));
   page("at end; continue 20ms");
   EXPECT_EQ(page("past")["json"]["in_the_past"], false);
 }
@@ -127,7 +134,7 @@ TEST(RecordingJson, IsReadAsItWasWritten) {
   Asked asked;
   const Recording recording = asked.journal.recording();
   std::string why;
-  const auto read = recording_from(json_of(recording, cpu214()), cpu214(), why);
+  const auto read = recording_from(json_of(recording, kOne), kOne, why);
   ASSERT_TRUE(read) << why;
   EXPECT_EQ(read->moments, recording.moments);
   EXPECT_EQ(read->stations, recording.stations);
@@ -171,6 +178,79 @@ TEST(Surroundings, HaveTheTimesOfTheProgramOnlyIfTheyAreNotTheOnesOfItsCpu) {
   const auto read = times_of_options(options_of(*slower, {}), cpu214(), why);
   ASSERT_TRUE(read) << why;
   EXPECT_EQ(to_csv(*read), to_csv(slower->times));
+}
+
+constexpr const char* kTwoPlcs =
+    "plcs:\n  first: {program: counts.stl, cpu: 224, set: {VW10: 100}}\n  second: {program: counts.stl, cpu: 214, starts: "
+    "50ms}\n"
+    "lines:\n  bus: {stations: [first, second]}\nevents:\n  - {at: 300ms, set: {VW10: 0}, on: second}\n";
+
+CarriedSystem two_plcs() {
+  stl::Diagnostics diagnostics;
+  CarriedSystem system{.path = "plant/two.yaml"};
+  system.root = read_yaml(kTwoPlcs, *source_of(kTwoPlcs, system.path), diagnostics, {}).value();
+  system.files["plant/counts.stl"] = kCounts;
+  return system;
+}
+
+TEST(Engine, OpensASystemWithAllThatItsFileNames) {
+  Page page;
+  EXPECT_EQ(page.take({{"id", 1}, {"open", {{"system", system_json(two_plcs())}}}})["json"]["opened"], true);
+  page("continue 400ms");
+  std::string why;
+  const auto opened = system_from(system_json(two_plcs()), why);
+  ASSERT_TRUE(opened) << why;
+  Rig rig(opened->plan, {});
+  rig.power_up();
+  rig.system().run_until(400 * kMillisecond);
+  for (const std::size_t plc : {std::size_t{0}, std::size_t{1}}) {
+    page(plc == 0 ? "station first" : "station second");
+    const auto counted = static_cast<std::int16_t>(load16(&rig.plc(plc).cpu().state().image[image::kV + 10]));
+    EXPECT_EQ(page("values VW10")["json"]["values"][0]["number"], counted);
+  }
+}
+
+TEST(Engine, ASystemIsRunAgainFromItsRecording) {
+  const auto opened = [] {
+    std::string why;
+    return system_from(system_json(two_plcs()), why).value();
+  }();
+  const std::vector models{opened.plan.plcs[0].program->model, opened.plan.plcs[1].program->model};
+  Rig rig(opened.plan, {});
+  rig.power_up();
+  const SeenRig seen(rig, {});
+  Journal journal(*seen.stations().front());
+  rig.system().run_until(100 * kMillisecond);
+  std::string why;
+  const SetMemory set{{{*parse_range("VW10", *models[1], why), 7000}}};
+  journal.note(set, 1);
+  perform(set, *seen.stations()[1]);
+  rig.system().run_until(200 * kMillisecond);
+  Page page;
+  page.take(
+      {{"id", 1}, {"open", {{"system", system_json(two_plcs())}, {"recording", json_of(journal.recording(), models)}}}});
+  page("station second");
+  page("at 200ms");
+  const auto counted = static_cast<std::int16_t>(load16(&rig.plc(1).cpu().state().image[image::kV + 10]));
+  EXPECT_GT(counted, 7000);
+  EXPECT_EQ(page("values VW10")["json"]["values"][0]["number"], counted);
+}
+
+TEST(Engine, RefusesASystemThatIsDamaged) {
+  Page page;
+  Json system = system_json(two_plcs());
+  system["files"] = Json::array();
+  EXPECT_EQ(page.take({{"id", 1}, {"open", {{"system", system}}}})["error"],
+            "system: plant/two.yaml: cannot read plant/counts.stl: the report does not carry it");
+  system = system_json(two_plcs());
+  system["spots"] = {{0, 5, 0}};
+  EXPECT_EQ(page.take({{"id", 1}, {"open", {{"system", system}}}})["error"], "system: a place that the system has not");
+  Json deep = "x";
+  for (int i = 0; i < 100; ++i) deep = Json::array({deep});
+  system["tree"] = deep;
+  EXPECT_EQ(page.take({{"id", 1}, {"open", {{"system", system}}}})["error"],
+            "system: a system with too many maps in each other");
+  EXPECT_TRUE(page("past").contains("error")) << "nothing is open";
 }
 
 }  // namespace

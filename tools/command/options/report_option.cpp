@@ -61,9 +61,8 @@ bool ReportOption::prepare() {
 }
 
 bool ReportOption::prepare_for(const SystemPlan& plan) {
-  if (!wanted() || (is_of_one_program(plan) && plan.lines.front().stations.front().kind == StationPlan::Kind::Plc))
-    return prepare();
-  print_error("--report carries the run of one PROGRAM; 's7200 view FILE.yaml' shows a system while it runs");
+  if (!wanted() || !plan.plcs.empty()) return prepare();
+  print_error("--report shows programs at work, and there is no S7-200 in this system");
   return false;
 }
 

@@ -29,7 +29,7 @@ class ReportOption {
   /// option that was not given there is nothing to do, here and below.
   bool prepare();
 
-  /// The same for a verb that runs a plan: only that of a PROGRAM can be carried.
+  /// The same for a verb that runs a plan: some S7-200 must be in it.
   bool prepare_for(const SystemPlan& plan);
 
   /// False after a message.

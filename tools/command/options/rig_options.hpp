@@ -60,6 +60,8 @@ class RigOptions {
 
   /// What was loaded.
   const SystemPlan& plan() const { return plan_; }
+  /// Of a system its file.
+  const std::string& system_path() const { return path_; }
 
   /// The simulations of a rig of what load_all() has loaded, by PLC; and the one that is looked at first.
   std::vector<serial::Simulation*> stations(Rig& rig) const;

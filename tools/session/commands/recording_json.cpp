@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/base/numbers.hpp"
+#include "tools/json/hex_bytes.hpp"
 #include "tools/json/json_taker.hpp"
 #include "tools/rig/memory_json.hpp"
 #include "tools/session/commands/action_json.hpp"
@@ -93,7 +93,31 @@ Columns take_columns(JsonTaker& taker, const Json& json, std::size_t count) {
   return columns;
 }
 
-void take_done(JsonTaker& taker, const Json& json, const std::vector<Action>& actions, Recording& recording) {
+/// The actions as they are of each station: an address is one of its CPU.
+class ActionTaker {
+ public:
+  ActionTaker(JsonTaker& taker, const Json& actions, Models models) : taker_(taker), actions_(actions), models_(models) {}
+
+  std::size_t count() const { return actions_.size(); }
+
+  /// `station`: of what a host port was told its number.
+  const Action& action(std::size_t number, std::size_t station) {
+    const bool of_host = actions_[number].contains("host");
+    if (!of_host && station >= models_.size()) taker_.fail("something was done to a station that it has not");
+    const CpuModel* const model = models_[of_host || station >= models_.size() ? 0 : station];
+    const auto known = taken_.find({number, model});
+    if (known != taken_.end()) return known->second;
+    return taken_.emplace(std::pair(number, model), take_action(taker_, actions_[number], *model)).first->second;
+  }
+
+ private:
+  JsonTaker& taker_;
+  const Json& actions_;
+  Models models_;
+  std::map<std::pair<std::size_t, const CpuModel*>, Action> taken_{};
+};
+
+void take_done(JsonTaker& taker, const Json& json, ActionTaker& actions, Recording& recording) {
   const Json& done = taker.map_at(json, "done");
   const auto count = taker.number_at<std::size_t>(json, "count", {0, std::size_t{1} << 24});
   const Columns columns = take_columns(taker, done, taker.fine() ? count : 0);
@@ -101,29 +125,33 @@ void take_done(JsonTaker& taker, const Json& json, const std::vector<Action>& ac
   Time time = 0;
   for (std::size_t row = 0; row < columns.action.size() && taker.fine(); ++row) {
     const auto number = static_cast<std::size_t>(columns.action[row]);
-    if (number >= actions.size() || columns.after[row] > kNever - time) return taker.fail("something unknown was done");
+    if (number >= actions.count() || columns.after[row] > kNever - time) return taker.fail("something unknown was done");
     instructions += static_cast<std::uint64_t>(columns.instructions[row]);
     time += columns.after[row];
-    recording.actions.push_back(actions[number]);
-    recording.stations.push_back(static_cast<std::size_t>(columns.host[row]));
+    const auto station = static_cast<std::size_t>(columns.host[row]);
+    recording.actions.push_back(actions.action(number, station));
+    recording.stations.push_back(station);
     recording.moments.push_back(moment_of(columns.flags[row], instructions, row, time));
   }
 }
 
 std::string take_bytes(JsonTaker& taker, const Json& json) {
   const std::string hex = taker.text(json);
-  std::string bytes;
-  for (std::size_t i = 0; i + 1 < hex.size() && taker.fine(); i += 2) {
-    const auto high = hex_digit(hex[i]), low = hex_digit(hex[i + 1]);
-    if (!high || !low) taker.fail("a checkpoint holds something else than hex");
-    bytes += static_cast<char>(high.value_or(0) << 4 | low.value_or(0));
-  }
-  return bytes;
+  auto bytes = bytes_of_hex(hex);
+  if (!bytes) taker.fail("a checkpoint holds something else than hex");
+  return bytes.value_or("");
+}
+
+void take_memories(JsonTaker& taker, const Json& stations, Models models, Recording& recording) {
+  if (stations.size() != models.size()) return taker.fail("only some PLCs have a memory");
+  for (std::size_t station = 0; station < models.size() && taker.fine(); ++station)
+    if (const auto memory = take_kept_memory(taker, stations[station], *models[station]))
+      recording.memory.push_back(*memory);
 }
 
 }  // namespace
 
-Json json_of(const Recording& recording, const CpuModel& model) {
+Json json_of(const Recording& recording, Models models) {
   Json json = Json::object(), actions = Json::array();
   std::vector<std::int64_t> numbers;
   std::map<std::string, std::int64_t, std::less<>> known;
@@ -138,7 +166,11 @@ Json json_of(const Recording& recording, const CpuModel& model) {
   json["done"] = columns_json(recording, numbers);
   json["end"] = moment_json(recording.end);
   json["now"] = moment_json(recording.now);
-  if (!recording.memory.empty()) add_kept_memory(json, recording.memory.front(), model);
+  for (std::size_t station = 0; station < recording.memory.size(); ++station) {
+    Json memory = Json::object();
+    add_kept_memory(memory, recording.memory[station], *models[station]);
+    json["stations"].push_back(std::move(memory));
+  }
   if (!recording.checkpoints.empty()) json["checkpoints"] = checkpoints_json(recording.checkpoints);
   return json;
 }
@@ -150,15 +182,14 @@ Json checkpoints_json(const std::vector<std::string>& checkpoints) {
   return json;
 }
 
-std::optional<Recording> recording_from(const Json& json, const CpuModel& model, std::string& why) {
+std::optional<Recording> recording_from(const Json& json, Models models, std::string& why) {
   JsonTaker taker;
   Recording recording;
-  std::vector<Action> actions;
-  for (const Json& one : taker.list_at(json, "actions")) actions.push_back(take_action(taker, one, model));
+  ActionTaker actions(taker, taker.list_at(json, "actions"), models);
   take_done(taker, json, actions, recording);
   recording.end = take_moment(taker, taker.member(json, "end"));
   recording.now = take_moment(taker, taker.member(json, "now"));
-  if (const auto memory = take_kept_memory(taker, json, model)) recording.memory.push_back(*memory);
+  if (JsonTaker::has(json, "stations")) take_memories(taker, taker.list_at(json, "stations"), models, recording);
   if (JsonTaker::has(json, "checkpoints"))
     for (const Json& one : taker.list_at(json, "checkpoints")) recording.checkpoints.push_back(take_bytes(taker, one));
   for (const Moment& moment : {recording.end, recording.now})

@@ -1,4 +1,4 @@
-// A recording of one PLC as JSON of little size: what a report carries. It knows no files and throws nothing.
+// A recording as JSON of little size: what a report carries. It knows no files and throws nothing.
 //
 // `actions` has each different action once; `done` has a column for each part of what was done when: the number of the
 // action among them, the host port, the nanoseconds and the instructions since what was done before. A column that is left
@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,17 @@
 
 namespace s7200::tools {
 
+/// The CPUs of what was recorded, by station.
+using Models = std::span<const CpuModel* const>;
+
 /// The recording is complete.
-nlohmann::ordered_json json_of(const Recording& recording, const CpuModel& model);
+nlohmann::ordered_json json_of(const Recording& recording, Models models);
 
 /// Its part `checkpoints`: in hex, which zlib packs better than base64, because the same bytes have the same characters in
 /// all of them.
 nlohmann::ordered_json checkpoints_json(const std::vector<std::string>& checkpoints);
 
-/// Returns nothing and sets `why` if the JSON is not a recording of that CPU.
-std::optional<Recording> recording_from(const nlohmann::ordered_json& json, const CpuModel& model, std::string& why);
+/// Returns nothing and sets `why` if the JSON is not a recording of those CPUs.
+std::optional<Recording> recording_from(const nlohmann::ordered_json& json, Models models, std::string& why);
 
 }  // namespace s7200::tools

@@ -12,6 +12,7 @@
 #include "tools/json/json.hpp"
 #include "tools/rig/memory_json.hpp"
 #include "tools/session/commands/action_json.hpp"
+#include "tools/session/commands/recording_json.hpp"
 #include "tools/session/past/digest.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -38,8 +39,6 @@ Moment moment_from(const Json& json) {
           .time = number_of<Time>(json.at(4), kAnyMoment),
           .stopped = truth_of(json.at(3))};
 }
-
-using Models = std::span<const CpuModel* const>;
 
 RetentiveMemory retentive_from(const Json& json, const CpuModel& model) {
   JsonTaker taker;

@@ -75,6 +75,13 @@ std::vector<LineStation> line_stations(Rig& rig) {
   return all;
 }
 
+std::vector<serial::HostPort*> hosts_of(Rig& rig) {
+  std::vector<serial::HostPort*> hosts;
+  if (rig.has_simulation() && rig.simulation().has_host_port()) hosts.push_back(&rig.simulation().host_port());
+  for (std::size_t bridge = 0; bridge < rig.plan().bridges.size(); ++bridge) hosts.push_back(&rig.host_port(bridge));
+  return hosts;
+}
+
 History::Settings history_settings(Rig& rig) {
   History::Settings settings;
   for (std::size_t peer = 0; peer < rig.plan().peers.size(); ++peer)

@@ -30,6 +30,9 @@ class SeenRig {
 /// The stations of all lines, in the order of the system file.
 std::vector<LineStation> line_stations(Rig& rig);
 
+/// Through which something may come in: the port beside a master that has joined at the first spot, then the bridges of the plan.
+std::vector<serial::HostPort*> hosts_of(Rig& rig);
+
 /// What a history knows of a rig by name: its PLCs, masters that poll, and what its system file has planned. It drives and
 /// records nothing.
 History::Settings history_settings(Rig& rig);

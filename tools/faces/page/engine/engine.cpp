@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "interpreter/program/cpu_choice.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/slips.hpp"
+#include "tools/faces/page/engine/carried_system.hpp"
 #include "tools/faces/page/engine/surroundings.hpp"
 #include "tools/json/json_text.hpp"
 #include "tools/session/commands/recording_json.hpp"
@@ -75,6 +77,15 @@ void power_up(serial::Simulation& simulation, const Surroundings& around) {
   for (const serial::Fault& fault : around.faults) simulation.inject(fault);
 }
 
+/// The recording of a message; nothing if it has none, or, with `why`, if it is none of those CPUs.
+std::optional<Recording> recording_of(const Json& wanted, Models models, std::string& why) {
+  const Json& recorded = member_or_null(wanted, "recording");
+  if (recorded.is_null()) return {};
+  auto recording = recording_from(recorded, models, why);
+  if (!recording) why = "recording: " + why;
+  return recording;
+}
+
 }  // namespace
 
 void Engine::take(std::string_view text) {
@@ -91,6 +102,11 @@ void Engine::take(std::string_view text) {
 
 void Engine::open(const Json& message) {
   const Json &wanted = member_or_null(message, "open"), &id = member_or_null(message, "id");
+  if (member_or_null(wanted, "system").is_null()) return open_program(wanted, id);
+  open_system(wanted, id);
+}
+
+void Engine::open_program(const Json& wanted, const Json& id) {
   std::string why;
   auto text = read_sources(member_or_null(wanted, "sources"), why);
   const Json& options = member_or_null(wanted, "options");
@@ -109,19 +125,60 @@ void Engine::open(const Json& message) {
   if (talk_ && report["opened"] == true) talk_->greet(kPage);
 }
 
+void Engine::open_system(const Json& wanted, const Json& id) {
+  std::string why;
+  begin_system(wanted, why);
+  if (!why.empty()) return send_(line_of({{"id", id}, {"error", why}}));
+  send_(line_of({{"id", id}, {"text", ""}, {"json", {{"opened", true}}}, {"moved", true}}));
+  talk_->greet(kPage);
+}
+
 void Engine::begin(std::shared_ptr<const Program> program, const Json& wanted, std::string& why) {
   const auto around = surroundings_of_options(member_or_null(wanted, "options"), *program, why);
   if (!around) return;
-  const Json& recorded = member_or_null(wanted, "recording");
-  auto recording = recorded.is_null() ? std::nullopt : recording_from(recorded, *program->model, why);
-  if (!why.empty()) return void(why = "recording: " + why);
-  talk_.reset();
-  history_.reset();
+  auto recording = recording_of(wanted, std::array{program->model}, why);
+  if (!why.empty()) return;
+  forget();
   const std::string name = program->source.name;
   if (around->plc.system_block != SystemBlock{}) program = with_system_block(*program, around->plc.system_block);
   simulation_ = std::make_unique<serial::Simulation>(std::move(program), around->field, around->port);
   power_up(*simulation_, *around);
-  history_ = std::make_unique<History>(*simulation_, History::Settings{.bound = kBytesOfCheckpoints});
+  look_at(std::make_unique<History>(*simulation_, History::Settings{.bound = kBytesOfCheckpoints}), std::move(recording),
+          name, why);
+}
+
+void Engine::begin_system(const Json& wanted, std::string& why) {
+  const Json& carried = member_or_null(wanted, "system");
+  auto system = system_from(carried, why);
+  if (!system) return void(why = "system: " + why);
+  std::vector<const CpuModel*> models;
+  for (const PlcPlan& plc : system->plan.plcs) models.push_back(plc.program->model);
+  if (models.empty()) return void(why = "system: it has no S7-200");
+  auto recording = recording_of(wanted, models, why);
+  if (!why.empty()) return;
+  forget();
+  rig_ = std::make_unique<Rig>(std::move(system->plan), RigSpots{.spots = system->spots, .lines = {}});
+  rig_->power_up();
+  seen_ = std::make_unique<SeenRig>(*rig_, system->spots);
+  History::Settings settings = history_settings(*rig_);
+  settings.hosts = hosts_of(*rig_);
+  settings.bound = kBytesOfCheckpoints;
+  look_at(std::make_unique<History>(seen_->stations(), std::move(settings)), std::move(recording), *text_at(carried, "name"),
+          why);
+}
+
+/// What was open, in the order in which it hangs together.
+void Engine::forget() {
+  talk_.reset();
+  history_.reset();
+  simulation_.reset();
+  seen_.reset();
+  rig_.reset();
+}
+
+void Engine::look_at(std::unique_ptr<History> history, std::optional<Recording> recording, const std::string& name,
+                     std::string& why) {
+  history_ = std::move(history);
   if (recording && !history_->has_hosts_of(*recording)) return void(why = "recording: it has a bridge that is not here");
   if (recording && !history_->adopt(std::move(*recording)))
     return void(why = "recording: a checkpoint in it is damaged, or is one of another program");

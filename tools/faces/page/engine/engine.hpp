@@ -13,6 +13,8 @@
 #include "interpreter/program/program.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/faces/page/conversation.hpp"
+#include "tools/rig/rig.hpp"
+#include "tools/session/past/seen_rig.hpp"
 
 namespace s7200::tools::page {
 
@@ -24,15 +26,23 @@ class Engine {
   /// Carries out a message; its reply and all notifications have been sent when it returns.
   void take(std::string_view message);
 
-  /// The past of the program that is open; null if none is.
+  /// The past of the program or system that is open; null if none is.
   History* history() { return history_.get(); }
 
  private:
   void open(const Json& message);
+  void open_program(const Json& wanted, const Json& id);
+  void open_system(const Json& wanted, const Json& id);
   void begin(std::shared_ptr<const Program> program, const Json& wanted, std::string& why);
+  void begin_system(const Json& wanted, std::string& why);
+  void forget();
+  void look_at(std::unique_ptr<History> history, std::optional<Recording> recording, const std::string& name,
+               std::string& why);
 
   std::function<void(std::string)> send_;
-  std::unique_ptr<serial::Simulation> simulation_{};
+  std::unique_ptr<serial::Simulation> simulation_{};  ///< of a program
+  std::unique_ptr<Rig> rig_{};                        ///< of a system
+  std::unique_ptr<SeenRig> seen_{};                   ///< the same
   std::unique_ptr<History> history_{};
   std::unique_ptr<Conversation> talk_{};  ///< null before a program was opened
 };

@@ -1,5 +1,5 @@
 // What runs the session: s7200 at the other end of a WebSocket, or the same in a worker of the browser. Both take the same messages.
-import type { Notification, Opened, Recorded, Reply, Source } from './protocol';
+import type { Notification, Openable, Opened, Recorded, Reply } from './protocol';
 
 export type Connection = 'connecting' | 'connected' | 'lost' | 'ended';
 
@@ -15,8 +15,8 @@ export interface Engine {
   stop(): void;
   /** Whether a run hears of a stop before it is over. */
   readonly can_be_stopped: boolean;
-  /** Another program; only of the engine in the browser. */
-  open?(sources: Source[], options: Record<string, unknown>, recording?: Recorded): Promise<Reply<Opened>>;
+  /** Another program or system; only of the engine in the browser. */
+  open?(what: Openable, recording?: Recorded): Promise<Reply<Opened>>;
 }
 
 /** Replies find the question they belong to by its number. */
@@ -129,8 +129,8 @@ export class WorkerEngine implements Engine {
     this.conversation.tell({ stop: true });
   }
 
-  open(sources: Source[], options: Record<string, unknown>, recording?: Recorded): Promise<Reply<Opened>> {
+  open(what: Openable, recording?: Recorded): Promise<Reply<Opened>> {
     const { picture: _of_the_page, ...recorded } = recording ?? {};
-    return this.conversation.ask<Opened>({ open: recording ? { sources, options, recording: recorded } : { sources, options } });
+    return this.conversation.ask<Opened>({ open: recording ? { ...what, recording: recorded } : what });
   }
 }

@@ -15,7 +15,7 @@ export async function open_program(): Promise<void> {
     notice('There is no program yet: drop one on the page, or type it');
     return;
   }
-  const reply = await engine.open(state.sources, state.cpu === '' ? {} : { cpu: state.cpu });
+  const reply = await engine.open({ sources: state.sources, options: state.cpu === '' ? {} : { cpu: state.cpu } });
   if (reply.error !== undefined || !reply.json) {
     notice(reply.error ?? 'the program could not be opened', 'error');
     return;

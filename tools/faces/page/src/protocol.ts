@@ -46,11 +46,22 @@ export type Notification =
   | { event: 'printed'; text: string }
   | { event: 'ended'; why: string };
 
-/** A report: each program once, and what ran. */
+/** A system file as the engine takes it: its tree, and the files that it names. */
+export interface CarriedSystem {
+  name: string;
+  tree: unknown;
+  files: unknown[];
+}
+
+/** What an engine can open. */
+export type Openable = { sources: Source[]; options: Record<string, unknown> } | { system: CarriedSystem };
+
+/** A report: each program once, systems, and what ran. */
 export interface Report {
   version: string;
   verb: string;
   programs: Source[][];
+  systems?: CarriedSystem[];
   runs: ReportedRun[];
   /** Of `decode`, which runs nothing. */
   conversation?: DecodedConversation;
@@ -89,6 +100,7 @@ export interface ReportedRun {
   /** What can be run again. */
   program?: number;
   options?: Record<string, unknown>;
+  system?: number;
   recordings?: Recorded[];
 }
 

@@ -1,6 +1,6 @@
 // What a report carries: runs of programs, with what came from outside, each of which is computed again here.
 import { changed, notice, show_pane, state, the_engine } from './state';
-import type { Report, ReportedRun } from './protocol';
+import type { Openable, Report, ReportedRun } from './protocol';
 
 /** The report in the page; null if it has none, or a damaged one. */
 async function report_in_page(): Promise<Report | null> {
@@ -17,7 +17,12 @@ async function report_in_page(): Promise<Report | null> {
 }
 
 export function can_be_opened(run: ReportedRun): boolean {
-  return run.program !== undefined && (run.recordings?.length ?? 0) > 0;
+  return (run.program !== undefined || run.system !== undefined) && (run.recordings?.length ?? 0) > 0;
+}
+
+function what_ran(report: Report, run: ReportedRun): Openable {
+  if (run.system !== undefined) return { system: report.systems![run.system]! };
+  return { sources: report.programs[run.program!]!, options: run.options ?? {} };
 }
 
 /** The run that the address names, else the first that failed, else the first one. */
@@ -42,10 +47,11 @@ export async function open_run(number: number, recording?: number, at_ns?: numbe
   const recorded = run.recordings![which]!;
   const end_ns = recorded.end[2];
   state.recording = which;
-  state.sources = report.programs[run.program!]!;
+  const what = what_ran(report, run);
+  state.sources = 'sources' in what ? what.sources : [];
   state.picture = recorded.picture ?? null;
   state.first_moment = at_ns ?? (finding?.recording === which ? finding.at_ns! : end_ns <= kShort ? end_ns : 0);
-  const reply = await the_engine().open!(state.sources, run.options ?? {}, recorded);
+  const reply = await the_engine().open!(what, recorded);
   if (reply.error !== undefined || !reply.json?.opened) notice(reply.error ?? 'the run cannot be opened', 'error');
 }
 

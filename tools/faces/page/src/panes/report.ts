@@ -46,7 +46,7 @@ function details(number: number, run: ReportedRun): Part {
     run.reason ? h('p', {}, run.reason) : null,
     power_ups(number, run),
     run.findings.length > 0 ? h('ol', { class: 'findings' }, run.findings.map((one, i) => finding(number, one, i))) : null,
-    can_be_opened(run) ? what_came(run.recordings?.[state.recording ?? 0]) : h('p', { class: 'hint' }, 'Its run is not in the report: it is of a system, of several tables of times, or of a slave outside the simulation.'));
+    can_be_opened(run) ? what_came(run.recordings?.[state.recording ?? 0]) : h('p', { class: 'hint' }, 'Its run is not in the report: it is of several tables of times, of a slave outside the simulation, or of a scenario that switches power or cuts a cable of a system.'));
 }
 
 function row(report: Report, number: number): Part {
@@ -95,7 +95,7 @@ function summary(report: Report, run: ReportedRun): Part {
   const end_ns = run.recordings?.[0]?.end[2] ?? 0, actions = run.recordings?.[0]?.count ?? 0;
   const rows = [
     ['Command', `s7200 ${report.verb}`],
-    ['Program', state.sources[0]?.name ?? ''],
+    run.system === undefined ? ['Program', state.sources[0]?.name ?? ''] : ['System', report.systems?.[run.system]?.name ?? ''],
     ['CPU', state.hello?.cpu ?? ''],
     ['Simulated time', duration_text(end_ns)],
     ['From outside', actions === 0 ? 'nothing' : `${actions} ${actions === 1 ? 'action' : 'actions'}`],
