@@ -183,7 +183,7 @@ TEST(Surroundings, HaveTheTimesOfTheProgramOnlyIfTheyAreNotTheOnesOfItsCpu) {
 constexpr const char* kTwoPlcs =
     "plcs:\n  first: {program: counts.stl, cpu: 224, set: {VW10: 100}}\n  second: {program: counts.stl, cpu: 214, starts: "
     "50ms}\n"
-    "lines:\n  bus: {stations: [first, second]}\nevents:\n  - {at: 300ms, set: {VW10: 0}, on: second}\n";
+    "lines:\n  bus: {stations: [first, second]}\nevents:\n  - {at: 300ms, set: {VW10: 0}, plc: second}\n";
 
 CarriedSystem two_plcs() {
   stl::Diagnostics diagnostics;
@@ -246,7 +246,7 @@ TEST(Engine, RefusesASystemThatIsDamaged) {
   system["spots"] = {{0, 5, 0}};
   EXPECT_EQ(page.take({{"id", 1}, {"open", {{"system", system}}}})["error"], "system: a place that the system has not");
   Json deep = "x";
-  for (int i = 0; i < 100; ++i) deep = Json::array({deep});
+  for (int i = 0; i < 40; ++i) deep = Json::array({deep});
   system["tree"] = deep;
   EXPECT_EQ(page.take({{"id", 1}, {"open", {{"system", system}}}})["error"],
             "system: a system with too many maps in each other");

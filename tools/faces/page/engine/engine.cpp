@@ -86,6 +86,14 @@ std::optional<Recording> recording_of(const Json& wanted, Models models, std::st
   return recording;
 }
 
+/// By PLC, with how masters talk on its line.
+std::vector<DebuggedStation> stations_of(const SystemPlan& plan) {
+  std::vector<DebuggedStation> stations;
+  for (const Spot& spot : spots_of_plcs(plan))
+    stations.push_back({plan.plcs[spot.plc].name, on_line(serial::MasterSettings{}, plan.lines[spot.line])});
+  return stations;
+}
+
 }  // namespace
 
 void Engine::take(std::string_view text) {
@@ -144,7 +152,7 @@ void Engine::begin(std::shared_ptr<const Program> program, const Json& wanted, s
   simulation_ = std::make_unique<serial::Simulation>(std::move(program), around->field, around->port);
   power_up(*simulation_, *around);
   look_at(std::make_unique<History>(*simulation_, History::Settings{.bound = kBytesOfCheckpoints}), std::move(recording),
-          name, why);
+          PageSettings{.program = name}, why);
 }
 
 void Engine::begin_system(const Json& wanted, std::string& why) {
@@ -163,8 +171,9 @@ void Engine::begin_system(const Json& wanted, std::string& why) {
   History::Settings settings = history_settings(*rig_);
   settings.hosts = hosts_of(*rig_);
   settings.bound = kBytesOfCheckpoints;
-  look_at(std::make_unique<History>(seen_->stations(), std::move(settings)), std::move(recording), *text_at(carried, "name"),
-          why);
+  PageSettings page{.program = *text_at(carried, "name")};
+  page.session.stations = stations_of(rig_->plan());
+  look_at(std::make_unique<History>(seen_->stations(), std::move(settings)), std::move(recording), std::move(page), why);
 }
 
 /// What was open, in the order in which it hangs together.
@@ -176,13 +185,13 @@ void Engine::forget() {
   rig_.reset();
 }
 
-void Engine::look_at(std::unique_ptr<History> history, std::optional<Recording> recording, const std::string& name,
+void Engine::look_at(std::unique_ptr<History> history, std::optional<Recording> recording, PageSettings page,
                      std::string& why) {
   history_ = std::move(history);
   if (recording && !history_->has_hosts_of(*recording)) return void(why = "recording: it has a bridge that is not here");
   if (recording && !history_->adopt(std::move(*recording)))
     return void(why = "recording: a checkpoint in it is damaged, or is one of another program");
-  talk_ = std::make_unique<Conversation>(*history_, PageSettings{.program = name},
+  talk_ = std::make_unique<Conversation>(*history_, std::move(page),
                                          Post{[this](Client, std::string reply) { send_(std::move(reply)); }, send_});
 }
 

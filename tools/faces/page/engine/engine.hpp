@@ -36,8 +36,7 @@ class Engine {
   void begin(std::shared_ptr<const Program> program, const Json& wanted, std::string& why);
   void begin_system(const Json& wanted, std::string& why);
   void forget();
-  void look_at(std::unique_ptr<History> history, std::optional<Recording> recording, const std::string& name,
-               std::string& why);
+  void look_at(std::unique_ptr<History> history, std::optional<Recording> recording, PageSettings page, std::string& why);
 
   std::function<void(std::string)> send_;
   std::unique_ptr<serial::Simulation> simulation_{};  ///< of a program
