@@ -29,8 +29,13 @@ bool system_idles(const Core& core) {
          !timers::any_counts(core) && core.by_own_clock(kSecond) == kSecond;
 }
 
-/// Whoever watches instructions is told of all of a program, or of none.
+/// Whoever watches instructions is told of all of a program, or of none; and of one before and after each event, to see why
+/// the program has come there, and what the event has changed.
 bool is_watched(const Core& core) { return core.sink() && core.sink()->wants_instructions(); }
+
+bool begins_communication(const Core& core) {
+  return core.s.phase == Phase::Communication && core.s.phase_left == core.program().scan_phase[Program::kCommunication];
+}
 
 }  // namespace
 
@@ -58,6 +63,10 @@ Time IdleScans::pass_over(Core& core, Time horizon) {
   if (use_ == SteadyScansUse::Check) {
     expect(core, horizon);
     return 0;
+  }
+  if (is_watched(core)) {
+    if (!begins_communication(core)) return 0;
+    horizon -= parts_.end;
   }
   const Time before = s.time;
   const std::uint64_t executed = s.instructions;
