@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "interpreter/base/text.hpp"
 #include "tools/json/base64.hpp"
@@ -161,6 +162,8 @@ std::optional<LineRecording> read_followed_stream(std::string_view bytes, const 
     read_dump(bytes, choices.stop, recording);
   else if (!read_packets(bytes, choices.stop, recording, why))
     return {};
+  for (RecordedFrame& frame : recording.frames)
+    if (frame.bytes.empty()) frame.doubt = std::make_shared<Doubt>(Doubt{.why = "no bytes in it"});
   count_from_first(recording);
   return recording;
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
@@ -23,14 +24,20 @@ namespace {
 
 constexpr std::size_t kMostHeadLines = 60;
 
+/// A number that is not inf, as some oscilloscopes write what is beyond their range.
+std::optional<double> finite(std::string_view figure) {
+  const auto number = parse_decimal<double>(figure);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
 /// A number with the sign of decimals that the table has. Tektronix has plus signs and leading zeros.
 std::optional<double> number_in(std::string_view cell, char separator) {
   cell = stl::trim(cell);
   if (cell.starts_with('+')) cell.remove_prefix(1);
-  if (separator == ',' || cell.find(',') == std::string_view::npos) return parse_decimal<double>(cell);
+  if (separator == ',' || cell.find(',') == std::string_view::npos) return finite(cell);
   std::string figure(cell);
   std::ranges::replace(figure, ',', '.');
-  return parse_decimal<double>(figure);
+  return finite(figure);
 }
 
 /// Whether a word of a cell is a unit of voltage: `CH1(V)`, `Volt`, `(mV)`, `CH1V`
@@ -84,15 +91,13 @@ std::vector<std::vector<std::string>> fields_of_beginning(std::string_view text,
   return rows;
 }
 
-bool has_all_numbers(const std::vector<std::string>& fields, const VoltsHead& head) {
-  if (fields.size() < head.first + head.columns) return false;
-  for (std::size_t i = head.first; i < head.first + head.columns; ++i)
-    if (!number_in(fields[i], head.separator)) return false;
-  return true;
+/// Whether a row has a number in its first column; others may be beyond the range.
+bool is_row_of_volts(const std::vector<std::string>& fields, const VoltsHead& head) {
+  return head.first < fields.size() && number_in(fields[head.first], head.separator);
 }
 
-/// Finds the columns by the numbers in a row far down, which has nothing before them.
-bool find_columns(const std::vector<std::string>& row, VoltsHead& head) {
+/// Finds the columns by the numbers in a row, which has nothing before them.
+bool find_columns_in(const std::vector<std::string>& row, VoltsHead& head) {
   std::size_t end = row.size();
   while (end > 0 && !number_in(row[end - 1], head.separator)) --end;
   std::size_t begin = end;
@@ -101,6 +106,15 @@ bool find_columns(const std::vector<std::string>& row, VoltsHead& head) {
   head.columns = end - begin;
   return head.columns > 0 && std::all_of(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(begin),
                                          [](std::string_view cell) { return stl::trim(cell).empty(); });
+}
+
+/// Finds the columns by the last rows: of these the one with the most numbers, as a cell may be beyond the range.
+bool find_columns(const std::vector<std::vector<std::string>>& rows, VoltsHead& head) {
+  constexpr std::size_t kRows = 6;
+  VoltsHead found = head;
+  for (std::size_t i = rows.size() - kRows; i + 1 < rows.size(); ++i)
+    if (find_columns_in(rows[i], found) && found.columns > head.columns) head = found;
+  return head.columns > 0;
 }
 
 /// The interval that a cell names, in seconds: `tInc = 1e-06`, or the number below or after `Increment`, `Sample Interval`.
@@ -162,8 +176,8 @@ std::optional<VoltsHead> volts_head_of(std::string_view bytes) {
   for (const char separator : {'\t', ';', ','}) {
     const auto rows = fields_of_beginning(beginning, separator);
     VoltsHead head{.separator = separator};
-    if (rows.size() <= kFewestRows || !find_columns(rows[rows.size() - 2], head)) continue;
-    const auto is_row = [&](const std::vector<std::string>& row) { return has_all_numbers(row, head); };
+    if (rows.size() <= kFewestRows || !find_columns(rows, head)) continue;
+    const auto is_row = [&](const std::vector<std::string>& row) { return is_row_of_volts(row, head); };
     head.lines = static_cast<std::size_t>(std::find_if_not(rows.rbegin() + 1, rows.rend(), is_row).base() - rows.begin());
     if (rows.size() - head.lines <= kFewestRows || !says_volts(rows, head)) continue;
     take_head(rows, head);
@@ -172,12 +186,13 @@ std::optional<VoltsHead> volts_head_of(std::string_view bytes) {
   return {};
 }
 
-/// The lowest and the highest voltage of a channel.
+/// The lowest and the highest voltage of a channel within the range.
 struct Swing {
   double low = 0, high = 0;
   bool any = false;
 
   void take(double volts) {
+    if (std::isinf(volts)) return;
     low = any ? std::min(low, volts) : volts;
     high = any ? std::max(high, volts) : volts;
     any = true;
@@ -214,9 +229,13 @@ class VoltsReader {
     return true;
   }
 
-  /// The voltage of a channel in a row; nothing where the oscilloscope has none, as beyond its range.
+  /// The voltage of a channel in a row, infinite beyond the range; nothing where the oscilloscope has none.
   std::optional<double> volts(const std::vector<std::string>& fields, std::size_t channel) const {
-    return number_in(fields[head_.first + head_.first_channel() + channel], head_.separator);
+    const std::string_view cell = stl::trim(fields[head_.first + head_.first_channel() + channel]);
+    const bool below = cell.starts_with('-');
+    const std::string magnitude = stl::lower_case(cell.substr(below ? 1 : 0));
+    if (magnitude != "inf" && magnitude != "\u221E") return number_in(cell, head_.separator);
+    return below ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
   }
 
  private:

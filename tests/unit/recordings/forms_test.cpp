@@ -550,6 +550,8 @@ TEST(Forms, AFollowedStreamIsReadAsWiresharkSavesIt) {
                    "  - packet: 6\n    peer: 1\n    index: 0\n    timestamp: 1616595070.025000000\n    data: !!binary |\n"
                    "      AAEAAAAHAQMEEjRWeA==\n"),
       "followed", 25 * ms);
+  EXPECT_EQ(refusal_of(head + "  - packet: 4\n    peer: 0\n    data: !!binary |\n  - packet: 5\n    peer: 1\n"),
+            "no frame in it; line 9: left out: no bytes in it; line 12: left out: no bytes in it");
   EXPECT_EQ(refusal_of(head + "  - packet: 4\n    peer: 0\n    data: !!binary |\n      A*E\n"),
             "line 9: its bytes are not base64");
 }

@@ -135,6 +135,13 @@ TEST(Volts, AnUndrivenLineBetweenTheFramesKeepsItsLevel) {
   }));
 }
 
+TEST(Volts, WhatIsBeyondTheRangeIsHighOrLow) {
+  for (const std::string beyond : {"inf", "\u221E"})
+    expect_the_conversation(table_of("Time (s),CH1 (V)\n", [&](std::size_t i, double at, bool level) {
+      return fmt::format("{:.6f},{}", at, i % 3 == 1 ? (level ? "" : "-") + beyond : fmt::format("{:.2f}", volts_of(level)));
+    }));
+}
+
 TEST(Volts, TooFewSamplesAreNamedWithWhatToExport) {
   std::string table = "Time(s),CH1(V)\n";
   const auto levels = samples();
