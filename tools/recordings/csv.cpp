@@ -8,6 +8,7 @@
 
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "tools/json/base64.hpp"
 #include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/notation.hpp"
@@ -28,6 +29,7 @@ struct Columns {
   std::optional<std::size_t> sent{}, received{};  ///< instead of direction and data
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
+  bool base64 = false;         ///< the name of the data says so
   std::string unknown_unit{};  ///< the name of the times' column, if its text in brackets is not a unit
 };
 
@@ -66,8 +68,9 @@ bool is_count(std::string_view name) {
 }
 
 bool is_name_of_data(std::string_view name) {
-  return !is_count(name) && contains(name, {"DATA", "VALUE", "HEX", "BYTE", "FRAME", "PAYLOAD", "RESULT", "WERT", "DATEN",
-                                            "TELEGRAM", "NACHRICHT", "ZEICHEN", "TRAME", "TRAMA", "DATOS", "DATI", "DADOS"});
+  return !is_count(name) &&
+         contains(name, {"DATA", "VALUE", "HEX", "BYTE", "FRAME", "PAYLOAD", "RESULT", "WERT", "DATEN", "TELEGRAM",
+                         "NACHRICHT", "BASE64", "B64", "ZEICHEN", "TRAME", "TRAMA", "DATOS", "DATI", "DADOS"});
 }
 
 Columns columns_of(std::string_view line) {
@@ -88,6 +91,7 @@ Columns columns_of(std::string_view line) {
       columns.direction = i;
     } else if (!columns.data && is_name_of_data(names[i])) {
       columns.data = i;
+      columns.base64 = contains(names[i], {"BASE64", "B64"});
     }
   }
   if (!columns.data || !columns.direction) find_one_for_each_direction(names, columns);
@@ -191,12 +195,18 @@ std::string_view content_of(std::string_view field, const Columns& columns) {
   return field.size() == 1 && !columns.sent ? field : stl::trim(field);
 }
 
+constexpr Notation kBase64{"base64", [](std::string_view cell) -> std::optional<Bytes> {
+                             auto bytes = from_base64(cell);
+                             return bytes && !bytes->empty() ? std::move(bytes) : std::nullopt;
+                           }};
+
 /// The notation of the bytes below the names. Null with `why` set if they have none.
 struct ColumnNotation {
   const Notation* notation = nullptr;
   bool characters = false;  ///< each row has one
 };
 ColumnNotation notation_of(TableRows rows, const Columns& columns, std::string& why) {
+  if (columns.base64) return {.notation = &kBase64};
   NotationFinder finder;
   std::vector<std::string> fields;
   while (const auto row = rows.next()) {

@@ -230,6 +230,7 @@ std::optional<LeadingTime> time_since(std::string_view text) {
   if (point == ',' && is_list_of_bytes(whole, part, text.substr(scan.at()))) return {};
   const TimeUnit* const unit = take_unit(scan);
   if (unit == nullptr && (part.empty() || goes_on_as_word(scan.next()))) return {};
+  if (point == ',' && has_clock(text.substr(scan.at() - 1, 4))) return {};  // cells: `0,09:15:02`
   skip_after_time(scan);
   const Time of_unit = unit == nullptr ? kSecond : unit->time, number = decimal_number(whole);
   if (number >= kFurthestTime / of_unit) return {};
@@ -362,6 +363,7 @@ std::size_t length_of_name(std::string_view word) {
   std::size_t end = word.size();
   while (end > 0 && !is_of_name(end - 1)) --end;
   while (end > 0 && end < word.size() && !ends_name(word, end)) ++end;
+  while (end > 0 && end < word.size() && is_any_of(word[end], ",;:|")) ++end;
   if (end == 0 || end >= word.size()) return 0;
   const std::string_view name = word.substr(0, end);
   const std::string_view after = word.substr(end);
@@ -852,6 +854,16 @@ std::string without_signs(std::string_view text) {
   return letters;
 }
 
+/// A word with its ASCII letters in capitals and its Latin letters with accents small: U+00C0 to U+00DE in UTF-8.
+std::string in_form_of_lists(std::string_view word) {
+  std::string form = stl::upper_case(word);
+  for (std::size_t i = 0; i + 1 < form.size(); ++i) {
+    const auto second = static_cast<unsigned char>(form[i + 1]);
+    if (form[i] == '\xC3' && second >= 0x80 && second <= 0x9E) form[i + 1] = static_cast<char>(second + ('a' - 'A'));
+  }
+  return form;
+}
+
 /// Whether a word names the station of a line, not its sender: `slave 1 TX`
 bool is_station_with_number(std::string_view word, std::string_view after) {
   const std::size_t next = after.find_first_not_of(kAllBlanks);
@@ -955,7 +967,7 @@ Direction direction_of(std::string_view written) {
     end = static_cast<std::size_t>(after - text.begin());
     const auto length = static_cast<std::size_t>(after - begin);
     if (length < kShortest || length > kLongestDirection) continue;
-    const std::string word = stl::upper_case({begin, after});
+    const std::string word = in_form_of_lists({begin, after});
     if (is_station_with_number(word, {after, text.end()})) continue;
     request = request || std::ranges::find(kRequestWords, word) != kRequestWords.end();
     answer = answer || std::ranges::find(kAnswerWords, word) != kAnswerWords.end();

@@ -179,13 +179,30 @@ std::optional<LeadingTime> time_of(std::string_view text, std::optional<Time> un
   return LeadingTime{.time = *since_1970 * of_one};
 }
 
+/// A line of a log in a field, as services collect them: `"log": "TX: 01 03 …"`. It has a direction and bytes after it.
+struct LineOfLog {
+  Bytes bytes{};
+  Direction direction = Direction::Unknown;
+};
+std::optional<LineOfLog> line_of_log(const NamedField& field) {
+  constexpr std::array<std::string_view, 5> kLines{"log", "message", "msg", "line", "text"};
+  constexpr std::size_t kFewest = 2;
+  if (std::ranges::find(kLines, stl::lower_case(field.name)) == kLines.end()) return {};
+  const std::string_view line = stl::trim(std::string_view(field.value).substr(0, field.value.find_first_of("\r\n")));
+  auto found = BytesOfLines().in(line);
+  if (!found || found->bytes.size() < kFewest || !found->not_understood.empty()) return {};
+  const Direction direction = direction_of(line.substr(0, found->begin));
+  return direction == Direction::Unknown ? std::nullopt : std::optional(LineOfLog{std::move(found->bytes), direction});
+}
+
 }  // namespace
 
 bool has_frame(const NamedFields& fields) {
   const Direction said = direction_in(fields);
   const bool base64 = names_base64(fields);
-  return std::ranges::any_of(
-      fields, [&](const NamedField& field) { return frame_in(field, meaning_of(field.name), said, base64).has_value(); });
+  return std::ranges::any_of(fields, [&](const NamedField& field) {
+    return frame_in(field, meaning_of(field.name), said, base64).has_value() || line_of_log(field).has_value();
+  });
 }
 
 bool has_base64(const NamedFields& fields) {
@@ -238,7 +255,19 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
                                  .bytes = std::move(*bytes),
                                  .place = fmt::format("line {}", number)});
   }
-  if (frames == 0 && !has_data) left_out_.without_bytes(number);
+  if (frames == 0 && !has_data && !take_line_of_log(fields, at, number)) left_out_.without_bytes(number);
+}
+
+bool NamedFieldsReader::take_line_of_log(const NamedFields& fields, std::optional<Time> at, std::size_t number) {
+  for (const NamedField& field : fields)
+    if (auto line = line_of_log(field)) {
+      recording_.frames.push_back({.at = at,
+                                   .direction = line->direction,
+                                   .bytes = std::move(line->bytes),
+                                   .place = fmt::format("line {}", number)});
+      return true;
+    }
+  return false;
 }
 
 LineRecording NamedFieldsReader::finish() {

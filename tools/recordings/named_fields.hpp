@@ -59,6 +59,7 @@ class NamedFieldsReader {
     FieldMeaning meaning{};
   };
   const FieldMeaning& meaning_of(std::size_t place, const std::string& name);
+  bool take_line_of_log(const NamedFields& fields, std::optional<Time> at, std::size_t number);
 
   LineRecording recording_;
   LeftOut left_out_;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/base/text.hpp"
 #include "tools/recordings/fields.hpp"
@@ -367,6 +368,8 @@ class LogReader {
       direction = below_;
       goes_on_ = has_offsets_ = false;
     } else {
+      if (!at && heading_ && heading_->number + 1 == number_ && heading_->direction == Direction::Unknown)
+        at = std::exchange(heading_, std::nullopt)->at;  // of a logger that writes a line with the time above each
       drop_heading();
       if (!at && has_clock(line.substr(0, found.begin))) not_understood_.add(number_);
       goes_on_ = in_dump_ && found.bytes.size() >= kFullRow;

@@ -354,6 +354,22 @@ TEST(Forms, BytesInBase64AreReadWhereTheirNameOrTheirTextSaysSo) {
                           "key=value", 25 * ms);
 }
 
+TEST(Forms, AColumnMayBeInBase64) {
+  expect_the_conversation(
+      recording_of("time,dir,payload_base64\n10:00:00.000,tx,AQMACgAC5Ak=\n10:00:00.025,rx,AQMEEjRWeIEH\n"), "CSV", 25 * ms);
+}
+
+TEST(Forms, ALineOfALogMayStandInAField) {
+  for (const std::string name : {"log", "msg", "message"}) {
+    const auto row = [&](const std::string& text, const std::string& at) {
+      return "{\"" + name + "\":\"" + text + "\\n\",\"stream\":\"stdout\",\"time\":\"2026-11-28T09:15:02." + at + "Z\"}\n";
+    };
+    expect_the_conversation(recording_of(row("starting", "000") + row("TX: 01 03 00 0a 00 02 e4 09", "100") +
+                                         row("RX: 01 03 04 12 34 56 78 81 07", "125")),
+                            "JSON", 25 * ms);
+  }
+}
+
 TEST(Forms, WhatIsNoBase64IsNotReadAsSuch) {
   for (const std::string value : {"/dev/tty", "SensorA1", "readings", "AQM="})
     EXPECT_FALSE(refusal_of("{\"time\":1.0,\"dir\":\"tx\",\"data\":\"" + value + "\"}\n").empty()) << value;

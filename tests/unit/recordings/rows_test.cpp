@@ -216,6 +216,25 @@ TEST(RowsOfALog, ATimeMayHaveWordsBeforeIt) {
   }
 }
 
+TEST(RowsOfALog, ALoggerMayWriteItsTimeInALineAboveEachRow) {
+  const auto frames = read(
+      "28.11.2026 09:15:02.000 net.ModbusRTUTransport writeMessage\nSent: 01 03 00 0a 00 02 e4 09\n"
+      "28.11.2026 09:15:02.040 net.ModbusRTUTransport readResponse\nResponse: 01 03 04 12 34 56 78 81 07\n");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].text, kSaid);
+  EXPECT_EQ(frames[1].frame.at, 40 * kMillisecond);
+}
+
+TEST(RowsOfALog, CellsWithCommasLoseNoByte) {
+  for (const std::string head : {"0,09:15:02.000,TX,", "0,09:15:02.000,\u53D1\u9001,", "1;09:15:02,000;\u00C9mission;",
+                                 "09:15:02.000|TX|", "7,TX,"}) {
+    const auto frames = read(head + "01 03 00 0a 00 02 e4 09\n");
+    ASSERT_EQ(frames.size(), 1U) << head;
+    EXPECT_EQ(frames[0].text, kAsked) << head;
+    EXPECT_EQ(frames[0].direction, Direction::Request) << head;
+  }
+}
+
 TEST(RowsOfALog, ANumberInBracketsMayCountTheBytesBeforeIt) {
   for (const auto& [asked, said] : std::initializer_list<std::pair<std::string, std::string>>{
            {"(09:15:02.000) (COM3) (<<) 01h 03h 00h 0Ah 00h 02h E4h 09h (8)",
