@@ -352,6 +352,9 @@ struct ForeignHeading {
   std::string_view word, of, hint;
 };
 
+constexpr std::string_view kMainProgram = "write MAIN, or nothing: a listing begins with the main program";
+constexpr std::string_view kSubroutineZero = "write SBR_0 for subroutine 0";
+constexpr std::string_view kInterruptZero = "write INT_0 for interrupt routine 0";
 constexpr std::array kForeignHeadings{
     ForeignHeading{"RÉSEAU", "a network", "write NETWORK"},
     ForeignHeading{"Réseau", "a network", "write NETWORK"},
@@ -359,9 +362,22 @@ constexpr std::array kForeignHeadings{
     ForeignHeading{"СЕТЬ", "a network", "write NETWORK"},
     ForeignHeading{"Сеть", "a network", "write NETWORK"},
     ForeignHeading{"网络", "a network", "write NETWORK"},
-    ForeignHeading{"主程序", "the main program", "write MAIN, or nothing: a listing begins with the main program"},
-    ForeignHeading{"子程序", "a subroutine", "write SBR_0 for subroutine 0"},
-    ForeignHeading{"中断程序", "an interrupt routine", "write INT_0 for interrupt routine 0"},
+    ForeignHeading{"NETZWERK", "a network", "write NETWORK"},
+    ForeignHeading{"Netzwerk", "a network", "write NETWORK"},
+    ForeignHeading{"RESEAU", "a network", "write NETWORK"},
+    ForeignHeading{"Reseau", "a network", "write NETWORK"},
+    ForeignHeading{"SEGMENTO", "a network", "write NETWORK"},
+    ForeignHeading{"Segmento", "a network", "write NETWORK"},
+    ForeignHeading{"Programme principal", "the main program", kMainProgram},
+    ForeignHeading{"PROGRAMME PRINCIPAL", "the main program", kMainProgram},
+    ForeignHeading{"Sous-programme", "a subroutine", kSubroutineZero},
+    ForeignHeading{"SOUS-PROGRAMME", "a subroutine", kSubroutineZero},
+    ForeignHeading{"Programme d'interruption", "an interrupt routine", kInterruptZero},
+    ForeignHeading{"PROGRAMME D'INTERRUPTION", "an interrupt routine", kInterruptZero},
+    ForeignHeading{"Interrupt-Programm", "an interrupt routine", kInterruptZero},
+    ForeignHeading{"主程序", "the main program", kMainProgram},
+    ForeignHeading{"子程序", "a subroutine", kSubroutineZero},
+    ForeignHeading{"中断程序", "an interrupt routine", kInterruptZero},
 };
 
 /// These also stand before =: instructions without operands in a line with two statements, and the title of a block.
@@ -816,7 +832,7 @@ class LineReader {
   }
 
   void report_unexpected(Place where, std::string expected) {
-    if (report_heading(where) || report_time(where) || report_semicolon_comment(where) || report_assignment() ||
+    if (report_heading() || report_time(where) || report_semicolon_comment(where) || report_assignment() ||
         report_look_alike(where) || report_title_of_network(where) || report_second_statement(where))
       return;
     const std::string_view rest(where, static_cast<std::size_t>(end() - where));
@@ -830,12 +846,13 @@ class LineReader {
            numbered ? "a number at the beginning of the line" : "");
   }
 
-  /// Reports `RÉSEAU 1`. Returns true after a message. Headings in ASCII are unknown mnemonics to the checker.
-  bool report_heading(Place where) {
+  /// Reports `RÉSEAU 1`, `NETZWERK 1: Start`. Returns true after a message. Headings in ASCII with nothing unexpected in
+  /// them are unknown mnemonics to the checker.
+  bool report_heading() {
     const std::string_view line = trim(text_);
-    const auto row = std::ranges::find_if(kForeignHeadings,
-                                          [line](const ForeignHeading& each) { return line.starts_with(each.word); });
-    if (row == kForeignHeadings.end() || where != line.data()) return false;
+    const auto row =
+        std::ranges::find_if(kForeignHeadings, [line](const ForeignHeading& each) { return line.starts_with(each.word); });
+    if (row == kForeignHeadings.end()) return false;
     const std::string_view word = line.substr(0, row->word.size());
     report(position(Range(word.data(), word.data() + word.size())),
            fmt::format("{} is the heading of {} in another language", word, row->of), std::string(row->hint),

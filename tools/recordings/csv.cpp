@@ -167,11 +167,14 @@ void find_by_cells(const TableRows& rows, Columns& columns) {
   if (found != cells.end()) columns.direction = static_cast<std::size_t>(found - cells.begin());
 }
 
-/// The next row that is not blank; nothing at the end.
+/// The next row that is not blank; nothing at the end, or where many are blank.
 std::optional<TableRow> next_filled(TableRows& rows) {
-  auto row = rows.next();
-  while (row && stl::trim(row->text).empty()) row = rows.next();
-  return row;
+  constexpr std::size_t kMostBlank = 100;
+  for (std::size_t blank = 0; blank <= kMostBlank; ++blank) {
+    const auto row = rows.next();
+    if (!row || !stl::trim(row->text).empty()) return row;
+  }
+  return {};
 }
 
 /// The columns of a table, whose names are taken off it.

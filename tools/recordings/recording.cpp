@@ -23,7 +23,7 @@ constexpr std::array kForms{
     RecordingForm{
         "pcap",
         "pcap of a serial line, as --capture writes it (link types 147 to 162), of an RTAC (250), of a USB adapter "
-        "(189, 220, 249: FTDI, CP210x, CH340, PL2303, CDC-ACM), or of Modbus TCP",
+        "(189, 220, 249: FTDI, CP210x, CH340, PL2303, CDC-ACM), of Modbus TCP, or of Modbus RTU in TCP",
         false, looks_like_pcap, read_pcap},
     RecordingForm{"VCD", "VCD with the levels of a line, as --capture and logic analysers write it", false, looks_like_vcd,
                   read_vcd},
@@ -49,8 +49,10 @@ constexpr std::array kForms{
                   looks_like_esphome_modbus, read_esphome_modbus},
     RecordingForm{"eModbus", "what eModbus logs, with its dumps", true, looks_like_emodbus, read_emodbus},
     RecordingForm{"Tasmota", "a log of Tasmota with SerialSend5 and SerialReceived", true, looks_like_tasmota, read_tasmota},
-    RecordingForm{"JSON", "JSON, an object with bytes in each line: time, direction, data", true, looks_like_json_lines,
-                  read_json_lines},
+    RecordingForm{"JSON",
+                  "JSON, an object with bytes in each line: time, direction, data in hex, numbers or base64; packets of "
+                  "tshark -T json",
+                  true, looks_like_json_lines, read_json_lines},
     RecordingForm{"key=value", "key=value pairs in each line: time=… dir=tx data=…", true, looks_like_key_values,
                   read_key_values},
     RecordingForm{"CSV",
@@ -130,11 +132,11 @@ bool is_of_can(std::string_view bytes) {
 
 /// Whether a text is XML: a declaration, or an element around it all.
 bool is_xml(std::string_view bytes) {
+  if (!bytes.starts_with('<')) return false;
+  if (bytes.starts_with("<?xml")) return true;
   const std::string_view text = bytes.substr(0, bytes.find_last_not_of(" \t\r\n") + 1);
-  if (text.starts_with("<?xml")) return true;
   const std::size_t end = std::min(text.find_first_of(" >\r\n"), text.size());
-  return end > 1 && text.front() == '<' && stl::is_letter(text[1]) &&
-         text.ends_with(fmt::format("</{}>", text.substr(1, end - 1)));
+  return end > 1 && stl::is_letter(text[1]) && text.ends_with(fmt::format("</{}>", text.substr(1, end - 1)));
 }
 
 /// A text that is no recording of a line, and what to say of it.
