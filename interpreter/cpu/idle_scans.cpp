@@ -88,7 +88,8 @@ bool IdleScans::knows_instant(const Core& core) const {
   return core.s.phase != Phase::Program || (!is_watched(core) && step_at(core.s) != nullptr);
 }
 
-/// The step that the CPU stands at in the program; null if it is not a known one.
+/// The step that the CPU stands at in the program; null if it is not a known one. An op has one for each time that it is
+/// executed with the same state: twice would be for ever.
 const IdleScans::Step* IdleScans::step_at(const State& s) const {
   const std::uint32_t number = s.call_depth == 0 ? step_of_op_[s.pc] : kNoStep;
   if (number == kNoStep) return nullptr;
@@ -96,7 +97,7 @@ const IdleScans::Step* IdleScans::step_at(const State& s) const {
   return step.stack == s.stack && step.rail == s.rail && step.eno == s.eno ? &step : nullptr;
 }
 
-void IdleScans::learn(Core& core) {
+[[gnu::noinline]] void IdleScans::learn(Core& core) {
   State& s = core.s;
   if (s.time >= core.loop.until) return;
   const auto before = std::make_unique<State>(s);
@@ -146,12 +147,7 @@ void IdleScans::remember(const Core& core, const Footprint& footprint, std::vect
   steps_ = std::move(steps);
   steps_.front().last_op = end.last_op;  // of the scan before
   step_of_op_.assign(core.program().ops.size(), kNoStep);
-  std::vector<bool> seen(step_of_op_.size());
-  for (std::uint32_t i = 0; i < steps_.size(); ++i) {
-    const std::uint32_t op = steps_[i].op;
-    step_of_op_[op] = seen[op] ? kNoStep : i + 1;  // where one of a loop stands is not known
-    seen[op] = true;
-  }
+  for (std::uint32_t i = 0; i < steps_.size(); ++i) step_of_op_[steps_[i].op] = i + 1;
   worth_ = 0;
   if (!idle_) idle_ = std::make_unique<State>();
   *idle_ = core.s;

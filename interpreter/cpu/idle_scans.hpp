@@ -47,7 +47,7 @@ class IdleScans {
 
   /// Whether the program that is about to begin is to be executed by learn(). If something else is executed, the question
   /// is forgotten.
-  bool learns(const State& s) { return std::exchange(asked_, false) && !s.in_interrupt && s.pc == 0; }
+  bool learns(const State& s) { return asked_ && std::exchange(asked_, false) && !s.in_interrupt && s.pc == 0; }
   /// Executes the program up to the loop's `until`, and remembers it if it is an idle one.
   void learn(Core& core);
 
@@ -89,7 +89,7 @@ class IdleScans {
   Parts parts_{};
   Step end_{};                               // of that program
   std::vector<Step> steps_{};                // in it, the first one at its beginning
-  std::vector<std::uint32_t> step_of_op_{};  // by op: its number from 1 on; kNoStep: it has none, or several
+  std::vector<std::uint32_t> step_of_op_{};  // by op: the number of its last step, from 1 on, or kNoStep
   bool known_ = false;                       // that idle scans follow, if nothing has touched the CPU since
   Time change_ = kNever;
   bool asked_ = false;                       // to learn the next program

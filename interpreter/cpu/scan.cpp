@@ -41,8 +41,8 @@ void update_status(Core& core) {
   if (s.time >= s.next_clock) update_clocks(core, s, s.time);
 }
 
-/// A scan has taken so long.
-void update_times(const Core& core, State& s, Time scan) {
+/// A scan has taken so long. Inlined, because a scan may be short.
+[[gnu::always_inline]] inline void update_times(const Core& core, State& s, Time scan) {
   const std::uint16_t last = whole_milliseconds(core, scan);
   store16(&s.image[sm::kLastScan], last);
   if (scan < s.shortest_scan) {

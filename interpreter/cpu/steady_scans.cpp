@@ -93,7 +93,8 @@ Time SteadyScans::look_ahead(Core& core) {
   return alike_until(core);
 }
 
-Time SteadyScans::pass_over(Core& core, Time limit) {
+/// Not inlined, so that the parts of a scan are inlined where it is called.
+[[gnu::noinline]] Time SteadyScans::pass_over(Core& core, Time limit) {
   if (use_ == SteadyScansUse::Off) return 0;
   if (is_idle(core)) {
     const Time passed = idle_->pass_over(core, std::min({limit, core.next_event(), core.s.time + kFurthest}));

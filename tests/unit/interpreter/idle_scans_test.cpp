@@ -224,6 +224,17 @@ TEST(IdleScans, AnAnalogOutputThatChangesWithinAScanKeepsItFromBeingIdle) {
   EXPECT_GT(both.plc().records.of(TraceKind::AnalogChanged).size(), 1000U);
 }
 
+TEST(IdleScans, ALogicStackThatIsSetWithinTheProgramIsSeen) {
+  Both both("LD M0.0\nLD M0.1\nNOP 0\nNOP 0\nALD\n= Q0.0\nMEND\n");
+  for (int i = 1; i <= 200; ++i) {
+    both.run_until(i * 1'234 * us + i * i * us);
+    if (both.plc().cpu.state().phase == Phase::Program)
+      both.each([](Plc& plc) { plc.cpu.set_stack(LogicStack::from_bits(0x1FF)); });
+  }
+  EXPECT_GT(both.plc().records.of(TraceKind::OutputChanged).size(), 4U);
+  EXPECT_GT(both.passed(), 50 * ms);
+}
+
 TEST(IdleScans, OfWhatAWatcherWantsEachIsExecuted) {
   PlcThat plc(SteadyScansUse::Eager, "LD M0.0\n= Q0.0\nMEND\n");
   plc.run_until(100 * ms);
