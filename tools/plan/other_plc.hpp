@@ -10,13 +10,9 @@
 
 namespace s7200::tools {
 
-/// Makes a PLC of this model with `settings`, which are the values of --plc. Throws std::invalid_argument if no PLC of this
-/// model speaks the protocol of the row, or if it has no such setting.
+/// Makes a PLC of this model with `settings`, which are the values of --plc. Null, and `why`, if no PLC of this model speaks
+/// the protocol of the row, or if it has no such setting.
 std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
-                                                  const std::vector<std::string>& settings);
-
-/// Makes a PLC by the name of an existing protocol.
-std::unique_ptr<serial::Automaton> make_other_plc(std::string_view protocol, std::string_view model,
-                                                  const std::vector<std::string>& settings);
+                                                  const std::vector<std::string>& settings, std::string& why);
 
 }  // namespace s7200::tools

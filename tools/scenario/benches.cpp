@@ -211,7 +211,10 @@ using SlaveMaker = decltype(Bench::make_slave);
 /// Of a PLC of another make, with what it is told by --plc. Each scenario has one of its own.
 SlaveMaker peer_slaves(const std::string& model, const std::string& name, const SuiteSettings& suite) {
   const auto make = [model, settings = suite.plc, protocol = suite.protocol] {
-    return make_other_plc(protocol, model, settings);
+    std::string why;
+    auto plc = make_other_plc(*westinghouse::find_plc(protocol), model, settings, why);
+    if (!plc) throw std::invalid_argument(why);
+    return plc;
   };
   make();  // or it throws
   return [make, name, stop = suite.stop](const Scenario& scenario) {

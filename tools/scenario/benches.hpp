@@ -65,7 +65,8 @@ struct Benches {
 
 /// `target` is what all scenarios are run on; if it is empty, each is run on the program it names, and one whose program
 /// cannot be had gets a bench that says why. Nothing, with messages, if the target cannot be had, or if no scenario names a
-/// program. Throws as parse_slave_target(), connect() and make_other_plc() do.
+/// program. Throws as parse_slave_target() and connect() do, and std::invalid_argument for a PLC of another make that there
+/// is not.
 std::optional<Benches> make_benches(const std::vector<Scenario>& scenarios, const std::string& target,
                                     const SuiteSettings& settings, Programs& programs, Messages& messages);
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "interpreter/base/text.hpp"
@@ -79,7 +80,10 @@ void check_model(const Protocol& protocol, std::string_view model) {
 
 std::unique_ptr<westinghouse::Plc> OtherPlcOptions::make(const Protocol& protocol, std::string_view model) const {
   check_model(protocol, model);
-  return make_other_plc(*protocol.plcs, model, settings_);
+  std::string why;
+  auto plc = make_other_plc(*protocol.plcs, model, settings_, why);
+  if (!plc) throw std::invalid_argument(why);
+  return plc;
 }
 
 }  // namespace s7200::tools
