@@ -14,4 +14,9 @@ std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& ro
   return plc;
 }
 
+std::unique_ptr<serial::Automaton> make_other_plc(std::string_view protocol, std::string_view model,
+                                                  const std::vector<std::string>& settings, std::string& why) {
+  return make_other_plc(*westinghouse::find_plc(protocol), model, settings, why);
+}
+
 }  // namespace s7200::tools

@@ -15,4 +15,8 @@ namespace s7200::tools {
 std::unique_ptr<westinghouse::Plc> make_other_plc(const westinghouse::PlcRow& row, std::string_view model,
                                                   const std::vector<std::string>& settings, std::string& why);
 
+/// The same by the name of an existing protocol.
+std::unique_ptr<serial::Automaton> make_other_plc(std::string_view protocol, std::string_view model,
+                                                  const std::vector<std::string>& settings, std::string& why);
+
 }  // namespace s7200::tools

@@ -212,7 +212,7 @@ using SlaveMaker = decltype(Bench::make_slave);
 SlaveMaker peer_slaves(const std::string& model, const std::string& name, const SuiteSettings& suite) {
   const auto make = [model, settings = suite.plc, protocol = suite.protocol] {
     std::string why;
-    auto plc = make_other_plc(*westinghouse::find_plc(protocol), model, settings, why);
+    auto plc = make_other_plc(protocol, model, settings, why);
     if (!plc) throw std::invalid_argument(why);
     return plc;
   };
