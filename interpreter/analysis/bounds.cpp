@@ -1,21 +1,23 @@
 #include "interpreter/analysis/bounds.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <map>
+#include <numeric>
+#include <set>
 #include <string>
+#include <utility>
 
+#include "interpreter/analysis/longest_ways.hpp"
+#include "interpreter/analysis/value_boxes.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/numbers.hpp"
 #include "interpreter/base/text.hpp"
+#include "interpreter/model/contact_form.hpp"
 #include "interpreter/model/events.hpp"
 #include "interpreter/model/ports.hpp"
 
 namespace s7200 {
 namespace {
 
-constexpr std::int64_t kMostUnits = 255;  ///< units of an instruction that memory counts: bytes, characters, entries
-constexpr std::int64_t kMostShifted = 32;
 constexpr Time kLongest = 100 * kSecond;  ///< a time above it is none
 
 Structure kind_of(const Op& op) { return op.instruction->structure; }
@@ -35,13 +37,16 @@ std::optional<std::int64_t> limit_in(const std::string& comment) {
 class BoundsBuilder {
  public:
   BoundsBuilder(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated)
-      : facts_(facts), calls_(calls), timed_(timed), stated_(stated) {}
+      : facts_(facts), calls_(calls), timed_(timed), stated_(stated), ways_(facts, timed, [this](std::uint32_t op) {
+          return known_times(op);
+        }) {
+    for (const Calls::Node& node : calls.nodes) usual_.disturbing.push_back(node.by_interrupt);
+  }
 
   Bounds all() {
     for (std::uint32_t op = 0; op < timed_.ops.size(); ++op)
       if (is_loop(timed_, op)) bounds_.loops.push_back({op, times_of(op)});
-    bounds_.routines.resize(facts_.flow.routines.size());
-    for (std::uint32_t i = 0; i < facts_.flow.routines.size(); ++i) measure(i);
+    measure_routines();
     bounds_.scan = bounds_.routines[0].time;
     for (const Time phase : timed_.scan_phase) bounds_.scan += phase;
     if (saves_to_eeprom()) bounds_.scan += timed_.eeprom_save;
@@ -49,6 +54,8 @@ class BoundsBuilder {
       if (!use.attached.empty()) bounds_.events.push_back(event(use));
     for (Bounds::OfEvent& event : bounds_.events) event.latency = latency(event);
     bounds_.scan_with_interrupts = with_interrupts();
+    for (std::size_t port = 0; port < timed_.model->ports; ++port)
+      if (const auto found = answer(port)) bounds_.answers.push_back(*found);
     return std::move(bounds_);
   }
 
@@ -63,6 +70,11 @@ class BoundsBuilder {
     const auto first = least_and_most(timed_.ops[op][1]), last = least_and_most(timed_.ops[op][2]);
     if (!first || !last) return facts_.pointers.passes(op);
     return std::max<std::int64_t>(0, last->second - first->first + 1);
+  }
+
+  std::optional<std::int64_t> known_times(std::uint32_t op) const {
+    const auto found = std::ranges::find(bounds_.loops, op, &Bounds::Loop::op);
+    return found->times;
   }
 
   using Range = std::pair<std::int64_t, std::int64_t>;
@@ -96,81 +108,13 @@ class BoundsBuilder {
 
   // --- routines ---
 
-  Time cost(std::uint32_t number) const {
-    const Op& op = timed_.ops[number];
-    const Time powered = op.cost + (op.unit_cost == 0 ? 0 : op.unit_cost * units(op));
-    return op.power_mask != 0 ? std::max(powered, timed_.no_power_flow) : powered;
-  }
-
-  std::int64_t units(const Op& op) const {
-    const std::string_view name = op.instruction->mnemonic;
-    const bool shifts = name.starts_with("SL") || name.starts_with("SR") || name.starts_with("RL") || name.starts_with("RR");
-    const auto rules = op.instruction->rules();
-    for (std::size_t i = 0; i < rules.size(); ++i) {
-      const bool counts = rules[i].count || (shifts && rules[i].role == Role::In);
-      if (!counts || op[i].pointer || op[i].at < image::kConstants) continue;
-      const std::uint8_t count = timed_.constants[op[i].at - image::kConstants];
-      return rules[i].sign == Sign::Signed ? std::abs(static_cast<std::int8_t>(count)) : count;
+  void measure_routines() {
+    std::vector<std::uint32_t> all(facts_.flow.routines.size());
+    std::iota(all.begin(), all.end(), 0U);
+    for (const LongestWay& way : ways_.of_routines(all, usual_)) {
+      if (bounds_.routines.empty()) longest_instruction_ = way.instruction;
+      bounds_.routines.push_back({way.time, {way.loops.begin(), way.loops.end()}});
     }
-    return shifts ? kMostShifted : kMostUnits;
-  }
-
-  void measure(std::uint32_t routine) {
-    if (measured_[routine] != State::No) return;
-    measured_[routine] = State::Begun;
-    const Routine& of = facts_.flow.routines[routine];
-    std::vector<std::uint32_t> loops;
-    bounds_.routines[routine].time = longest(of.first, of.end, loops);
-    std::ranges::sort(loops);
-    loops.erase(std::unique(loops.begin(), loops.end()), loops.end());
-    bounds_.routines[routine].loops = std::move(loops);
-    measured_[routine] = State::Done;
-  }
-
-  Time call(std::uint32_t op, std::vector<std::uint32_t>& loops) {
-    const std::uint32_t routine = facts_.flow.nodes[timed_.ops[op].target].routine;
-    if (measured_[routine] == State::Begun) {
-      loops.push_back(op);  // it recurs
-      return 0;
-    }
-    measure(routine);
-    const Bounds::OfRoutine& called = bounds_.routines[routine];
-    loops.insert(loops.end(), called.loops.begin(), called.loops.end());
-    return called.time;
-  }
-
-  /// How often a loop runs; 1 and a note if that is not known.
-  std::int64_t repeats(std::uint32_t op, std::vector<std::uint32_t>& loops) {
-    const auto found = std::ranges::find(bounds_.loops, op, &Bounds::Loop::op);
-    if (found->times) return *found->times;
-    loops.push_back(op);
-    return 1;
-  }
-
-  /// The longest way from `from` until an op outside of [from, to).
-  Time longest(std::uint32_t from, std::uint32_t to, std::vector<std::uint32_t>& loops) {
-    std::vector<Time> best(to - from, 0);
-    const auto after = [&](std::uint32_t op) { return op >= from && op < to ? best[op - from] : 0; };
-    for (std::uint32_t op = to; op-- > from;) {
-      const Op& now = timed_.ops[op];
-      Time& time = best[op - from];
-      if (kind_of(now) == Structure::For && now.target <= to) {
-        Time leaves = after(now.target);
-        for (std::uint32_t in = op + 1; in < now.target; ++in)
-          for (const std::uint32_t next : facts_.flow.nodes[in].next)
-            if (next >= now.target) leaves = std::max(leaves, after(next));
-        time = cost(op) + repeats(op, loops) * longest(op + 1, now.target, loops) + leaves;
-        continue;
-      }
-      for (const std::uint32_t next : facts_.flow.nodes[op].next)
-        if (next > op) time = std::max(time, after(next));
-      time += cost(op);
-      if (kind_of(now) == Structure::Call) time += call(op, loops);
-      if (kind_of(now) == Structure::Jump && now.target <= op && now.target >= from)
-        time = std::max(time, cost(op) + after(op + 1)) +
-               (repeats(op, loops) - 1) * (longest(now.target, op, loops) + cost(op));
-    }
-    return best.empty() ? 0 : best.front();
   }
 
   bool saves_to_eeprom() const {
@@ -184,31 +128,34 @@ class BoundsBuilder {
 
   // --- interrupts ---
 
-  /// The bytes that instructions move to a byte of special memory; nothing if one of them is not a constant.
-  std::optional<std::vector<std::uint8_t>> constants_written(std::uint32_t at) const {
-    std::vector<std::uint8_t> all;
+  /// The constants that instructions move to a byte or a word of special memory; nothing if one of them is none.
+  std::optional<std::vector<std::int64_t>> constants_written(std::uint32_t at, Width width) const {
+    std::vector<std::int64_t> all;
+    const Bits bits{at * 8u, bytes_of(width) * 8u};
     for (std::uint32_t op = 0; op < facts_.effects.size(); ++op)
       for (const MemoryAccess& access : facts_.effects[op]) {
-        if (!access.writes() || access.by_pointer || !access.bits.overlaps({at * 8u, 8})) continue;
-        const Op& writer = timed_.ops[op];
-        if (writer.instruction->effect != Effect::CopiesByte || writer[0].pointer || writer[0].at < image::kConstants)
-          return {};
-        all.push_back(timed_.constants[writer[0].at - image::kConstants]);
+        if (!access.writes() || access.by_pointer || !access.bits.overlaps(bits)) continue;
+        const auto box = value_box_of(*timed_.ops[op].instruction);
+        const auto value = box && box->carries() && box->from && access.bits == bits
+                               ? constant_value(timed_, timed_.ops[op][*box->from], width)
+                               : std::nullopt;
+        if (!value) return {};
+        all.push_back(*value);
       }
     return all;
   }
 
   Time timed_period(std::size_t timer) const {
     const Time shortest = timed_.model->shortest_timed_interval;
-    const auto written = constants_written(sm::kTimedInterval[timer]);
+    const auto written = constants_written(sm::kTimedInterval[timer], Width::Byte);
     if (!written || written->empty()) return shortest;
     return std::max(shortest, *std::ranges::min_element(*written) * kMillisecond);
   }
 
   /// The time of a character in the fastest format that the port is given.
   Time character_time(std::size_t port) const {
-    const auto written = constants_written(kPorts[port].control);
-    const auto time = [&](std::uint8_t control) {
+    const auto written = constants_written(kPorts[port].control, Width::Byte);
+    const auto time = [&](std::int64_t control) {
       const std::uint32_t baud = timed_.model->baud[(control & sm::kBaudRate) >> 2];
       const std::int64_t bits = (control & sm::kSevenBits ? 9 : 10) + (control & 0x40 ? 1 : 0);
       return baud == 0 ? kSecond : bits * kSecond / baud;
@@ -216,7 +163,7 @@ class BoundsBuilder {
     const std::uint32_t fastest = *std::ranges::max_element(timed_.model->baud);
     Time least = kSecond;
     if (!written) return 9 * kSecond / fastest;
-    for (const std::uint8_t control : *written)
+    for (const std::int64_t control : *written)
       if ((control & sm::kProtocol) == sm::kFreeport) least = std::min(least, time(control));
     return least;
   }
@@ -254,18 +201,16 @@ class BoundsBuilder {
   }
 
   /// The longest time between two places where an interrupt may come.
-  std::optional<Time> longest_wait() {
-    Time wait = 0;
-    for (std::uint32_t op = 0; op < timed_.ops.size(); ++op)
-      if (calls_.nodes[facts_.flow.nodes[op].routine].by_main) wait = std::max(wait, cost(op));
+  std::optional<Time> longest_wait() const {
+    Time wait = longest_instruction_;
     for (const std::uint32_t disi : calls_.disabling) {
       const auto enabled = std::ranges::find_if(calls_.enabling, [&](std::uint32_t op) {
         return op > disi && facts_.flow.nodes[op].routine == facts_.flow.nodes[disi].routine;
       });
       if (enabled == calls_.enabling.end()) return {};
-      std::vector<std::uint32_t> loops;
-      wait = std::max(wait, longest(disi, *enabled + 1, loops));
-      if (!loops.empty()) return {};
+      const LongestWay way = ways_.of_stretch(disi, *enabled + 1, usual_);
+      if (!way.loops.empty()) return {};
+      wait = std::max(wait, way.time);
     }
     return wait;
   }
@@ -300,9 +245,14 @@ class BoundsBuilder {
   /// The time that includes the routines of as many events as come in it; nothing if there is none or a period is not known.
   template <class Count>
   std::optional<Time> settled(Time alone, Count count) const {
+    return settled(alone, count, [](const Bounds::OfEvent&) { return true; });
+  }
+  template <class Count, class Comes>
+  std::optional<Time> settled(Time alone, Count count, Comes comes) const {
     for (Time time = alone;;) {
       Time next = alone;
       for (const Bounds::OfEvent& event : bounds_.events) {
+        if (!comes(event)) continue;
         if (!event.period || *event.period == 0) return {};
         next += count(event, time) * event.longest_routine;
       }
@@ -312,13 +262,144 @@ class BoundsBuilder {
     }
   }
 
-  enum class State { No, Begun, Done };
+  // --- answers ---
+
+  static bool is_of_port(std::uint8_t event, std::size_t port) {
+    return event == kPorts[port].received || event == kPorts[port].sent || event == kPorts[port].received_message;
+  }
+  static bool is_timed(std::uint8_t event) { return event == event::kTimed0 || event == event::kTimed1; }
+
+  /// The routines that receive: those of a port's events, and of timed interrupts, which measure the silence after them.
+  std::set<std::uint32_t> receiving(std::size_t port, bool by_time) const {
+    std::set<std::uint32_t> all;
+    for (const EventUse& use : calls_.events)
+      for (const Attachment& attachment : use.attached)
+        if (attachment.routine &&
+            (by_time ? is_timed(use.number) : is_of_port(use.number, port) && use.number != kPorts[port].sent))
+          all.insert(*attachment.routine);
+    return all;
+  }
+
+  /// Routines with what they call.
+  std::set<std::uint32_t> with_called(std::set<std::uint32_t> routines) const {
+    std::vector<std::uint32_t> waiting(routines.begin(), routines.end());
+    while (!waiting.empty()) {
+      const std::uint32_t routine = waiting.back();
+      waiting.pop_back();
+      for (const CallSite& call : calls_.nodes[routine].calls)
+        if (routines.insert(call.routine).second) waiting.push_back(call.routine);
+    }
+    return routines;
+  }
+
+  /// The bits that contacts of the main program look at and that these routines write.
+  std::vector<Bits> flags_of(const std::set<std::uint32_t>& routines) const {
+    std::vector<Bits> flags;
+    for (std::uint32_t op = 0; op < timed_.ops.size(); ++op) {
+      const Op& now = timed_.ops[op];
+      if (!calls_.nodes[facts_.flow.nodes[op].routine].by_main || now[0].pointer) continue;
+      if (contact_form(*now.instruction).kind != ContactForm::Kind::Bit) continue;
+      const Bits bit{now[0].at * 8u + now[0].bit, 1};
+      for (const std::uint32_t routine : routines)
+        if (now[0].at != image::kSM && writes(routine, bit)) flags.push_back(bit);
+    }
+    return flags;
+  }
+  bool writes(std::uint32_t routine, const Bits& bit) const {
+    const Routine& of = facts_.flow.routines[routine];
+    for (std::uint32_t op = of.first; op < of.end; ++op)
+      for (const MemoryAccess& access : facts_.effects[op])
+        if (access.writes() && !access.by_pointer && access.bits.overlaps(bit)) return true;
+    return false;
+  }
+
+  /// A program that is ready, whose receiving routines do not disturb the work on a request.
+  LongestWays::Assumed ready(std::uint32_t port, const std::set<std::uint32_t>& receiving) const {
+    LongestWays::Assumed assumed{.bits = {{Bits{image::kSM * 8u + 1, 1}, false}}, .port = port};
+    std::set<std::uint32_t> others;
+    for (const EventUse& use : calls_.events)
+      for (const Attachment& attachment : use.attached)
+        if (attachment.routine && !receiving.contains(*attachment.routine)) others.insert(*attachment.routine);
+    assumed.disturbing.assign(facts_.flow.routines.size(), false);
+    for (const std::uint32_t routine : with_called(others)) assumed.disturbing[routine] = true;
+    return assumed;
+  }
+
+  Time longest_routine(const auto& of_event) const {
+    Time longest = 0;
+    for (const Bounds::OfEvent& event : bounds_.events)
+      if (of_event(event.event)) longest = std::max(longest, event.longest_routine);
+    return longest;
+  }
+
+  /// The longest time that a timed interrupt, or RCV, waits after the last character; nothing if that is not known.
+  std::optional<Time> longest_silence(std::size_t port, bool timed) const {
+    Time longest = 0;
+    const auto take = [&](std::optional<std::vector<std::int64_t>> written) {
+      if (written && !written->empty()) longest = std::max(longest, *std::ranges::max_element(*written) * kMillisecond);
+      return written.has_value();
+    };
+    for (std::size_t timer = 0; timer < 2; ++timer) {
+      const bool used = timed && std::ranges::any_of(calls_.events, [&](const EventUse& use) {
+                          return use.number == event::kTimed0 + timer && !use.attached.empty();
+                        });
+      if (used && !take(constants_written(sm::kTimedInterval[timer], Width::Byte))) return {};
+    }
+    const bool receives = timed_.receives_messages[port];
+    if (receives && !take(constants_written(kPorts[port].message + sm::message::kTimeout, Width::Word))) return {};
+    return longest;
+  }
+
+  /// The main program is in a scan that has not seen the request yet; the next one sees it.
+  std::optional<Bounds::OfAnswer> answer(std::size_t port) {
+    const std::set<std::uint32_t> by_characters = receiving(port, false), by_time = receiving(port, true);
+    if (by_characters.empty() && !timed_.receives_messages[port]) return {};
+    std::set<std::uint32_t> all = with_called(by_characters), timed = with_called(by_time);
+    const bool waits = !flags_of(timed).empty() || transmits(timed, port);
+    if (waits) all.merge(timed);
+    LongestWays::Assumed assumed = ready(static_cast<std::uint32_t>(port), all);
+    const LongestWay sends = ways_.of_routines({0}, assumed).front();
+    for (const Bits& flag : flags_of(all)) assumed.bits.emplace_back(flag, false);
+    const LongestWay idle = ways_.of_routines({0}, assumed).front();
+    std::optional<Time> answers;
+    if (sends.to_transmission) answers = bounds_.scan - bounds_.routines[0].time + idle.time + *sends.to_transmission;
+    Bounds::OfAnswer answer{static_cast<std::uint8_t>(port), {}, {}};
+    std::set<std::uint32_t> loops = sends.loops;
+    for (const LongestWay& way : ways_.of_routines({all.begin(), all.end()}, assumed)) {
+      loops.insert(way.loops.begin(), way.loops.end());
+      if (!sends.to_transmission && way.to_transmission) answers = std::max(answers.value_or(0), *way.to_transmission);
+    }
+    if (!answers) return {};
+    answer.loops = {loops.begin(), loops.end()};
+    const auto silence = longest_silence(port, waits);
+    const auto is_received = [&](std::uint8_t event) { return is_of_port(event, port) && event != kPorts[port].sent; };
+    const Time others =
+        longest_routine([&](std::uint8_t event) { return !is_of_port(event, port) && !(waits && is_timed(event)); });
+    Time time = *answers;
+    if (!by_characters.empty()) time += idle.instruction + others + longest_routine(is_received);
+    if (waits) time += idle.instruction + others + longest_routine(is_timed);
+    if (silence)
+      answer.time = settled(
+          time + *silence, [](const Bounds::OfEvent& event, Time until) { return until / *event.period + 1; },
+          [&](const Bounds::OfEvent& event) { return !is_of_port(event.event, port) && !(waits && is_timed(event.event)); });
+    return answer;
+  }
+  bool transmits(const std::set<std::uint32_t>& routines, std::size_t port) const {
+    return std::ranges::any_of(routines, [&](std::uint32_t routine) {
+      const Routine& of = facts_.flow.routines[routine];
+      for (std::uint32_t op = of.first; op < of.end; ++op)
+        if (timed_.ops[op].instruction->effect == Effect::Transmits && timed_.ops[op][1].at == port) return true;
+      return false;
+    });
+  }
 
   const Facts& facts_;
   const Calls& calls_;
   const Program& timed_;
   const StatedLoops& stated_;
-  std::map<std::uint32_t, State> measured_{};
+  LongestWays ways_;
+  LongestWays::Assumed usual_{};
+  Time longest_instruction_ = 0;  // of the main program, with what it calls
   Bounds bounds_{};
 };
 

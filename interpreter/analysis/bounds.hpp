@@ -1,10 +1,12 @@
-// Upper bounds of times: of the scan, of each routine, and from an event to the begin of its interrupt routine.
+// Upper bounds of times: of the scan, of each routine, from an event to the begin of its interrupt routine, and from a
+// request to its answer.
 //
-// A bound is the longest way through the routine: each instruction with power flow and the most that it counts, each loop as
-// often as it runs at most. That is known of FOR between constants, of FOR up to memory that instructions set to constants
-// only, of FOR whose ends the instructions in front of it bound (reaching_values.hpp), if its passes leave its index alone;
-// and of a FOR or a JMP backwards whose comment says so, `at most 8 times`, or of which the user says so. Nothing else is
-// guessed: a loop without a bound is named, and the figure then holds for one pass through it.
+// A bound is the longest way through the routine (longest_ways.hpp): each instruction with the most that it counts, each
+// loop as often as it runs at most. Besides what is known on the way, that is known of FOR between constants, of FOR up to
+// memory that instructions set to constants only, of FOR whose ends the instructions in front of it bound
+// (reaching_values.hpp), if its passes leave its index alone; and of a FOR or a JMP backwards whose comment says so, `at
+// most 8 times`, or of which the user says so. Nothing else is guessed: a loop without a bound is named, and the figure then
+// holds for one pass through it.
 //
 // Times are those of a table, mostly estimates: the same program decoded with another table gives the bound for that one.
 #pragma once
@@ -44,9 +46,19 @@ struct Bounds {
     std::vector<std::uint32_t> loops;  ///< without a bound, on which these depend
   };
 
+  /// From the last character of a request at a port to the first of its answer. The one who asks waits for answers, so that
+  /// no other character comes meanwhile; the program is past its first scan; and bits of the receiving routines that the
+  /// main program looks at are off before.
+  struct OfAnswer {
+    std::uint8_t port = 0;
+    std::optional<Time> time;          ///< nothing: there is no bound
+    std::vector<std::uint32_t> loops;  ///< without a bound, on which it depends
+  };
+
   std::vector<OfRoutine> routines;  ///< in ControlFlow::routines
   std::vector<OfEvent> events;      ///< attached ones, in the order in which the CPU serves them
   std::vector<Loop> loops;          ///< all, by op
+  std::vector<OfAnswer> answers;    ///< of ports at which the program receives and sends
   Time scan = 0;                    ///< without interrupts
   /// With as many interrupts as can come in it. As with OfEvent::latency, there is no bound if interrupts leave no time for
   /// it, if the period of an attached event is not known, or if they may stay disabled for good.

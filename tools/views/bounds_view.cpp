@@ -89,6 +89,19 @@ std::string event_text(const Inspection& inspection, const Bounds::OfEvent& even
   return "  " + wrapped_at(text, 4, 2) + "\n";
 }
 
+std::string answers_text(const Inspection& inspection, const Both& both) {
+  std::string text;
+  for (std::size_t i = 0; i < both.usual.answers.size(); ++i) {
+    const Bounds::OfAnswer &answer = both.usual.answers[i], &slow = both.slow.answers[i];
+    std::string line = fmt::format("port {}: from the last character of a request to the first of its answer ", answer.port);
+    line += answer.time
+                ? fmt::format("{} {} ({})", at_most(inspection, answer.loops), ms(*answer.time), ms(slow.time.value_or(0)))
+                : "no bound: how long the program waits for silence, or how often interrupts come, is not known";
+    text += "  " + wrapped_at(line, 4, 2) + "\n";
+  }
+  return text.empty() ? text : "\nAnswers, while no other character comes\n" + text;
+}
+
 std::string all_loops_text(const Inspection& inspection, const Both& both) {
   std::string text;
   for (const Bounds::Loop& loop : both.usual.loops)
@@ -124,6 +137,18 @@ ordered_json events_json(const Inspection& inspection, const Both& both, const s
   return all;
 }
 
+ordered_json answers_json(const Inspection& inspection, const Both& both) {
+  ordered_json all = ordered_json::array();
+  for (std::size_t i = 0; i < both.usual.answers.size(); ++i) {
+    const Bounds::OfAnswer &answer = both.usual.answers[i], &slow = both.slow.answers[i];
+    all.push_back({{"port", answer.port},
+                   {"time_ns", time_json(answer.time)},
+                   {"slowest_ns", time_json(slow.time)},
+                   {"loops_without_bound", places(inspection, answer.loops)}});
+  }
+  return all;
+}
+
 std::optional<SeenTimes> seen_in(const Inspection& inspection) {
   return inspection.see_times ? inspection.see_times(inspection) : std::nullopt;
 }
@@ -139,6 +164,7 @@ std::string bounds_text(const Inspection& inspection) {
   if (!both.usual.events.empty()) text += "\nInterrupts\n";
   for (std::size_t i = 0; i < both.usual.events.size(); ++i)
     text += event_text(inspection, both.usual.events[i], both.slow.events[i], seen);
+  text += answers_text(inspection, both);
   const std::string loops = all_loops_text(inspection, both);
   return text + (loops.empty() ? "" : "\n" + loops);
 }
@@ -159,6 +185,7 @@ ordered_json bounds_json(const Inspection& inspection) {
                                   {"slowest_ns", both.slow.routines[i].time},
                                   {"loops_without_bound", places(inspection, both.usual.routines[i].loops)}});
   json["events"] = events_json(inspection, both, seen);
+  json["answers"] = answers_json(inspection, both);
   json["loops"] = ordered_json::array();
   for (const Bounds::Loop& loop : both.usual.loops)
     json["loops"].push_back(

@@ -60,6 +60,57 @@ TEST(Bounds, CountedInstructionsTakeTheMostThatTheyCount) {
   EXPECT_EQ(bounds_of(facts, calls_of(*program, facts.flow), timed).routines[0].time, 40 * us + 3 * us + 32 * us);
 }
 
+TEST(Bounds, CallsThatOneValueKeepsApartAreNotAddedUp) {
+  const std::string two =
+      "LDB= VB0, 3\nCALL 1\nLDB= VB0, 4\nCALL 2\nMEND\nSBR 1\nLD I0.0\n= Q0.0\nRET\nSBR 2\nLD I0.0\n= Q0.1\nRET\n";
+  EXPECT_EQ(bounds(two).routines[0].time, 50 * us + 30 * us);
+  EXPECT_EQ(bounds("LD I0.1\nCALL 1\nLDN I0.1\nCALL 1\nMEND\nSBR 1\nLD I0.0\n= Q0.0\nRET\n").routines[0].time,
+            50 * us + 30 * us);
+  const std::string written =
+      "LDB= VB0, 3\nCALL 1\nLD SM0.0\nMOVB VB9, VB0\nLDB= VB0, 4\nCALL 1\nMEND\nSBR 1\nLD I0.0\nRET\n";
+  EXPECT_EQ(bounds(written).routines[0].time, 70 * us + 2 * 20 * us) << "VB0 is another one then";
+}
+
+TEST(Bounds, ACopyIsKeptApartLikeItsOriginal) {
+  const std::string copied =
+      "LD SM0.0\nMOVB VB0, AC0\nLDB= AC0, 3\nCALL 1\nLDB= VB0, 4\nCALL 1\nMEND\nSBR 1\nLD I0.0\n= Q0.0\nRET\n";
+  EXPECT_EQ(bounds(copied).routines[0].time, 70 * us + 30 * us);
+}
+
+TEST(Bounds, WhatAnInterruptRoutineWritesKeepsNothingApart) {
+  const std::string disturbed =
+      "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLDB= VB0, 3\nCALL 1\nLDB= VB0, 4\nCALL 1\nMEND\n"
+      "SBR 1\nLD I0.0\nRET\nINT 0\nLD SM0.0\nMOVB VB9, VB0\nRETI\n";
+  EXPECT_EQ(bounds(disturbed).routines[0].time, 90 * us + 2 * 20 * us);
+}
+
+TEST(Bounds, ALoopThatCountsDownToZeroIsKnown) {
+  const Bounds down = bounds("LD SM0.0\nMOVW 5, VW0\nLBL 1\nLD SM0.0\nINCW VW2\nDECW VW0\nLDN SM1.0\nJMP 1\nMEND\n");
+  EXPECT_TRUE(down.routines[0].loops.empty());
+  EXPECT_EQ(down.routines[0].time, 30 * us + 5 * 50 * us);
+}
+
+TEST(Bounds, ALoopCountsAsTheWayToItAllows) {
+  const std::string program =
+      "LDW<= VW10, 4\nAW>= VW10, 1\nCALL 1\nLDW> VW10, 90\nR M0.0, 1\nMEND\nSBR 1\nLD SM0.0\nFOR VW0, 1, VW10\nINCW "
+      "VW2\nNEXT\nRET\n";
+  EXPECT_EQ(bounds(program).routines[0].time, 60 * us + 30 * us + 4 * 20 * us);
+}
+
+TEST(Bounds, AnAnswerTakesFromItsLastCharacterTheSilenceAScanAndTheWayToItsXmt) {
+  const std::string slave =
+      "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 5, SMB34\nATCH 0, 8\nENI\nLD M0.0\nCALL 1\nR M0.0, 1\nMEND\n"
+      "SBR 1\nLD SM0.0\nXMT VB0, 0\nRET\n"
+      "INT 0\nLD SM0.0\nATCH 1, 10\nRETI\nINT 1\nLD SM0.0\nS M0.0, 1\nDTCH 10\nRETI\n";
+  const Bounds answered = bounds(slave);
+  ASSERT_EQ(answered.answers.size(), 1U);
+  const Time characters = 10 * us + 70 * us, silence = 5 * ms + 10 * us + 80 * us;
+  const Time idle = 90 * us, sends = 70 * us + 20 * us;
+  EXPECT_EQ(answered.answers[0].time, characters + silence + idle + 800 * us + sends);
+  EXPECT_TRUE(answered.answers[0].loops.empty());
+  EXPECT_TRUE(bounds("LD I0.0\nXMT VB0, 0\nMEND\n").answers.empty()) << "it receives nothing";
+}
+
 constexpr std::string_view kTwoInterrupts =
     "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 5, SMB34\nATCH 0, 8\nATCH 1, 10\nENI\nMEND\n"
     "INT 0\nLD SM0.0\nINCW VW0\nRETI\nINT 1\nLD SM0.0\nINCW VW2\nINCW VW4\nRETI\n";
