@@ -22,7 +22,7 @@ constexpr std::size_t kMostWays = 1000, kFewWays = 40;  ///< in front of an op
 constexpr std::uint64_t kManySteps = 100'000;           ///< after which few ways must do
 constexpr int kLevels = 9;                              ///< of the logic stack
 
-Structure structure_of(const Op& op) { return op.instruction->structure; }
+Structure flow_role(const Op& op) { return op.instruction->structure; }
 
 /// The levels of the logic stack on a way, the top first.
 class StackOfWay {
@@ -63,7 +63,7 @@ void join_the_shortest(WayList& ways) {
     }
 }
 
-void add(WayList& ways, Way way, std::size_t most = kMostWays) {
+void add_way(WayList& ways, Way way, std::size_t most = kMostWays) {
   const auto same =
       std::ranges::find_if(ways, [&](const Way& each) { return each.stack == way.stack && each.memory == way.memory; });
   if (same != ways.end()) {
@@ -132,7 +132,7 @@ class LongestWays::Follower {
     Through through;
     WayList all;
     for (unsigned top = 0; top < 2; ++top) {
-      add(all, {StackOfWay(top), cells_.nothing_known(), 0});
+      add_way(all, {StackOfWay(top), cells_.nothing_known(), 0});
     }
     for (const auto& [op, ways] : walk(from, to, std::move(all), through)) take(through.exits, ways);
     return finish(through);
@@ -166,7 +166,7 @@ class LongestWays::Follower {
   }
 
   static void take(WayList& into, const WayList& from) {
-    for (const Way& way : from) add(into, way);
+    for (const Way& way : from) add_way(into, way);
   }
 
   Through through_routine(std::uint32_t routine, WayMemory memory) {
@@ -197,7 +197,7 @@ class LongestWays::Follower {
   void arrive(std::uint32_t op, Way way, Arrivals& arrivals) const {
     way.stack = needs_.kept(op, way.stack);
     cells_.forget_dead(way.memory, op);
-    add(arrivals[op], std::move(way), has_patience() ? kMostWays : kFewWays);
+    add_way(arrivals[op], std::move(way), has_patience() ? kMostWays : kFewWays);
   }
 
   /// After many steps, calls and loops are followed as if nothing were known in front of them: each once.
@@ -214,7 +214,7 @@ class LongestWays::Follower {
     through.instruction = std::max(through.instruction, cost);
     way.time += cost;
     if (now.instruction->effect == Effect::Transmits && powered && now[1].at == assumed_.port) through.transmit_at(way.time);
-    switch (structure_of(now)) {
+    switch (flow_role(now)) {
       case Structure::Jump:
         return powered ? jump(op, std::move(way), from, arrivals, through) : arrive(op + 1, std::move(way), arrivals);
       case Structure::SegmentExit:
@@ -245,7 +245,7 @@ class LongestWays::Follower {
   void return_from(std::uint32_t op, Way way, Through& through) const {
     way.stack = StackOfWay();
     cells_.forget_dead_after(way.memory, facts_.flow.nodes[op].routine);
-    add(through.exits, std::move(way));
+    add_way(through.exits, std::move(way));
   }
 
   /// CRET and CRETI return; END and STOP end the scan.
@@ -425,7 +425,7 @@ class LongestWays::Follower {
     Pass pass;
     WayList all;
     for (unsigned top = 0; top < 2; ++top) {
-      add(all, {StackOfWay(top), memory, 0});
+      add_way(all, {StackOfWay(top), memory, 0});
     }
     pass.leaves = walk(from, to, std::move(all), pass.through);
     for (const auto& [op, ways] : pass.leaves)
@@ -448,7 +448,7 @@ class LongestWays::Follower {
     for (const auto& [to, ways] : pass.leaves)
       if (to != but_for)
         for (const Way& each : ways) arrive(to, {each.stack, way.memory, time}, arrivals);
-    for (const Way& exit : pass.through.exits) add(through.exits, {exit.stack, way.memory, time});
+    for (const Way& exit : pass.through.exits) add_way(through.exits, {exit.stack, way.memory, time});
     through.include(pass.through);
     if (pass.through.ends) through.end_at(time);
     if (pass.through.to_transmission) through.transmit_at(time);
@@ -514,7 +514,7 @@ class LongestWays::Follower {
     for (std::uint32_t op = from; op < to; ++op) {
       for (const MemoryAccess& access : facts_.effects[op])
         if (access.writes() && !is_anywhere(timed_, access)) cells_.write(memory, access.bits, {}, false);
-      if (structure_of(timed_.ops[op]) == Structure::Call)
+      if (flow_role(timed_.ops[op]) == Structure::Call)
         cells_.forget_writes_of(facts_.flow.nodes[timed_.ops[op].target].routine, memory);
     }
   }

@@ -16,13 +16,13 @@ constexpr std::int64_t kSizes[]{0, 16, 32, 64, 128, 256};  ///< numbers are spli
 constexpr int kOften = 2;                                  ///< contacts that look at a bit, so that one tells of the other
 
 /// Memory that only the program changes while a scan goes on.
-bool stays(const Bits& bits) {
+bool only_the_program_changes(const Bits& bits) {
   const Area area = area_of(bits);
   return area == Area::I || area == Area::Q || area == Area::M || area == Area::V || area == Area::S;
 }
 
 /// The system goes on writing memory after RCV, NETR and NETW.
-bool lets_the_system_write(const Op& op) {
+bool is_stored_by_the_system(const Op& op) {
   return op.instruction->effect == Effect::Receives || op.instruction->mnemonic == "NETR" ||
          op.instruction->mnemonic == "NETW";
 }
@@ -63,7 +63,7 @@ void WayCells::find() {
   for (std::uint32_t op = 0; op < facts_.program.ops.size(); ++op) note_comparison(op);
   for (const auto& [first, times] : contacts) {
     const Bits bit{first, 1};
-    if (times < kOften || !stays(bit) || cells_.size() >= kMostCells) continue;
+    if (times < kOften || !only_the_program_changes(bit) || cells_.size() >= kMostCells) continue;
     if (number_.try_emplace({first, Width::Bit}, cells_.size()).second)
       cells_.push_back({.at = static_cast<std::uint32_t>(first / 8), .width = Width::Bit, .bits = bit});
   }
@@ -159,7 +159,7 @@ void WayCells::want_sources() {
 /// Nothing is ever known of what interrupt routines or the system write; accumulators are saved.
 void WayCells::find_disturbed(const std::vector<bool>& disturbing) {
   for (std::uint32_t op = 0; op < facts_.effects.size(); ++op) {
-    if (!disturbing[facts_.flow.nodes[op].routine] && !lets_the_system_write(facts_.program.ops[op])) continue;
+    if (!disturbing[facts_.flow.nodes[op].routine] && !is_stored_by_the_system(facts_.program.ops[op])) continue;
     for (Cell& cell : cells_) cell.disturbed |= !is_accumulator(cell.at) && writes(op, cell.bits);
   }
 }
