@@ -74,8 +74,8 @@ ROOMS["tests"] = list(ROOMS)
 # What only some rooms may include, by the beginning of its name.
 LIBRARIES = {
     "CLI/": ["tools/command", "tests"],
-    "boost/asio": ["tools/bridge", "tools/host/web_server.cpp"],
-    "boost/": ["interpreter/stl/parser.cpp", "tools/bridge", "tools/host/web_server.cpp"],
+    "boost/asio": ["tools/bridge", "tools/host/net/web_server.cpp"],
+    "boost/": ["interpreter/stl/parser.cpp", "tools/bridge", "tools/host/net/web_server.cpp"],
     "nlohmann/": ["tools", "tests"],
     "yaml-cpp/": ["tools/yaml"],
     "zip.h": ["tools/recordings"],
@@ -92,7 +92,7 @@ LIBRARIES = {
 WORDS = {
     r"\bstderr\b|\bstd::c(err|log|out)\b|\bstdout\b|\bfmt::print\b": ["tools/command", "tests"],
     r"\bk(Fine|CheckFailed|Unusable|CpuFatal)\b|\b_?exit\(": ["tools/command", "tests"],
-    r"\bstd::(ranges::)?(views|subrange)\b": [],  # Clang 14 cannot read those of libstdc++ 12; base/joined.hpp for texts
+    r"\bstd::(ranges::)?(views|subrange)\b": [],  # Clang 14 cannot read those of libstdc++ 12; base/text/joined.hpp for texts
     r"\b(fs|filesystem)::path\(": ["interpreter/base/file_path.hpp", "tools/host/posix", "tools/command/posix", "tests"],  # a text is no path on Windows: file_path()
     r"\bTempDir\b": ["tests/support/scratch_folder.cpp"],  # one folder for all tests that run beside each other
     r"\bmodbus\b": ["serial_sim/modbus", "serial_sim/westinghouse", "serial_sim/record", "tools", "tests"],
@@ -186,15 +186,27 @@ LONGEST_VERB = 119  # lines
 
 def offences_of_verbs():
     """A verb is its options, a call and what it prints."""
-    for path in sorted((TOP / "tools/command").glob("cmd_*.cpp")):
+    for path in sorted((TOP / "tools/command/verbs").glob("cmd_*.cpp")):
         lines = path.read_text(encoding="utf-8").count("\n")
         if lines > LONGEST_VERB:
             yield f"{path.relative_to(TOP)}:1: {lines} lines, {LONGEST_VERB} are enough for a verb"
 
 
+MOST_FILES = 25
+
+
+def offences_of_floors():
+    """A newcomer sees what is on a floor at one glance."""
+    for room in (room for room in ROOMS if room != "tests"):
+        for floor in [TOP / room, *(path for path in (TOP / room).rglob("*") if path.is_dir())]:
+            files = sum(path.is_file() and path.name != "CMakeLists.txt" for path in floor.iterdir())
+            if files > MOST_FILES:
+                yield f"{floor.relative_to(TOP)}:1: {files} files on one floor, {MOST_FILES} are enough"
+
+
 def main():
     found = [offence for path in sources() for offence in offences_of(path)] + list(offences_of_types())
-    found += offences_of_verbs()
+    found += [*offences_of_verbs(), *offences_of_floors()]
     for line in found:
         print(line)
     print(f"{len(list(sources()))} files, {len(found)} offences")

@@ -16,8 +16,8 @@
 #include <optional>
 #include <vector>
 
-#include "interpreter/analysis/calls.hpp"
-#include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/effects/facts.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
 
 namespace s7200 {
 

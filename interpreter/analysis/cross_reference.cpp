@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "interpreter/analysis/memory_names.hpp"
-#include "interpreter/program/unread.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/program/loading/unread.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200 {

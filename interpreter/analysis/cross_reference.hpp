@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/effects/facts.hpp"
 
 namespace s7200 {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "interpreter/model/instruction.hpp"
-#include "interpreter/program/ladder.hpp"
-#include "interpreter/program/ladder_boxes.hpp"
+#include "interpreter/program/ladder/ladder.hpp"
+#include "interpreter/program/ladder/ladder_boxes.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200 {

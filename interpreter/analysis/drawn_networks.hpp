@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "interpreter/stl/ast.hpp"
-#include "interpreter/stl/ladder.hpp"
+#include "interpreter/stl/drawings/ladder.hpp"
 
 namespace s7200 {
 

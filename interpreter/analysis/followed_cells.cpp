@@ -5,7 +5,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "interpreter/analysis/effects.hpp"
+#include "interpreter/analysis/effects/effects.hpp"
 #include "interpreter/analysis/value_boxes.hpp"
 #include "interpreter/model/contact_form.hpp"
 

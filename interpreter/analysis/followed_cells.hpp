@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/analysis/calls.hpp"
-#include "interpreter/analysis/flow.hpp"
-#include "interpreter/analysis/pointers.hpp"
-#include "interpreter/analysis/value_set.hpp"
+#include "interpreter/analysis/effects/pointers.hpp"
+#include "interpreter/analysis/effects/value_set.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
+#include "interpreter/analysis/flow/flow.hpp"
 
 namespace s7200 {
 

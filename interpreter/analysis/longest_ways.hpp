@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/effects/facts.hpp"
 
 namespace s7200 {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/base/bytes.hpp"
 
 namespace s7200 {

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <tuple>
 
-#include "interpreter/analysis/first_scan.hpp"
-#include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/flow/first_scan.hpp"
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/program/unread.hpp"
+#include "interpreter/program/loading/unread.hpp"
 
 namespace s7200 {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "interpreter/analysis/ways.hpp"
+#include "interpreter/analysis/flow/ways.hpp"
 
 namespace s7200 {
 

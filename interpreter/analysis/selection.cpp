@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <map>
 
-#include "interpreter/analysis/memory_names.hpp"
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/nearest.hpp"
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/nearest.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/program/operands/address.hpp"
 
 namespace s7200 {
 namespace {

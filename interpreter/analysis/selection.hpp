@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/effects/facts.hpp"
 
 namespace s7200 {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "interpreter/base/among.hpp"
-#include "interpreter/program/unread.hpp"
+#include "interpreter/base/text/among.hpp"
+#include "interpreter/program/loading/unread.hpp"
 
 namespace s7200 {
 namespace {

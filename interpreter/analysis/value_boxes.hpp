@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "interpreter/analysis/value_set.hpp"
+#include "interpreter/analysis/effects/value_set.hpp"
 #include "interpreter/program/program.hpp"
 
 namespace s7200 {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "interpreter/analysis/cross_reference.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/followed_cells.hpp"
-#include "interpreter/analysis/memory_names.hpp"
 #include "interpreter/analysis/value_boxes.hpp"
 #include "interpreter/model/contact_form.hpp"
 

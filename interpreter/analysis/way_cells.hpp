@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/analysis/facts.hpp"
-#include "interpreter/analysis/value_set.hpp"
+#include "interpreter/analysis/effects/facts.hpp"
+#include "interpreter/analysis/effects/value_set.hpp"
 
 namespace s7200 {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <tuple>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::stl {
 

@@ -1,6 +1,6 @@
 #include "interpreter/base/file_source.hpp"
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200 {
 

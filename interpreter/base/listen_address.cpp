@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200 {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 
 namespace s7200 {
 namespace {

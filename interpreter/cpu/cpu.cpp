@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/cpu/clock.hpp"
 #include "interpreter/cpu/execute.hpp"
-#include "interpreter/cpu/forcing.hpp"
-#include "interpreter/cpu/freeport.hpp"
 #include "interpreter/cpu/interrupts.hpp"
-#include "interpreter/cpu/points.hpp"
-#include "interpreter/cpu/power.hpp"
+#include "interpreter/cpu/ports/freeport.hpp"
 #include "interpreter/cpu/scan.hpp"
 #include "interpreter/cpu/units.hpp"
+#include "interpreter/cpu/units/clock.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
+#include "interpreter/cpu/units/points.hpp"
+#include "interpreter/cpu/units/power.hpp"
 
 namespace s7200 {
 

@@ -16,7 +16,7 @@
 
 #include "interpreter/cpu/core.hpp"
 #include "interpreter/cpu/steady_scans.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 
 namespace s7200 {
 

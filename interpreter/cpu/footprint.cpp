@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-#include "interpreter/analysis/effects.hpp"
+#include "interpreter/analysis/effects/effects.hpp"
 #include "interpreter/model/memory_alone.hpp"
 
 namespace s7200 {

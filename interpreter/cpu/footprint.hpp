@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "interpreter/analysis/bits.hpp"
+#include "interpreter/analysis/effects/bits.hpp"
 #include "interpreter/cpu/core.hpp"
 
 namespace s7200 {

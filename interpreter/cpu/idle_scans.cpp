@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "interpreter/cpu/execute.hpp"
-#include "interpreter/cpu/ppi.hpp"
+#include "interpreter/cpu/ports/ppi.hpp"
 #include "interpreter/cpu/scan.hpp"
-#include "interpreter/cpu/timers.hpp"
+#include "interpreter/cpu/units/timers.hpp"
 
 namespace s7200 {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "interpreter/cpu/high_speed_counters.hpp"
 #include "interpreter/cpu/local_memory.hpp"
 #include "interpreter/cpu/units.hpp"
+#include "interpreter/cpu/units/high_speed_counters.hpp"
 
 namespace s7200::interrupts {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "interpreter/cpu/ppi.hpp"
+#include "interpreter/cpu/ports/ppi.hpp"
 #include "interpreter/cpu/units.hpp"
 #include "interpreter/model/s7_pdu.hpp"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "interpreter/cpu/freeport.hpp"
+#include "interpreter/cpu/ports/freeport.hpp"
 #include "interpreter/cpu/scan.hpp"
 
 namespace s7200 {

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "interpreter/cpu/eeprom.hpp"
-#include "interpreter/cpu/forcing.hpp"
 #include "interpreter/cpu/interrupts.hpp"
 #include "interpreter/cpu/local_memory.hpp"
 #include "interpreter/cpu/network.hpp"
 #include "interpreter/cpu/parameters.hpp"
-#include "interpreter/cpu/points.hpp"
-#include "interpreter/cpu/ppi.hpp"
+#include "interpreter/cpu/ports/ppi.hpp"
 #include "interpreter/cpu/units.hpp"
+#include "interpreter/cpu/units/eeprom.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
+#include "interpreter/cpu/units/points.hpp"
 
 namespace s7200::scan {
 namespace {

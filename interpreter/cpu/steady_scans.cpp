@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <limits>
 
-#include "interpreter/cpu/clock.hpp"
 #include "interpreter/cpu/idle_scans.hpp"
 #include "interpreter/cpu/scan.hpp"
-#include "interpreter/cpu/timers.hpp"
+#include "interpreter/cpu/units/clock.hpp"
+#include "interpreter/cpu/units/timers.hpp"
 
 namespace s7200 {
 namespace {

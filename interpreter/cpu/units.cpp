@@ -3,19 +3,19 @@
 #include <cassert>
 #include <iterator>
 
-#include "interpreter/cpu/clock.hpp"
-#include "interpreter/cpu/eeprom.hpp"
-#include "interpreter/cpu/forcing.hpp"
-#include "interpreter/cpu/freeport.hpp"
-#include "interpreter/cpu/high_speed_counters.hpp"
 #include "interpreter/cpu/interrupts.hpp"
-#include "interpreter/cpu/message_receiver.hpp"
 #include "interpreter/cpu/network.hpp"
-#include "interpreter/cpu/points.hpp"
-#include "interpreter/cpu/power.hpp"
-#include "interpreter/cpu/pulse_outputs.hpp"
+#include "interpreter/cpu/ports/freeport.hpp"
+#include "interpreter/cpu/ports/message_receiver.hpp"
 #include "interpreter/cpu/scan.hpp"
-#include "interpreter/cpu/timers.hpp"
+#include "interpreter/cpu/units/clock.hpp"
+#include "interpreter/cpu/units/eeprom.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
+#include "interpreter/cpu/units/high_speed_counters.hpp"
+#include "interpreter/cpu/units/points.hpp"
+#include "interpreter/cpu/units/power.hpp"
+#include "interpreter/cpu/units/pulse_outputs.hpp"
+#include "interpreter/cpu/units/timers.hpp"
 
 namespace s7200::units {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
-#include "interpreter/cpu/points.hpp"
-#include "interpreter/cpu/timers.hpp"
+#include "interpreter/cpu/units/points.hpp"
+#include "interpreter/cpu/units/timers.hpp"
 #include "interpreter/instructions/linked.hpp"
 
 namespace s7200::bodies {

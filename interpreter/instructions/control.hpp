@@ -14,10 +14,10 @@
 #pragma once
 
 #include "interpreter/cpu/core.hpp"
-#include "interpreter/cpu/freeport.hpp"
 #include "interpreter/cpu/interrupts.hpp"
-#include "interpreter/cpu/message_receiver.hpp"
 #include "interpreter/cpu/network.hpp"
+#include "interpreter/cpu/ports/freeport.hpp"
+#include "interpreter/cpu/ports/message_receiver.hpp"
 #include "interpreter/cpu/scan.hpp"
 
 namespace s7200::bodies {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/base/nearest.hpp"
+#include "interpreter/base/text/nearest.hpp"
 #include "interpreter/model/boxes.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/smart.hpp"

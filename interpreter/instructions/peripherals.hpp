@@ -9,11 +9,11 @@
 //   [PortAddress.SpaSetsWhatGpaReads, PortAddress.IsTwoAfterPowerUp]
 #pragma once
 
-#include "interpreter/cpu/clock.hpp"
 #include "interpreter/cpu/core.hpp"
-#include "interpreter/cpu/high_speed_counters.hpp"
-#include "interpreter/cpu/points.hpp"
-#include "interpreter/cpu/pulse_outputs.hpp"
+#include "interpreter/cpu/units/clock.hpp"
+#include "interpreter/cpu/units/high_speed_counters.hpp"
+#include "interpreter/cpu/units/points.hpp"
+#include "interpreter/cpu/units/pulse_outputs.hpp"
 
 namespace s7200::bodies {
 

@@ -23,7 +23,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/numbers.hpp"
 #include "interpreter/instructions/compare.hpp"
 
 namespace s7200::bodies {

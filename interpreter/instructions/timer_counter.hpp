@@ -23,7 +23,7 @@
 #include <algorithm>
 
 #include "interpreter/cpu/core.hpp"
-#include "interpreter/cpu/timers.hpp"
+#include "interpreter/cpu/units/timers.hpp"
 
 namespace s7200::bodies {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/events.hpp"
 
 namespace s7200 {

@@ -108,7 +108,7 @@ struct CpuModel {
   std::uint32_t interrupt_call_depth;         ///< nesting of subroutines in an interrupt routine
   Time watchdog;                              ///< longest scan
   IntegerOverflow integer_overflow;           ///< of +I, -I, +D, -D and DIV
-  std::array<std::string_view, 2> times_csv;  ///< execution times, in the format of model/times.hpp; the second may be empty
+  std::array<std::string_view, 2> times_csv;  ///< execution times, in the format of model/times/times.hpp; the second may be empty
   ReceiveChoices receive{};
   std::string_view sold_as{};         ///< if it is another than the name, which tells releases of one CPU apart
   std::string_view release = "0100";  ///< the four digits that PPI tells

@@ -173,7 +173,7 @@ struct Rung {
 enum class Join : std::uint8_t { Load, And, Or };
 inline constexpr std::size_t kJoins = 3;
 
-/// The part of a contact or a coil in a chain, which is executed in one go (program/chains.hpp). A part always takes its
+/// The part of a contact or a coil in a chain, which is executed in one go (program/checking/chains.hpp). A part always takes its
 /// op's `cost`: it needs no power flow and has no time per unit. It has no `target` of its own: link() puts its Contact
 /// there.
 struct ChainPart {

@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <iterator>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/smart.hpp"
-#include "interpreter/program/cpu_choice.hpp"
-#include "interpreter/program/dialect.hpp"
+#include "interpreter/program/loading/cpu_choice.hpp"
+#include "interpreter/program/loading/dialect.hpp"
 #include "interpreter/stl/blocks.hpp"
-#include "interpreter/stl/data_block.hpp"
 #include "interpreter/stl/document.hpp"
-#include "interpreter/stl/drawings.hpp"
-#include "interpreter/stl/encoding.hpp"
-#include "interpreter/stl/plain_text.hpp"
-#include "interpreter/stl/project.hpp"
-#include "interpreter/stl/symbol_table.hpp"
-#include "interpreter/stl/symbols.hpp"
+#include "interpreter/stl/drawings/drawings.hpp"
+#include "interpreter/stl/tables/data_block.hpp"
+#include "interpreter/stl/tables/project.hpp"
+#include "interpreter/stl/tables/symbol_table.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
+#include "interpreter/stl/text/encoding.hpp"
+#include "interpreter/stl/text/plain_text.hpp"
 
 namespace s7200 {
 namespace {

@@ -6,14 +6,14 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/program/checker.hpp"
+#include "interpreter/program/checking/checker.hpp"
 
 namespace s7200 {
 
 /// A source is one of these kinds of file.
 enum class SourceKind : std::uint8_t { Listing, Document, Blocks, SymbolTable, DataBlock, StatusChart };
 
-/// The source in a text in any of the encodings of stl/encoding.hpp.
+/// The source in a text in any of the encodings of stl/text/encoding.hpp.
 struct SourceText {
   stl::ParseResult parsed;
   std::string encoding;

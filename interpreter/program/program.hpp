@@ -9,9 +9,9 @@
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/ports.hpp"
-#include "interpreter/model/times.hpp"
-#include "interpreter/program/looks.hpp"
-#include "interpreter/program/system_block.hpp"
+#include "interpreter/model/times/times.hpp"
+#include "interpreter/program/loading/looks.hpp"
+#include "interpreter/program/loading/system_block.hpp"
 #include "interpreter/stl/ast.hpp"
 
 namespace s7200 {

@@ -10,9 +10,9 @@
 #include <set>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/block_words.hpp"
-#include "interpreter/stl/data_block.hpp"
+#include "interpreter/stl/tables/data_block.hpp"
 
 namespace s7200::stl {
 

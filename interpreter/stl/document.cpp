@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/blocks.hpp"
 #include "interpreter/stl/headings.hpp"
 

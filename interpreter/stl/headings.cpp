@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/block_words.hpp"
 
 namespace s7200::stl {

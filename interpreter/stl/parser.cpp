@@ -17,13 +17,13 @@
 #include <optional>
 #include <system_error>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/block_words.hpp"
-#include "interpreter/stl/encoding.hpp"
-#include "interpreter/stl/german_letters.hpp"
 #include "interpreter/stl/headings.hpp"
-#include "interpreter/stl/look_alikes.hpp"
+#include "interpreter/stl/text/encoding.hpp"
+#include "interpreter/stl/text/german_letters.hpp"
+#include "interpreter/stl/text/look_alikes.hpp"
 
 #ifdef BOOST_NO_EXCEPTIONS
 // Boost calls these instead of throwing; nothing here makes it throw.

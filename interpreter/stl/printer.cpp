@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::stl {
 

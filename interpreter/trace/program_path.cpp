@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 
 namespace s7200 {
 namespace {

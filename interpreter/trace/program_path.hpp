@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/program/networks.hpp"
+#include "interpreter/program/ladder/networks.hpp"
 #include "interpreter/program/program.hpp"
 #include "interpreter/trace/trace.hpp"
 

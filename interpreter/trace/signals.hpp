@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 
 namespace s7200 {
 

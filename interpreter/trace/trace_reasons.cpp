@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "interpreter/model/special_bits.hpp"
-#include "interpreter/program/networks.hpp"
+#include "interpreter/program/ladder/networks.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/trace/instruction_lines.hpp"
 #include "interpreter/trace/interrupt_enabling.hpp"
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/trace/text/instruction_lines.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 
 namespace s7200 {
 namespace {

@@ -2,15 +2,15 @@
 
 #include <iterator>
 
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "interpreter/model/area.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/ports.hpp"
 #include "interpreter/model/special_bits.hpp"
-#include "interpreter/program/operands.hpp"
-#include "interpreter/trace/event_lines.hpp"
-#include "interpreter/trace/line_parts.hpp"
-#include "interpreter/trace/ppi_words.hpp"
+#include "interpreter/program/operands/operands.hpp"
+#include "interpreter/trace/text/event_lines.hpp"
+#include "interpreter/trace/text/line_parts.hpp"
+#include "interpreter/trace/text/ppi_words.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 
 namespace s7200 {

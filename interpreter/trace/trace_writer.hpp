@@ -4,8 +4,8 @@
 #include <functional>
 #include <string_view>
 
+#include "interpreter/trace/text/trace_lines.hpp"
 #include "interpreter/trace/trace.hpp"
-#include "interpreter/trace/trace_lines.hpp"
 
 namespace s7200 {
 

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::serial {
 namespace {

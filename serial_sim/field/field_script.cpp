@@ -6,11 +6,11 @@
 #include <array>
 #include <optional>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/special_memory.hpp"
-#include "interpreter/program/address.hpp"
-#include "interpreter/program/operands.hpp"
-#include "interpreter/program/special_memory_use.hpp"
+#include "interpreter/program/checking/special_memory_use.hpp"
+#include "interpreter/program/operands/address.hpp"
+#include "interpreter/program/operands/operands.hpp"
 
 namespace s7200::serial {
 namespace {

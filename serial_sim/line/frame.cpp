@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/numbers.hpp"
 
 namespace s7200::serial {
 

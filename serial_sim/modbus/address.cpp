@@ -6,7 +6,7 @@
 #include <array>
 #include <charconv>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::modbus {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/request.hpp"

@@ -6,8 +6,8 @@
 #include <array>
 #include <cassert>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/base/word_bytes.hpp"
 
 namespace s7200::pc_protocol {

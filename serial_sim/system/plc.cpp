@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/cpu/ppi.hpp"
+#include "interpreter/cpu/ports/ppi.hpp"
 
 namespace s7200::serial {
 

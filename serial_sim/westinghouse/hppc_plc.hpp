@@ -9,8 +9,8 @@
 //   [Hppc.AfterPowerHasBeenOffItSearchesForItsLineAgainAndHasItsMemory]
 #pragma once
 
-#include "serial_sim/westinghouse/hppc_message.hpp"
 #include "serial_sim/westinghouse/memory.hpp"
+#include "serial_sim/westinghouse/messages/hppc_message.hpp"
 #include "serial_sim/westinghouse/plc.hpp"
 
 namespace s7200::westinghouse {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "interpreter/base/word_bytes.hpp"
-#include "serial_sim/westinghouse/words.hpp"
+#include "serial_sim/westinghouse/messages/words.hpp"
 
 namespace s7200::westinghouse {
 namespace {

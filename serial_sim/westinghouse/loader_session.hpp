@@ -16,7 +16,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/peers/answer.hpp"
-#include "serial_sim/westinghouse/words.hpp"
+#include "serial_sim/westinghouse/messages/words.hpp"
 
 namespace s7200::westinghouse {
 

@@ -8,7 +8,7 @@
 #include "interpreter/base/word_bytes.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "serial_sim/modbus/functions.hpp"
-#include "serial_sim/westinghouse/words.hpp"
+#include "serial_sim/westinghouse/messages/words.hpp"
 
 namespace s7200::westinghouse {
 namespace {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <span>
 
-#include "serial_sim/westinghouse/block_message.hpp"
 #include "serial_sim/westinghouse/memory.hpp"
+#include "serial_sim/westinghouse/messages/block_message.hpp"
+#include "serial_sim/westinghouse/messages/words.hpp"
 #include "serial_sim/westinghouse/plc.hpp"
-#include "serial_sim/westinghouse/words.hpp"
 
 namespace s7200::westinghouse {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/peers/automaton.hpp"
 #include "serial_sim/westinghouse/setting.hpp"
 

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <charconv>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::westinghouse {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "serial_sim/westinghouse/words.hpp"
+#include "serial_sim/westinghouse/messages/words.hpp"
 
 namespace s7200::westinghouse {
 namespace {

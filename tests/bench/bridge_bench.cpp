@@ -20,12 +20,12 @@
 #include <mutex>
 #include <thread>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/bridge/pty_bridge.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace {

@@ -3,12 +3,12 @@
 
 #include <stdexcept>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 #include "tools/measuring/mixed_program.hpp"
 
 namespace s7200 {

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <random>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/session/stops/stepper.hpp"
 

@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 int main(int argc, char** argv) {
   using namespace s7200;

@@ -35,7 +35,7 @@ MEASURE = str(SOURCE / "stl_programs/measure_times.stl")
 EXPORTS = SOURCE / "tests/exports"
 TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
 VERBS = [name.replace("_", "-")
-         for name in re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/commands.hpp").read_text(encoding="utf-8"), re.M)]
+         for name in re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/verbs/commands.hpp").read_text(encoding="utf-8"), re.M)]
 FINE, FAILED, UNUSABLE, FATAL = range(4)
 
 
@@ -82,7 +82,7 @@ class Verbs(Case):
     def width(text):
         return max(map(len, text.split("\n")))
 
-    TOPICS = re.findall(r'HelpTopic\{"([\w-]+)"', (SOURCE / "tools/command/help_topics.cpp").read_text(encoding="utf-8"))
+    TOPICS = re.findall(r'HelpTopic\{"([\w-]+)"', (SOURCE / "tools/command/help/help_topics.cpp").read_text(encoding="utf-8"))
 
     def test_help_fits_a_screen(self):
         for words in ([], *([verb] for verb in VERBS), ["manual"], ["complete"], ["help"]):

@@ -7,11 +7,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200::faults {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "interpreter/program/ladder.hpp"
-#include "interpreter/program/ladder_compare.hpp"
+#include "interpreter/program/ladder/ladder.hpp"
+#include "interpreter/program/ladder/ladder_compare.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // An HPPC at its loader port.
 #include <algorithm>
 
-#include "serial_sim/westinghouse/hppc_message.hpp"
+#include "serial_sim/westinghouse/messages/hppc_message.hpp"
 #include "tests/fuzz/westinghouse_world.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

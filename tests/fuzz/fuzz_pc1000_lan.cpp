@@ -1,7 +1,7 @@
 // A PLC on the PC1000 LAN.
 #include <algorithm>
 
-#include "serial_sim/westinghouse/block_message.hpp"
+#include "serial_sim/westinghouse/messages/block_message.hpp"
 #include "tests/fuzz/westinghouse_world.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

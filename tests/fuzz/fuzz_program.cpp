@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/program/convert.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
+#include "interpreter/program/loading/convert.hpp"
 #include "serial_sim/system/simulation.hpp"
 
 namespace {

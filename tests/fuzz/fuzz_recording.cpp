@@ -5,11 +5,11 @@
 // name each other. What is said is text, and a scenario that is made of it can be read again.
 #include <cstdint>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tests/fuzz/promise.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/playback.hpp"
-#include "tools/scenario/reader.hpp"
+#include "tools/scenario/reading/reader.hpp"
 
 namespace {
 

@@ -3,17 +3,17 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "tests/fuzz/promise.hpp"
-#include "tools/scenario/junit.hpp"
-#include "tools/scenario/reader.hpp"
-#include "tools/scenario/report_json.hpp"
+#include "tools/scenario/reading/reader.hpp"
+#include "tools/scenario/reporting/junit.hpp"
+#include "tools/scenario/reporting/report_json.hpp"
 #include "tools/scenario/runner.hpp"
 #include "tools/scenario/steps/exchange.hpp"
-#include "tools/scenario/steps/receive.hpp"
+#include "tools/scenario/steps/expected/receive.hpp"
 #include "tools/scenario/steps/wait.hpp"
 #include "tools/scenario/steps/wait_until.hpp"
-#include "tools/scenario/transcript.hpp"
+#include "tools/scenario/transcripts/transcript.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "tests/fuzz/promise.hpp"
 #include "tools/json/json.hpp"
 #include "tools/session/commands/session_file.hpp"

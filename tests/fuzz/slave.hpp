@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200 {
 

@@ -47,9 +47,9 @@ CHAINS = f"{BODIES}/contact_chains.cpp"
 LINKS = [f"{BODIES}/linked.hpp", CHAINS]
 CHAINS_ARE_MADE_OF = [*LINKS, f"{BODIES}/bit_logic.hpp"]
 STEADY_SCANS = ["interpreter/cpu/steady_scans.cpp", "interpreter/cpu/idle_scans.cpp", "interpreter/cpu/footprint.cpp",
-                "interpreter/cpu/timers.cpp", "interpreter/analysis/looks.cpp"]
+                "interpreter/cpu/units/timers.cpp", "interpreter/analysis/effects/looks.cpp"]
 # Of other files what those about scans hang on: these lines only, each file a library by itself too.
-BESIDE_STEADY_SCANS = {"interpreter/cpu/cpu.cpp": r"touched = true", "interpreter/cpu/clock.cpp": r"/ second \+ 1",
+BESIDE_STEADY_SCANS = {"interpreter/cpu/cpu.cpp": r"touched = true", "interpreter/cpu/units/clock.cpp": r"/ second \+ 1",
                        "interpreter/cpu/scan.cpp": r"scan_begin \+= by|update_clocks\(core, s, s\.scan_begin\)|^  s\.next_clock = |scans [%>]|s\.scans \+="}
 COMPILER = os.environ.get("CXX") or shutil.which("clang++") or "c++"
 EQUIVALENT = pathlib.Path(__file__).resolve().parent / "equivalent.txt"

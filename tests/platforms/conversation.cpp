@@ -13,14 +13,14 @@
 #include <sstream>
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/program/cpu_choice.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/program/loading/cpu_choice.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
-#include "tools/views/check_report.hpp"
+#include "tools/views/program/check_report.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200 {

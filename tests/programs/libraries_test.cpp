@@ -1,4 +1,4 @@
-// The stand-ins for Micro/WIN's Modbus library on a line: what its manual leaves open (interpreter/program/stand_ins.hpp).
+// The stand-ins for Micro/WIN's Modbus library on a line: what its manual leaves open (interpreter/program/loading/stand_ins.hpp).
 // What the manual says: libraries/*.yaml.
 #include <gtest/gtest.h>
 

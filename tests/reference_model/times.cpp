@@ -90,12 +90,12 @@ static Times read(const std::string& path) {
 }
 
 const Times& cpu214_times() {
-  static const Times kTimes = read("interpreter/model/cpu214_times.csv");
+  static const Times kTimes = read("interpreter/model/cpus/cpu214_times.csv");
   return kTimes;
 }
 
 const Times& cpu224_times() {
-  static const Times kTimes = read("interpreter/model/cpu22x_times.csv");
+  static const Times kTimes = read("interpreter/model/cpus/cpu22x_times.csv");
   return kTimes;
 }
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/program/checker.hpp"
+#include "interpreter/program/checking/checker.hpp"
 #include "interpreter/program/load.hpp"
-#include "tools/views/inspection.hpp"
+#include "tools/views/inspection/inspection.hpp"
 
 namespace s7200::test {
 

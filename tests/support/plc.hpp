@@ -15,9 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/cpu/cpu.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 
 namespace s7200::test {
 

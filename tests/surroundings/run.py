@@ -31,7 +31,7 @@ import unittest
 S7200, SOURCE, GROUP, SLOW_LOOK_UP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
 VERBS = [name.replace("_", "-")
-         for name in re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/commands.hpp").read_text(encoding="utf-8"), re.M)
+         for name in re.findall(r"^void add_(\w+)\(CLI::App", (SOURCE / "tools/command/verbs/commands.hpp").read_text(encoding="utf-8"), re.M)
          if name != "view"]  # it serves until it is interrupted: servers.py
 FINE, FAILED, UNUSABLE, FATAL = range(4)
 LONG = 120  # seconds, for what has to come

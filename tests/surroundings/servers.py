@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The rules of tools/host/server_rules.hpp, with each server that the help lists: servers.py S7200 SOURCE_DIR
+"""The rules of tools/host/net/server_rules.hpp, with each server that the help lists: servers.py S7200 SOURCE_DIR
 
 Whatever takes [ADDRESS:]PORT is a server. Nothing here depends on how fast the computer is: what has to come is waited for.
 """

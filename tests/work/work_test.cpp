@@ -10,11 +10,11 @@
 #include <new>
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "tools/measuring/long_listing.hpp"
 #include "tools/recordings/conversation.hpp"
-#include "tools/views/check_report.hpp"
+#include "tools/views/program/check_report.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/bridge/device_input.hpp"
 #include "tools/host/serial_device.hpp"
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "tools/bridge/mix_up.hpp"
-#include "tools/views/port_mode.hpp"
+#include "tools/views/state/port_mode.hpp"
 
 namespace s7200::tools {
 namespace {

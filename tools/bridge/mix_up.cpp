@@ -5,7 +5,7 @@
 #include "interpreter/base/ppi_frame.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/rtu_stream.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 

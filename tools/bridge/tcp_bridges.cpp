@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/modbus/gateway.hpp"
 #include "serial_sim/modbus/line_turns.hpp"

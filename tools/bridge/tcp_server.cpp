@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "tools/host/server_rules.hpp"
-#include "tools/host/sockets.hpp"
+#include "tools/host/net/server_rules.hpp"
+#include "tools/host/net/sockets.hpp"
 
 namespace s7200::tools {
 namespace {

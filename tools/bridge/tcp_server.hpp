@@ -1,5 +1,5 @@
 // TCP clients of a bridge. None of them can block another, fill the memory, or keep a place that it does not use: the rules
-// of tools/host/server_rules.hpp, as far as the protocols of a line have room for them.
+// of tools/host/net/server_rules.hpp, as far as the protocols of a line have room for them.
 //
 // - A client whose first bytes are a request of HTTP has to go before any of them is looked at: a web page has sent it.
 // - kMostClients at a time. For one more, the client that has been silent longest has to go.
@@ -19,9 +19,9 @@
 #include <span>
 #include <string>
 
-#include "tools/bridge/bridge.hpp"
 #include "interpreter/base/listen_address.hpp"
-#include "tools/host/server_rules.hpp"
+#include "tools/bridge/bridge.hpp"
+#include "tools/host/net/server_rules.hpp"
 
 namespace boost::asio {
 class io_context;

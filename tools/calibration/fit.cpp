@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/instruction.hpp"
-#include "interpreter/model/times_band.hpp"
-#include "interpreter/model/times_file.hpp"
+#include "interpreter/model/times/times_band.hpp"
+#include "interpreter/model/times/times_file.hpp"
 #include "tools/calibration/measure_protocol.hpp"
 
 namespace s7200::tools {

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <map>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/model/instruction.hpp"
-#include "interpreter/model/named_times.hpp"
-#include "interpreter/model/times_file.hpp"
+#include "interpreter/model/times/named_times.hpp"
+#include "interpreter/model/times/times_file.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/calibration/measure_program.hpp"
 #include "tools/calibration/measurement.hpp"

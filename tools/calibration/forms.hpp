@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/program/checker.hpp"
+#include "interpreter/program/checking/checker.hpp"
 
 namespace s7200::tools {
 

@@ -9,14 +9,14 @@
 #include <sstream>
 #include <string_view>
 
-#include "interpreter/base/text.hpp"
-#include "tools/command/commands.hpp"
-#include "tools/command/derived_verbs.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/command/exit_code.hpp"
-#include "tools/command/help_text.hpp"
-#include "tools/command/standard_streams.hpp"
-#include "tools/command/terminal.hpp"
+#include "tools/command/help/help_text.hpp"
+#include "tools/command/terminal/standard_streams.hpp"
+#include "tools/command/terminal/terminal.hpp"
 #include "tools/command/usage.hpp"
+#include "tools/command/verbs/commands.hpp"
+#include "tools/command/verbs/derived_verbs.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/host/process.hpp"
 #include "tools/views/results_json.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "interpreter/base/file_path.hpp"
-#include "tools/host/files.hpp"
-#include "tools/plan/system_reader.hpp"
+#include "tools/host/files/files.hpp"
+#include "tools/plan/reading/system_reader.hpp"
 
 namespace s7200::tools {
 namespace {

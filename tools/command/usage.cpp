@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "interpreter/base/file_path.hpp"
-#include "interpreter/base/nearest.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/base/wrapped.hpp"
+#include "interpreter/base/text/nearest.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/base/text/wrapped.hpp"
 
 namespace s7200::tools {
 namespace {

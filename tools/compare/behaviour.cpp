@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 #include "tools/trials/chance.hpp"
 #include "tools/trials/shortened.hpp"
 #include "tools/trials/trial_bench.hpp"

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 #include "tools/compare/behaviour.hpp"
 #include "tools/trials/trial_text.hpp"
 

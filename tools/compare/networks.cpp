@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "interpreter/analysis/drawn_networks.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200::tools {

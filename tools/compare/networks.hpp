@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/views/inspection.hpp"
+#include "tools/views/inspection/inspection.hpp"
 
 namespace s7200::tools {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/compare/structure.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "interpreter/base/file_path.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/views/escapes.hpp"
 
 namespace s7200::tools {

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "interpreter/base/file_path.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/networks.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/program/ladder/networks.hpp"
 #include "tools/coverage/programs.hpp"
 #include "tools/views/text_table.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tools/coverage/coverage.hpp"
-#include "tools/views/inspection.hpp"
+#include "tools/views/inspection/inspection.hpp"
 
 namespace s7200::tools {
 

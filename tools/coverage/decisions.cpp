@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "interpreter/program/networks.hpp"
+#include "interpreter/program/ladder/networks.hpp"
 
 namespace s7200::tools {
 namespace {

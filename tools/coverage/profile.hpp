@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/analysis/flow.hpp"
+#include "interpreter/analysis/flow/flow.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/base/time.hpp"
-#include "interpreter/program/networks.hpp"
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/program/ladder/networks.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 #include "tools/coverage/coverage_report.hpp"
 #include "tools/coverage/programs.hpp"
 #include "tools/views/text_table.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "interpreter/analysis/flow.hpp"
+#include "interpreter/analysis/flow/flow.hpp"
 
 namespace s7200::tools {
 

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "interpreter/base/stop_token.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/trials/contacts_seen.hpp"
 #include "tools/trials/trial.hpp"
 #include "tools/trials/trial_scenario.hpp"
-#include "tools/views/inspection.hpp"
+#include "tools/views/inspection/inspection.hpp"
 
 namespace s7200::tools {
 

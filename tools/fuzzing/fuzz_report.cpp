@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "tools/fuzzing/fuzz.hpp"
 #include "tools/trials/trial_text.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/model/errors.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,6 +1,6 @@
 #include "tools/json/hex_bytes.hpp"
 
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/numbers.hpp"
 
 namespace s7200::tools {
 

@@ -1,6 +1,6 @@
 #include "tools/json/json.hpp"
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/numbers.hpp"
 
 namespace s7200::tools {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::tools {
 namespace {

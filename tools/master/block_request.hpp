@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "serial_sim/westinghouse/block_message.hpp"
+#include "serial_sim/westinghouse/messages/block_message.hpp"
 #include "tools/master/words.hpp"
 
 namespace s7200::tools {

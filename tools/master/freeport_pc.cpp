@@ -1,7 +1,7 @@
 // The published Freeport protocol of 33-byte commands between a PC and CPUs 22x.
 #include <array>
 
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/numbers.hpp"
 #include "serial_sim/pc_protocol/answer.hpp"
 #include "serial_sim/pc_protocol/command.hpp"
 #include "tools/master/words.hpp"

@@ -1,7 +1,7 @@
 // The loader port of HPPC1500 and HPPC1700.
 #include <array>
 
-#include "serial_sim/westinghouse/hppc_message.hpp"
+#include "serial_sim/westinghouse/messages/hppc_message.hpp"
 #include "tools/master/words.hpp"
 #include "tools/master/written_values.hpp"
 

@@ -3,16 +3,16 @@
 #include <array>
 #include <iterator>
 
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/numbers.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/line_turns.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/master/words.hpp"
 #include "tools/master/written_values.hpp"
-#include "tools/views/register_text.hpp"
 #include "tools/views/report.hpp"
+#include "tools/views/state/register_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,5 +1,5 @@
 // The PC1000 LAN: six-byte messages with a sync signal beside the data.
-#include "serial_sim/westinghouse/block_message.hpp"
+#include "serial_sim/westinghouse/messages/block_message.hpp"
 #include "tools/master/block_request.hpp"
 #include "tools/master/written_values.hpp"
 

@@ -1,14 +1,14 @@
 // PPI: what a CPU answers on a port that is not in Freeport mode (facts 10.9).
 #include <array>
 
-#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/base/text/numbers.hpp"
 #include "interpreter/model/s7_pdu.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "tools/master/words.hpp"
 #include "tools/master/written_values.hpp"
 #include "tools/plan/clock_text.hpp"
-#include "tools/views/ppi_text.hpp"
+#include "tools/views/state/ppi_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <numeric>
 
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,5 +1,5 @@
 // Westnet II: the commands of the data highway, and blocks of the PLC that is addressed.
-#include "serial_sim/westinghouse/block_message.hpp"
+#include "serial_sim/westinghouse/messages/block_message.hpp"
 #include "tools/master/block_request.hpp"
 #include "tools/master/written_values.hpp"
 

@@ -1,6 +1,6 @@
 #include "tools/master/words.hpp"
 
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/numbers.hpp"
 #include "tools/master/written_values.hpp"
 
 namespace s7200::tools {

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/master/protocol.hpp"
 
 namespace s7200::tools {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/master/words.hpp"
 
 namespace s7200::tools {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/views/register_text.hpp"
+#include "tools/views/state/register_text.hpp"
 
 namespace s7200::tools {
 

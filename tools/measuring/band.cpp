@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "interpreter/analysis/looks.hpp"
-#include "interpreter/model/named_times.hpp"
-#include "interpreter/program/load_times.hpp"
+#include "interpreter/analysis/effects/looks.hpp"
+#include "interpreter/model/times/named_times.hpp"
+#include "interpreter/program/loading/load_times.hpp"
 
 namespace s7200::tools {
 

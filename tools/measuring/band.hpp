@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "interpreter/base/file_source.hpp"
-#include "interpreter/model/times_band.hpp"
-#include "interpreter/program/checker.hpp"
+#include "interpreter/model/times/times_band.hpp"
+#include "interpreter/program/checking/checker.hpp"
 #include "interpreter/trace/trace.hpp"
 #include "serial_sim/peers/requester.hpp"
 

@@ -10,17 +10,17 @@
 #include <stdexcept>
 #include <streambuf>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/analysis/looks.hpp"
+#include "interpreter/analysis/effects/looks.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/host/process.hpp"
 #include "tools/measuring/long_listing.hpp"
 #include "tools/measuring/mixed_program.hpp"
-#include "tools/views/check_report.hpp"
+#include "tools/views/program/check_report.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "interpreter/base/split_mix.hpp"
 #include "interpreter/cpu/cpu.hpp"
-#include "interpreter/program/unread.hpp"
+#include "interpreter/program/loading/unread.hpp"
 
 namespace s7200::tools {
 namespace {

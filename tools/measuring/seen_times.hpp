@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "interpreter/model/times.hpp"
-#include "tools/views/inspection.hpp"
+#include "interpreter/model/times/times.hpp"
+#include "tools/views/inspection/inspection.hpp"
 
 namespace s7200::tools {
 

@@ -6,11 +6,11 @@
 #include <array>
 #include <set>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
+#include "interpreter/base/text/numbers.hpp"
 #include "interpreter/model/errors.hpp"
-#include "interpreter/model/named_times.hpp"
-#include "interpreter/program/constants.hpp"
+#include "interpreter/model/times/named_times.hpp"
+#include "interpreter/program/operands/constants.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"

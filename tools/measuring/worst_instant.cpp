@@ -6,11 +6,11 @@
 #include <array>
 #include <vector>
 
-#include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/base/split_mix.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "interpreter/cpu/interrupts.hpp"
-#include "interpreter/program/unread.hpp"
+#include "interpreter/program/loading/unread.hpp"
 
 namespace s7200::tools {
 namespace {

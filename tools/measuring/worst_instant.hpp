@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "tools/views/inspection.hpp"
+#include "tools/views/inspection/inspection.hpp"
 
 namespace s7200::tools {
 

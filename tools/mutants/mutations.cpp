@@ -7,11 +7,11 @@
 #include <string_view>
 #include <utility>
 
-#include "interpreter/analysis/flow.hpp"
-#include "interpreter/analysis/looks.hpp"
-#include "interpreter/program/checker.hpp"
-#include "interpreter/program/networks.hpp"
-#include "interpreter/program/stand_ins.hpp"
+#include "interpreter/analysis/effects/looks.hpp"
+#include "interpreter/analysis/flow/flow.hpp"
+#include "interpreter/program/checking/checker.hpp"
+#include "interpreter/program/ladder/networks.hpp"
+#include "interpreter/program/loading/stand_ins.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/coverage/contacts.hpp"
 #include "tools/coverage/programs.hpp"

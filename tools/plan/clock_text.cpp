@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/cpu/clock.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/cpu/units/clock.hpp"
 
 namespace s7200::tools {
 namespace {

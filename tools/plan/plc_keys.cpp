@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "interpreter/base/numbers.hpp"
 #include "interpreter/base/ppi_frame.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "tools/plan/clock_text.hpp"

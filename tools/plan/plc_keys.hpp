@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "tools/plan/plc_settings.hpp"
 
 namespace s7200::tools {

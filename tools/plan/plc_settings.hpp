@@ -8,10 +8,10 @@
 
 #include "interpreter/base/file_source.hpp"
 #include "interpreter/cpu/state.hpp"
-#include "interpreter/program/address.hpp"
-#include "interpreter/program/system_block.hpp"
+#include "interpreter/program/loading/system_block.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "interpreter/trace/signals.hpp"
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "serial_sim/field/field_script.hpp"
 
 namespace s7200::tools {

@@ -4,10 +4,10 @@
 
 #include <optional>
 
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/cpu_choice.hpp"
-#include "interpreter/stl/symbols.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/program/loading/cpu_choice.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
 #include "tools/yaml/values.hpp"
 
 namespace s7200::tools {

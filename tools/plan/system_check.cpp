@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "interpreter/analysis/lint.hpp"
-#include "interpreter/base/joined.hpp"
+#include "interpreter/analysis/warnings/lint.hpp"
+#include "interpreter/base/text/joined.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/plan/system_reading.hpp"
+#include "tools/plan/reading/system_reading.hpp"
 
 namespace s7200::tools {
 

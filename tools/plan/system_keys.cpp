@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/base/joined.hpp"
+#include "interpreter/base/text/joined.hpp"
 #include "serial_sim/line/line.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "serial_sim/westinghouse/plcs.hpp"

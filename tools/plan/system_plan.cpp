@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/analysis/looks.hpp"
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/analysis/effects/looks.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/line/line.hpp"
 #include "tools/plan/plc_keys.hpp"
 

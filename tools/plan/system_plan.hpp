@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "interpreter/program/program.hpp"
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/field/field_script.hpp"

@@ -3,7 +3,7 @@
 #include <bit>
 #include <utility>
 
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 #include "interpreter/trace/trace_rows.hpp"
 #include "tools/views/results_json.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "interpreter/program/program.hpp"
-#include "interpreter/trace/instruction_lines.hpp"
-#include "interpreter/trace/trace_lines.hpp"
+#include "interpreter/trace/text/instruction_lines.hpp"
+#include "interpreter/trace/text/trace_lines.hpp"
 #include "interpreter/trace/trace_writer.hpp"
 
 namespace s7200::tools {

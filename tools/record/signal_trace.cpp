@@ -7,8 +7,8 @@
 #include <iterator>
 #include <utility>
 
-#include "interpreter/base/csv.hpp"
-#include "tools/views/memory.hpp"
+#include "interpreter/base/text/csv.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -6,9 +6,9 @@
 #include <iterator>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/trace/line_parts.hpp"
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/trace/text/line_parts.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "tools/record/chrome_trace.hpp"
 #include "tools/record/json_trace.hpp"
 #include "tools/record/signal_trace.hpp"

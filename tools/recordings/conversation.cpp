@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "serial_sim/modbus/mbap.hpp"
-#include "serial_sim/westinghouse/block_message.hpp"
-#include "serial_sim/westinghouse/hppc_message.hpp"
 #include "serial_sim/westinghouse/loader_session.hpp"
+#include "serial_sim/westinghouse/messages/block_message.hpp"
+#include "serial_sim/westinghouse/messages/hppc_message.hpp"
+#include "tools/recordings/protocols/westinghouse.hpp"
 #include "tools/recordings/readers.hpp"
-#include "tools/recordings/westinghouse.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tools/recordings/left_out.hpp"
-#include "tools/recordings/stamps.hpp"
+#include "tools/recordings/rows/stamps.hpp"
 
 namespace s7200::tools {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/line/frame.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 #include "tools/views/report.hpp"
 
 namespace s7200::tools {

@@ -9,11 +9,11 @@
 #include <array>
 #include <memory>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/json/base64.hpp"
-#include "tools/recordings/fields.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/lines.hpp"
+#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {

@@ -6,10 +6,10 @@
 #include <array>
 #include <charconv>
 
-#include "interpreter/base/text.hpp"
-#include "tools/recordings/fields.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/lines.hpp"
+#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/rows/lines.hpp"
 
 namespace s7200::tools {
 namespace {

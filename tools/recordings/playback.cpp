@@ -10,8 +10,8 @@
 #include "interpreter/base/ppi_frame.hpp"
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/modbus/functions.hpp"
-#include "tools/scenario/text.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/reading/text.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "serial_sim/peers/answer.hpp"
 #include "tools/recordings/conversation.hpp"
 

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <array>
 
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/instruction.hpp"
-#include "interpreter/program/dialect.hpp"
-#include "interpreter/stl/encoding.hpp"
+#include "interpreter/program/loading/dialect.hpp"
+#include "interpreter/stl/text/encoding.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
-#include "tools/recordings/lines.hpp"
 #include "tools/recordings/markup.hpp"
+#include "tools/recordings/rows/lines.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -12,11 +12,11 @@
 #include <map>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/levels.hpp"
-#include "tools/recordings/lines.hpp"
-#include "tools/recordings/samplerate.hpp"
+#include "tools/recordings/levels/levels.hpp"
+#include "tools/recordings/levels/samplerate.hpp"
+#include "tools/recordings/rows/lines.hpp"
 
 namespace s7200::tools {
 namespace {

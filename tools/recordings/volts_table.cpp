@@ -11,13 +11,13 @@
 #include <cmath>
 #include <limits>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
-#include "tools/recordings/fields.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
-#include "tools/recordings/levels.hpp"
-#include "tools/recordings/lines.hpp"
-#include "tools/recordings/table_rows.hpp"
+#include "tools/recordings/levels/levels.hpp"
+#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/rows/lines.hpp"
+#include "tools/recordings/rows/table_rows.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/base/joined.hpp"
-#include "tools/views/memory.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 

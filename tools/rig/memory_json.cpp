@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/cpu/forcing.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "tools/json/json_taker.hpp"
 #include "tools/views/report.hpp"
 

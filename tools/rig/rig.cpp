@@ -7,7 +7,7 @@
 
 #include "serial_sim/modbus/answer.hpp"
 #include "tools/rig/event_words.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

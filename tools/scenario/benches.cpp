@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <set>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/analysis/looks.hpp"
-#include "interpreter/program/load_times.hpp"
-#include "interpreter/program/slips.hpp"
-#include "interpreter/program/stand_ins.hpp"
-#include "tools/host/files.hpp"
+#include "interpreter/analysis/effects/looks.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
+#include "interpreter/program/loading/load_times.hpp"
+#include "interpreter/program/loading/slips.hpp"
+#include "interpreter/program/loading/stand_ins.hpp"
+#include "tools/host/files/files.hpp"
 #include "tools/plan/other_plc.hpp"
-#include "tools/plan/system_reader.hpp"
+#include "tools/plan/reading/system_reader.hpp"
 #include "tools/slave/slave_in_rig.hpp"
 #include "tools/slave/slave_target.hpp"
 

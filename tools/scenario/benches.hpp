@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "interpreter/program/load.hpp"
-#include "tools/scenario/messages.hpp"
+#include "tools/scenario/reporting/messages.hpp"
 #include "tools/scenario/runner.hpp"
 #include "tools/scenario/suite_settings.hpp"
 

@@ -13,9 +13,9 @@
 #include <optional>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
-#include "tools/scenario/bytes_diff.hpp"
-#include "tools/scenario/steps/reception.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/scenario/reporting/bytes_diff.hpp"
+#include "tools/scenario/steps/expected/reception.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "tools/scenario/report.hpp"
+#include "tools/scenario/reporting/report.hpp"
 
 namespace s7200::tools {
 

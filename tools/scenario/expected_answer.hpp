@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "serial_sim/line/frame.hpp"
-#include "tools/scenario/text.hpp"
+#include "tools/scenario/reading/text.hpp"
 
 namespace s7200::tools {
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/rig/first_scans.hpp"
 #include "tools/rig/event_words.hpp"
-#include "tools/rig/recorded_rig.hpp"
-#include "tools/views/machine_text.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/rig/files/recorded_rig.hpp"
+#include "tools/rig/first_scans.hpp"
 #include "tools/views/report.hpp"
+#include "tools/views/state/machine_text.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -16,7 +16,7 @@
 #include "tools/rig/rig.hpp"
 #include "tools/scenario/result.hpp"
 #include "tools/scenario/scenario.hpp"
-#include "tools/session/past/journal.hpp"
+#include "tools/session/past/actions/journal.hpp"
 #include "tools/session/past/seen_rig.hpp"
 #include "tools/slave/simulated_slave.hpp"
 #include "tools/views/timeline.hpp"

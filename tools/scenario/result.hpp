@@ -10,7 +10,7 @@
 #include "tools/coverage/coverage_report.hpp"
 #include "tools/coverage/profile_report.hpp"
 #include "tools/measuring/band.hpp"
-#include "tools/scenario/text.hpp"
+#include "tools/scenario/reading/text.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {

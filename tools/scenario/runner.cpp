@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "tools/plan/plc_keys.hpp"
-#include "tools/scenario/explanation.hpp"
+#include "tools/scenario/reporting/explanation.hpp"
 #include "tools/scenario/run.hpp"
 
 namespace s7200::tools {

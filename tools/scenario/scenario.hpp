@@ -11,13 +11,13 @@
 
 #include "interpreter/base/diagnostic.hpp"
 #include "interpreter/cpu/state.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "serial_sim/field/field_script.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "tools/plan/system_plan.hpp"
 #include "tools/scenario/action.hpp"
-#include "tools/scenario/text.hpp"
+#include "tools/scenario/reading/text.hpp"
 
 namespace s7200::tools {
 

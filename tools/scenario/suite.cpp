@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "interpreter/analysis/looks.hpp"
+#include "interpreter/analysis/effects/looks.hpp"
 #include "interpreter/base/file_path.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/measuring/parallel_run.hpp"
 #include "tools/rig/rig.hpp"
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "tools/scenario/benches.hpp"
-#include "tools/scenario/collection.hpp"
 #include "tools/scenario/comparison.hpp"
-#include "tools/scenario/report.hpp"
-#include "tools/scenario/transcript.hpp"
+#include "tools/scenario/reading/collection.hpp"
+#include "tools/scenario/reporting/report.hpp"
+#include "tools/scenario/transcripts/transcript.hpp"
 
 namespace s7200::tools {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interpreter/base/stop_token.hpp"
-#include "interpreter/model/times_band.hpp"
+#include "interpreter/model/times/times_band.hpp"
 #include "serial_sim/peers/requester.hpp"
 #include "tools/coverage/observed.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tools/slave/slave.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

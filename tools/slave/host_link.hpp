@@ -13,8 +13,8 @@
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/base/time.hpp"
 #include "tools/host/host_time.hpp"
+#include "tools/host/net/sockets.hpp"
 #include "tools/host/serial_device.hpp"
-#include "tools/host/sockets.hpp"
 
 namespace s7200::tools {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/counted.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/peers/quiet_time.hpp"
 #include "serial_sim/system/simulation.hpp"

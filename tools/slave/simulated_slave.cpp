@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "tools/views/port_mode.hpp"
+#include "tools/views/state/port_mode.hpp"
 
 namespace s7200::tools {
 SimulatedSlave::SimulatedSlave(serial::Simulation& simulation, const serial::MasterSettings& master, std::string name,

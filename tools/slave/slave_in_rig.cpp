@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/rig/files/recorded_rig.hpp"
 #include "tools/rig/first_scans.hpp"
-#include "tools/rig/recorded_rig.hpp"
 #include "tools/slave/line_of_other_plcs.hpp"
 #include "tools/slave/simulated_slave.hpp"
 

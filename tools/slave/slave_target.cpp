@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "interpreter/base/file_path.hpp"
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
-#include "tools/plan/system_reader.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/plan/reading/system_reader.hpp"
 #include "tools/slave/host_slave.hpp"
 
 namespace s7200::tools {

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "serial_sim/line/frame.hpp"
-#include "tools/scenario/reader.hpp"
-#include "tools/scenario/report.hpp"
+#include "tools/scenario/reading/reader.hpp"
+#include "tools/scenario/reporting/report.hpp"
 #include "tools/scenario/runner.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "interpreter/analysis/cross_reference.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/memory_map.hpp"
-#include "interpreter/analysis/memory_names.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tools/trials/trial_bench.hpp"

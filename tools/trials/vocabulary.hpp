@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/effects/facts.hpp"
 
 namespace s7200::tools {
 

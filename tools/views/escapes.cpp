@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::tools {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/crc.hpp"

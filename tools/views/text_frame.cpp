@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/modbus/answer.hpp"
 
 namespace s7200::tools {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/base/wrapped.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/base/text/wrapped.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/ports.hpp"
-#include "interpreter/trace/text_trace.hpp"
-#include "tools/views/received_text.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "tools/views/report.hpp"
+#include "tools/views/state/received_text.hpp"
 
 namespace s7200::tools {
 namespace {

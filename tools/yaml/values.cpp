@@ -4,7 +4,7 @@
 
 #include "interpreter/base/file_path.hpp"
 #include "interpreter/base/file_source.hpp"
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/numbers.hpp"
 #include "tools/yaml/names.hpp"
 
 namespace s7200::tools {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/base/time.hpp"
 #include "tools/yaml/yaml.hpp"
 

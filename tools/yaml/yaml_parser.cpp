@@ -1,5 +1,3 @@
-#include "tools/yaml/yaml.hpp"
-
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
@@ -7,7 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/yaml/yaml.hpp"
 
 namespace s7200::tools {
 namespace {

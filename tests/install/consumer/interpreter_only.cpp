@@ -1,5 +1,5 @@
 // Checks a program text with the interpreter alone.
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 
 int main() {
   using namespace s7200;

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "serial_sim/system/simulation.hpp"
 
 int main() {

@@ -10,11 +10,11 @@
 #include <string>
 #include <thread>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "tools/bridge/live_run.hpp"
 #include "tools/bridge/pty_bridge.hpp"
-#include "tools/host/files.hpp"
-#include "tools/scenario/reader.hpp"
+#include "tools/host/files/files.hpp"
+#include "tools/scenario/reading/reader.hpp"
 #include "tools/scenario/runner.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -8,12 +8,12 @@
 #include <random>
 
 #include "interpreter/model/instruction.hpp"
-#include "interpreter/model/times_band.hpp"
-#include "interpreter/model/times_file.hpp"
-#include "interpreter/program/load_times.hpp"
+#include "interpreter/model/times/times_band.hpp"
+#include "interpreter/model/times/times_file.hpp"
+#include "interpreter/program/loading/load_times.hpp"
 #include "tools/calibration/fit.hpp"
 #include "tools/calibration/measure_protocol.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,9 +1,9 @@
-#include "tools/faces/dap/admission.hpp"
+#include "tools/faces/dap/wire/admission.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tools/faces/dap/framing.hpp"
-#include "tools/faces/dap/inbox.hpp"
+#include "tools/faces/dap/wire/framing.hpp"
+#include "tools/faces/dap/wire/inbox.hpp"
 
 namespace s7200::tools::dap {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "tools/faces/dap/session.hpp"
 
 namespace s7200::tools::dap {

@@ -1,4 +1,4 @@
-#include "tools/faces/dap/framing.hpp"
+#include "tools/faces/dap/wire/framing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/faces/dap/inbox.hpp"
+#include "tools/faces/dap/wire/inbox.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/dap/editor.hpp"
 #include "tools/json/base64.hpp"
-#include "tools/session/commands/command_table.hpp"
+#include "tools/session/commands/rows/command_table.hpp"
 
 namespace s7200::tools::dap {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/faces/dap/sources.hpp"
+#include "tools/faces/dap/requests/sources.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "tests/unit/debugger/session.hpp"
-#include "tools/session/commands/command_table.hpp"
-#include "tools/session/commands/completion.hpp"
+#include "tools/session/commands/rows/command_table.hpp"
+#include "tools/session/commands/rows/completion.hpp"
 
 namespace s7200::tools {
 namespace {

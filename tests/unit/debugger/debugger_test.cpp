@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/program/load.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tests/support/source_path.hpp"
 #include "tests/unit/debugger/session.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 #include "tools/session/observers/call_stack.hpp"
 #include "tools/session/past/past_words.hpp"
 

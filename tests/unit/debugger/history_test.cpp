@@ -13,12 +13,12 @@
 #include "serial_sim/field/field_script.hpp"
 #include "serial_sim/modbus/crc.hpp"
 #include "tests/support/slave_bench.hpp"
-#include "tools/session/causes/last_write.hpp"
+#include "tools/session/causes/last/last_write.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/stops/stepper.hpp"
-#include "tools/views/listing.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/program/listing.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tests/support/source_path.hpp"
 #include "tests/unit/debugger/session.hpp"
-#include "tools/session/commands/command_table.hpp"
+#include "tools/session/commands/rows/command_table.hpp"
 #include "tools/session/observers/track.hpp"
 #include "tools/session/observers/tracks_of_past.hpp"
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/stop_token.hpp"
 #include "tools/faces/console/prompt.hpp"

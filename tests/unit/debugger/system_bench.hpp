@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
-#include "tools/plan/system_reader.hpp"
-#include "tools/rig/recorded_rig.hpp"
+#include "tools/host/files/files.hpp"
+#include "tools/plan/reading/system_reader.hpp"
+#include "tools/rig/files/recorded_rig.hpp"
 
 namespace s7200::tools {
 

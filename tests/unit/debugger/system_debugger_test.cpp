@@ -10,7 +10,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/debugger/system_session.hpp"
 #include "tools/session/past/seen_rig.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "interpreter/base/bytes.hpp"
 #include "tests/unit/debugger/system_bench.hpp"
-#include "tools/session/causes/last_write.hpp"
+#include "tools/session/causes/last/last_write.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/stops/stepper.hpp"

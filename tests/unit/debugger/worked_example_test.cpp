@@ -5,7 +5,7 @@
 
 #include "tests/support/tip41.hpp"
 #include "tests/unit/debugger/session.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,5 +1,5 @@
 // A record of a run is looked at while it grows.
-#include "tools/host/record_file.hpp"
+#include "tools/host/files/record_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

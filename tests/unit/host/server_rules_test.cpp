@@ -1,4 +1,4 @@
-#include "tools/host/server_rules.hpp"
+#include "tools/host/net/server_rules.hpp"
 
 #include <gtest/gtest.h>
 

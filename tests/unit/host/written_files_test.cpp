@@ -1,5 +1,5 @@
 // Files that the command writes: what may be replaced, and that they are whole or absent.
-#include "tools/host/written_files.hpp"
+#include "tools/host/files/written_files.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tools/host/record_file.hpp"
+#include "tools/host/files/record_file.hpp"
 
 namespace s7200::tools {
 namespace {

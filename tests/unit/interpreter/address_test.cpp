@@ -1,11 +1,11 @@
 // Addresses and assignments, as the options of the command take them.
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 
 namespace s7200 {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/stl/symbols.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
 
 namespace s7200::stl {
 namespace {

@@ -1,4 +1,4 @@
-#include "interpreter/program/convert.hpp"
+#include "interpreter/program/loading/convert.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Which CPU a program is for where nobody has named one.
-#include "interpreter/program/cpu_choice.hpp"
+#include "interpreter/program/loading/cpu_choice.hpp"
 
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
 
 namespace s7200 {

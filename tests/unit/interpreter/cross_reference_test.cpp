@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/analysis/memory_names.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/selection.hpp"
-#include "interpreter/base/joined.hpp"
+#include "interpreter/base/text/joined.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

@@ -1,10 +1,10 @@
-#include "interpreter/program/data_block.hpp"
+#include "interpreter/program/loading/data_block.hpp"
 
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
-#include "interpreter/stl/data_block.hpp"
+#include "interpreter/stl/tables/data_block.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200 {

@@ -1,13 +1,13 @@
 // Programs for other controllers and in other languages: one message, not one for each line.
-#include "interpreter/program/dialect.hpp"
+#include "interpreter/program/loading/dialect.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/model/cpu_model.hpp"
-#include "interpreter/model/times.hpp"
+#include "interpreter/model/times/times.hpp"
 #include "interpreter/program/load.hpp"
 
 namespace s7200 {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tests/support/source_path.hpp"
 

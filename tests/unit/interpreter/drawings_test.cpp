@@ -1,13 +1,13 @@
 // Ladder that is drawn with characters where STL should be.
-#include "interpreter/stl/drawings.hpp"
+#include "interpreter/stl/drawings/drawings.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/model/cpu_model.hpp"
-#include "interpreter/model/times.hpp"
+#include "interpreter/model/times/times.hpp"
 #include "interpreter/program/load.hpp"
 
 namespace s7200 {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "interpreter/program/load.hpp"
-#include "interpreter/stl/symbols.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
 
 namespace s7200 {
 namespace {

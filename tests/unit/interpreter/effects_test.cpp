@@ -1,9 +1,9 @@
 // Which bits programs read and write. That it is so for each instruction is tried with all its vectors (vectors_test.cpp).
-#include "interpreter/analysis/effects.hpp"
+#include "interpreter/analysis/effects/effects.hpp"
 
 #include <set>
 
-#include "interpreter/program/operands.hpp"
+#include "interpreter/program/operands/operands.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

@@ -1,12 +1,12 @@
-#include "interpreter/stl/encoding.hpp"
+#include "interpreter/stl/text/encoding.hpp"
 
 #include <gtest/gtest.h>
 #include <iconv.h>
 
 #include <utility>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/stl/code_pages.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/text/code_pages.hpp"
 
 namespace s7200::stl {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "interpreter/program/chains.hpp"
+#include "interpreter/program/checking/chains.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

@@ -1,5 +1,5 @@
 // The control flow of programs, as plain data.
-#include "interpreter/analysis/flow.hpp"
+#include "interpreter/analysis/flow/flow.hpp"
 
 #include "tests/support/plc.hpp"
 

@@ -1,4 +1,4 @@
-#include "interpreter/cpu/forcing.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 
 #include "tests/support/plc.hpp"
 

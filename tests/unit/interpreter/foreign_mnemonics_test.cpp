@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/base/diagnostic.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/load.hpp"

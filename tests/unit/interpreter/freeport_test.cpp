@@ -1,6 +1,6 @@
 // Port 0 in Freeport mode: SMB30, event 8 with SMB2 and SM3.0, XMT with event 9 and SM4.5. Times: plc.hpp; at 9600 baud a
 // character of ten bits takes 1'041'667 ns.
-#include "interpreter/cpu/ppi.hpp"
+#include "interpreter/cpu/ports/ppi.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

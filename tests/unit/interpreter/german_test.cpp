@@ -1,8 +1,8 @@
-#include "interpreter/program/german.hpp"
+#include "interpreter/program/loading/german.hpp"
 
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/stl/printer.hpp"
 
 namespace s7200 {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/model/cpu_model.hpp"
-#include "interpreter/model/times.hpp"
+#include "interpreter/model/times/times.hpp"
 #include "interpreter/program/load.hpp"
-#include "interpreter/program/slips.hpp"
+#include "interpreter/program/loading/slips.hpp"
 #include "interpreter/stl/blocks.hpp"
 
 namespace s7200 {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/model/cpu_model.hpp"
-#include "interpreter/model/times.hpp"
-#include "interpreter/program/convert.hpp"
+#include "interpreter/model/times/times.hpp"
 #include "interpreter/program/load.hpp"
+#include "interpreter/program/loading/convert.hpp"
 
 namespace s7200 {
 namespace {

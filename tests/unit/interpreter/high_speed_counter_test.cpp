@@ -1,6 +1,6 @@
 // HSC0–HSC2: modes, events, status byte, errors. HSC1: clock I0.6, second input I0.7, reset I1.0, start I1.1, SMB46–55.
-#include "interpreter/cpu/high_speed_counters.hpp"
 #include "interpreter/cpu/scan.hpp"
+#include "interpreter/cpu/units/high_speed_counters.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

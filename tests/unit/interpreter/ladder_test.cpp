@@ -1,15 +1,15 @@
-#include "interpreter/program/ladder.hpp"
+#include "interpreter/program/ladder/ladder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/program/ladder_compare.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
+#include "interpreter/program/ladder/ladder_compare.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200 {
 namespace {

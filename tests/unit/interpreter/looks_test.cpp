@@ -1,5 +1,5 @@
 // What programs look at of the things that change by themselves.
-#include "interpreter/analysis/looks.hpp"
+#include "interpreter/analysis/effects/looks.hpp"
 
 #include "tests/support/plc.hpp"
 

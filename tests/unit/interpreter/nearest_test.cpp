@@ -1,5 +1,5 @@
 // The word that was probably meant.
-#include "interpreter/base/nearest.hpp"
+#include "interpreter/base/text/nearest.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // NETR and NETW (facts 10.9). The stations that answer are bytes, written from the rules apart from the simulator's code.
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/ppi_master.hpp"
 
 namespace s7200::test {

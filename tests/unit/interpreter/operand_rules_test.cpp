@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "interpreter/program/warnings.hpp"
+#include "interpreter/program/checking/warnings.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200 {

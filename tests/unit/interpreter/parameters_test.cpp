@@ -1,7 +1,7 @@
 // Parameters of subroutines: what a CALL may pass, and what becomes of it. Times: plc.hpp.
-#include "interpreter/program/parameters.hpp"
+#include "interpreter/program/operands/parameters.hpp"
 
-#include "interpreter/trace/instruction_lines.hpp"
+#include "interpreter/trace/text/instruction_lines.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

@@ -1,14 +1,14 @@
 // Programs that have been through a web page, a word processor or a book.
-#include "interpreter/stl/plain_text.hpp"
+#include "interpreter/stl/text/plain_text.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/model/cpu_model.hpp"
-#include "interpreter/model/times.hpp"
+#include "interpreter/model/times/times.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/printer.hpp"
 

@@ -1,5 +1,5 @@
 // Pointers to special and analog memory, which only CPUs 22x of release 2 have (facts 1.5).
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

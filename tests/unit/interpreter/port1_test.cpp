@@ -1,7 +1,7 @@
 // Port 1 of the CPUs that have two: SMB130, SM4.6, events 24 to 26, error 000B, SMB186 to SMB194. Port 0 knows nothing of
 // it.
-#include "interpreter/cpu/ppi.hpp"
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/cpu/ports/ppi.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

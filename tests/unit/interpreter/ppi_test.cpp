@@ -1,11 +1,11 @@
 // PPI on a port that is not in Freeport mode (facts 10.9). The master is that of tests/support/ppi_master.hpp.
-#include "interpreter/cpu/ppi.hpp"
+#include "interpreter/cpu/ports/ppi.hpp"
 
 #include <random>
 
-#include "interpreter/cpu/s7_services.hpp"
+#include "interpreter/cpu/ports/s7_services.hpp"
 #include "interpreter/model/s7_pdu.hpp"
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/ppi_master.hpp"
 
 namespace s7200::test {

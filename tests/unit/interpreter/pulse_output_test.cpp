@@ -1,5 +1,5 @@
 // PLS: pulse trains and PWM on Q0.0 and Q0.1. Times: plc.hpp.
-#include "interpreter/cpu/pulse_outputs.hpp"
+#include "interpreter/cpu/units/pulse_outputs.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/analysis/memory_names.hpp"
-#include "interpreter/base/joined.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/base/text/joined.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

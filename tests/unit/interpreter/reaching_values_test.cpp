@@ -1,10 +1,10 @@
 // Where pointers lead at each instruction that goes through them.
-#include "interpreter/analysis/reaching_values.hpp"
+#include "interpreter/analysis/effects/reaching_values.hpp"
 
-#include "interpreter/analysis/memory_names.hpp"
-#include "interpreter/analysis/pointers.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/effects/pointers.hpp"
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/base/joined.hpp"
+#include "interpreter/base/text/joined.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

@@ -5,7 +5,7 @@
 #include <deque>
 #include <random>
 
-#include "interpreter/cpu/message_receiver.hpp"
+#include "interpreter/cpu/ports/message_receiver.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

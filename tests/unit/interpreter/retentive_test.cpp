@@ -1,5 +1,5 @@
 // Retentive ranges as the system block sets them (facts 1.6).
-#include "interpreter/program/system_block.hpp"
+#include "interpreter/program/loading/system_block.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

@@ -1,10 +1,10 @@
 // Stand-ins for libraries of Micro/WIN: which programs get them, where, and what MBUS_INIT says. What they do on a line:
 // tests/programs/libraries.
-#include "interpreter/program/stand_ins.hpp"
+#include "interpreter/program/loading/stand_ins.hpp"
 
 #include <algorithm>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/support/plc.hpp"
 

@@ -1,11 +1,11 @@
-#include "interpreter/stl/symbols.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
 
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/stl/symbol_table.hpp"
+#include "interpreter/stl/tables/symbol_table.hpp"
 
 namespace s7200::stl {
 namespace {

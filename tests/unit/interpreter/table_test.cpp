@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tests/support/source_path.hpp"

@@ -1,4 +1,4 @@
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a trace says, record by record.
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 
 #include <sstream>
 

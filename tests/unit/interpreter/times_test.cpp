@@ -1,5 +1,5 @@
 // Tables of execution times: what is read, what is refused, what is written.
-#include "interpreter/model/times.hpp"
+#include "interpreter/model/times/times.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/model/named_times.hpp"
-#include "interpreter/model/times_file.hpp"
-#include "interpreter/program/load_times.hpp"
-#include "tools/host/files.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
+#include "interpreter/model/times/named_times.hpp"
+#include "interpreter/model/times/times_file.hpp"
+#include "interpreter/program/loading/load_times.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200 {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {

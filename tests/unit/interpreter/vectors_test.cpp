@@ -9,8 +9,8 @@
 #include <map>
 #include <optional>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/analysis/effects.hpp"
+#include "interpreter/analysis/effects/effects.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/cpu/cpu.hpp"
 #include "tests/reference_model/silent_port.hpp"
 #include "tests/support/source_path.hpp"
@@ -209,7 +209,7 @@ class Execution {
     }
   }
 
-  // --- what interpreter/analysis/effects.hpp says of the instruction ---
+  // --- what interpreter/analysis/effects/effects.hpp says of the instruction ---
 
   using Mask = Image;  // with a 1 for each bit that is meant
 

@@ -1,5 +1,5 @@
 // Warnings: each appears where it should, and not in a program that is right.
-#include "interpreter/program/warnings.hpp"
+#include "interpreter/program/checking/warnings.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <set>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/analysis/lint.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
+#include "interpreter/analysis/warnings/lint.hpp"
 #include "interpreter/program/load.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200 {
 namespace {

@@ -1,4 +1,4 @@
-#include "interpreter/base/wrapped.hpp"
+#include "interpreter/base/text/wrapped.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/model/instruction.hpp"
-#include "interpreter/model/named_times.hpp"
-#include "interpreter/model/times_file.hpp"
-#include "tools/host/files.hpp"
+#include "interpreter/model/times/named_times.hpp"
+#include "interpreter/model/times/times_file.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "interpreter/analysis/bounds.hpp"
-#include "interpreter/analysis/calls.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
 #include "tests/support/inspected.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200::tools {
 namespace {

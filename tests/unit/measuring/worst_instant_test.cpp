@@ -2,7 +2,7 @@
 #include "tools/measuring/worst_instant.hpp"
 
 #include "tests/support/inspected.hpp"
-#include "tools/views/races_view.hpp"
+#include "tools/views/inspection/races_view.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include "tests/support/plc.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tools/mutants/mutants_report.hpp"
-#include "tools/scenario/reader.hpp"
+#include "tools/scenario/reading/reader.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "serial_sim/system/simulation.hpp"
 #include "tools/json/json_text.hpp"
 

@@ -9,17 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tools/faces/page/engine/carried_system.hpp"
 #include "tools/faces/page/engine/surroundings.hpp"
 #include "tools/json/json_text.hpp"
 #include "tools/rig/rig.hpp"
-#include "tools/session/commands/recording_json.hpp"
-#include "tools/session/past/journal.hpp"
+#include "tools/session/commands/answers/recording_json.hpp"
+#include "tools/session/past/actions/journal.hpp"
 #include "tools/session/past/seen_rig.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools::page {
 namespace {

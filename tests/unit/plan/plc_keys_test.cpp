@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "tools/plan/system_plan.hpp"
 
 namespace s7200::tools {

@@ -1,5 +1,5 @@
 // System files: what is read, and what is complained about, at which place.
-#include "tools/plan/system_reader.hpp"
+#include "tools/plan/reading/system_reader.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
-#include "tools/plan/event_reader.hpp"
+#include "tools/host/files/files.hpp"
+#include "tools/plan/reading/event_reader.hpp"
 #include "tools/plan/system_keys.hpp"
 
 namespace s7200::tools {

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "interpreter/trace/trace_rows.hpp"
 #include "tests/support/slave_bench.hpp"
 #include "tools/record/trace_formats.hpp"

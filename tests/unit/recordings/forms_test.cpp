@@ -8,9 +8,9 @@
 
 #include "serial_sim/line/character.hpp"
 #include "tools/recordings/conversation.hpp"
-#include "tools/recordings/notation.hpp"
-#include "tools/recordings/samplerate.hpp"
-#include "tools/recordings/table_rows.hpp"
+#include "tools/recordings/levels/samplerate.hpp"
+#include "tools/recordings/rows/notation.hpp"
+#include "tools/recordings/rows/table_rows.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -10,17 +10,17 @@
 #include <sstream>
 #include <tuple>
 
-#include "interpreter/base/joined.hpp"
 #include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/base/text/joined.hpp"
 #include "interpreter/model/s7_pdu.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "serial_sim/record/pcap_capture.hpp"
-#include "serial_sim/westinghouse/hppc_message.hpp"
+#include "serial_sim/westinghouse/messages/hppc_message.hpp"
 #include "tools/master/protocol.hpp"
 #include "tools/recordings/decoded.hpp"
-#include "tools/recordings/fields.hpp"
 #include "tools/recordings/playback.hpp"
+#include "tools/recordings/rows/fields.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,5 +1,5 @@
 // Archives, and what is wrong with damaged ones.
-#include "tools/recordings/zip.hpp"
+#include "tools/recordings/packets/zip.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What survives power off: retentive ranges, EEPROM, clock, and the file that keeps them.
-#include "tools/rig/memory_file.hpp"
+#include "tools/rig/files/memory_file.hpp"
 
 #include "tests/support/plc.hpp"
 #include "tools/rig/memory_json.hpp"

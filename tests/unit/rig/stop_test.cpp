@@ -5,8 +5,8 @@
 #include <string_view>
 #include <thread>
 
-#include "interpreter/analysis/check.hpp"
-#include "tools/rig/recorded_rig.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
+#include "tools/rig/files/recorded_rig.hpp"
 #include "tools/rig/run.hpp"
 
 namespace s7200::tools {

@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "tests/support/slave_bench.hpp"
-#include "tools/scenario/junit.hpp"
-#include "tools/scenario/reader.hpp"
-#include "tools/scenario/report.hpp"
-#include "tools/scenario/report_json.hpp"
+#include "tools/scenario/reading/reader.hpp"
+#include "tools/scenario/reporting/junit.hpp"
+#include "tools/scenario/reporting/report.hpp"
+#include "tools/scenario/reporting/report_json.hpp"
 #include "tools/scenario/runner.hpp"
 
 namespace s7200::tools {

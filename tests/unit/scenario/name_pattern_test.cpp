@@ -1,4 +1,4 @@
-#include "tools/scenario/name_pattern.hpp"
+#include "tools/scenario/reading/name_pattern.hpp"
 
 #include <gtest/gtest.h>
 

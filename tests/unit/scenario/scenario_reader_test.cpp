@@ -7,11 +7,11 @@
 #include "interpreter/base/diagnostic.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/scenario/memory_values.hpp"
-#include "tools/scenario/reader.hpp"
+#include "tools/scenario/reading/memory_values.hpp"
+#include "tools/scenario/reading/reader.hpp"
 #include "tools/scenario/steps/exchange.hpp"
-#include "tools/scenario/steps/receive.hpp"
-#include "tools/scenario/transcript.hpp"
+#include "tools/scenario/steps/expected/receive.hpp"
+#include "tools/scenario/transcripts/transcript.hpp"
 #include "tools/yaml/yaml.hpp"
 
 namespace s7200::tools {

@@ -8,15 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/slave_bench.hpp"
-#include "tools/scenario/bytes_diff.hpp"
 #include "tools/scenario/comparison.hpp"
-#include "tools/scenario/junit.hpp"
-#include "tools/scenario/reader.hpp"
-#include "tools/scenario/report_json.hpp"
+#include "tools/scenario/reading/reader.hpp"
+#include "tools/scenario/reporting/bytes_diff.hpp"
+#include "tools/scenario/reporting/junit.hpp"
+#include "tools/scenario/reporting/report_json.hpp"
 #include "tools/scenario/runner.hpp"
 #include "tools/scenario/steps/exchange.hpp"
 #include "tools/scenario/steps/random_traffic.hpp"
-#include "tools/scenario/transcript.hpp"
+#include "tools/scenario/transcripts/transcript.hpp"
 
 namespace s7200::tools {
 namespace {

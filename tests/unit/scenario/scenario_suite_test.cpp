@@ -9,8 +9,8 @@
 
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/scenario/junit.hpp"
-#include "tools/scenario/report_json.hpp"
+#include "tools/scenario/reporting/junit.hpp"
+#include "tools/scenario/reporting/report_json.hpp"
 #include "tools/scenario/suite.hpp"
 
 namespace s7200::tools {

@@ -1,7 +1,7 @@
 // The change to STOP: when it comes, and what the clock does.
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/system/simulation.hpp"
 

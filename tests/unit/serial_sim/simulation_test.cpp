@@ -4,7 +4,7 @@
 #include <random>
 #include <sstream>
 
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/slave_bench.hpp"
 
 namespace s7200::serial {

@@ -2,7 +2,7 @@
 
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/line/frame.hpp"
-#include "serial_sim/westinghouse/block_message.hpp"
+#include "serial_sim/westinghouse/messages/block_message.hpp"
 #include "tests/unit/serial_sim/westinghouse_bench.hpp"
 
 namespace s7200::westinghouse {

@@ -1,5 +1,5 @@
 // What `s7200 inspect PROGRAM calls` shows.
-#include "tools/views/calls_view.hpp"
+#include "tools/views/inspection/calls_view.hpp"
 
 #include "tests/support/inspected.hpp"
 

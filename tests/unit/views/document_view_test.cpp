@@ -1,8 +1,8 @@
 // The page of `s7200 inspect PROGRAM document`.
-#include "tools/views/document_view.hpp"
+#include "tools/views/inspection/document_view.hpp"
 
 #include "tests/support/inspected.hpp"
-#include "tools/views/inspect_views.hpp"
+#include "tools/views/inspection/inspect_views.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "interpreter/base/event_queue.hpp"
-#include "tools/views/faults.hpp"
+#include "tools/views/state/faults.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,9 +1,9 @@
 // What `s7200 instructions` says of an instruction.
-#include "tools/views/instruction_text.hpp"
+#include "tools/views/program/instruction_text.hpp"
 
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 
 namespace s7200::tools {
 namespace {

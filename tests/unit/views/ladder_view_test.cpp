@@ -1,19 +1,19 @@
 // What `s7200 inspect PROGRAM ladder` draws, and that it reads back as the program it was drawn from.
-#include "tools/views/ladder_view.hpp"
+#include "tools/views/ladder/ladder_view.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/ladder.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/program/ladder/ladder.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/stl/symbols.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
 #include "tests/support/inspected.hpp"
 #include "tests/support/source_path.hpp"
-#include "tools/host/files.hpp"
-#include "tools/views/ladder_svg.hpp"
-#include "tools/views/ladder_text.hpp"
+#include "tools/host/files/files.hpp"
+#include "tools/views/ladder/ladder_svg.hpp"
+#include "tools/views/ladder/ladder_text.hpp"
 
 namespace s7200::tools {
 namespace {

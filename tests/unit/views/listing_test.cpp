@@ -1,10 +1,10 @@
-#include "tools/views/listing.hpp"
+#include "tools/views/program/listing.hpp"
 
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
-#include "tools/views/execution_text.hpp"
+#include "tools/views/program/execution_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,10 +1,10 @@
 // What a machine looks like in words: its ports.
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "interpreter/analysis/check.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,5 +1,5 @@
 // What `s7200 inspect PROGRAM map` shows.
-#include "tools/views/map_view.hpp"
+#include "tools/views/inspection/map_view.hpp"
 
 #include "tests/support/inspected.hpp"
 

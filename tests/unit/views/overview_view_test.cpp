@@ -1,5 +1,5 @@
 // What `s7200 inspect PROGRAM` shows first.
-#include "tools/views/overview_view.hpp"
+#include "tools/views/inspection/overview_view.hpp"
 
 #include <fmt/format.h>
 

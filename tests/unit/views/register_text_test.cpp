@@ -1,4 +1,4 @@
-#include "tools/views/register_text.hpp"
+#include "tools/views/state/register_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What `s7200 inspect PROGRAM steps` shows.
-#include "tools/views/steps_view.hpp"
+#include "tools/views/inspection/steps_view.hpp"
 
 #include "tests/support/inspected.hpp"
 

@@ -1,5 +1,5 @@
 // What `s7200 inspect PROGRAM xref` shows.
-#include "tools/views/xref_view.hpp"
+#include "tools/views/inspection/xref_view.hpp"
 
 #include "tests/support/inspected.hpp"
 

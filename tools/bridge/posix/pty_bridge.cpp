@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/host/posix/pty.hpp"
 
 namespace s7200::tools {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/command/options/help_groups.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {

@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "interpreter/program/ladder.hpp"
-#include "tools/command/terminal.hpp"
-#include "tools/host/files.hpp"
+#include "interpreter/program/ladder/ladder.hpp"
+#include "tools/command/terminal/terminal.hpp"
+#include "tools/host/files/files.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::tools {
 namespace {

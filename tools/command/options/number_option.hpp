@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "interpreter/base/numbers.hpp"
+#include "interpreter/base/text/numbers.hpp"
 
 namespace CLI {
 class App;

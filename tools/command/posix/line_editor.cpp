@@ -1,4 +1,4 @@
-#include "tools/command/line_editor.hpp"
+#include "tools/command/terminal/line_editor.hpp"
 
 #include <fmt/format.h>
 #include <histedit.h>
@@ -14,9 +14,9 @@
 #include <cwchar>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/command/posix/line_history.hpp"
-#include "tools/command/terminal.hpp"
+#include "tools/command/terminal/terminal.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {

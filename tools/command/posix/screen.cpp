@@ -1,4 +1,4 @@
-#include "tools/command/screen.hpp"
+#include "tools/command/terminal/screen.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>

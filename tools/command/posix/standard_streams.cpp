@@ -1,4 +1,4 @@
-#include "tools/command/standard_streams.hpp"
+#include "tools/command/terminal/standard_streams.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,9 +14,9 @@
 #include <iostream>
 
 #include "tools/command/exit_code.hpp"
-#include "tools/command/terminal.hpp"
+#include "tools/command/terminal/terminal.hpp"
+#include "tools/host/files/write_all.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/host/write_all.hpp"
 
 namespace s7200::tools {
 namespace {

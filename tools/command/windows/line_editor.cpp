@@ -1,4 +1,4 @@
-#include "tools/command/line_editor.hpp"
+#include "tools/command/terminal/line_editor.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "tools/host/input_stream.hpp"
+#include "tools/host/files/input_stream.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {

@@ -1,4 +1,4 @@
-#include "tools/command/standard_streams.hpp"
+#include "tools/command/terminal/standard_streams.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,9 +11,9 @@
 #include <string>
 
 #include "tools/command/exit_code.hpp"
-#include "tools/command/terminal.hpp"
+#include "tools/command/terminal/terminal.hpp"
 #include "tools/host/console.hpp"
-#include "tools/host/file_system.hpp"
+#include "tools/host/files/file_system.hpp"
 #include "tools/host/windows/native_text.hpp"
 
 namespace s7200::tools {

@@ -7,12 +7,12 @@
 #include <ostream>
 #include <utility>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/text.hpp"
-#include "tools/session/commands/command_table.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/session/commands/rows/command_table.hpp"
 #include "tools/session/commands/running.hpp"
 #include "tools/session/words/words.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

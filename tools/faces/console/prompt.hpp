@@ -11,8 +11,8 @@
 
 #include "tools/faces/console/view.hpp"
 #include "tools/host/host_time.hpp"
-#include "tools/session/commands/completion.hpp"
 #include "tools/session/commands/reply.hpp"
+#include "tools/session/commands/rows/completion.hpp"
 #include "tools/session/commands/session.hpp"
 
 namespace s7200::tools {

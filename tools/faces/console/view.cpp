@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/session/commands/answers/status.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/running.hpp"
-#include "tools/session/commands/status.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

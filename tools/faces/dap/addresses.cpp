@@ -4,9 +4,9 @@
 
 #include <charconv>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "tools/session/observers/call_stack.hpp"
 
 namespace s7200::tools::dap {

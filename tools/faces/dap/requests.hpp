@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/faces/dap/conversation.hpp"
+#include "tools/faces/dap/wire/conversation.hpp"
 #include "tools/session/commands/reply.hpp"
 
 namespace s7200::tools::dap {

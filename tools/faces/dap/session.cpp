@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/faces/dap/addresses.hpp"
-#include "tools/faces/dap/conversation.hpp"
 #include "tools/faces/dap/requests.hpp"
+#include "tools/faces/dap/wire/conversation.hpp"
 
 namespace s7200::tools::dap {
 namespace {

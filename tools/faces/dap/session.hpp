@@ -19,7 +19,7 @@
 #include "interpreter/base/stop_token.hpp"
 #include "tools/faces/dap/attributes.hpp"
 #include "tools/faces/dap/debuggee.hpp"
-#include "tools/faces/dap/messages.hpp"
+#include "tools/faces/dap/wire/messages.hpp"
 
 namespace s7200::tools::dap {
 

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "interpreter/base/file_path.hpp"
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "tools/host/written_files.hpp"
+#include "tools/host/files/written_files.hpp"
 #include "tools/session/commands/session_file.hpp"
 #include "tools/session/commands/session_files.hpp"
 

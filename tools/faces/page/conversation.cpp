@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "tools/session/commands/command_table.hpp"
-#include "tools/session/commands/moments_json.hpp"
+#include "tools/session/commands/answers/moments_json.hpp"
+#include "tools/session/commands/rows/command_table.hpp"
 #include "tools/views/results_json.hpp"
 
 namespace s7200::tools::page {

@@ -1,7 +1,7 @@
 // An InputStream of a descriptor, which it does not own.
 #pragma once
 
-#include "tools/host/input_stream.hpp"
+#include "tools/host/files/input_stream.hpp"
 
 namespace s7200::tools {
 

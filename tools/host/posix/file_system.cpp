@@ -1,4 +1,4 @@
-#include "tools/host/file_system.hpp"
+#include "tools/host/files/file_system.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "tools/host/file_obstacles.hpp"
+#include "tools/host/files/file_obstacles.hpp"
 #include "tools/host/interruption.hpp"
 
 namespace s7200::tools {

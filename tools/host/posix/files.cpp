@@ -1,4 +1,4 @@
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "tools/host/sockets.hpp"
+#include "tools/host/net/sockets.hpp"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -22,9 +22,9 @@
 #include <utility>
 
 #include "tools/host/interruption.hpp"
+#include "tools/host/net/server_rules.hpp"
+#include "tools/host/net/tcp_listener.hpp"
 #include "tools/host/posix/descriptor_stream.hpp"
-#include "tools/host/server_rules.hpp"
-#include "tools/host/tcp_listener.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/host/write_all.hpp"
+#include "tools/host/files/write_all.hpp"
 
 #include <poll.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "tools/host/file_system.hpp"
+#include "tools/host/files/file_system.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <filesystem>
 
 #include "interpreter/base/file_path.hpp"
-#include "tools/host/file_obstacles.hpp"
+#include "tools/host/files/file_obstacles.hpp"
 #include "tools/host/windows/native_text.hpp"
 
 namespace s7200::tools {

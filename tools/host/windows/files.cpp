@@ -1,11 +1,11 @@
-#include "tools/host/files.hpp"
+#include "tools/host/files/files.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "tools/host/file_system.hpp"
-#include "tools/host/input_stream.hpp"
+#include "tools/host/files/file_system.hpp"
+#include "tools/host/files/input_stream.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/host/windows/native_text.hpp"
 

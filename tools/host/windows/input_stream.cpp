@@ -1,4 +1,4 @@
-#include "tools/host/input_stream.hpp"
+#include "tools/host/files/input_stream.hpp"
 
 #include <algorithm>
 #include <array>

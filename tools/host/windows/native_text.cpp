@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/host/windows/native_text.hpp"
 
 namespace s7200::tools {

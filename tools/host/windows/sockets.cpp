@@ -1,4 +1,4 @@
-#include "tools/host/sockets.hpp"
+#include "tools/host/net/sockets.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "tools/host/interruption.hpp"
-#include "tools/host/server_rules.hpp"
-#include "tools/host/tcp_listener.hpp"
+#include "tools/host/net/server_rules.hpp"
+#include "tools/host/net/tcp_listener.hpp"
 #include "tools/host/windows/native_text.hpp"
 
 // After winsock2.h.

@@ -1,8 +1,8 @@
 // What happens to a system in the field, as under `events` of its file: power_off, cut …
-#include "tools/plan/event_reader.hpp"
+#include "tools/plan/reading/event_reader.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "tools/scenario/answer_reader.hpp"
+#include "tools/scenario/reading/answer_reader.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {

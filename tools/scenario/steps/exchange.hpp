@@ -1,7 +1,7 @@
 // A request and its answer: what the steps that send have in common.
 #pragma once
 
-#include "tools/scenario/steps/reception.hpp"
+#include "tools/scenario/steps/expected/reception.hpp"
 
 namespace s7200::tools {
 

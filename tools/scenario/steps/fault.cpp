@@ -1,11 +1,11 @@
 // fault: a fault of the line from now on, or none any more.
 #include "serial_sim/faults/fault.hpp"
 
-#include "interpreter/base/text.hpp"
-#include "tools/plan/system_reading.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/plan/reading/system_reading.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,9 +1,9 @@
 // force, unforce: points and memory that hold a value.
-#include "interpreter/cpu/forcing.hpp"
-#include "tools/scenario/memory_values.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
+#include "tools/scenario/reading/memory_values.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "interpreter/base/joined.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/modbus/address.hpp"
-#include "tools/scenario/answer_reader.hpp"
+#include "tools/scenario/reading/answer_reader.hpp"
 #include "tools/scenario/steps/exchange.hpp"
 
 namespace s7200::tools {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "serial_sim/modbus/request.hpp"
-#include "tools/scenario/answer_reader.hpp"
+#include "tools/scenario/reading/answer_reader.hpp"
 #include "tools/scenario/steps/exchange.hpp"
 #include "tools/views/text_frame.hpp"
 

@@ -1,9 +1,9 @@
 // set: memory and inputs.
-#include "tools/scenario/memory_values.hpp"
+#include "tools/scenario/reading/memory_values.hpp"
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
-#include "tools/scenario/transcript_writer.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -1,7 +1,7 @@
 // set_mode: a programming device asks for RUN or STOP.
 #include "tools/scenario/run.hpp"
 #include "tools/scenario/steps/steps.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {

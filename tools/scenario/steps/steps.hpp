@@ -8,8 +8,8 @@
 
 #include "interpreter/model/cpu_model.hpp"
 #include "tools/scenario/action.hpp"
+#include "tools/scenario/reading/value_reader.hpp"
 #include "tools/scenario/scenario.hpp"
-#include "tools/scenario/value_reader.hpp"
 
 namespace s7200::tools {
 

@@ -1,7 +1,7 @@
 #include "tools/scenario/steps/wait.hpp"
 
 #include "tools/scenario/run.hpp"
-#include "tools/scenario/transcript_writer.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
 namespace {

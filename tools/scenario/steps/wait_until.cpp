@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "tools/scenario/run.hpp"
-#include "tools/scenario/transcript_writer.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/scenario/transcripts/transcript_writer.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/scenario/memory_values.hpp"
+#include "tools/scenario/reading/memory_values.hpp"
 #include "tools/scenario/steps/steps.hpp"
 
 namespace s7200::tools {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "interpreter/analysis/flow.hpp"
-#include "tools/session/past/access.hpp"
+#include "interpreter/analysis/flow/flow.hpp"
+#include "tools/session/past/actions/access.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "interpreter/analysis/bits.hpp"
+#include "interpreter/analysis/effects/bits.hpp"
 #include "interpreter/cpu/cpu.hpp"
 
 namespace s7200::tools {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "interpreter/cpu/cpu.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 
 namespace s7200::tools {
 

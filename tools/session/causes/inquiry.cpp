@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/trace/statement_text.hpp"
-#include "tools/session/causes/last_stop.hpp"
-#include "tools/session/causes/last_turn.hpp"
-#include "tools/session/causes/two_masters.hpp"
-#include "tools/views/machine_text.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
+#include "tools/session/causes/last/last_stop.hpp"
+#include "tools/session/causes/last/last_turn.hpp"
+#include "tools/session/causes/line/two_masters.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "interpreter/base/stop_token.hpp"
-#include "tools/session/causes/asked_request.hpp"
-#include "tools/session/causes/last_decision.hpp"
+#include "tools/session/causes/last/last_decision.hpp"
+#include "tools/session/causes/line/asked_request.hpp"
 #include "tools/session/causes/witness.hpp"
 
 namespace s7200::tools {

@@ -6,10 +6,10 @@
 #include <array>
 
 #include "interpreter/model/ports.hpp"
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "tools/session/past/reader.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

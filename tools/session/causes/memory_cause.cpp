@@ -7,18 +7,18 @@
 #include <iterator>
 #include <map>
 
-#include "interpreter/analysis/effects.hpp"
+#include "interpreter/analysis/effects/effects.hpp"
 #include "interpreter/model/contact_form.hpp"
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "tools/session/causes/expression.hpp"
-#include "tools/session/causes/last_turn.hpp"
-#include "tools/session/causes/last_write.hpp"
+#include "tools/session/causes/last/last_turn.hpp"
+#include "tools/session/causes/last/last_write.hpp"
 #include "tools/session/causes/writer.hpp"
-#include "tools/session/past/access.hpp"
+#include "tools/session/past/actions/access.hpp"
 #include "tools/session/past/past_words.hpp"
 #include "tools/session/past/reader.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

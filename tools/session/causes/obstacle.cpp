@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

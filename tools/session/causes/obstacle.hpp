@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/analysis/bits.hpp"
+#include "interpreter/analysis/effects/bits.hpp"
 #include "interpreter/base/time.hpp"
 
 namespace s7200::tools {

@@ -7,16 +7,16 @@
 #include <iterator>
 #include <utility>
 
-#include "interpreter/analysis/memory_names.hpp"
-#include "interpreter/base/among.hpp"
-#include "interpreter/base/counted.hpp"
+#include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/base/text/among.hpp"
+#include "interpreter/base/text/counted.hpp"
 #include "interpreter/stl/printer.hpp"
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/causes/memory_cause.hpp"
-#include "tools/session/past/access.hpp"
-#include "tools/views/machine_text.hpp"
-#include "tools/views/memory_meaning.hpp"
+#include "tools/session/past/actions/access.hpp"
+#include "tools/views/state/machine_text.hpp"
+#include "tools/views/state/memory_meaning.hpp"
 
 namespace s7200::tools {
 namespace {

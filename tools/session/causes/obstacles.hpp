@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/analysis/facts.hpp"
+#include "interpreter/analysis/effects/facts.hpp"
+#include "interpreter/analysis/flow/ways.hpp"
 #include "interpreter/analysis/rung_text.hpp"
-#include "interpreter/analysis/ways.hpp"
 #include "tools/session/causes/contacts.hpp"
 #include "tools/session/causes/obstacle.hpp"
 

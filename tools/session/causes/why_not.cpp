@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/session/causes/contacts.hpp"
-#include "tools/session/causes/last_changes.hpp"
+#include "tools/session/causes/last/last_changes.hpp"
 #include "tools/session/causes/obstacles.hpp"
-#include "tools/session/past/access.hpp"
+#include "tools/session/past/actions/access.hpp"
 #include "tools/session/past/reader.hpp"
 
 namespace s7200::tools {

@@ -1,6 +1,6 @@
 // Which contacts hold a bit off, or on, and who could change them.
 //
-// Works on the rungs that write it (interpreter/analysis/ways.hpp) and on what their contacts have: as the program last
+// Works on the rungs that write it (interpreter/analysis/flow/ways.hpp) and on what their contacts have: as the program last
 // found them, or as a memory picture has them. Followed further a few levels: to an input, a timer, a counter, a step of a
 // sequence, a message, an interrupt.
 #pragma once

@@ -10,7 +10,7 @@
 
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
-#include "tools/session/causes/line_account.hpp"
+#include "tools/session/causes/line/line_account.hpp"
 #include "tools/session/past/reader.hpp"
 
 namespace s7200::tools {

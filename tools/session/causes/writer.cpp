@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/trace/statement_text.hpp"
-#include "interpreter/trace/text_trace.hpp"
-#include "tools/session/causes/last_attachment.hpp"
-#include "tools/session/causes/last_write.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
+#include "tools/session/causes/last/last_attachment.hpp"
+#include "tools/session/causes/last/last_write.hpp"
 #include "tools/session/past/past_words.hpp"
-#include "tools/views/execution_text.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/program/execution_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
-#include "tools/views/listing.hpp"
+#include "tools/views/program/listing.hpp"
 
 namespace s7200::tools {
 

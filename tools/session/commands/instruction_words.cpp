@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/trace/statement_text.hpp"
-#include "interpreter/trace/text_trace.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
+#include "interpreter/trace/text/text_trace.hpp"
 
 namespace s7200::tools {
 

@@ -7,7 +7,7 @@
 #include "interpreter/trace/trace.hpp"
 #include "tools/session/commands/reply.hpp"
 #include "tools/session/commands/session.hpp"
-#include "tools/views/execution_text.hpp"
+#include "tools/views/program/execution_text.hpp"
 
 namespace s7200::tools {
 

@@ -5,16 +5,16 @@
 
 #include <algorithm>
 
-#include "interpreter/base/nearest.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/nearest.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/printer.hpp"
 #include "tools/session/causes/expression.hpp"
 #include "tools/session/stops/stop_words.hpp"
 #include "tools/session/words/bad_pointers.hpp"
 #include "tools/session/words/force_words.hpp"
 #include "tools/session/words/words.hpp"
-#include "tools/views/machine_text.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/views/state/machine_text.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tools/session/commands/reply.hpp"
 #include "tools/session/commands/session.hpp"
-#include "tools/session/past/access.hpp"
+#include "tools/session/past/actions/access.hpp"
 
 namespace s7200::tools {
 

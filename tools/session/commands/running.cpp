@@ -9,12 +9,12 @@
 #include <string_view>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/session/commands/answers/stop_reports.hpp"
 #include "tools/session/commands/memory_words.hpp"
-#include "tools/session/commands/stop_reports.hpp"
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/words/words.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/stops/stop_words.hpp"
 

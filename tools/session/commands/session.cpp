@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "interpreter/base/text.hpp"
-#include "tools/session/commands/stop_reports.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/session/commands/answers/stop_reports.hpp"
 #include "tools/session/stops/stop_words.hpp"
-#include "tools/views/execution_text.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/program/execution_text.hpp"
 #include "tools/views/report.hpp"
+#include "tools/views/state/machine_text.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {

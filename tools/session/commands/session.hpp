@@ -16,15 +16,15 @@
 #include <vector>
 
 #include "interpreter/base/stop_token.hpp"
-#include "interpreter/base/wrapped.hpp"
+#include "interpreter/base/text/wrapped.hpp"
 #include "serial_sim/peers/requester.hpp"
-#include "tools/session/commands/live_trace.hpp"
+#include "tools/session/commands/answers/live_trace.hpp"
 #include "tools/session/commands/onlooker.hpp"
 #include "tools/session/commands/session_file.hpp"
 #include "tools/session/commands/session_files.hpp"
 #include "tools/session/past/history.hpp"
 #include "tools/session/stops/stepper.hpp"
-#include "tools/views/listing.hpp"
+#include "tools/views/program/listing.hpp"
 
 namespace s7200::tools {
 

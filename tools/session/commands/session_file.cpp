@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/json/json.hpp"
 #include "tools/rig/memory_json.hpp"
-#include "tools/session/commands/action_json.hpp"
-#include "tools/session/commands/recording_json.hpp"
+#include "tools/session/commands/answers/action_json.hpp"
+#include "tools/session/commands/answers/recording_json.hpp"
 #include "tools/session/past/digest.hpp"
 #include "tools/views/results_json.hpp"
 

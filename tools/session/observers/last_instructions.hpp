@@ -8,7 +8,7 @@
 
 #include "interpreter/base/stop_token.hpp"
 #include "tools/session/past/history.hpp"
-#include "tools/views/execution_text.hpp"
+#include "tools/views/program/execution_text.hpp"
 
 namespace s7200::tools {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/session/causes/last_enable.hpp"
+#include "tools/session/causes/last/last_enable.hpp"
 #include "tools/session/past/reader.hpp"
 
 namespace s7200::tools {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interpreter/base/stop_token.hpp"
-#include "interpreter/trace/trace_lines.hpp"
+#include "interpreter/trace/text/trace_lines.hpp"
 #include "tools/session/past/history.hpp"
 
 namespace s7200::tools {

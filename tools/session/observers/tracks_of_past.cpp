@@ -10,16 +10,16 @@
 #include <utility>
 
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/networks.hpp"
-#include "interpreter/trace/event_lines.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/program/ladder/networks.hpp"
+#include "interpreter/trace/text/event_lines.hpp"
 #include "interpreter/trace/trace_reasons.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/functions.hpp"
 #include "tools/session/observers/trace_of_past.hpp"
 #include "tools/session/past/reader.hpp"
-#include "tools/views/listing.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/views/program/listing.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

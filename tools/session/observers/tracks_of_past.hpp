@@ -9,7 +9,7 @@
 
 #include "interpreter/base/serial_format.hpp"
 #include "interpreter/base/stop_token.hpp"
-#include "interpreter/program/address.hpp"
+#include "interpreter/program/operands/address.hpp"
 #include "tools/session/observers/track.hpp"
 #include "tools/session/past/history.hpp"
 

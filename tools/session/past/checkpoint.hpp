@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "serial_sim/system/system.hpp"
+#include "tools/session/past/actions/plc_requests.hpp"
 #include "tools/session/past/moment.hpp"
-#include "tools/session/past/plc_requests.hpp"
 
 namespace s7200::tools {
 

@@ -4,9 +4,9 @@
 #include <tuple>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/modbus/functions.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

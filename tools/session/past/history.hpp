@@ -24,12 +24,12 @@
 
 #include "interpreter/base/stop_token.hpp"
 #include "interpreter/trace/trace.hpp"
-#include "tools/session/past/action.hpp"
+#include "tools/session/past/actions/action.hpp"
+#include "tools/session/past/actions/host_frames.hpp"
+#include "tools/session/past/actions/plc_requests.hpp"
 #include "tools/session/past/checkpoint.hpp"
-#include "tools/session/past/host_frames.hpp"
 #include "tools/session/past/line_stations.hpp"
 #include "tools/session/past/moment.hpp"
-#include "tools/session/past/plc_requests.hpp"
 #include "tools/session/past/written_memory.hpp"
 
 namespace s7200::tools {

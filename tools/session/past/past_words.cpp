@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
-#include "tools/views/machine_text.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

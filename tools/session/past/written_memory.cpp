@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "interpreter/analysis/effects.hpp"
+#include "interpreter/analysis/effects/effects.hpp"
 #include "interpreter/model/area.hpp"
 #include "interpreter/model/ports.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "interpreter/cpu/cpu.hpp"
-#include "tools/session/past/access.hpp"
+#include "tools/session/past/actions/access.hpp"
 
 namespace s7200::tools {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/session/causes/two_masters.hpp"
+#include "tools/session/causes/line/two_masters.hpp"
 #include "tools/views/broadcast.hpp"
 
 namespace s7200::tools {

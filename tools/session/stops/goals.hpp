@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tools/session/stops/stepper.hpp"
-#include "tools/views/listing.hpp"
+#include "tools/views/program/listing.hpp"
 
 namespace s7200::tools::goal {
 

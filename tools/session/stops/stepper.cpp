@@ -4,8 +4,8 @@
 #include <ranges>
 #include <utility>
 
-#include "interpreter/program/networks.hpp"
-#include "tools/session/past/access.hpp"
+#include "interpreter/program/ladder/networks.hpp"
+#include "tools/session/past/actions/access.hpp"
 
 namespace s7200::tools {
 namespace {

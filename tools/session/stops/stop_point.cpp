@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/trace/statement_text.hpp"
-#include "tools/views/machine_text.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "interpreter/trace/trace.hpp"
 #include "tools/session/causes/expression.hpp"
-#include "tools/session/past/plc_requests.hpp"
+#include "tools/session/past/actions/plc_requests.hpp"
 
 namespace s7200::tools {
 

@@ -7,17 +7,17 @@
 #include <limits>
 #include <set>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/errors.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/model/ports.hpp"
-#include "interpreter/trace/statement_text.hpp"
+#include "interpreter/trace/text/statement_text.hpp"
 #include "serial_sim/line/frame.hpp"
-#include "tools/session/causes/two_masters.hpp"
+#include "tools/session/causes/line/two_masters.hpp"
 #include "tools/session/words/words.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/machine_text.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "tools/session/past/history.hpp"
 #include "tools/session/stops/stop_point.hpp"
-#include "tools/views/listing.hpp"
+#include "tools/views/program/listing.hpp"
 
 namespace s7200::tools {
 

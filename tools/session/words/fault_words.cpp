@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/plan/fault_owner.hpp"
 #include "tools/session/words/line_words.hpp"
-#include "tools/views/faults.hpp"
+#include "tools/views/state/faults.hpp"
 
 namespace s7200::tools {
 namespace {

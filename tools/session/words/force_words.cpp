@@ -6,14 +6,14 @@
 #include <array>
 
 #include "interpreter/base/bytes.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/cpu/forcing.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/cpu/units/forcing.hpp"
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/special_memory.hpp"
-#include "tools/session/past/access.hpp"
+#include "tools/session/past/actions/access.hpp"
 #include "tools/session/words/words.hpp"
-#include "tools/views/machine_text.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/views/state/machine_text.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools {
 namespace {

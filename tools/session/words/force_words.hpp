@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "interpreter/cpu/cpu.hpp"
-#include "tools/session/past/action.hpp"
+#include "tools/session/past/actions/action.hpp"
 
 namespace s7200::tools {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "serial_sim/modbus/address.hpp"
 #include "serial_sim/modbus/request.hpp"
 #include "tools/session/words/words.hpp"

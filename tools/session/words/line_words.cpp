@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "interpreter/base/counted.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/session/words/words.hpp"
 #include "tools/views/broadcast.hpp"
-#include "tools/views/faults.hpp"
-#include "tools/views/machine_text.hpp"
+#include "tools/views/state/faults.hpp"
+#include "tools/views/state/machine_text.hpp"
 #include "tools/views/text_frame.hpp"
 
 namespace s7200::tools {

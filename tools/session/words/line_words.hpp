@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "serial_sim/peers/requester.hpp"
-#include "tools/session/past/action.hpp"
+#include "tools/session/past/actions/action.hpp"
 
 namespace s7200::tools {
 

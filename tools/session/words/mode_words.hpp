@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/session/past/action.hpp"
+#include "tools/session/past/actions/action.hpp"
 
 namespace s7200::tools {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/session/causes/expression.hpp"
 
 namespace s7200::tools {

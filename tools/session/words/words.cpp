@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "interpreter/base/numbers.hpp"
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/model/cpu_model.hpp"
 
 namespace s7200::tools {

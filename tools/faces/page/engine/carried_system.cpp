@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "interpreter/base/text.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "tools/json/hex_bytes.hpp"
-#include "tools/plan/system_reader.hpp"
+#include "tools/plan/reading/system_reader.hpp"
 #include "tools/rig/memory_json.hpp"
 #include "tools/views/report.hpp"
 

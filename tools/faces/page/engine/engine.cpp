@@ -6,18 +6,18 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/analysis/check.hpp"
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/cpu_choice.hpp"
+#include "interpreter/analysis/warnings/check.hpp"
+#include "interpreter/base/text/text.hpp"
 #include "interpreter/program/load.hpp"
-#include "interpreter/program/slips.hpp"
+#include "interpreter/program/loading/cpu_choice.hpp"
+#include "interpreter/program/loading/slips.hpp"
 #include "tools/faces/page/engine/carried_system.hpp"
 #include "tools/faces/page/engine/surroundings.hpp"
 #include "tools/json/json_text.hpp"
-#include "tools/session/commands/recording_json.hpp"
-#include "tools/views/check_report.hpp"
-#include "tools/views/memory.hpp"
+#include "tools/session/commands/answers/recording_json.hpp"
+#include "tools/views/program/check_report.hpp"
 #include "tools/views/results_json.hpp"
+#include "tools/views/state/memory.hpp"
 
 namespace s7200::tools::page {
 namespace {

@@ -7,8 +7,8 @@
 #include <array>
 #include <string_view>
 
-#include "interpreter/base/text.hpp"
-#include "interpreter/program/checker.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/program/checking/checker.hpp"
 #include "tools/json/json_taker.hpp"
 #include "tools/plan/plc_keys.hpp"
 #include "tools/rig/memory_json.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "interpreter/program/loading/slips.hpp"
 #include "interpreter/program/program.hpp"
-#include "interpreter/program/slips.hpp"
 #include "serial_sim/faults/fault.hpp"
 #include "serial_sim/field/field_script.hpp"
 #include "tools/plan/plc_settings.hpp"

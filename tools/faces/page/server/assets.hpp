@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/host/web_server.hpp"
+#include "tools/host/net/web_server.hpp"
 
 namespace s7200::tools::page {
 

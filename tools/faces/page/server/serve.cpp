@@ -7,7 +7,7 @@
 #include "tools/faces/page/server/inbox.hpp"
 #include "tools/host/host_time.hpp"
 #include "tools/host/interruption.hpp"
-#include "tools/host/web_server.hpp"
+#include "tools/host/net/web_server.hpp"
 
 namespace s7200::tools::page {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tools/faces/page/conversation.hpp"
-#include "tools/host/tcp_listener.hpp"
+#include "tools/host/net/tcp_listener.hpp"
 
 namespace s7200::tools::page {
 

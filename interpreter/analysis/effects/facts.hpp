@@ -1,0 +1,24 @@
+// What warnings and views ask of a program, worked out once.
+#pragma once
+
+#include <vector>
+
+#include "interpreter/analysis/effects/effects.hpp"
+#include "interpreter/analysis/flow/flow.hpp"
+
+namespace s7200 {
+
+struct Facts {
+  const Program& program;
+  ControlFlow flow;
+  Pointers pointers;
+  std::vector<std::vector<MemoryAccess>> effects;  ///< by op: effects_of()
+  /// By op: the number of its network. That of its NETWORK line; in a routine without numbered lines, counted from 1; 0 in
+  /// front of the first of them.
+  std::vector<std::uint32_t> networks;
+};
+
+/// `program` must live as long as what is returned.
+Facts facts_of(const Program& program);
+
+}  // namespace s7200

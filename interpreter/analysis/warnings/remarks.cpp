@@ -1,0 +1,159 @@
+#include "interpreter/analysis/warnings/remarks.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/effects/pointers.hpp"
+#include "interpreter/base/text/among.hpp"
+#include "interpreter/program/loading/unread.hpp"
+
+namespace s7200 {
+namespace {
+
+class RemarkFinder {
+ public:
+  RemarkFinder(const Facts& facts, const CrossReference& reference) : facts_(facts), reference_(reference) {}
+
+  std::vector<Remark> all() {
+    find_one_sided();
+    find_shared();
+    for (std::uint32_t op = 0; op < facts_.program.ops.size(); ++op) find_past_symbol(op);
+    std::ranges::stable_sort(remarks_, {}, [](const Remark& remark) { return std::tuple(remark.kind, remark.bits.first); });
+    return std::move(remarks_);
+  }
+
+ private:
+  const Op& op_of(std::uint32_t op) const { return facts_.program.ops[op]; }
+
+  // --- bits that S or R alone write ---
+
+  struct Sides {
+    std::vector<std::uint32_t> set, reset;
+  };
+
+  void find_one_sided() {
+    std::map<std::uint64_t, Sides> bits;
+    for (std::uint32_t op = 0; op < facts_.program.ops.size(); ++op) {
+      const std::string_view mnemonic = op_of(op).instruction->mnemonic;
+      const bool sets = is_among(mnemonic, {"S", "SI"}), resets = is_among(mnemonic, {"R", "RI"});
+      if (!(sets || resets) || op_of(op)[0].pointer) continue;
+      for (const MemoryAccess& access : facts_.effects[op]) {
+        if (!access.writes() || access.operand != 0 || access.certainty != Certainty::Must) continue;
+        for (std::uint64_t bit = access.bits.first; bit < access.bits.end(); ++bit)
+          (sets ? bits[bit].set : bits[bit].reset).push_back(op);
+      }
+    }
+    for (const auto& [bit, sides] : bits) add_one_sided({bit, 1}, sides);
+  }
+
+  void add_one_sided(const Bits& bit, const Sides& sides) {
+    constexpr Areas kOwn = set_of(Area::Q) | set_of(Area::M) | set_of(Area::V);
+    const bool one_sided = sides.set.empty() != sides.reset.empty();
+    if (!one_sided || !contains(kOwn, area_of(as_named(bit))) || is_written_otherwise(bit) || !is_looked_at(bit)) return;
+    if (sides.reset.empty())
+      remarks_.push_back({Remark::Kind::NeverReset, bit, {}, sides.set});
+    else
+      remarks_.push_back({Remark::Kind::NeverSet, bit, {}, sides.reset});
+  }
+
+  bool is_written_otherwise(const Bits& bit) const {
+    for (std::uint32_t op = 0; op < facts_.effects.size(); ++op) {
+      const bool sets_or_resets = is_among(op_of(op).instruction->mnemonic, {"S", "SI", "R", "RI"});
+      for (const MemoryAccess& access : facts_.effects[op])
+        if (access.writes() && access.bits.overlaps(bit) && !is_point(access) && !(sets_or_resets && access.operand == 0))
+          return true;
+    }
+    return is_set_by_data_block(facts_.program, bit);
+  }
+  /// The output point that SI writes beside its image.
+  static bool is_point(const MemoryAccess& access) { return access.operand == kNoOperand && !access.by_pointer; }
+
+  /// Outputs are looked at by the field.
+  bool is_looked_at(const Bits& bit) const {
+    if (area_of(as_named(bit)) == Area::Q) return true;
+    for (std::uint32_t op = 0; op < facts_.effects.size(); ++op)
+      for (const MemoryAccess& access : facts_.effects[op])
+        if (op_of(op).is_contact && access.reads() && !access.by_pointer && access.bits.overlaps(bit)) return true;
+    return false;
+  }
+
+  // --- symbols ---
+
+  struct Named {
+    std::string name;
+    Bits bits;
+  };
+
+  std::vector<Named> symbols() const {
+    std::vector<Named> all;
+    for (const stl::Symbol& symbol : facts_.program.source.symbols)
+      if (const auto bits = bits_of(facts_.program, symbol))
+        if (area_of(*bits) == Area::V || area_of(*bits) == Area::M) all.push_back({symbol.name, *bits});
+    std::ranges::stable_sort(all, {}, [](const Named& named) { return named.bits.first; });
+    return all;
+  }
+
+  /// The instructions that name exactly these bits.
+  std::vector<std::uint32_t> users_of(const Bits& bits) const {
+    std::vector<std::uint32_t> ops;
+    for (const ReferenceEntry& entry : reference_.entries)
+      for (const Use& use : entry.uses)
+        if (use.access.bits == bits) ops.push_back(use.op);
+    return ops;
+  }
+
+  void find_shared() {
+    const std::vector<Named> all = symbols();
+    for (const Named& outer : all)
+      for (const Named& inner : all) {
+        const bool apart = !inner.bits.overlaps(outer.bits) || inner.bits == outer.bits || inner.bits.count == 1;
+        const bool other_way = inner.bits.count > outer.bits.count ||
+                               (inner.bits.count == outer.bits.count && inner.bits.first < outer.bits.first);
+        if (apart || other_way || outer.bits.count > 32) continue;
+        std::vector<std::uint32_t> ops = users_of(outer.bits);
+        const std::vector<std::uint32_t> inside = users_of(inner.bits);
+        if (ops.empty() || inside.empty()) continue;
+        ops.resize(1);
+        ops.push_back(inside.front());
+        remarks_.push_back({Remark::Kind::SharedMemory, inner.bits, {outer.name, inner.name}, std::move(ops)});
+      }
+  }
+
+  void find_past_symbol(std::uint32_t op) {
+    if (is_unread(op_of(op))) return;
+    for (const MemoryAccess& access : facts_.effects[op]) {
+      if (!access.writes() || access.by_pointer || access.operand == kNoOperand || access.certainty != Certainty::Must)
+        continue;
+      const OperandRule& rule = op_of(op).instruction->operand[access.operand];
+      if (rule.counted == 0 || rule.width == Width::Bit) continue;
+      const std::vector<std::string> names = symbols_from(access.bits);
+      if (names.size() > 1) remarks_.push_back({Remark::Kind::PastItsSymbol, access.bits, names, {op}});
+    }
+  }
+
+  /// A symbol that stands for the start of a block, and those of the memory after it; nothing without the first.
+  std::vector<std::string> symbols_from(const Bits& block) const {
+    const std::vector<Named> all = symbols();
+    const auto first = std::ranges::find(all, block.first, [](const Named& named) { return named.bits.first; });
+    if (first == all.end()) return {};
+    std::vector<std::string> names{first->name};
+    for (const Named& symbol : all)
+      if (symbol.bits.overlaps(block) && symbol.bits.first >= first->bits.end()) names.push_back(symbol.name);
+    return names;
+  }
+
+  const Facts& facts_;
+  const CrossReference& reference_;
+  std::vector<Remark> remarks_{};
+};
+
+}  // namespace
+
+std::vector<Remark> remarks_of(const Facts& facts, const CrossReference& reference) {
+  if (has_unread(facts.program)) return {};
+  return RemarkFinder(facts, reference).all();
+}
+
+}  // namespace s7200

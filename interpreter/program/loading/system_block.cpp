@@ -1,0 +1,152 @@
+#include "interpreter/program/loading/system_block.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "interpreter/base/ppi_frame.hpp"
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/program/operands/address.hpp"
+#include "interpreter/program/program.hpp"
+
+namespace s7200 {
+namespace {
+
+struct Rate {
+  std::uint32_t baud;
+  CpuSet cpus;
+};
+constexpr std::array kRates{Rate{9600, kEveryCpu}, Rate{19200, kEveryCpu}, Rate{187500, kCpu22x}};
+
+std::optional<std::uint32_t> parse_rate(std::string_view text, const CpuModel& model, std::string& why) {
+  const auto baud = parse_decimal<std::uint32_t>(text);
+  for (const Rate& rate : kRates) {
+    if (rate.baud != baud) continue;
+    if ((rate.cpus & model.self) != 0) return baud;
+    why = needs(fmt::format("PPI at {} baud needs", rate.baud), rate.cpus);
+    return {};
+  }
+  why = fmt::format("'{}' is not a rate of PPI; write {}", stl::shortened(text), ppi_rates_text());
+  return {};
+}
+
+std::optional<std::uint8_t> parse_station(std::string_view text, const CpuModel&, std::string& why) {
+  const auto station = parse_decimal<std::uint8_t>(text);
+  if (station && *station >= 1 && *station <= ppi::kLastStation) return station;
+  why = fmt::format("'{}' is not a PPI station from 1 to {}", stl::shortened(text), ppi::kLastStation);
+  return {};
+}
+
+/// Calls a function for one value of each port, or for two that are apart: port 0 and port 1.
+template <class Each>
+std::optional<std::array<Each, kPorts.size()>> parse_ports(std::string_view text, const CpuModel& model, std::string& why,
+                                                           std::string_view what,
+                                                           std::optional<Each> (*parse)(std::string_view, const CpuModel&,
+                                                                                        std::string&)) {
+  const std::size_t comma = text.find(',');
+  const auto first = parse(stl::trim(text.substr(0, comma)), model, why);
+  if (!first) return {};
+  if (comma == std::string_view::npos) return std::array{*first, *first};
+  if (model.ports < kPorts.size()) {
+    why =
+        fmt::format("CPU {} has no port 1 for the second {}; a second port needs {}", model.name, what, to_text(kTwoPorts));
+    return {};
+  }
+  const auto second = parse(stl::trim(text.substr(comma + 1)), model, why);
+  return second ? std::optional(std::array{*first, *second}) : std::nullopt;
+}
+
+bool contains(const RetentiveRange& whole, const RetentiveRange& part) {
+  return whole.area == part.area && part.first >= whole.first && part.first + part.count <= whole.first + whole.count;
+}
+
+/// `VB0:100`, `T0:32`
+std::optional<RetentiveRange> parse_retentive_range(std::string_view text, const CpuModel& model, std::string& why) {
+  const auto place = parse_range(text, model, why);
+  if (!place) return {};
+  const bool numbered = info(place->area).element != 0;
+  const RetentiveRange range{place->area, place->number, numbered ? place->count : place->bytes()};
+  const auto possible = retainable(model);
+  const bool fits = std::ranges::any_of(possible, [&](const RetentiveRange& whole) { return contains(whole, range); });
+  if (fits && place->width != Width::Bit) return range;
+  why = fmt::format("'{}' cannot be retentive; bytes of V and M, timers of TONR (T0 to T31, T64 to T95) and counters can",
+                    stl::shortened(text));
+  return {};
+}
+
+template <class Each>
+std::string ports_text(const std::array<Each, kPorts.size()>& ports) {
+  return ports[0] == ports[1] ? fmt::format("{}", ports[0]) : fmt::format("{},{}", ports[0], ports[1]);
+}
+
+}  // namespace
+
+std::string ppi_rates_text() {
+  std::string text;
+  for (const Rate& rate : kRates) {
+    if (!text.empty()) text += &rate == &kRates.back() ? " or" : ",";
+    if (rate.cpus != kEveryCpu) text += fmt::format(", on {},", to_text(rate.cpus));
+    text += fmt::format("{}{}", text.empty() ? "" : " ", rate.baud);
+  }
+  return text;
+}
+
+std::optional<PpiRates> parse_ppi_rates(std::string_view text, const CpuModel& model, std::string& why) {
+  return parse_ports(text, model, why, "rate", parse_rate);
+}
+
+std::optional<SecondRequest> parse_second_request(std::string_view text, std::string& why) {
+  for (std::size_t i = 0; i < kSecondRequestWords.size(); ++i)
+    if (text == kSecondRequestWords[i]) return static_cast<SecondRequest>(i);
+  why = fmt::format("'{}' is not what a port does with a second request; write {}", stl::shortened(text),
+                    fmt::join(kSecondRequestWords, " or "));
+  return {};
+}
+
+std::optional<PpiStations> parse_ppi_stations(std::string_view text, const CpuModel& model, std::string& why) {
+  return parse_ports(text, model, why, "station", parse_station);
+}
+
+std::string to_text(const PpiRates& rates) { return ports_text(rates); }
+
+std::string to_text(const PpiStations& stations) { return ports_text(stations); }
+
+std::vector<RetentiveRange> retainable(const CpuModel& model) {
+  std::vector<RetentiveRange> ranges{{Area::V, 0, model.size_of(Area::V)}, {Area::M, 0, model.size_of(Area::M)}};
+  for (const RetentiveRange& timers : {RetentiveRange{Area::T, 0, 32}, RetentiveRange{Area::T, 64, 32}})
+    if (timers.first < model.size_of(Area::T)) ranges.push_back(timers);
+  ranges.push_back({Area::C, 0, model.size_of(Area::C)});
+  return ranges;
+}
+
+std::optional<std::vector<RetentiveRange>> parse_retentive(std::string_view text, const CpuModel& model, std::string& why) {
+  std::vector<RetentiveRange> ranges;
+  if (stl::upper_case(stl::trim(text)) == "NONE") return ranges;
+  for (std::size_t from = 0, comma = 0; comma != std::string_view::npos; from = comma + 1) {
+    comma = text.find(',', from);
+    const auto range = parse_retentive_range(stl::trim(text.substr(from, comma - from)), model, why);
+    if (!range) return {};
+    ranges.push_back(*range);
+  }
+  if (ranges.size() <= kMostRetentiveRanges) return ranges;
+  why = fmt::format("{} ranges; a system block has {} at most", ranges.size(), kMostRetentiveRanges);
+  return {};
+}
+
+std::string to_text(const std::vector<RetentiveRange>& ranges) {
+  std::string text;
+  for (const RetentiveRange& range : ranges)
+    text += fmt::format("{}{}{}{}:{}", text.empty() ? "" : ",", info(range.area).name, info(range.area).element ? "" : "B",
+                        range.first, range.count);
+  return text.empty() ? "none" : text;
+}
+
+std::shared_ptr<const Program> with_system_block(const Program& program, const SystemBlock& block) {
+  const auto same = std::make_shared<Program>(program);
+  same->system_block = block;
+  return same;
+}
+
+}  // namespace s7200

@@ -1,0 +1,502 @@
+#include "interpreter/stl/tables/symbol_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
+
+namespace s7200::stl {
+namespace {
+
+// --- what a cell is ---
+
+bool is_name(std::string_view text) {
+  return !text.empty() &&
+         (is_letter(text.front()) || text.front() == '_' || static_cast<unsigned char>(text.front()) >= 0x80);
+}
+
+constexpr std::size_t kLongestValue = 40;
+
+/// The address without the mark of IEC 61131-3 or the gap of STEP 7: `I0.0` for `%I0.0` and for `I 0.0`.
+std::string without_iec_mark_and_gap(std::string_view text) {
+  if (text.starts_with('%')) text.remove_prefix(1);
+  const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter) - text.begin());
+  const std::size_t rest = std::min(text.find_first_not_of(' ', letters), text.size());
+  const bool gap = letters > 0 && rest > letters && rest < text.size() && is_digit(text[rest]);
+  return std::string(text.substr(0, letters)).append(text.substr(gap ? rest : letters));
+}
+
+/// The address or constant in a cell, or the name of a block; nothing for other text.
+std::optional<OperandValue> value_of(std::string_view cell, std::string& why) {
+  if (cell.size() > kLongestValue || cell.find_first_of("0123456789'") == std::string_view::npos) return std::nullopt;
+  const std::string text = without_iec_mark_and_gap(cell);
+  if (block_number(text)) return Name{upper_case(text)};
+  const auto operand = parse_operand(text, why);
+  if (!operand || std::holds_alternative<Name>(operand->value)) return std::nullopt;
+  return operand->value;
+}
+
+bool has_value(std::string_view text) {
+  std::string why;
+  return value_of(text, why).has_value();
+}
+
+bool is_address(std::string_view text) {
+  std::string why;
+  const auto value = value_of(text, why);
+  if (!value || may_be_name(*value, without_iec_mark_and_gap(text))) return false;
+  return std::holds_alternative<Address>(*value) || std::holds_alternative<Name>(*value);
+}
+
+/// The formats in status charts.
+constexpr std::array<std::string_view, 14> kFormats{"SIGNED", "UNSIGNED", "HEXADECIMAL", "HEX",      "BINARY",
+                                                    "BIT",    "BOOL",     "ASCII",       "STRING",   "FLOATING POINT",
+                                                    "FLOAT",  "REAL",     "DECIMAL",     "TIME/DATE"};
+/// The types of symbols, besides BOOL, REAL and STRING.
+constexpr std::array<std::string_view, 5> kTypes{"BYTE", "WORD", "INT", "DWORD", "DINT"};
+
+/// Whether a symbol is retentive, beside its type.
+constexpr std::array<std::string_view, 8> kFlags{"TRUE", "FALSE", "YES", "NO", "JA", "NEIN", "RETAIN", "NON-RETAIN"};
+
+bool is_format(std::string_view text) { return std::ranges::find(kFormats, upper_case(text)) != kFormats.end(); }
+bool is_type(std::string_view text) {
+  return is_format(text) || std::ranges::find(kTypes, upper_case(text)) != kTypes.end();
+}
+
+// --- headings ---
+
+/// A heading in capitals and without accents: `MNEMONIQUE` for `Mnémonique`; asterisks and colons around it are left out.
+std::string heading_of(std::string_view text) {
+  constexpr std::string_view kMarks = " *:_";
+  constexpr std::string_view kBase = "AAAAAAACEEEEIIIIDNOOOOO*OUUUUYTSAAAAAAACEEEEIIIIDNOOOOO/OUUUUYTY";  // U+00C0 to U+00FF
+  text.remove_prefix(std::min(text.find_first_not_of(kMarks), text.size()));
+  text = text.substr(0, text.find_last_not_of(kMarks) + 1);
+  std::string heading;
+  for (const Character c : characters(text)) {
+    if (c.code >= 0xC0 && c.code < 0xC0 + kBase.size())
+      heading += kBase[c.code - 0xC0];
+    else
+      heading.append(upper_case(text.substr(0, c.bytes)));
+    text.remove_prefix(c.bytes);
+  }
+  return heading;
+}
+
+// Headings in the languages of Micro/WIN, of other programming software and of spreadsheets.
+constexpr std::array<std::string_view, 22> kNameHeadings{
+    "SYMBOL",        "SYMBOLS", "SYMBOL NAME", "SYMBOLNAME", "NAME",    "TAG",    "TAG NAME", "VARIABLE",
+    "VARIABLE NAME", "SYMBOLE", "MNEMONIQUE",  "NOM",        "SIMBOLO", "NOMBRE", "NOME",     "符号",
+    "符號",          "名称",    "名稱",        "符号名",     "变量名",  "变量"};
+constexpr std::array<std::string_view, 18> kAddressHeadings{
+    "ADDRESS",  "ADDR",    "ABSOLUTE ADDRESS", "LOGICAL ADDRESS", "ADRESSE",  "ADRESS", "ADRES",    "DIRECCION", "INDIRIZZO",
+    "ENDERECO", "OPERAND", "OPERANDE",         "OPERANDO",        "ABSOLUTE", "地址",   "绝对地址", "位址",      "變數位址"};
+constexpr std::array<std::string_view, 7> kFormatHeadings{"FORMAT", "FORMATO",  "DISPLAY FORMAT", "ANZEIGEFORMAT",
+                                                          "格式",   "显示格式", "顯示格式"};
+
+constexpr std::array<std::string_view, 14> kCommentHeadings{
+    "COMMENT", "COMMENTS", "DESCRIPTION", "REMARK",  "REMARKS", "KOMMENTAR", "BESCHREIBUNG",
+    "COMMENTAIRE", "COMENTARIO", "COMMENTO", "注释", "註解", "注解", "说明"};
+
+bool is_one_of(std::span<const std::string_view> headings, std::string_view text) {
+  constexpr std::size_t kLongestHeading = 40;
+  return text.size() <= kLongestHeading && std::ranges::find(headings, heading_of(text)) != headings.end();
+}
+
+// --- rows and cells ---
+
+struct Cell {
+  std::string text;        // without quotes
+  std::string_view place;  // where it is in the line
+};
+using Cells = std::vector<Cell>;
+
+/// The separator of cells. In an assignment, `Motor = Q0.0`, only the first sign is a separator.
+enum class Separator : char { Tab = '\t', Semicolon = ';', Comma = ',', Bar = '|', Equals = '=', Colon = ':', Blanks = ' ' };
+
+bool is_assignment(Separator separator) { return separator == Separator::Equals || separator == Separator::Colon; }
+
+std::string without_doubled_quotes(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    plain += text[i];
+    if (text[i] == '"' && text.substr(i + 1).starts_with('"')) ++i;
+  }
+  return plain;
+}
+
+Cell cell_of(std::string_view written) {
+  if (written.size() > 1 && written.front() == '"' && written.back() == '"')
+    return {without_doubled_quotes(written.substr(1, written.size() - 2)), written};
+  return {std::string(written), written};
+}
+
+/// The end of the quoted text at the beginning of `line`; 0 if there is none.
+std::size_t end_of_quotes(std::string_view line) {
+  if (!line.starts_with('"')) return 0;
+  std::size_t end = 1;
+  for (; end < line.size() && (line[end] != '"' || line.substr(end).starts_with("\"\"")); ++end)
+    end += line[end] == '"' ? 1U : 0U;
+  return end;
+}
+
+Cells cells_between(std::string_view line, char separator) {
+  Cells cells;
+  while (true) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \r\f"), line.size()));
+    const std::size_t end = std::min(line.find(separator, end_of_quotes(line)), line.size());
+    cells.push_back(cell_of(trim_end(line.substr(0, end))));
+    if (end == line.size()) return cells;
+    line.remove_prefix(end + 1);
+  }
+}
+
+/// The parts of a line between runs of `blanks` blanks or more.
+std::vector<std::string_view> parts_of(std::string_view line, std::string_view blanks) {
+  std::vector<std::string_view> parts;
+  for (line = trim(line); !line.empty(); line = trim(line)) {
+    const std::size_t end = std::min(line.find(blanks, std::min(end_of_quotes(line) + 1, line.size())), line.size());
+    parts.push_back(trim_end(line.substr(0, end)));
+    line.remove_prefix(end);
+  }
+  return parts;
+}
+
+/// The part of a line from the first of two of its parts to the second.
+std::string_view from_to(std::string_view first, std::string_view last) {
+  return {first.data(), static_cast<std::size_t>(last.data() + last.size() - first.data())};
+}
+
+/// The place of the word of a row that is its address or begins it: `I0.0`, `I 0.0`; or of the second word if that is a
+/// constant. The number of words if there is none.
+std::size_t place_of_address(const std::vector<std::string_view>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (is_address(words[i])) return i;
+    const bool one_letter = words[i].size() <= 2 && i + 1 < words.size();
+    if (one_letter && is_digit(words[i + 1].front()) && is_address(from_to(words[i], words[i + 1]))) return i;
+  }
+  return words.size() > 1 && has_value(words[1]) ? 1 : words.size();
+}
+
+/// The headings of name and address among the parts of a row, of which one begins it or follows a number, and what follows
+/// them; otherwise nothing.
+Cells headings_among(const std::vector<std::string_view>& parts) {
+  const auto name = std::ranges::find_if(parts, [](auto part) { return is_one_of(kNameHeadings, part); });
+  const auto address = std::ranges::find_if(parts, [](auto part) { return is_one_of(kAddressHeadings, part); });
+  if (name == parts.end() || address == parts.end() || std::min(name, address) - parts.begin() > 1) return {};
+  Cells cells{cell_of(*name), cell_of(*address)};
+  std::transform(std::next(std::max(name, address)), parts.end(), std::back_inserter(cells), cell_of);
+  return cells;
+}
+
+/// Whether a word is a sign between a name and its address: `->`, `=>`, `AT`
+bool is_sign(std::string_view word) {
+  return upper_case(word) == "AT" || word.find_first_not_of("-=>:") == std::string_view::npos;
+}
+
+/// Name, address, and what follows them, wherever the row has the address; nothing if it has none. Blanks may be part of a
+/// name.
+Cells symbol_among(const std::vector<std::string_view>& words) {
+  const std::size_t at = place_of_address(words);
+  if (at == words.size() || (at == 0 && words.size() > 1 && is_type(words[1]))) return {};
+  const bool gap = !is_address(words[at]) && !has_value(words[at]);  // `I 0.0`
+  const std::size_t after = at + (gap ? 2 : 1);
+  std::size_t first = 0, last = at;
+  if (at == 0) {
+    first = after;
+    last = after + 1;
+  } else {
+    while (first < last && !is_name(words[first]) && !words[first].starts_with('"')) ++first;
+    while (last > first + 1 && (is_type(words[last - 1]) || is_sign(words[last - 1]))) --last;
+  }
+  if (first >= last || last > words.size()) return {};
+  Cells cells{cell_of(from_to(words[first], words[last - 1])), cell_of(from_to(words[at], words[after - 1]))};
+  for (std::size_t i = std::max(last, after); i < words.size(); ++i) cells.push_back(cell_of(words[i]));
+  return cells;
+}
+
+/// The cells of a row whose columns are separated only by blanks.
+Cells cells_between_blanks(std::string_view line) {
+  const auto wide = parts_of(line, "  "), words = parts_of(line, " ");
+  if (Cells cells = headings_among(wide); !cells.empty()) return cells;
+  if (Cells cells = headings_among(words); !cells.empty()) return {cells[0], cells[1]};  // `Data type` is two words
+  if (Cells cells = symbol_among(words); !cells.empty()) return cells;
+  Cells as_they_stand;
+  std::ranges::transform(wide.size() > 1 ? wide : words, std::back_inserter(as_they_stand), cell_of);
+  return as_they_stand;
+}
+
+/// The cells of an assignment, `Motor = Q0.0`, `Motor: Q 0.0 // main pump`: name, address, and the words after them. One
+/// cell if there is no address after the sign.
+Cells cells_of_assignment(std::string_view line, char sign) {
+  const std::size_t at = line.find(sign, end_of_quotes(line));
+  const std::string_view name = trim(line.substr(0, at));
+  if (at == std::string_view::npos || name.empty()) return {cell_of(trim(line))};
+  std::string_view rest = line.substr(std::min(line.find_first_not_of("=:> \t", at), line.size()));
+  const std::size_t end = std::min({rest.find(';'), rest.find("//"), rest.find("(*"), rest.size()});
+  const auto words = parts_of(rest.substr(0, end), " ");
+  if (words.empty() || place_of_address(words) != 0) return {cell_of(trim(line))};
+  const std::size_t of_address = is_address(words[0]) ? 1 : 2;  // `Q 0.0`
+  Cells cells{cell_of(name), cell_of(from_to(words[0], words[of_address - 1]))};
+  rest.remove_prefix(static_cast<std::size_t>(words[of_address - 1].data() + words[of_address - 1].size() - rest.data()));
+  rest.remove_prefix(std::min(rest.find_first_not_of("; \t/(*"), rest.size()));
+  for (const std::string_view word : parts_of(rest.substr(0, rest.find("*)")), " ")) cells.push_back(cell_of(word));
+  return cells;
+}
+
+Cells cells_of(std::string_view line, Separator separator) {
+  if (separator == Separator::Blanks) return cells_between_blanks(line);
+  const char sign = static_cast<char>(separator);
+  return is_assignment(separator) ? cells_of_assignment(line, sign) : cells_between(line, sign);
+}
+
+/// Empty, a comment, or a line of strokes below headings.
+bool says_nothing(std::string_view line) {
+  line = trim(line);
+  return line.starts_with("//") || line.find_first_not_of("-=+|: \t") == std::string_view::npos;
+}
+
+/// The first lines that say something, from which the kind of a file is seen.
+std::vector<std::string_view> first_rows(std::string_view text) {
+  constexpr std::size_t kRows = 100, kLongestRow = 1000;
+  std::vector<std::string_view> rows;
+  while (!text.empty() && rows.size() < kRows) {
+    const std::string_view line = take_line(text);
+    if (!says_nothing(line) && line.size() <= kLongestRow) rows.push_back(line);
+  }
+  return rows;
+}
+
+std::size_t filled(const Cells& cells) {
+  return static_cast<std::size_t>(std::ranges::count_if(cells, [](const Cell& c) { return !c.text.empty(); }));
+}
+
+// --- symbol tables ---
+
+struct Columns {
+  static constexpr std::size_t kToTheEnd = std::string::npos;
+
+  std::size_t name = 0, address = 1;
+  std::size_t comment = 2, after_comment = kToTheEnd;
+  bool has_comment = false;  ///< a heading names its column
+};
+
+/// The columns that a row of headings names. Without a heading for comments, they are in the columns that have none.
+std::optional<Columns> headings(const Cells& cells) {
+  std::optional<std::size_t> name, address, comment;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!name && is_one_of(kNameHeadings, cells[i].text)) name = i;
+    if (!address && is_one_of(kAddressHeadings, cells[i].text)) address = i;
+    if (!comment && is_one_of(kCommentHeadings, cells[i].text)) comment = i;
+  }
+  if (!name || !address) return std::nullopt;
+  const std::size_t first = comment.value_or(cells.size());
+  return Columns{*name, *address, first, first + 1 < cells.size() ? first + 1 : Columns::kToTheEnd, comment.has_value()};
+}
+
+/// The columns of name and address in a row without headings: side by side or with a type between them, the name first
+/// unless only the first is an address. A format or a type is a name only in the first column.
+std::optional<Columns> columns_of(const Cells& cells) {
+  const auto is_symbol = [&](std::size_t i) {
+    return is_name(cells[i].text) && !is_address(cells[i].text) && (i == 0 || !is_type(cells[i].text));
+  };
+  for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
+    const bool type = is_symbol(i) && i + 2 < cells.size() && is_type(cells[i + 1].text) && is_address(cells[i + 2].text);
+    const std::size_t next = type ? i + 2 : i + 1;
+    if (is_symbol(i) && has_value(cells[next].text)) return Columns{i, next, next + 1};
+    if (is_address(cells[i].text) && is_symbol(i + 1)) return Columns{i + 1, i, i + 2};
+  }
+  return std::nullopt;
+}
+
+/// The separator that makes the most lines rows of a table; tabs or commas if none does.
+template <typename IsRow>
+Separator separator_of(std::span<const std::string_view> lines, const IsRow& is_row) {
+  using enum Separator;
+  const auto occurs = [&](Separator separator) {
+    return std::ranges::any_of(
+        lines, [&](std::string_view line) { return line.find(static_cast<char>(separator)) != std::string_view::npos; });
+  };
+  Separator found = occurs(Tab) ? Tab : Comma;
+  std::ptrdiff_t most = 0;
+  for (const Separator separator : {Tab, Semicolon, Comma, Bar, Equals, Colon, Blanks}) {
+    if (separator != Blanks && !occurs(separator)) continue;
+    const auto rows =
+        std::ranges::count_if(lines, [&](std::string_view line) { return is_row(cells_of(line, separator), separator); });
+    if (rows <= most) continue;
+    most = rows;
+    found = separator;
+  }
+  return found;
+}
+
+Separator separator_of_symbols(std::span<const std::string_view> lines) {
+  return separator_of(lines, [](const Cells& cells, Separator) { return headings(cells) || columns_of(cells); });
+}
+
+class SymbolTableReader {
+ public:
+  SymbolTableReader(std::string_view text, std::string name) : separator_(separator_of_symbols(first_rows(text))) {
+    result_.source.name = std::move(name);
+    result_.source.text = split_lines(text);
+  }
+
+  ParseResult result() {
+    for (const std::string& line : result_.source.text) {
+      ++number_;
+      if (!says_nothing(line)) read_row(line);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void read_row(std::string_view line) {
+    const Cells cells = cells_of(line, separator_);
+    if (filled(cells) <= 1) return;  // the heading of a table, or a name without an address: unknown if it is used
+    if (const auto found = headings(cells)) {
+      headed_ = found;
+      return;
+    }
+    const bool fit = headed_ && fits(cells, *headed_);
+    auto columns = fit ? headed_ : columns_of(cells);
+    if (!columns) return add_without_address(cells, line);
+    if (headed_ && !fit && columns->name > headed_->name) {  // the empty ones are without headings
+      columns->comment = headed_->comment + columns->name - headed_->name;
+      columns->after_comment = Columns::kToTheEnd;
+    }
+    add(cells, *columns, line);
+  }
+
+  /// Whether the columns fit the cells: some tables have more columns than headings, empty ones on the left.
+  static bool fits(const Cells& cells, Columns columns) {
+    const auto text = [&](std::size_t i) { return i < cells.size() ? std::string_view(cells[i].text) : std::string_view(); };
+    return !text(columns.name).empty() || is_address(text(columns.address));
+  }
+
+  void add(const Cells& cells, Columns columns, std::string_view line) {
+    if (std::max(columns.name, columns.address) >= cells.size()) return add_without_address(cells, line);
+    const Cell &name = cells[columns.name], &address = cells[columns.address];
+    if (address.text.empty()) return add_without_address(cells, line);
+    std::string why;
+    auto value = value_of(address.text, why);
+    if (!value)
+      return error(position(address, line), why.empty() ? fmt::format("{} is not an address", shortened(address.text)) : why,
+                   "a row of a symbol table is a name, an address or a constant, and perhaps a comment");
+    if (name.text.empty())
+      return error(position(address, line), fmt::format("{} has no name", shortened(address.text)),
+                   "a row of a symbol table is a name, an address and perhaps a comment");
+    if (const auto other = value_of(name.text, why);
+        other && !std::holds_alternative<Name>(*other) && !may_be_name(*other, name.text))
+      return error(position(name, line), fmt::format("{} is an address or a constant, not a name", shortened(name.text)),
+                   "give the symbol a name of its own: in the program, this would always be the address or the constant");
+    result_.source.symbols.push_back({name.text, std::move(value), position(name, line), comment_of(cells, columns)});
+  }
+
+  /// The comment of a row. If no heading names its column, it begins after a type and goes on to the end.
+  static std::string comment_of(const Cells& cells, const Columns& columns) {
+    std::string comment;
+    const std::size_t end = std::min(cells.size(), columns.after_comment);
+    std::size_t from = columns.comment;
+    if (!columns.has_comment && from < end && is_type(cells[from].text)) {
+      ++from;
+      while (from < end && std::ranges::find(kFlags, upper_case(cells[from].text)) != kFlags.end()) ++from;
+    }
+    for (std::size_t i = from; i < end; ++i) comment += (comment.empty() ? "" : " ") + cells[i].text;
+    return std::string(trim(comment.starts_with("//") ? std::string_view(comment).substr(2) : comment));
+  }
+
+  /// Micro/WIN lets a name have no address as long as nothing uses it.
+  void add_without_address(const Cells& cells, std::string_view line) {
+    const auto name = std::ranges::find_if(cells, [](const Cell& c) { return is_name(c.text); });
+    if (name != cells.end()) result_.source.symbols.push_back({name->text, std::nullopt, position(*name, line), {}});
+  }
+
+  Position position(const Cell& cell, std::string_view line) const {
+    const auto before = static_cast<std::size_t>(cell.place.data() - line.data());
+    return {number_, static_cast<std::uint32_t>(count_characters(line.substr(0, before)) + 1),
+            static_cast<std::uint32_t>(std::max<std::size_t>(1, count_characters(cell.place)))};
+  }
+
+  void error(const Position& at, std::string message, std::string hint) {
+    result_.diagnostics.push_back({Severity::Error, at, std::move(message), std::move(hint)});
+  }
+
+  Separator separator_;
+  ParseResult result_;
+  std::uint32_t number_ = 0;
+  std::optional<Columns> headed_;
+};
+
+}  // namespace
+
+bool is_symbol_table(std::string_view text, const std::function<bool(std::string_view word)>& is_mnemonic) {
+  const auto lines = first_rows(text);
+  const Separator separator = separator_of_symbols(lines);
+  const auto is_statement = [&](std::string_view word) { return is_mnemonic(upper_case(word)); };
+  // `MOVW 65, VW0` is not the symbol "MOVW 65".
+  const auto may_be_symbol = [&](const Cell& name) {
+    return separator != Separator::Comma || name.text.find(' ') == std::string::npos || name.place.starts_with('"');
+  };
+  bool headed = false;
+  std::size_t rows = 0, statements = 0, other = 0, certain = 0;
+  for (const std::string_view line : lines) {
+    const Cells cells = cells_of(line, separator);
+    headed |= rows + statements + other == 0 && headings(cells);
+    const auto columns = headed || filled(cells) < 2 ? std::nullopt : columns_of(cells);
+    const bool whole_name = columns && !is_assignment(separator);  // no whole name in `LD I0.0 = Q0.0`
+    if (is_statement(whole_name ? cells[columns->name].text : split_words(line).front()))
+      ++statements;
+    else if (headed ? filled(cells) > 1 : columns && may_be_symbol(cells[columns->name]))
+      ++rows;
+    else if (filled(cells) > 1 || rows > 0)  // otherwise it is a title
+      ++other;
+    const auto may_be_mnemonic = [&] {
+      return separator == Separator::Blanks && std::ranges::all_of(cells[columns->name].text, is_upper);
+    };
+    certain += columns && is_address(cells[columns->address].text) && !may_be_mnemonic();
+  }
+  if (headed) return rows >= statements;
+  // Blanks alone are between the words of any text, and of a listing whose mnemonics are those of another controller;
+  // `port: 502` is in settings of any kind.
+  if (separator == Separator::Blanks || is_assignment(separator)) return statements == 0 && rows > other && 2 * certain > rows;
+  return rows > statements + other;
+}
+
+ParseResult read_symbol_table(std::string_view text, std::string name) {
+  return SymbolTableReader(text, std::move(name)).result();
+}
+
+bool is_status_chart(std::string_view text) {
+  const auto has_chart_headings = [](const Cells& cells) {
+    const auto has = [&](std::span<const std::string_view> words) {
+      return std::ranges::any_of(cells, [&](const Cell& c) { return is_one_of(words, c.text); });
+    };
+    return has(kFormatHeadings) && (has(kAddressHeadings) || has(kNameHeadings));
+  };
+  // Blanks alone are between the words of any text.
+  const auto is_row = [](const Cells& cells, Separator separator) {
+    if (cells.size() < 2 || columns_of(cells)) return false;
+    if (separator == Separator::Blanks) return is_address(cells[0].text) && is_format(cells[1].text);
+    return std::ranges::any_of(cells.begin() + 1, cells.end(), is_format, &Cell::text);
+  };
+  const auto lines = first_rows(text);
+  const Separator separator =
+      separator_of(lines, [&](const Cells& cells, Separator by) { return has_chart_headings(cells) || is_row(cells, by); });
+  std::size_t rows = 0, other = 0;
+  for (const std::string_view line : lines) {
+    const Cells cells = cells_of(line, separator);
+    if (headings(cells)) return false;
+    if (rows + other == 0 && has_chart_headings(cells)) return true;
+    ++(is_row(cells, separator) ? rows : other);
+  }
+  return rows > 0 && rows + 1 >= other;
+}
+
+}  // namespace s7200::stl

@@ -1,0 +1,46 @@
+// Files that record a run: a trace, the outputs, a capture.
+#pragma once
+
+#include <memory>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "tools/host/files/written_files.hpp"
+
+namespace s7200::tools {
+
+/// claim(), open(), the first line, put(), the rest of the record, close(). The rule for all files is in written_files.hpp.
+class RecordFile {
+ public:
+  RecordFile();
+  ~RecordFile();
+
+  /// Returns false and sets `why` if `option` cannot write there; - is standard output, if
+  /// `files` has one. The others say likewise what failed.
+  bool claim(WrittenFiles& files, std::string_view option, const std::string& path, FileKind kind, std::string& why);
+
+  /// Opens the file. Returns null if it fails, with an empty `why` if it was interrupted. Waits until a pipe has a reader.
+  std::ostream* open(std::string& why);
+
+  /// Puts the file in its place: its first line has been written.
+  bool put(std::string& why);
+
+  /// Writes what is recorded so far, for whoever follows the file. What cannot be written close() tells.
+  void flush();
+
+  /// Closes the file. Returns false if not everything could be written.
+  bool close(std::string& why);
+
+ private:
+  class Buffer;
+  bool check(int error, std::string& why) const;
+
+  Destination destination_;
+  std::ostream* standard_output_ = nullptr;  ///< not null: that is where it goes
+  NewFile file_;
+  std::unique_ptr<Buffer> buffer_;  ///< null: standard output, or nothing is open
+  std::unique_ptr<std::ostream> stream_;
+};
+
+}  // namespace s7200::tools

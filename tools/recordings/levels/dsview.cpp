@@ -1,0 +1,68 @@
+// What DSView's decoder list exports: `Id,Time[ns],0:UART: RX/TX`, a character in each row. The column's name says whose it
+// is: `0:UART: RX`.
+#include <fmt/format.h>
+
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/recordings/forms.hpp"
+#include "tools/recordings/left_out.hpp"
+#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/rows/notation.hpp"
+#include "tools/recordings/rows/table_rows.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kHead = "Id,Time[ns],";
+constexpr std::size_t kTime = 1, kFirstData = 2;
+
+/// A remark of the decoder in place of a character.
+enum class Remark : std::uint8_t { None, Damage, Bit };
+Remark remark_of(std::string_view cell) {
+  const std::string words = stl::lower_case(cell);
+  const auto says = [&](std::string_view word) { return words.find(word) != std::string::npos; };
+  if (says("error") || says("break")) return Remark::Damage;
+  return says("start bit") || says("stop bit") || says("parity bit") ? Remark::Bit : Remark::None;
+}
+
+}  // namespace
+
+bool looks_like_dsview(std::string_view bytes) { return bytes.starts_with(kHead); }
+
+std::optional<LineRecording> read_dsview(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+  TableRows rows(bytes, choices.stop);
+  const auto names = fields_of(rows.next()->text, ',');
+  NotationFinder finder;
+  const auto for_each_cell = [&](auto tell) {
+    TableRows below = rows;
+    while (const auto row = below.next()) {
+      const auto fields = fields_of(row->text, ',');
+      for (std::size_t column = kFirstData; column < fields.size() && column < names.size(); ++column)
+        if (const std::string_view cell = stl::trim(fields[column]); !cell.empty()) tell(*row, fields, column, cell);
+    }
+  };
+  for_each_cell([&](const TableRow& row, const auto&, std::size_t, std::string_view cell) {
+    if (remark_of(cell) == Remark::None) finder.take(cell, row.number);
+  });
+  const Notation* const notation = finder.found(why);
+  if (notation == nullptr) return {};
+  LineRecording recording;
+  for_each_cell([&](const TableRow& row, const auto& fields, std::size_t column, std::string_view cell) {
+    const Remark remark = remark_of(cell);
+    if (remark == Remark::Damage && !recording.frames.empty()) recording.frames.back().damaged = {0};
+    if (remark != Remark::None) return;
+    const auto time = parse_decimal<long double>(stl::trim(fields[kTime]));
+    if (!time || !(*time >= 0 && *time < static_cast<long double>(kFurthestTime)))
+      return recording.frames.push_back(
+          row_not_read(row.number, not_understood(fields[kTime]), {}, direction_of(names[column])));
+    recording.frames.push_back({.at = static_cast<Time>(*time),
+                                .direction = direction_of(names[column]),
+                                .bytes = *notation->read(cell),
+                                .place = fmt::format("line {}", row.number)});
+  });
+  count_from_first(recording);
+  join_characters(recording, choices);
+  return recording;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,158 @@
+// What `sigrok-cli -A uart` prints: `uart-1: 01`, with --protocol-decoder-samplenum `1104-1938 uart-1: 01`, in any of the
+// decoder's formats. It does not say whether a character was RX or TX, and counts samples, not time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/recordings/forms.hpp"
+#include "tools/recordings/left_out.hpp"
+#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/rows/lines.hpp"
+#include "tools/recordings/rows/notation.hpp"
+#include "tools/recordings/scan.hpp"
+
+namespace s7200::tools {
+namespace {
+
+struct Annotation {
+  std::size_t number = 0;               ///< of its line
+  std::optional<std::int64_t> begin{};  ///< sample
+  std::string_view text{};
+};
+
+/// The annotation in a line; nothing if it is not one of the decoder `uart`.
+std::optional<Annotation> annotation_of(std::string_view line) {
+  constexpr std::size_t kMostDigits = 18;
+  Scan scan(line);
+  const std::string_view first = scan.take_digits(kMostDigits);
+  const bool has_samples =
+      !first.empty() && scan.take("-") != '\0' && !scan.take_digits(kMostDigits).empty() && scan.take(" ") != '\0';
+  if (!first.empty() && !has_samples) return {};
+  if (!scan.take_word("uart-") || scan.take_digits(kMostDigits).empty() || !scan.take_word(": ")) return {};
+  const std::string_view written = line.substr(scan.at());
+  Annotation annotation{.text = written == " " ? written : stl::trim(written)};  // a blank may be a character
+  if (has_samples) annotation.begin = decimal_number(first);
+  if (annotation.text.size() > 2 && annotation.text.starts_with('"') && annotation.text.ends_with('"'))
+    annotation.text = annotation.text.substr(1, annotation.text.size() - 2);  // sigrok-cli -l 3
+  return annotation;
+}
+
+/// Annotations of the same character or of its bits.
+bool is_of_the_frame(std::string_view text) { return text == "Start bit" || text == "Stop bit" || text == "Parity bit"; }
+bool is_damage(std::string_view text) {
+  return text == "Parity error" || text == "Frame error" || text == "Break condition" || text == "Break";
+}
+bool is_bit(std::string_view text) { return text == "0" || text == "1"; }
+
+struct Character {
+  Annotation annotation;
+  bool damaged = false;
+};
+
+/// Whether all classes of annotations were printed: then each bit of a character has its own, `0` or `1` after a start bit.
+bool has_bits(std::string_view bytes) {
+  std::size_t start_bits = 0, bits = 0;
+  for (const std::string_view line : Lines(beginning_of(bytes)))
+    if (const auto annotation = annotation_of(line)) {
+      start_bits += annotation->text == "Start bit";
+      bits += is_bit(annotation->text);
+    }
+  constexpr std::size_t kFewestBits = 5;
+  return start_bits > 0 && bits >= kFewestBits * (start_bits - 1);
+}
+
+class Frames {
+ public:
+  explicit Frames(const ReadingChoices& choices) : choices_(choices) {}
+
+  /// The shortest distance between the begins of two characters is the time of one.
+  void measure(const std::vector<Character>& characters) {
+    for (std::size_t i = 1; i < characters.size(); ++i) {
+      const auto before = characters[i - 1].annotation.begin, begin = characters[i].annotation.begin;
+      if (before && begin && *begin > *before) pitch_ = std::min(pitch_, *begin - *before);
+    }
+  }
+
+  void add(const Character& character, const Bytes& bytes) {
+    const auto begin = character.annotation.begin;
+    RecordedFrame row{.bytes = bytes, .place = fmt::format("line {}", character.annotation.number)};
+    if (character.damaged) row.damaged = {0};
+    if (begin && choices_.samplerate != 0) row.at = time_of(*begin);
+    const bool ends = begin && last_ && *begin - *last_ > kSilence * pitch_;
+    last_ = begin;
+    if (choices_.samplerate == 0 && !ends && !recording.frames.empty()) {
+      RecordedFrame& frame = recording.frames.back();
+      if (character.damaged) frame.damaged.push_back(frame.bytes.size());
+      frame.bytes.insert(frame.bytes.end(), bytes.begin(), bytes.end());
+    } else {
+      recording.frames.push_back(std::move(row));
+    }
+  }
+
+  void finish() {
+    count_from_first(recording);
+    if (choices_.samplerate != 0) join_characters(recording, choices_);
+    if (!recording.frames.empty() && !recording.frames.front().at)
+      recording.notes.emplace_back(
+          last_ ? "it counts samples: --samplerate, as 1MHz, makes times of them"
+                : "it has no times; sigrok-cli writes the numbers of samples with --protocol-decoder-samplenum");
+  }
+
+  LineRecording recording;
+
+ private:
+  static constexpr std::int64_t kSilence = 4;  // characters between the begins of two: 3 between them
+
+  std::optional<Time> time_of(std::int64_t sample) const {
+    const long double seconds = static_cast<long double>(sample) / static_cast<long double>(choices_.samplerate);
+    if (!(seconds < kFurthestTime / kSecond)) return {};
+    return std::llround(seconds * kSecond);
+  }
+
+  const ReadingChoices& choices_;
+  std::int64_t pitch_ = std::numeric_limits<std::int64_t>::max() / kSilence;
+  std::optional<std::int64_t> last_;
+};
+
+}  // namespace
+
+bool looks_like_sigrok_annotations(std::string_view bytes) {
+  return is_text(bytes) && std::ranges::any_of(Lines(beginning_of(bytes)),
+                                               [](std::string_view line) { return annotation_of(line).has_value(); });
+}
+
+std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, const ReadingChoices& choices,
+                                                     std::string& why) {
+  const bool bits = has_bits(bytes);
+  std::vector<Character> characters;
+  LeftOut left_out;
+  NotationFinder finder;
+  std::size_t number = 0;
+  for (const std::string_view line : Lines(bytes, choices.stop)) {
+    ++number;
+    auto annotation = annotation_of(line);
+    if (!annotation) {
+      if (!stl::trim(line).empty()) left_out.without_bytes(number);
+    } else if (is_damage(annotation->text)) {
+      if (!characters.empty()) characters.back().damaged = true;
+    } else if (!is_of_the_frame(annotation->text) && !(bits && is_bit(annotation->text))) {
+      annotation->number = number;
+      finder.take(annotation->text, number);
+      characters.push_back({.annotation = *annotation});
+    }
+  }
+  const Notation* const notation = finder.found(why);
+  if (notation == nullptr) return {};
+  Frames frames(choices);
+  frames.measure(characters);
+  for (const Character& character : characters) frames.add(character, *notation->read(character.annotation.text));
+  frames.finish();
+  left_out.tell(frames.recording);
+  return std::move(frames.recording);
+}
+
+}  // namespace s7200::tools

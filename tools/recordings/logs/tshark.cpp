@@ -1,0 +1,122 @@
+// What tshark prints: a line about each packet, and with -x rows with its bytes below it; with -x alone only the rows.
+//
+//     1   0.000000 192.168.1.10 → 192.168.1.20 Modbus/TCP 66    Query: Trans:     1; Unit:   1, Func:   3
+//   0000  00 1d 9c c7 b0 70 00 24 21 5e 8f 01 08 00 45 00   .....p.$!^....E.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "interpreter/base/text/text.hpp"
+#include "tools/recordings/forms.hpp"
+#include "tools/recordings/logs/printed_packets.hpp"
+#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/rows/lines.hpp"
+#include "tools/recordings/scan.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::string_view kInstead = "record with tshark -w FILE.pcap";
+
+struct TsharkRow {
+  std::size_t offset = 0;
+  Bytes bytes{};
+};
+
+std::optional<TsharkRow> tshark_row(std::string_view line) {
+  constexpr std::size_t kFullRow = 16;
+  Scan scan(line);
+  const std::string_view offset = scan.take_hex(8);
+  if (offset.size() < 4 || scan.skip(" ") != 2) return {};
+  TsharkRow row{.offset = hex_number(offset)};
+  if (row.offset % kFullRow != 0) return {};
+  row.bytes = take_row(scan);
+  return row.bytes.empty() ? std::nullopt : std::optional(std::move(row));
+}
+
+/// The time of a line about a packet: its number, seconds, and the arrow between two addresses.
+std::optional<LeadingTime> time_of_packet(std::string_view line) {
+  Scan scan(line);
+  scan.skip(" ");
+  if (scan.take_digits(9).empty() || scan.skip(" ") == 0) return {};
+  const std::string_view rest = line.substr(scan.at());
+  const bool has_arrow = rest.find(" \u2192 ") != rest.npos || rest.find(" -> ") != rest.npos;
+  return has_arrow ? leading_time(rest) : std::nullopt;
+}
+
+struct Packets {
+  std::vector<PrintedPacket> all{};
+  std::size_t listed = 0;  ///< those that have a line about them
+};
+
+/// Takes the rows of packets. Returns nothing and sets `why` if a row is missing.
+std::optional<Packets> packets_of(std::string_view text, StopToken stop, std::string& why) {
+  Packets packets;
+  DayCounter days;
+  std::optional<Time> next;
+  std::size_t number = 0;
+  for (const std::string_view line : Lines(text, stop)) {
+    ++number;
+    if (const auto time = time_of_packet(line)) {
+      next = days.since_first_midnight(*time);
+      ++packets.listed;
+      continue;
+    }
+    const auto row = tshark_row(line);
+    if (!row) continue;
+    if (row->offset == 0) packets.all.push_back({.at = std::exchange(next, std::nullopt).value_or(0), .number = number});
+    if (packets.all.empty() || packets.all.back().bytes.size() != row->offset) {
+      why = fmt::format("line {}: rows before it are missing; {}", number, kInstead);
+      return {};
+    }
+    Bytes& bytes = packets.all.back().bytes;
+    bytes.insert(bytes.end(), row->bytes.begin(), row->bytes.end());
+  }
+  return packets;
+}
+
+/// The list of packets that Wireshark exports as CSV, by the names of its columns.
+bool is_list_of_packets(std::string_view bytes) {
+  const std::string names = stl::lower_case(first_line(bytes));
+  return std::ranges::all_of(std::array{"time", "source", "destination", "protocol", "info"},
+                             [&](std::string_view name) { return names.find(name) != std::string::npos; });
+}
+
+}  // namespace
+
+bool looks_like_tshark(std::string_view bytes) {
+  if (!is_text(bytes)) return false;
+  if (is_list_of_packets(bytes)) return true;
+  const std::string_view beginning = beginning_of(bytes);
+  Bytes first;
+  std::size_t listed = 0;
+  for (const std::string_view line : Lines(beginning)) {
+    if (time_of_packet(line)) ++listed;
+    const auto row = tshark_row(line);
+    if (row && row->offset != first.size()) break;
+    if (row) first.insert(first.end(), row->bytes.begin(), row->bytes.end());
+  }
+  return first.empty() ? listed > 1 : has_ip_head(first);
+}
+
+std::optional<LineRecording> read_tshark(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+  if (is_list_of_packets(bytes)) {
+    why = "it is Wireshark's list of packets without their bytes; save the capture itself, with File, Save As";
+    return {};
+  }
+  const auto packets = packets_of(bytes, choices.stop, why);
+  if (!packets) return {};
+  if (packets->all.empty()) {
+    why = fmt::format("it is the list of packets without their bytes; print them with tshark -x, or {}", kInstead);
+    return {};
+  }
+  auto recording = read_printed_packets(packets->all, kInstead, choices, why);
+  if (!recording || packets->listed > 0) return recording;
+  for (RecordedFrame& frame : recording->frames) frame.at.reset(), frame.times.clear();
+  recording->notes.emplace_back("tshark -x alone prints no times; tshark -P -x does");
+  return recording;
+}
+
+}  // namespace s7200::tools

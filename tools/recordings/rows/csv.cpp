@@ -1,0 +1,296 @@
+// Tables of logic analysers and sniffers: the first row names the columns.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "interpreter/base/text/numbers.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "tools/json/base64.hpp"
+#include "tools/recordings/forms.hpp"
+#include "tools/recordings/rows/fields.hpp"
+#include "tools/recordings/rows/notation.hpp"
+#include "tools/recordings/rows/table_rows.hpp"
+
+namespace s7200::tools {
+namespace {
+
+char separator_of(std::string_view line) {
+  for (const char c : {'\t', ';', '|', ','})
+    if (line.find(c) != std::string_view::npos) return c;
+  return 0;
+}
+
+struct Columns {
+  char separator = 0;
+  std::optional<std::size_t> time{}, direction{}, data{};
+  std::optional<std::size_t> sent{}, received{};  ///< instead of direction and data
+  std::vector<std::size_t> errors{};
+  Time unit = kSecond;
+  bool base64 = false;         ///< the name of the data says so
+  std::string unknown_unit{};  ///< the name of the times' column, if its text in brackets is not a unit
+};
+
+/// Whether `text`, in any case, contains one of `words`, which are in capitals.
+bool contains(std::string_view text, std::initializer_list<std::string_view> words) {
+  const std::string capitals = stl::upper_case(text);
+  return std::ranges::any_of(words, [&](std::string_view word) { return capitals.find(word) != std::string::npos; });
+}
+
+/// Whether a name is only a unit: `us`, `[ms]`, `t [us]`
+bool is_unit(std::string_view name) {
+  std::string word = stl::upper_case(name);
+  std::erase_if(word, [](char c) { return std::ispunct(static_cast<unsigned char>(c)) != 0 || c == ' '; });
+  if (word.size() > 1 && word.front() == 'T') word.erase(0, 1);
+  return unit_of(word).has_value();
+}
+
+/// Finds a column with the bytes of each direction: `Time,TX,RX`. A row with bytes or times names nothing.
+void find_one_for_each_direction(const std::vector<std::string>& names, Columns& columns) {
+  const auto is_value = [](const std::string& name) { return bytes_of_text(name) || leading_time(name); };
+  if (std::ranges::any_of(names, is_value)) return;
+  const auto found = [&](Direction direction) -> std::optional<std::size_t> {
+    const auto name = std::ranges::find(names, direction, [](const std::string& each) { return direction_of(each); });
+    return name == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(name - names.begin()));
+  };
+  const auto sent = found(Direction::Request), received = found(Direction::Answer);
+  if (!sent || !received || sent == received) return;
+  columns.sent = sent;
+  columns.received = received;
+  columns.data = columns.direction = std::nullopt;
+}
+
+/// Whether a name says how many bytes there are, or which: `Byteanzahl`, `Data length`
+bool is_count(std::string_view name) {
+  return contains(name, {"ANZAHL", "COUNT", "LENGTH", "L\u00C4NGE", "L\u00E4NGE", "LAENGE", "SIZE", "INDEX", " NR", " NO"});
+}
+
+bool is_name_of_data(std::string_view name) {
+  return !is_count(name) &&
+         contains(name, {"DATA", "VALUE", "HEX", "BYTE", "FRAME", "PAYLOAD", "RESULT", "WERT", "DATEN", "TELEGRAM",
+                         "NACHRICHT", "BASE64", "B64", "ZEICHEN", "TRAME", "TRAMA", "DATOS", "DATI", "DADOS"});
+}
+
+Columns columns_of(std::string_view line) {
+  Columns columns{.separator = separator_of(line)};
+  if (columns.separator == 0) return columns;
+  const auto names = fields_of(line, columns.separator);
+  if (std::ranges::any_of(names, [](const std::string& name) { return leading_time(name).has_value(); })) return columns;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (contains(names[i], {"ERROR"})) {
+      columns.errors.push_back(i);
+    } else if (!columns.time && (is_name_of_time(names[i]) || is_unit(names[i]))) {
+      columns.time = i;
+      if (const auto unit = unit_of(names[i]))
+        columns.unit = *unit;
+      else if (names[i].find_first_of("[(") != std::string::npos)
+        columns.unknown_unit = names[i];
+    } else if (!columns.direction && contains(names[i], {"DIR", "SIDE", "CHANNEL", "PORT", "NAME"})) {
+      columns.direction = i;
+    } else if (!columns.data && is_name_of_data(names[i])) {
+      columns.data = i;
+      columns.base64 = contains(names[i], {"BASE64", "B64"});
+    }
+  }
+  if (!columns.data || !columns.direction) find_one_for_each_direction(names, columns);
+  return columns;
+}
+
+/// A number in the column's unit, or a time as in a text. Where commas divide the columns, one in a number may stand for
+/// thousands, and is not read.
+std::optional<LeadingTime> time_of(std::string_view field, const Columns& columns) {
+  std::string figure(stl::trim(field));
+  std::ranges::replace(figure, ',', '.');
+  if (const auto number = parse_decimal<long double>(figure)) {
+    const long double time = *number * static_cast<long double>(columns.unit);
+    const bool readable = columns.separator != ',' || field.find(',') == std::string_view::npos;
+    if (!readable || !(std::abs(time) < static_cast<long double>(kFurthestTime))) return {};
+    return LeadingTime{.time = std::llround(time)};
+  }
+  return time_in_cell(field);
+}
+
+/// Whether a field of an error column reports an error.
+bool says_error(std::string_view field) {
+  static constexpr std::array<std::string_view, 8> kNone{"", "0", "-", "NO", "NONE", "FALSE", "OK", "NO ERROR"};
+  return std::ranges::find(kNone, stl::upper_case(stl::trim(field))) == kNone.end();
+}
+
+/// What the cells of a column are in the first rows below the names.
+struct Cells {
+  std::size_t filled = 0, with_direction = 0, with_bytes = 0, bytes = 0, marked = 0;
+
+  void take(std::string_view cell) {
+    if (cell.empty()) return;
+    ++filled;
+    with_direction += direction_of(cell) != Direction::Unknown;
+    const auto read = bytes_of_text(cell);
+    with_bytes += read.has_value();
+    bytes += read ? read->size() : 0;
+    marked += read && cell.starts_with("0x");
+  }
+  bool are_directions() const { return filled > 0 && with_direction == filled; }
+  /// Pairs of digits alone may count something.
+  bool are_bytes() const { return 2 * with_bytes > filled && (bytes > with_bytes || marked == with_bytes); }
+};
+
+/// The cells of all columns. Empty if a row has no time in the column of the times.
+std::vector<Cells> cells_below(TableRows rows, const Columns& columns) {
+  constexpr std::size_t kRows = 20;
+  std::vector<Cells> cells;
+  std::vector<std::string> fields;
+  for (std::size_t count = 0; count < kRows; ++count) {
+    const auto row = rows.next();
+    if (!row) break;
+    if (stl::trim(row->text).empty()) continue;
+    take_fields(row->text, columns.separator, fields);
+    if (columns.time && (*columns.time >= fields.size() || !time_of(stl::trim(fields[*columns.time]), columns))) return {};
+    cells.resize(std::max(cells.size(), fields.size()));
+    for (std::size_t i = 0; i < fields.size(); ++i) cells[i].take(stl::trim(fields[i]));
+  }
+  return cells;
+}
+
+/// Finds columns whose names are not known by what is in them: that with the most bytes, and that with a direction in each
+/// row. A table is known by the name of its times.
+void find_by_cells(const TableRows& rows, Columns& columns) {
+  if (!columns.time || columns.sent) return;
+  const std::vector<Cells> cells = cells_below(rows, columns);
+  if (!columns.data)
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (i != columns.time && cells[i].are_bytes() && (!columns.data || cells[i].bytes > cells[*columns.data].bytes))
+        columns.data = i;
+  if (columns.direction && *columns.direction < cells.size() && cells[*columns.direction].with_direction > 0) return;
+  const auto found = std::ranges::find_if(cells, &Cells::are_directions);
+  if (found != cells.end()) columns.direction = static_cast<std::size_t>(found - cells.begin());
+}
+
+/// The next row that is not blank; nothing at the end, or where many are blank.
+std::optional<TableRow> next_filled(TableRows& rows) {
+  constexpr std::size_t kMostBlank = 100;
+  for (std::size_t blank = 0; blank <= kMostBlank; ++blank) {
+    const auto row = rows.next();
+    if (!row || !stl::trim(row->text).empty()) return row;
+  }
+  return {};
+}
+
+/// The columns of a table, whose names are taken off it.
+Columns take_columns(TableRows& rows) {
+  const auto names = next_filled(rows);
+  Columns columns = columns_of(names ? names->text : "");
+  find_by_cells(rows, columns);
+  return columns;
+}
+
+/// A list without times is one of bytes in its second row already.
+bool has_bytes_below(TableRows rows, const Columns& columns) {
+  const auto second = next_filled(rows);
+  const auto fields = second ? fields_of(second->text, columns.separator) : std::vector<std::string>{};
+  return *columns.data < fields.size() && bytes_of_text(fields[*columns.data]);
+}
+
+/// The content of a cell without blanks around it. A blank or a line end alone is a recorded character, unless the row has a
+/// column for each direction: then the cell is empty.
+std::string_view content_of(std::string_view field, const Columns& columns) {
+  return field.size() == 1 && !columns.sent ? field : stl::trim(field);
+}
+
+constexpr Notation kBase64{"base64", [](std::string_view cell) -> std::optional<Bytes> {
+                             auto bytes = from_base64(cell);
+                             return bytes && !bytes->empty() ? std::move(bytes) : std::nullopt;
+                           }};
+
+/// The notation of the bytes below the names. Null with `why` set if they have none.
+struct ColumnNotation {
+  const Notation* notation = nullptr;
+  bool characters = false;  ///< each row has one
+};
+ColumnNotation notation_of(TableRows rows, const Columns& columns, std::string& why) {
+  if (columns.base64) return {.notation = &kBase64};
+  NotationFinder finder;
+  std::vector<std::string> fields;
+  while (const auto row = rows.next()) {
+    take_fields(row->text, columns.separator, fields);
+    for (const auto& column : {columns.data, columns.sent, columns.received})
+      if (column && *column < fields.size())
+        if (const std::string_view cell = content_of(fields[*column], columns); !cell.empty())
+          finder.take(without_error(cell).cell, row->number);
+  }
+  const Notation* const found = finder.found(why);
+  return {.notation = found, .characters = found != nullptr && columns.time && finder.are_characters(*found)};
+}
+
+}  // namespace
+
+bool looks_like_csv(std::string_view bytes) {
+  if (!is_text(bytes) || bytes.empty()) return false;
+  TableRows rows(bytes);
+  const Columns columns = take_columns(rows);
+  if (columns.sent) return true;
+  if (!columns.data || columns.time) return columns.data.has_value();
+  return columns.direction && has_bytes_below(rows, columns);
+}
+
+bool is_table_without_bytes(std::string_view bytes) {
+  if (!is_text(bytes) || bytes.empty()) return false;
+  TableRows rows(bytes);
+  const Columns columns = take_columns(rows);
+  return columns.time && !columns.data && !columns.sent && !cells_below(rows, columns).empty();
+}
+
+std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoices& choices, std::string& why) {
+  LineRecording recording;
+  TableRows rows(bytes, choices.stop);
+  const Columns columns = take_columns(rows);
+  const auto [notation, characters] = notation_of(rows, columns, why);
+  if (notation == nullptr) return {};
+  DayCounter days;
+  CharacterJoiner joiner(choices);
+  std::vector<std::string> fields;
+  while (const auto row = rows.next()) {
+    if (row->text.find_first_not_of(" \t,;") == std::string::npos) continue;
+    take_fields(row->text, columns.separator, fields);
+    const auto field = [&](std::optional<std::size_t> column) {
+      return column && *column < fields.size() ? std::string_view(fields[*column]) : "";
+    };
+    const auto time = columns.time ? time_of(field(columns.time), columns) : std::nullopt;
+    const bool is_received = columns.sent && stl::trim(field(columns.sent)).empty();
+    const auto data_column = !columns.sent ? columns.data : is_received ? columns.received : columns.sent;
+    const WrittenCharacter written = without_error(content_of(field(data_column), columns));
+    auto data = notation->read(written.cell);
+    if (columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
+      why = fmt::format("line {}: bytes in both directions; write them in two lines", row->number);
+      return {};
+    }
+    if (time && !time->of_day && !columns.unknown_unit.empty()) {
+      why = fmt::format("line 1: '{}' names no unit; write [s], [ms], [us] or [ns]", stl::shortened(columns.unknown_unit));
+      return {};
+    }
+    const bool no_time = columns.time && !time;
+    if (no_time || !data) {
+      why = fmt::format("line {}: '{}' is not {}", row->number, stl::shortened(field(no_time ? columns.time : data_column)),
+                        no_time ? "a time" : fmt::format("bytes in {}", notation->name));
+      return {};
+    }
+    RecordedFrame frame{.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
+                        .direction = !columns.sent ? direction_of(field(columns.direction))
+                                     : is_received ? Direction::Answer
+                                                   : Direction::Request,
+                        .bytes = std::move(*data),
+                        .place = fmt::format("line {}", row->number)};
+    if (written.damaged ||
+        std::ranges::any_of(columns.errors, [&](std::size_t column) { return says_error(field(column)); }))
+      for (std::size_t place = 0; place < frame.bytes.size(); ++place) frame.damaged.push_back(place);
+    if (characters)
+      joiner.add(frame, recording.frames);
+    else
+      recording.frames.push_back(std::move(frame));
+  }
+  count_from_first(recording);
+  return recording;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,114 @@
+#include "tools/rig/files/capture_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <ostream>
+
+#include "interpreter/base/file_path.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "serial_sim/record/pcap_capture.hpp"
+#include "serial_sim/record/vcd_capture.hpp"
+
+namespace s7200::tools {
+namespace {
+
+template <typename Sink>
+std::unique_ptr<serial::WireSink> make(std::ostream& out) {
+  return std::make_unique<Sink>(out);
+}
+
+struct Kind {
+  std::string_view extension;  ///< written in any case
+  std::string_view content;
+  std::string_view name;
+  std::string beginning;
+  std::unique_ptr<serial::WireSink> (*make)(std::ostream&);
+};
+
+const std::array<Kind, 2>& kinds() {
+  static const std::array<Kind, 2> kKinds{
+      {{".vcd", "levels", "a capture of levels", std::string(serial::VcdCapture::kBeginning), make<serial::VcdCapture>},
+       {".pcap", "frames", "a capture of frames", serial::PcapWriter::beginning(), make<serial::PcapCapture>}}};
+  return kKinds;
+}
+
+const Kind* kind_of(const std::string& path) {
+  const std::string extension = stl::lower_case(file_path(path).extension().string());
+  const auto found =
+      std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return extension == kind.extension; });
+  return found == kinds().end() ? nullptr : &*found;
+}
+
+std::string why_no_kind(const std::string& path) {
+  std::string known;
+  for (const Kind& kind : kinds())
+    known += fmt::format("{}{} ({})", known.empty() ? "" : " nor in ", kind.extension, kind.content);
+  return fmt::format("--capture {}: the name ends neither in {}", path, known);
+}
+
+}  // namespace
+
+bool CaptureFiles::claim(WrittenFiles& files, const std::vector<std::string>& paths, std::string& why) {
+  for (const std::string& path : paths) {
+    const Kind* const kind = kind_of(path);
+    if (!kind) return why = why_no_kind(path), false;
+    Capture& capture = captures_.emplace_back();
+    capture.make = kind->make;
+    if (!capture.file.claim(files, "--capture", path, {kind->name, kind->beginning}, why)) return false;
+  }
+  return true;
+}
+
+bool CaptureFiles::open(std::string& why) {
+  for (Capture& capture : captures_) {
+    std::ostream* out = capture.file.open(why);
+    if (!out) return false;
+    capture.sink = capture.make(*out);
+  }
+  return true;
+}
+
+bool CaptureFiles::put(std::string& why) {
+  return std::ranges::all_of(captures_, [&](Capture& capture) { return capture.file.put(why); });
+}
+
+void CaptureFiles::watch(serial::Plc& plc, std::uint8_t port) {
+  if (!captures_.empty()) plc.set_wire_sink(this, port);
+}
+
+void CaptureFiles::watch(serial::ResponderStation& plc, Time from) {
+  if (!captures_.empty()) plc.set_wire_sink(this, from);
+}
+
+void CaptureFiles::flush() {
+  for (Capture& capture : captures_) capture.file.flush();
+}
+
+void CaptureFiles::close(std::vector<std::string>& problems) {
+  finish();
+  for (Capture& capture : captures_) {
+    std::string why;
+    if (!capture.file.close(why)) problems.push_back(why);
+  }
+  captures_.clear();
+}
+
+void CaptureFiles::edge(serial::Wire wire, Time at, bool mark, int driver) {
+  if (at < told_until_) return;
+  for (Capture& capture : captures_) capture.sink->edge(wire, at, mark, driver);
+}
+
+void CaptureFiles::settled(Time until, const SerialFormat& port) {
+  if (until <= told_until_) return;
+  told_until_ = until;
+  for (Capture& capture : captures_) capture.sink->settled(until, line_.over(port));
+}
+
+void CaptureFiles::finish() {
+  for (Capture& capture : captures_) capture.sink->finish();
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,34 @@
+// `--memory FILE`: what the CPU keeps without power, from one run to the next.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "interpreter/cpu/cpu.hpp"
+#include "tools/host/files/written_files.hpp"
+#include "tools/plan/plc_settings.hpp"
+
+namespace s7200::tools {
+
+/// A file of retentive memory. Each function returns false and sets `why` if the file cannot be used.
+class MemoryFile {
+ public:
+  /// The file will be written at the end.
+  bool claim(WrittenFiles& files, const MemorySettings& settings, std::string& why);
+
+  /// Reads the file, if one was named, and exists, and is not empty.
+  bool read(const CpuModel& model, std::string& why);
+
+  /// The memory with which the CPU powers up; null without a file.
+  const RetentiveMemory* memory() const { return memory_ ? &*memory_ : nullptr; }
+
+  /// Writes the file, if one was named.
+  bool write(const Cpu& cpu, std::string& why) const;
+
+ private:
+  MemorySettings settings_;
+  std::optional<Destination> destination_;  ///< nothing without a file
+  std::optional<RetentiveMemory> memory_;
+};
+
+}  // namespace s7200::tools

@@ -1,0 +1,55 @@
+#include "tools/rig/files/plc_files.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "interpreter/base/file_path.hpp"
+#include "interpreter/base/text/text.hpp"
+#include "interpreter/trace/output_record.hpp"
+#include "interpreter/trace/output_waves.hpp"
+#include "tools/record/trace_formats.hpp"
+
+namespace s7200::tools {
+
+PlcFiles::PlcFiles(const PlcPlan& plan, const serial::Plc& plc)
+    : program_(plan.program), settings_(plan.settings), plc_(plc) {}
+
+bool PlcFiles::claim(WrittenFiles& files, std::string& why) {
+  files.reads(program_->source.name);
+  for (const stl::FurtherFile& file : program_->source.further_files) files.reads(file.name);
+  const TraceFormat& format = trace_format_of(settings_.trace);
+  const auto trace = [this, &format](std::ostream& out) {
+    out << format.first_line;
+    const auto take = [&out](Time, std::string_view line) { out << line; };
+    const auto state = [this] { return plc_.powered() ? &plc_.cpu().state() : nullptr; };
+    auto made = format.writer({take, program_, settings_.trace_detail, {}, signals_of(settings_.signals, *program_), state});
+    trace_ = made.get();
+    return made;
+  };
+  if (why = settings_.trace.empty() ? "" : why_not_signals(format, settings_.signals); !why.empty()) return false;
+  const bool waves = stl::lower_case(file_path(settings_.output).extension().string()) == ".vcd";
+  const FileKind rows{"a record of outputs", fmt::format("{}\n", OutputRecord::kFirstLine)};
+  const FileKind dump{"a dump of outputs", std::string(OutputWaves::kBeginning)};
+  const auto output = [this, waves](std::ostream& out) -> std::unique_ptr<TraceSink> {
+    if (waves) return std::make_unique<OutputWaves>(out, *program_->model);
+    return std::make_unique<OutputRecord>(out);
+  };
+  return memory_.claim(files, settings_.memory, why) &&
+         traces_.claim(files, "--trace", settings_.trace, {"a trace", std::string(format.first_line)}, trace, why) &&
+         traces_.claim(files, "--output", settings_.output, waves ? dump : rows, output, why);
+}
+
+bool PlcFiles::read_memory(std::optional<RetentiveMemory>& kept, std::string& why) {
+  if (!memory_.read(*program_->model, why)) return false;
+  if (!kept && memory_.memory()) kept = *memory_.memory();
+  return true;
+}
+
+void PlcFiles::keep_memory(std::vector<std::string>& problems) const {
+  std::string why;
+  if (!memory_.write(plc_.cpu(), why)) problems.push_back(why);
+}
+
+}  // namespace s7200::tools

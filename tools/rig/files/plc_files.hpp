@@ -1,0 +1,55 @@
+// What is kept of one PLC on files: its retentive memory and its records.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/trace/text/text_trace.hpp"
+#include "serial_sim/system/plc.hpp"
+#include "tools/host/files/written_files.hpp"
+#include "tools/plan/system_plan.hpp"
+#include "tools/rig/files/memory_file.hpp"
+#include "tools/rig/files/trace_files.hpp"
+
+namespace s7200::tools {
+
+/// claim(), read_memory(), open(), put(), and after the run close() and keep_memory(). What can fail returns false and sets
+/// `why`, or adds to `problems`.
+class PlcFiles {
+ public:
+  /// Of a PLC that has not had power yet.
+  PlcFiles(const PlcPlan& plan, const serial::Plc& plc);
+
+  bool claim(WrittenFiles& files, std::string& why);
+
+  /// Reads the memory with which the PLC powers up first; nothing if there is none.
+  bool read_memory(std::optional<RetentiveMemory>& kept, std::string& why);
+
+  /// The records go on to be told what the CPU does by `sinks`.
+  bool open(FanOut& sinks, std::string& why) { return traces_.open(sinks, why); }
+  bool put(std::string& why) { return traces_.put(why); }
+
+  /// Writes into the trace what is done to the PLC from outside.
+  void note(Time at, std::string_view what) {
+    if (trace_) trace_->note(at, what);
+  }
+
+  void flush() { traces_.flush(); }
+  void close(std::vector<std::string>& problems) {
+    if (trace_) trace_->finish();
+    traces_.close(problems);
+  }
+  void keep_memory(std::vector<std::string>& problems) const;
+
+ private:
+  std::shared_ptr<const Program> program_;
+  PlcSettings settings_;
+  const serial::Plc& plc_;
+  MemoryFile memory_;
+  TraceFiles traces_;
+  TraceWriter* trace_ = nullptr;  // null: none is written
+};
+
+}  // namespace s7200::tools

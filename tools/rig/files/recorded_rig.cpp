@@ -1,0 +1,127 @@
+#include "tools/rig/files/recorded_rig.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tools/views/state/machine_text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+/// Messages such as `the run ends, and RCV at port 0 still waits for the end of its message: …`
+std::vector<std::string> open_messages(const serial::Plc& plc) {
+  std::vector<std::string> texts;
+  if (!plc.powered()) return texts;
+  const CpuModel& model = *plc.cpu().program().model;
+  for (std::size_t port = 0; port < model.ports; ++port)
+    if (const std::string awaited = awaited_text(plc.cpu().state().port[port].message, model.receive); !awaited.empty())
+      texts.push_back(fmt::format("the run ends, and RCV at port {} still waits for {}", port, awaited));
+  return texts;
+}
+
+}  // namespace
+
+RecordedRig::RecordedRig(SystemPlan plan, const RigSurroundings& surroundings)
+    : RigFiles{.written = WrittenFiles(surroundings.standard_output)}, Rig(std::move(plan), surroundings.seen) {
+  stop_when(surroundings.stop);
+  if (!surroundings.trace.empty()) trace = std::make_unique<SystemTrace>(plan_, system(), surroundings.trace_detail);
+  for (std::size_t number = 0; number < plan_.plcs.size(); ++number) plcs.emplace_back(plan_.plcs[number], plc(number));
+  captures.resize(plan_.lines.size());
+}
+
+std::unique_ptr<RecordedRig> RecordedRig::assemble(SystemPlan plan, const RigSurroundings& surroundings,
+                                                   std::vector<std::string>& problems) {
+  std::unique_ptr<RecordedRig> rig(new RecordedRig(std::move(plan), surroundings));
+  std::string why;
+  bool good = rig->claim_files(surroundings, why) && rig->read_memories(why);
+  if (good) {
+    if (surroundings.begun) surroundings.begun();
+    good = rig->open_records(why);
+  }
+  if (!good) {
+    if (!why.empty()) problems.push_back(why);
+    return nullptr;
+  }
+  rig->watch_lines();
+  rig->listen();
+  return rig;
+}
+
+bool RecordedRig::claim_files(const RigSurroundings& surroundings, std::string& why) {
+  if (!surroundings.path.empty()) written.reads(surroundings.path);
+  for (const PlcPlan& plc : plan_.plcs) written.reads(plc.settings.input);
+  written.links("--pty", surroundings.link);
+  for (const BridgePlan& bridge : plan_.bridges)
+    if (bridge.kind == BridgeKind::Pty) written.links("a bridge", bridge.where);
+  auto line = plan_.lines.begin();
+  if (trace && !trace->claim(written, surroundings.trace, why)) return false;
+  return std::ranges::all_of(plcs, [&](PlcFiles& plc) { return plc.claim(written, why); }) &&
+         std::ranges::all_of(captures, [&](CaptureFiles& each) { return each.claim(written, (line++)->captures, why); });
+}
+
+bool RecordedRig::read_memories(std::string& why) {
+  auto plan = plan_.plcs.begin();
+  return std::ranges::all_of(plcs, [&](PlcFiles& plc) { return plc.read_memory((plan++)->kept, why); });
+}
+
+bool RecordedRig::open_records(std::string& why) {
+  if (trace && !(trace->open(why) && trace->put(why))) return false;
+  for (std::size_t plc = 0; trace && plc < plcs.size(); ++plc) sinks(plc).add(&trace->station(plc));
+  std::size_t number = 0;
+  return std::ranges::all_of(plcs, [&](PlcFiles& plc) { return plc.open(sinks(number++), why); }) &&
+         std::ranges::all_of(captures, [&](CaptureFiles& each) { return each.open(why); }) &&
+         std::ranges::all_of(plcs, [&](PlcFiles& plc) { return plc.put(why); }) &&
+         std::ranges::all_of(captures, [&](CaptureFiles& each) { return each.put(why); });
+}
+
+/// Each line at its first PLC: an S7-200, or one of another make if there is none.
+void RecordedRig::watch_lines() {
+  auto capture = captures.begin();
+  for (const LinePlan& line : plan_.lines) {
+    CaptureFiles& files = *capture++;
+    files.read_as(line.settings);
+    if (const StationPlan* const first = first_plc(line))
+      files.watch(plc(first->number), first->port);
+    else if (const StationPlan* const other = first_other_plc(plan_, line))
+      files.watch(*responder(other->number), time());
+  }
+}
+
+/// Traces have what is done to PLCs and lines from outside.
+void RecordedRig::listen() {
+  if (trace)
+    tell_of_system([this](const EventPlan& event, Time at, const std::string& what) { trace->tell(event, at, what); });
+  tell_of_events([this](std::size_t plc, Time at, const std::string& what) {
+    std::next(plcs.begin(), static_cast<std::ptrdiff_t>(plc))->note(at, what);
+  });
+}
+
+void RecordedRig::flush_records() {
+  if (trace) trace->flush();
+  for (PlcFiles& plc : plcs) plc.flush();
+  for (CaptureFiles& each : captures) each.flush();
+}
+
+std::vector<std::string> RecordedRig::finish() {
+  std::vector<std::string> problems;
+  std::string why;
+  std::size_t number = 0;
+  for (PlcFiles& each : plcs) {
+    for (const std::string& open : open_messages(plc(number))) {
+      each.note(time(), open);
+      if (trace) trace->note(number, time(), open);
+    }
+    ++number;
+  }
+  if (trace && !trace->close(why)) problems.push_back(why);
+  for (PlcFiles& plc : plcs) plc.close(problems);
+  for (CaptureFiles& each : captures) each.close(problems);
+  number = 0;
+  for (const PlcFiles& plc : plcs)
+    if (has_begun(number++)) plc.keep_memory(problems);
+  return problems;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,354 @@
+#include "tools/session/causes/effects/run_record.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "interpreter/analysis/effects/effects.hpp"
+#include "interpreter/model/special_memory.hpp"
+#include "tools/session/causes/effects/changed_place.hpp"
+#include "tools/session/past/actions/access.hpp"
+
+namespace s7200::tools {
+namespace {
+
+constexpr std::uint32_t kCompared = image::kConstants / 8 * 8;
+constexpr std::uint64_t kEdgeEvents = 8;  // of I0.0 to I0.3
+
+/// Memory that says nothing of what the program does: the clock bits and scan times of the CPU, the memory of edges, and the
+/// points, which follow their images.
+bool is_left_out(std::uint32_t byte) {
+  const bool clock = byte == image::kSM || (byte >= sm::kLastScan && byte <= sm::kLongestScan + 1);
+  return clock || (byte >= image::kOutputs && byte < image::kV);
+}
+
+bool is_timer(std::uint32_t byte) {
+  return (byte >= image::kT && byte < image::kC) || (byte >= image::kTBits && byte < image::kCBits);
+}
+
+std::uint32_t timer_of(std::uint64_t bit) {
+  const std::uint64_t byte = bit / 8;
+  return static_cast<std::uint32_t>(byte >= image::kTBits ? bit - std::uint64_t{image::kTBits} * 8 : (byte - image::kT) / 2);
+}
+
+/// A bit where programs use bits, a value of a timer or counter, or the byte.
+Bits natural_place(std::uint64_t bit) {
+  const auto byte = static_cast<std::uint32_t>(bit / 8);
+  if (byte >= image::kT && byte < image::kHC) return {bit / 16 * 16, 16};
+  const bool bits = byte < image::kSM || (byte >= image::kS && byte < image::kAI) ||
+                    (byte >= image::kTBits && byte < image::kInputs) || (byte >= image::kInputs && byte < image::kOutputs);
+  return bits ? Bits{bit, 1} : Bits{bit / 8 * 8, 8};
+}
+
+bool works_on_the_stack(std::string_view mnemonic) {
+  constexpr std::string_view kAll[] = {"ALD", "OLD", "LPS", "LRD", "LPP", "LDS"};
+  return std::ranges::find(kAll, mnemonic) != std::end(kAll);
+}
+
+/// Whether it decides where the program goes on.
+bool decides(const Instruction& instruction) {
+  switch (instruction.structure) {
+    case Structure::Jump:
+    case Structure::Call:
+    case Structure::For:
+    case Structure::SegmentBegin:
+    case Structure::SegmentExit:
+      return true;
+    default:
+      return instruction.effect == Effect::ConditionalEnd;
+  }
+}
+
+/// All that an instruction would read now: entries of tables, strings and messages too.
+std::vector<Bits> reads_now(const Cpu& cpu, std::uint32_t op) {
+  std::vector<Bits> reads = accessed(cpu, op, Access::Read);
+  for (const MemoryAccess& each : effects_now(cpu.program(), op, cpu.state().image))
+    if (each.reads()) reads.push_back(each.bits);
+  return reads;
+}
+
+bool begins_routine(const Instruction& instruction) {
+  return instruction.structure == Structure::SubroutineHead || instruction.structure == Structure::InterruptHead;
+}
+
+}  // namespace
+
+SeriesKey record_key(TraceKind kind, std::uint8_t where, std::uint16_t what) {
+  return kFirstRecord + (std::uint64_t{static_cast<std::uint8_t>(kind)} << 24 | std::uint64_t{where} << 16 | what);
+}
+
+std::vector<std::uint8_t> RunRecord::value(const Bits& place, Time at) const {
+  std::vector<std::uint8_t> bytes;
+  const auto is_on = [&](std::uint64_t bit) {
+    const auto turns = series.find(bit);
+    if (turns != series.end()) {
+      const auto after = std::ranges::upper_bound(turns->second, at, {}, &Turn::at);
+      if (after != turns->second.begin()) return (after - 1)->value;
+    }
+    return (image[bit / 8] >> (bit % 8) & 1) != 0;
+  };
+  for (std::uint64_t bit = place.first; bit < place.end(); ++bit) {
+    const std::uint64_t number = place.count == 1 ? 0 : bit - place.first;
+    if (number % 8 == 0) bytes.push_back(0);
+    if (is_on(bit)) bytes.back() = static_cast<std::uint8_t>(bytes.back() | 1U << (number % 8));
+  }
+  return bytes;
+}
+
+SeriesRecorder::SeriesRecorder(History& history, std::size_t station, std::optional<Hold> hold, StopToken stop_request)
+    : Reader(station, stop_request),
+      cpu_(history.station(station).cpu()),
+      hold_(std::move(hold)),
+      run_{.image = {cpu_.state().image.begin(), cpu_.state().image.begin() + image::kConstants}},
+      seen_(run_.image),
+      reads_(cpu_.program().ops.size()),
+      decided_(cpu_.program().ops.size()) {}
+
+void SeriesRecorder::ignore_edges() {
+  State& state = cpu_.core().s;
+  edges_ = Edges{.attached = state.attached, .counter = state.counter};
+  std::copy_n(state.image.begin() + image::kHC, edges_->values.size(), edges_->values.begin());
+  for (std::size_t event = 0; event < kEdgeEvents; ++event) state.attached[event] = kNotAttached;
+}
+
+/// A level for each subroutine, of the main program and of an interrupt routine.
+std::size_t SeriesRecorder::level() const {
+  const State& state = cpu_.state();
+  return state.call_depth + (state.in_interrupt ? kMostCalls + 1 : 0);
+}
+
+bool SeriesRecorder::is_stop(std::uint32_t op) const {
+  const auto& ops = cpu_.program().ops;
+  return op < ops.size() && ops[op].instruction->mnemonic == "STOP";
+}
+
+std::vector<Bits> SeriesRecorder::reads_of(std::uint32_t op) {
+  const auto rules = cpu_.program().ops[op].instruction->rules();
+  const bool counts = std::ranges::any_of(rules, [](const OperandRule& rule) { return rule.count; });
+  if (cpu_.program().ops[op].has_pointer || counts) return reads_now(cpu_, op);
+  if (!reads_[op]) reads_[op] = reads_now(cpu_, op);
+  return *reads_[op];
+}
+
+void SeriesRecorder::put(const Bits& place, const std::vector<std::uint8_t>& value) {
+  auto& bytes = cpu_.core().s.image;
+  const std::size_t at = place.first / 8;
+  if (place.count != 1) {
+    std::ranges::copy(value, bytes.begin() + static_cast<std::ptrdiff_t>(at));
+    return;
+  }
+  const auto mask = static_cast<std::uint8_t>(1U << (place.first % 8));
+  bytes[at] = static_cast<std::uint8_t>((bytes[at] & ~mask) | (value[0] != 0 ? mask : 0));
+}
+
+/// From the change on that was held off.
+void SeriesRecorder::heed_edges_again() {
+  if (!edges_) return;
+  State& state = cpu_.core().s;
+  state.attached = edges_->attached;
+  state.counter = edges_->counter;
+  std::ranges::copy(edges_->values, state.image.begin() + image::kHC);
+  edges_.reset();
+}
+
+void SeriesRecorder::keep_held() {
+  if (!hold_) return;
+  if (cpu_.time() >= hold_->until) {
+    if (!hold_->then.empty()) put(hold_->places.front(), hold_->then);
+    hold_.reset();
+    return;
+  }
+  for (const Bits& place : hold_->places) {
+    if (bytes_at(cpu_.state(), place) == hold_->value) continue;
+    put(place, hold_->value);
+    heed_edges_again();
+  }
+}
+
+bool SeriesRecorder::before(std::uint32_t op) {
+  interrupted_ |= !Reader::before(op);
+  run_.full |= run_.happenings.size() >= kMostHappenings;
+  run_.end = cpu_.time();
+  if (interrupted_ || run_.full) return false;
+  keep_held();
+  note_changes({}, cpu_.time());
+  level_ = level();
+  const Op& next = cpu_.program().ops[op];
+  read_now_.clear();
+  written_now_.clear();
+  const bool known_only_now =
+      next.has_pointer || next.instruction->structure == Structure::Call || returns_from_subroutine(next);
+  if (known_only_now) {
+    read_now_ = reads_now(cpu_, op);
+    written_now_ = accessed(cpu_, op, Access::Write);
+  }
+  return true;
+}
+
+void SeriesRecorder::instruction(const InstructionRecord& record) {
+  keep_held();
+  const Op& op = cpu_.program().ops[record.op];
+  const Instruction& instruction = *op.instruction;
+  Rung& rung = rungs_[level_];
+  if (begins_routine(instruction)) rung = {};
+  const ContactForm form = contact_form(instruction);
+  if (form.is_contact()) {
+    if (form.join == Join::Load && rung.ended) rung.contacts.clear();
+    rung.ended = false;
+    std::vector<Bits> reads = op.has_pointer ? read_now_ : reads_of(record.op);
+    if (!reads.empty()) rung.contacts.push_back({record.op, std::move(reads)});
+    return;
+  }
+  if (works_on_the_stack(instruction.mnemonic)) {
+    rung.ended = false;
+    return;
+  }
+  note_changes(record.op, record.at);
+  if (decides(instruction)) note_decision(record);
+  const auto rules = instruction.rules();
+  if (!rules.empty() && !op[0].pointer && is_timer(op[0].at))
+    timers_[timer_of(std::uint64_t{op[0].at} * 8)] = looks_of(record.op);
+  rung.ended = true;
+}
+
+/// Contacts of the rung first, in their order.
+std::vector<Look> SeriesRecorder::looks_of(std::uint32_t op) {
+  std::vector<Look> looks;
+  for (const Contact& contact : rungs_[level_].contacts)
+    for (const Bits& bits : contact.reads) looks.push_back({contact.op, bits});
+  const bool early = !read_now_.empty();
+  for (const Bits& bits : early ? read_now_ : reads_of(op)) looks.push_back({op, bits});
+  return looks;
+}
+
+/// A timer goes on because of the last execution of its instruction, and its bit because of its value; an input has what its
+/// point has.
+std::vector<Look> SeriesRecorder::looks_of_system(const Bits& place) const {
+  const auto byte = static_cast<std::uint32_t>(place.first / 8);
+  if (byte < image::kQ) return {{0, {place.first + std::uint64_t{image::kInputs - image::kI} * 8, place.count}}};
+  if (!is_timer(byte)) return {};
+  const std::uint32_t number = timer_of(place.first);
+  const auto executed = timers_.find(number);
+  std::vector<Look> looks = executed == timers_.end() ? std::vector<Look>{} : executed->second;
+  if (byte >= image::kTBits) looks.push_back({0, {std::uint64_t{image::kT + 2 * number} * 8, 16}});
+  return looks;
+}
+
+Happening SeriesRecorder::happening_of(std::optional<std::uint32_t> op, Time at) const {
+  const State& state = cpu_.state();
+  Happening happening{.at = at, .op = op};
+  if (state.in_interrupt) happening.serving = state.serving_event;
+  return happening;
+}
+
+void SeriesRecorder::add(SeriesKey key, Time at, Happening happening) {
+  run_.series[key].push_back({at, run_.happenings.size(), true});
+  run_.happenings.push_back(std::move(happening));
+}
+
+/// The places that the instruction has written, then what else has changed.
+std::vector<Bits> SeriesRecorder::places_of(const std::vector<std::uint64_t>& changed,
+                                            const std::vector<Bits>& written) const {
+  std::vector<Bits> places;
+  for (const std::uint64_t bit : changed) {
+    const Bits one{bit, 1};
+    const auto contains = [&](const Bits& place) { return place.contains(one); };
+    if (std::ranges::any_of(places, contains)) continue;
+    const auto operand = std::ranges::find_if(written, contains);
+    places.push_back(operand == written.end() ? natural_place(bit) : *operand);
+  }
+  return places;
+}
+
+void SeriesRecorder::note_changes(std::optional<std::uint32_t> op, Time at) {
+  const std::uint8_t* const now = cpu_.state().image.data();
+  if (std::memcmp(now, seen_.data(), kCompared) == 0) return;
+  std::vector<std::uint64_t> changed;
+  for (std::uint32_t byte = 0; byte < image::kConstants; ++byte) {
+    const auto differ = static_cast<std::uint8_t>(now[byte] ^ seen_[byte]);
+    seen_[byte] = now[byte];
+    if (differ == 0 || is_left_out(byte)) continue;
+    for (std::uint64_t bit = 0; bit < 8; ++bit)
+      if (differ >> bit & 1) changed.push_back(std::uint64_t{byte} * 8 + bit);
+  }
+  if (changed.empty()) return;
+  const bool early = !written_now_.empty();
+  const std::vector<Bits> written = !op ? std::vector<Bits>{} : early ? written_now_ : accessed(cpu_, *op, Access::Write);
+  for (const Bits& place : places_of(changed, written)) {
+    Happening happening = happening_of(op, at);
+    happening.place = place;
+    happening.looks = op ? looks_of(*op) : looks_of_system(place);
+    for (const std::uint64_t bit : changed)
+      if (place.contains({bit, 1}))
+        run_.series[bit].push_back({at, run_.happenings.size(), (now[bit / 8] >> (bit % 8) & 1) != 0});
+    run_.happenings.push_back(std::move(happening));
+  }
+}
+
+/// Of an LSCR that is whether its segment is executed.
+void SeriesRecorder::note_decision(const InstructionRecord& record) {
+  const bool segment = cpu_.program().ops[record.op].instruction->structure == Structure::SegmentBegin;
+  const bool value = segment ? cpu_.state().rail : record.powered;
+  if (decided_[record.op] == value) return;
+  decided_[record.op] = value;
+  Happening happening = happening_of(record.op, record.at);
+  happening.looks = looks_of(record.op);
+  run_.series[decision_key(record.op)].push_back({record.at, run_.happenings.size(), value});
+  run_.happenings.push_back(std::move(happening));
+}
+
+void SeriesRecorder::record(const TraceRecord& record) {
+  Happening happening = happening_of({}, record.at);
+  happening.kind = record.kind;
+  switch (record.kind) {
+    case TraceKind::ScanBegin:
+      if (scan_ != 0) run_.longest_scan = std::max(run_.longest_scan, record.at - scan_);
+      scan_ = record.at;
+      rungs_[0] = {};
+      return;
+    case TraceKind::CharacterSent:
+      happening.where = record.port;
+      happening.what = record.byte;
+      happening.looks = messages_[record.port];
+      break;
+    case TraceKind::Transmit:
+      happening.where = record.port;
+      happening.op = record.op;
+      happening.looks = messages_[record.port] = looks_of(record.op);
+      break;
+    case TraceKind::ServiceBegin:
+      happening.where = record.event;
+      happening.what = record.routine;
+      break;
+    case TraceKind::Attach:
+    case TraceKind::Detach:
+      happening.where = record.event;
+      happening.what = record.routine;
+      happening.op = record.op;
+      happening.looks = looks_of(record.op);
+      break;
+    case TraceKind::Enable:
+    case TraceKind::RuntimeError:
+    case TraceKind::FatalError:
+      happening.what = record.code;
+      if (record.op < cpu_.program().ops.size()) {
+        happening.op = record.op;
+        happening.looks = looks_of(record.op);
+      }
+      break;
+    case TraceKind::ModeChange:
+      happening.what = record.code;
+      if (const std::uint32_t op = cpu_.core().loop.op; is_stop(op)) {
+        happening.op = op;
+        happening.looks = looks_of(op);
+      }
+      break;
+    default:
+      return;
+  }
+  const SeriesKey key = record_key(record.kind, happening.where, happening.what);
+  add(key, record.at, std::move(happening));
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,196 @@
+#include "tools/views/inspection/bounds_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/analysis/bounds.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
+#include "interpreter/base/text/joined.hpp"
+#include "interpreter/program/loading/unread.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::string_view kErrors = "a program with errors has no times";
+
+std::string ms(Time time) { return fmt::format("{:.3f} ms", static_cast<double>(time) / kMillisecond); }
+
+/// The bounds with the times of the table, and with the slowest that are possible.
+struct Both {
+  Bounds usual, slow;
+};
+
+Both bounds_of(const Inspection& inspection) {
+  const Calls calls = calls_of(*inspection.program, inspection.facts.flow);
+  const auto slow = inspection.slowest ? inspection.slowest() : nullptr;
+  return {s7200::bounds_of(inspection.facts, calls, *inspection.program, inspection.stated_loops),
+          s7200::bounds_of(inspection.facts, calls, slow ? *slow : *inspection.program, inspection.stated_loops)};
+}
+
+bool is_wanted(const Inspection& inspection, const Routine& routine) {
+  return inspection.selection.ops.empty() || std::ranges::any_of(inspection.selection.ops, [&](const Selection::Ops& each) {
+           return each.first < routine.end && routine.first < each.end;
+         });
+}
+
+/// `at most`, or that there is no bound and what the figure is then: `no bound; with one pass of the loop in slave.stl:552`.
+std::string at_most(const Inspection& inspection, const std::vector<std::uint32_t>& loops) {
+  if (loops.empty()) return "at most";
+  return fmt::format("no bound; with one pass of {} in {}", loops.size() == 1 ? "the loop" : "the loops",
+                     stl::joined(loops, [&](std::uint32_t op) { return line_text(inspection, op); }));
+}
+
+std::string scan_text(const Inspection& inspection, const Both& both, const std::optional<SeenTimes>& seen) {
+  std::string text = fmt::format("Scan: {} {} ({} with the slowest times)",
+                                 at_most(inspection, both.usual.routines[0].loops), ms(both.usual.scan), ms(both.slow.scan));
+  if (!both.usual.events.empty())
+    text += both.usual.scan_with_interrupts
+                ? fmt::format(", with the interrupts that can come in it {}", ms(*both.usual.scan_with_interrupts))
+                : ", with interrupts it has no bound: they leave no time for it, or how often they come is not known";
+  if (seen) text += fmt::format("; seen in a run of {} s: {}", seen->run / kSecond, ms(seen->scan));
+  text += fmt::format("; the watchdog stops the CPU after {}", ms(inspection.program->model->watchdog));
+  return wrapped_at(text, 2) + "\n";
+}
+
+std::string routines_text(const Inspection& inspection, const Both& both) {
+  std::string text = "Routines, with what they call\n";
+  for (std::size_t i = 0; i < both.usual.routines.size(); ++i) {
+    const Routine& routine = inspection.facts.flow.routines[i];
+    if (!is_wanted(inspection, routine)) continue;
+    const Bounds::OfRoutine& usual = both.usual.routines[i];
+    const std::string figures =
+        fmt::format("{} {} ({})", at_most(inspection, usual.loops), ms(usual.time), ms(both.slow.routines[i].time));
+    text += "  " + column(routine_text(routine), 9) + wrapped_at(figures, 11, 11) + "\n";
+  }
+  return text;
+}
+
+std::string event_text(const Inspection& inspection, const Bounds::OfEvent& event, const Bounds::OfEvent& slow,
+                       const std::optional<SeenTimes>& seen) {
+  const InterruptEvent* about = find_event(event.event);
+  std::string text = fmt::format("event {}: {}", event.event, about ? about->cause : "");
+  text += event.period ? fmt::format("; comes again after {} at the earliest", ms(*event.period))
+                       : "; how often it comes is not known";
+  text += fmt::format("; its routine takes {} {} ({})", at_most(inspection, event.loops), ms(event.longest_routine),
+                      ms(slow.longest_routine));
+  text += event.latency
+              ? fmt::format(", and begins at most {} ({}) after it", ms(*event.latency), ms(slow.latency.value_or(0)))
+              : ", and begins when the program has enabled interrupts again, which has no bound";
+  if (event.period && event.longest_routine > *event.period)
+    text += "; the routine is longer than the time between two of them";
+  const auto found = seen ? seen->events.find(event.event) : std::map<std::uint8_t, SeenTimes::OfEvent>::const_iterator{};
+  if (seen && found != seen->events.end())
+    text += fmt::format("; seen: {}, after {}", ms(found->second.longest_routine), ms(found->second.latency));
+  return "  " + wrapped_at(text, 4, 2) + "\n";
+}
+
+std::string answers_text(const Inspection& inspection, const Both& both) {
+  std::string text;
+  for (std::size_t i = 0; i < both.usual.answers.size(); ++i) {
+    const Bounds::OfAnswer &answer = both.usual.answers[i], &slow = both.slow.answers[i];
+    std::string line = fmt::format("port {}: from the last character of a request to the first of its answer ", answer.port);
+    line += answer.time
+                ? fmt::format("{} {} ({})", at_most(inspection, answer.loops), ms(*answer.time), ms(slow.time.value_or(0)))
+                : "no bound: how long the program waits for silence, or how often interrupts come, is not known";
+    text += "  " + wrapped_at(line, 4, 2) + "\n";
+  }
+  return text.empty() ? text : "\nAnswers, while no other character comes\n" + text;
+}
+
+std::string all_loops_text(const Inspection& inspection, const Both& both) {
+  std::string text;
+  for (const Bounds::Loop& loop : both.usual.loops)
+    text += row_text(inspection, "  " + column(loop.times ? fmt::format("{} times", *loop.times) : "no bound", 14), loop.op);
+  if (text.empty()) return text;
+  return "Loops; a comment `at most 8 times` at the FOR or at the JMP back gives one a bound, or --loop LINE=8\n" + text;
+}
+
+ordered_json places(const Inspection& inspection, const std::vector<std::uint32_t>& loops) {
+  ordered_json all = ordered_json::array();
+  for (const std::uint32_t op : loops) all.push_back(place_json(inspection, op));
+  return all;
+}
+
+ordered_json time_json(const std::optional<Time>& time) { return time ? ordered_json(*time) : ordered_json(); }
+
+ordered_json events_json(const Inspection& inspection, const Both& both, const std::optional<SeenTimes>& seen) {
+  ordered_json all = ordered_json::array();
+  for (std::size_t i = 0; i < both.usual.events.size(); ++i) {
+    const Bounds::OfEvent &event = both.usual.events[i], &slow = both.slow.events[i];
+    ordered_json json{{"event", event.event}};
+    json["period_ns"] = time_json(event.period);
+    json["routine_ns"] = event.longest_routine;
+    json["routine_slowest_ns"] = slow.longest_routine;
+    json["latency_ns"] = time_json(event.latency);
+    json["latency_slowest_ns"] = time_json(slow.latency);
+    json["loops_without_bound"] = places(inspection, event.loops);
+    const bool was_seen = seen && seen->events.contains(event.event);
+    json["seen_routine_ns"] = was_seen ? ordered_json(seen->events.at(event.event).longest_routine) : ordered_json();
+    json["seen_latency_ns"] = was_seen ? ordered_json(seen->events.at(event.event).latency) : ordered_json();
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
+ordered_json answers_json(const Inspection& inspection, const Both& both) {
+  ordered_json all = ordered_json::array();
+  for (std::size_t i = 0; i < both.usual.answers.size(); ++i) {
+    const Bounds::OfAnswer &answer = both.usual.answers[i], &slow = both.slow.answers[i];
+    all.push_back({{"port", answer.port},
+                   {"time_ns", time_json(answer.time)},
+                   {"slowest_ns", time_json(slow.time)},
+                   {"loops_without_bound", places(inspection, answer.loops)}});
+  }
+  return all;
+}
+
+std::optional<SeenTimes> seen_in(const Inspection& inspection) {
+  return inspection.see_times ? inspection.see_times(inspection) : std::nullopt;
+}
+
+}  // namespace
+
+std::string bounds_text(const Inspection& inspection) {
+  if (has_unread(*inspection.program) || inspection.program->times.rows().empty()) return std::string(kErrors) + "\n";
+  const Both both = bounds_of(inspection);
+  if (!inspection.selection.everything()) return routines_text(inspection, both);
+  const auto seen = seen_in(inspection);
+  std::string text = scan_text(inspection, both, seen) + "\n" + routines_text(inspection, both);
+  if (!both.usual.events.empty()) text += "\nInterrupts\n";
+  for (std::size_t i = 0; i < both.usual.events.size(); ++i)
+    text += event_text(inspection, both.usual.events[i], both.slow.events[i], seen);
+  text += answers_text(inspection, both);
+  const std::string loops = all_loops_text(inspection, both);
+  return text + (loops.empty() ? "" : "\n" + loops);
+}
+
+ordered_json bounds_json(const Inspection& inspection) {
+  if (has_unread(*inspection.program) || inspection.program->times.rows().empty()) return nullptr;
+  const Both both = bounds_of(inspection);
+  const auto seen = seen_in(inspection);
+  ordered_json json{{"scan_ns", both.usual.scan}, {"scan_slowest_ns", both.slow.scan}};
+  json["scan_with_interrupts_ns"] = time_json(both.usual.scan_with_interrupts);
+  json["seen_scan_ns"] = seen ? ordered_json(seen->scan) : ordered_json();
+  json["watchdog_ns"] = inspection.program->model->watchdog;
+  json["routines"] = ordered_json::array();
+  for (std::size_t i = 0; i < both.usual.routines.size(); ++i)
+    if (is_wanted(inspection, inspection.facts.flow.routines[i]))
+      json["routines"].push_back({{"routine", routine_text(inspection.facts.flow.routines[i])},
+                                  {"time_ns", both.usual.routines[i].time},
+                                  {"slowest_ns", both.slow.routines[i].time},
+                                  {"loops_without_bound", places(inspection, both.usual.routines[i].loops)}});
+  json["events"] = events_json(inspection, both, seen);
+  json["answers"] = answers_json(inspection, both);
+  json["loops"] = ordered_json::array();
+  for (const Bounds::Loop& loop : both.usual.loops)
+    json["loops"].push_back(
+        {{"times", loop.times ? ordered_json(*loop.times) : ordered_json()}, {"place", place_json(inspection, loop.op)}});
+  return json;
+}
+
+}  // namespace s7200::tools

@@ -1,0 +1,117 @@
+#include "tools/views/inspection/races_view.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <vector>
+
+#include "interpreter/analysis/effects/memory_names.hpp"
+#include "interpreter/analysis/flow/calls.hpp"
+#include "interpreter/analysis/races.hpp"
+#include "interpreter/base/text/counted.hpp"
+#include "interpreter/base/text/text.hpp"
+
+namespace s7200::tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string_view name_of(Race::Kind kind) {
+  switch (kind) {
+    case Race::Kind::LostUpdate:
+      return "lost update";
+    case Race::Kind::TornRead:
+      return "torn read";
+    case Race::Kind::TornWrite:
+      break;
+  }
+  return "torn write";
+}
+
+std::string_view explanation(Race::Kind kind) {
+  switch (kind) {
+    case Race::Kind::LostUpdate:
+      return "the main program writes what it has worked out from an older value; what the interrupt wrote between is lost";
+    case Race::Kind::TornRead:
+      return "the main program reads it in parts; between them the interrupt writes all of it";
+    case Race::Kind::TornWrite:
+      break;
+  }
+  return "the main program writes it in parts; between them the interrupt reads all of it";
+}
+
+std::string with_symbols(const Inspection& inspection, const Bits& bits) {
+  std::string text = memory_text(bits);
+  for (const stl::Symbol& symbol : inspection.program->source.symbols)
+    if (const auto of = bits_of(*inspection.program, symbol); of && of->overlaps(bits))
+      text += fmt::format(" \"{}\"", stl::printable(symbol.name));
+  return text;
+}
+
+std::vector<Race> wanted(const Inspection& inspection) {
+  std::vector<Race> all = find_races(inspection.facts, calls_of(*inspection.program, inspection.facts.flow));
+  const Selection& selection = inspection.selection;
+  std::erase_if(all, [&](const Race& race) {
+    const bool memory = selection.memory.empty() || selection.has(race.bits);
+    const bool ops = selection.ops.empty() || selection.has_op(race.first) || selection.has_op(race.last) ||
+                     selection.has_op(race.interrupt);
+    return !memory || !ops;
+  });
+  return all;
+}
+
+std::string scenario_text(const Inspection& inspection, const Race& race) {
+  if (!inspection.lose_word) return {};
+  const auto lost = inspection.lose_word(inspection, race);
+  if (!lost) return "  no run of it was found in which the word is lost\n";
+  return "  " +
+         wrapped_at(
+             fmt::format("lost: {}; {} comes after {} ({}); then {} = {}, but {} if it comes before, {} if it comes after "
+                         "both",
+                         lost->situation, routine_text(inspection.facts.flow.routines[race.routine]),
+                         instruction_text(inspection, lost->after), line_text(inspection, lost->after), lost->place,
+                         lost->between, lost->before, lost->behind),
+             4, 2) +
+         "\n";
+}
+
+std::string race_text(const Inspection& inspection, const Race& race) {
+  std::string text =
+      fmt::format("{} of {}: {}", name_of(race.kind), with_symbols(inspection, race.bits), explanation(race.kind));
+  text = wrapped_at(text, 2) + "\n";
+  text += row_text(inspection, "  main       ", race.first) + row_text(inspection, "  main       ", race.last);
+  text += row_text(inspection, fmt::format("  event {}", column(std::to_string(race.event), 5)), race.interrupt);
+  return text + scenario_text(inspection, race);
+}
+
+}  // namespace
+
+std::string races_text(const Inspection& inspection) {
+  const std::vector<Race> races = wanted(inspection);
+  std::string text;
+  for (const Race& race : races) text += race_text(inspection, race);
+  if (races.empty()) return "no races found\n";
+  return text + fmt::format("{}; DISI before the first instruction and ENI after the last keep the interrupt away\n",
+                            counted(races.size(), "race"));
+}
+
+ordered_json races_json(const Inspection& inspection) {
+  ordered_json all = ordered_json::array();
+  for (const Race& race : wanted(inspection)) {
+    ordered_json json{{"kind", name_of(race.kind)}, {"memory", memory_text(race.bits)}, {"event", race.event}};
+    json["interrupt_routine"] = routine_text(inspection.facts.flow.routines[race.routine]);
+    json["first"] = place_json(inspection, race.first);
+    json["last"] = place_json(inspection, race.last);
+    json["interrupt"] = place_json(inspection, race.interrupt);
+    const auto lost = inspection.lose_word ? inspection.lose_word(inspection, race) : std::nullopt;
+    json["lost"] = nullptr;
+    if (lost)
+      json["lost"] = {{"situation", lost->situation},    {"after", place_json(inspection, lost->after)},
+                      {"memory", lost->place},           {"value", lost->between},
+                      {"value_if_before", lost->before}, {"value_if_after", lost->behind}};
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
+}  // namespace s7200::tools
