@@ -527,7 +527,7 @@ class Verbs(Case):
         log = self.program("0.000 TX 01 03 00 00 00 01 84 0a\n0.020 RX 01 03 02 12 34 b5 34\n", "damaged.log")
         decoded = self.json(FINE, "decode", log, "--json")
         self.assertEqual([decoded["summary"][key] for key in ("requests", "answered", "wrong", "shortest_latency_us")], [1, 0, 1, None])
-        self.assertEqual([frame["unanswered"] for frame in decoded["frames"]], [True, False])
+        self.assertEqual([frame["unanswered"] for frame in decoded["frames"]], [False, False], "an answer came, a wrong one")
         refused = self.ends(UNUSABLE, "import-capture", log).stderr
         self.assertIn("line 1: left out: its answer (line 2): wrong CRC", refused)
         self.assertIn("no request in it that can be asked again", refused)
@@ -636,7 +636,7 @@ class Verbs(Case):
 
     def test_the_topic_of_recordings_names_every_form(self):
         said = " ".join(self.ends(FINE, "help", "recordings").stdout.split()) + " ".join(s7200("decode", "--help-all").stdout.split())
-        for part in ("a recording (s7200 help recordings);", "the decoder list that DSView exports", "pcap of a serial line, as --capture writes it (link types 147 to 162)", "or of Modbus TCP", "CSV with a frame or a character in each row",
+        for part in ("a recording (s7200 help recordings);", "the decoder list that DSView exports", "pcap of a serial line, as --capture writes it (link types 147 to 162)", "of Modbus TCP, or of Modbus RTU in TCP", "CSV with a frame or a character in each row",
                      "text logs with a frame or a character in each line", "5 ms without it"):
             self.assertIn(part, said)
 
@@ -1230,7 +1230,7 @@ class Options(Case):
         for value in ("VB0:-1", "VB0:0", "VB0:99999999999999999999", "VB0:4097", "VB0:nan", "VW0:real", "VD0:real:0", "M0.0:2"):
             self.refused("run", "--dump", value)
         for bridge in ("--tcp", "--rtu-over-tcp", "--modbus-tcp"):
-            for value in ("65536", "127.0.0.1:99999", "localhost:502", "::1:502", "127.0.0.1:", "1.2.3.400:1"):
+            for value in ("65536", "127.0.0.1:99999", "plant:502", "::1:502", "127.0.0.1:", "1.2.3.400:1"):
                 self.refused("run", bridge, value)
         for value in ("2026-02-30 10:00:00", "1989-12-31 10:00:00", "2026-01-01 24:00:00", "now"):
             self.refused("run", "--clock", value)
@@ -3076,7 +3076,7 @@ class Files(Case):
 
     def test_why_names_the_file_of_a_line_of_a_stand_in(self):
         said = self.ends(FAILED, "send", self.LIBRARY / "slave.awl", "--cpu", "224", "010300000001").stdout
-        (place,) = re.findall(r"the contacts from (stand-in:modbus_slave\.awl:\d+) on", said)
+        (place,) = re.findall(r"the contact in (stand-in:modbus_slave\.awl:\d+)", said)
         stopped = self.ends(FINE, "debug", self.LIBRARY / "slave.awl", "--cpu", "224", "-x", f"break {place}").stdout
         self.assertRegex(stopped, r"breakpoint 1 in SBR 61 stand-in:modbus_slave\.awl:\d+: LDW<> ")
 
@@ -3501,7 +3501,7 @@ class Files(Case):
         self.assertIn("the package of s7200 has it", refused("run", SLAVE))
         (self.folder / "CMakeCache.txt").write_text("", encoding="utf-8")
         self.assertIn(f"make it with: cmake --build {self.folder} --target page_file", refused("run", SLAVE))
-        self.assertIn("--report carries the run of one PROGRAM", refused("run", SOURCE / "stl_programs/systems/gateway.yaml"))
+        self.assertIn("share/s7200/page.html", refused("run", SOURCE / "stl_programs/systems/gateway.yaml"))
         self.assertRegex(refused("send", SLAVE, "01", "--times-band", "2"), "--report excludes --times-band|--times-band excludes --report")
 
     def test_signals_over_time_are_written_as_waves_and_tables(self):

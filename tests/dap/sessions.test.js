@@ -612,7 +612,7 @@ test("the README lists every request that the protocol has not", () => {
   const words = (text, pattern) => [...text.matchAll(pattern)].map(([, word]) => word);
   const source = (file) => fs.readFileSync(path.join(SOURCE, "tools/faces/dap", file), "utf8");
   const of_protocol = words(fs.readFileSync(require.resolve("@vscode/debugprotocol/lib/debugProtocol.d.ts"), "utf8"), /command: '(\w+)'/g);
-  const files = ["life", "breakpoints", "steps", "seeing", "memory", "commands"].map((file) => source(file + ".cpp"));
+  const files = ["life", "breakpoints", "steps", "seeing", "memory", "commands"].map((file) => source(`requests/${file}.cpp`));
   const commands = words(files[5], /^ {4}\{"(\w+)", "[\w ]+", "/gm);
   assert.ok(commands.includes("sendFrame"));
   const offered = files.flatMap((text) => words(text.split("_requests() {")[1], /\{"(\w+)",\s+[a-z_]+\b/g)).concat(commands);

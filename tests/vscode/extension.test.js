@@ -234,7 +234,7 @@ test("every command of package.json does what the session offers", async () => {
   const commands = manifest.contributes.commands.map((one) => one.command);
   assert.deepEqual(Object.keys(registered.commands).sort(), commands.sort());
   for (const { command, enablement } of manifest.contributes.commands) assert.equal(enablement, "debugType == s7200", command);
-  const source = (file) => fs.readFileSync(path.join(SOURCE, "tools/faces/dap", file), "utf8");
+  const source = (file) => fs.readFileSync(path.join(SOURCE, "tools/faces/dap/requests", file), "utf8");
   const offered = source("steps.cpp") + source("seeing.cpp") + source("commands.cpp");
   for (const [name, run] of Object.entries(registered.commands)) {
     await run();

@@ -281,7 +281,7 @@ TEST(WestinghouseSetting, AFieldHasTheMarkOfItsRow) {
   EXPECT_EQ(rows_with_their_marks<LanPlc>({"lan_plc.hpp", "pc1000.hpp"}), 16);
   EXPECT_EQ(rows_with_their_marks<WestnetPlc>({"westnet_plc.hpp", "pc1000.hpp"}), 25);
   EXPECT_EQ(rows_with_their_marks<LoaderPlc>({"loader_plc.hpp"}), 8);
-  EXPECT_EQ(rows_with_their_marks<HppcPlc>({"hppc_plc.hpp", "hppc_message.hpp"}), 13);
+  EXPECT_EQ(rows_with_their_marks<HppcPlc>({"hppc_plc.hpp", "messages/hppc_message.hpp"}), 13);
 }
 
 TEST(WestinghouseModbus, AnotherAddressIsNotAnswered) {
