@@ -15,7 +15,8 @@ class DecodeResults {
   /// Prints the heading. `head` has the keys before the frames; `report` must live as long as this.
   DecodeResults(nlohmann::ordered_json head, bool as_json, const ReportOption& report);
 
-  bool colour() const { return colour_; }
+  /// Whether requests without an answer are shown as such.
+  bool marks_unanswered() const { return colour_ || as_json_ || report_.wanted(); }
 
   /// Prints a frame. `unanswered`: it is known that no answer to it came.
   void add(const ReadFrame& frame, bool unanswered);

@@ -1,7 +1,10 @@
 // The session in the browser: s7200 as WebAssembly, with the same messages as over the WebSocket (docs/page_protocol.md).
 
-/** The module in a page that is one file: deflated (gzip), in base64. A page with files beside it has `engine.wasm`. */
-declare const kEngine: string | undefined;
+/** The module in a page that is one file: deflated (gzip), in base85, and its bytes. A page with files beside it has `engine.wasm`. */
+declare const kEngine: string | undefined, kEngineSize: number;
+
+/** The digits of base85 (RFC 1924), with a comma for <, which could begin an element. */
+const kDigits = '0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~';
 
 interface Engine {
   memory: WebAssembly.Memory;
@@ -12,9 +15,20 @@ interface Engine {
   message(): number;
 }
 
+function from_base85(text: string, size: number): Uint8Array<ArrayBuffer> {
+  const value = new Uint8Array(128), bytes = new DataView(new ArrayBuffer(text.length / 5 * 4));
+  for (let i = 0; i < kDigits.length; ++i) value[kDigits.charCodeAt(i)] = i;
+  for (let from = 0, to = 0; from < text.length; from += 5, to += 4) {
+    let number = 0;
+    for (let i = from; i < from + 5; ++i) number = number * 85 + value[text.charCodeAt(i)]!;
+    bytes.setUint32(to, number);
+  }
+  return new Uint8Array(bytes.buffer, 0, size);
+}
+
 async function module_bytes(): Promise<ArrayBuffer> {
   if (typeof kEngine === 'undefined') return (await fetch(new URL('engine.wasm', self.location.href))).arrayBuffer();
-  const deflated = Uint8Array.from(atob(kEngine), (character) => character.charCodeAt(0));
+  const deflated = from_base85(kEngine, kEngineSize);
   return new Response(new Blob([deflated]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
 
