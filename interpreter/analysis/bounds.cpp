@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/analysis/longest_ways.hpp"
-#include "interpreter/analysis/value_boxes.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"

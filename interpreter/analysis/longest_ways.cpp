@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "interpreter/analysis/cross_reference.hpp"
+#include "interpreter/analysis/effects/followed_cells.hpp"
 #include "interpreter/analysis/effects/reaching_values.hpp"
-#include "interpreter/analysis/followed_cells.hpp"
-#include "interpreter/analysis/value_boxes.hpp"
+#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/analysis/way_cells.hpp"
 #include "interpreter/model/contact_form.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "interpreter/analysis/cross_reference.hpp"
+#include "interpreter/analysis/effects/followed_cells.hpp"
 #include "interpreter/analysis/effects/memory_names.hpp"
-#include "interpreter/analysis/followed_cells.hpp"
-#include "interpreter/analysis/value_boxes.hpp"
+#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/model/contact_form.hpp"
 
 namespace s7200 {

@@ -46,7 +46,7 @@ RULES = f"{BODIES}/operand_rules.hpp"
 CHAINS = f"{BODIES}/contact_chains.cpp"
 LINKS = [f"{BODIES}/linked.hpp", CHAINS]
 CHAINS_ARE_MADE_OF = [*LINKS, f"{BODIES}/bit_logic.hpp"]
-STEADY_SCANS = ["interpreter/cpu/steady_scans.cpp", "interpreter/cpu/idle_scans.cpp", "interpreter/cpu/footprint.cpp",
+STEADY_SCANS = ["interpreter/cpu/steady_scans.cpp", "interpreter/cpu/idle/idle_scans.cpp", "interpreter/cpu/idle/footprint.cpp",
                 "interpreter/cpu/units/timers.cpp", "interpreter/analysis/effects/looks.cpp"]
 # Of other files what those about scans hang on: these lines only, each file a library by itself too.
 BESIDE_STEADY_SCANS = {"interpreter/cpu/cpu.cpp": r"touched = true", "interpreter/cpu/units/clock.cpp": r"/ second \+ 1",

@@ -12,8 +12,8 @@
 #include "interpreter/stl/text/encoding.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
-#include "tools/recordings/markup.hpp"
 #include "tools/recordings/rows/lines.hpp"
+#include "tools/recordings/rows/markup.hpp"
 
 namespace s7200::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "interpreter/analysis/effects/effects.hpp"
-#include "interpreter/analysis/value_boxes.hpp"
+#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/program/loading/unread.hpp"
 

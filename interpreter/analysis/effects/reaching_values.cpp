@@ -7,9 +7,9 @@
 
 #include "interpreter/analysis/cross_reference.hpp"
 #include "interpreter/analysis/effects/effects.hpp"
+#include "interpreter/analysis/effects/followed_cells.hpp"
 #include "interpreter/analysis/effects/pointers.hpp"
-#include "interpreter/analysis/followed_cells.hpp"
-#include "interpreter/analysis/value_boxes.hpp"
+#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/model/contact_form.hpp"
 
 namespace s7200 {

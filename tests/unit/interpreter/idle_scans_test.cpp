@@ -1,5 +1,5 @@
 // Scans in which the program changes nothing are passed over between events too, and nothing shows it but the speed.
-#include "interpreter/cpu/idle_scans.hpp"
+#include "interpreter/cpu/idle/idle_scans.hpp"
 
 #include <random>
 

@@ -1,5 +1,5 @@
 // Logs in the tables of web pages, of Markdown and of programs that draw them.
-#include "tools/recordings/markup.hpp"
+#include "tools/recordings/rows/markup.hpp"
 
 #include <gtest/gtest.h>
 

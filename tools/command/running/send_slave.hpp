@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "tools/command/running/run_recorder.hpp"
+#include "tools/command/reports/run_recorder.hpp"
 #include "tools/command/running/send_band.hpp"
 #include "tools/command/running/unanswered.hpp"
 #include "tools/rig/rig.hpp"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <variant>
 
-#include "tools/command/reported_system.hpp"
+#include "tools/command/reports/reported_system.hpp"
 #include "tools/command/testing/test_output.hpp"
 #include "tools/scenario/reporting/junit.hpp"
 

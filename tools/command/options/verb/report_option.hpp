@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/command/running/report_page.hpp"
+#include "tools/command/reports/report_page.hpp"
 #include "tools/host/files/written_files.hpp"
 
 namespace CLI {

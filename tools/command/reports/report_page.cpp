@@ -1,4 +1,4 @@
-#include "tools/command/running/report_page.hpp"
+#include "tools/command/reports/report_page.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "interpreter/cpu/footprint.hpp"
+#include "interpreter/cpu/idle/footprint.hpp"
 
 #include <algorithm>
 #include <bit>

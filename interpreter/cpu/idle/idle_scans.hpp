@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/cpu/footprint.hpp"
+#include "interpreter/cpu/idle/footprint.hpp"
 #include "interpreter/cpu/steady_scans.hpp"
 
 namespace s7200 {
@@ -75,7 +75,6 @@ class IdleScans {
   Time position(const State& s) const;
   void go_to(State& s, Time position) const;
   static void set(State& s, const Step& step);
-  void check(const Core& core);
   void expect(const Core& core, Time horizon);
 
   /// Where the parts of an idle scan begin, from its own beginning on.

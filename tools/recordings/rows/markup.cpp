@@ -1,4 +1,4 @@
-#include "tools/recordings/markup.hpp"
+#include "tools/recordings/rows/markup.hpp"
 
 #include <fmt/format.h>
 

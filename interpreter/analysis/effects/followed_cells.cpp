@@ -1,4 +1,4 @@
-#include "interpreter/analysis/followed_cells.hpp"
+#include "interpreter/analysis/effects/followed_cells.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "interpreter/analysis/effects/effects.hpp"
-#include "interpreter/analysis/value_boxes.hpp"
+#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/model/contact_form.hpp"
 
 namespace s7200 {

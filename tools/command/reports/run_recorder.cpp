@@ -1,9 +1,9 @@
-#include "tools/command/running/run_recorder.hpp"
+#include "tools/command/reports/run_recorder.hpp"
 
 #include <utility>
 #include <vector>
 
-#include "tools/command/reported_system.hpp"
+#include "tools/command/reports/reported_system.hpp"
 #include "tools/command/terminal/terminal.hpp"
 
 namespace s7200::tools {

@@ -1,4 +1,4 @@
-#include "tools/command/reported_system.hpp"
+#include "tools/command/reports/reported_system.hpp"
 
 #include <fmt/format.h>
 

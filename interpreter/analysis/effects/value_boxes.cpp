@@ -1,4 +1,4 @@
-#include "interpreter/analysis/value_boxes.hpp"
+#include "interpreter/analysis/effects/value_boxes.hpp"
 
 #include <algorithm>
 #include <array>
