@@ -174,12 +174,12 @@ SerialDevice::SerialDevice(SerialDevice&& other) noexcept = default;
 SerialDevice::~SerialDevice() = default;
 
 std::optional<SerialDevice> SerialDevice::open(const std::string& path, const SerialFormat& format, std::string& why) {
-  const std::string device = port_named(path);
-  if (device.empty()) {
+  const std::string port_name = port_named(path);
+  if (port_name.empty()) {
     why = "it is not a COM port; " + ports_there_are();
     return {};
   }
-  const std::string name = std::string(kDevices) + device;
+  const std::string name = std::string(kDevices) + port_name;
   Handle port(CreateFileW(wide(name).c_str(), GENERIC_READ | GENERIC_WRITE, 0, nullptr, OPEN_EXISTING, FILE_FLAG_OVERLAPPED,
                           nullptr));
   if (!port) {
