@@ -29,7 +29,7 @@ install(FILES ${PROJECT_BINARY_DIR}/share/s7200/page.html DESTINATION ${CMAKE_IN
 
 set(pages ${PROJECT_BINARY_DIR}/manual_pages)
 install(CODE "execute_process(
-  COMMAND ${CMAKE_COMMAND} -DS7200=$<TARGET_FILE:s7200> -DINTO=${pages} -P ${PROJECT_SOURCE_DIR}/cmake/manual_pages.cmake
+  COMMAND ${CMAKE_COMMAND} \"-DS7200=$<TARGET_PROPERTY:s7200,CROSSCOMPILING_EMULATOR>;$<TARGET_FILE:s7200>\" -DINTO=${pages} -P ${PROJECT_SOURCE_DIR}/cmake/manual_pages.cmake
   COMMAND_ERROR_IS_FATAL ANY)" COMPONENT command)
 install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
 install(FILES tools/completion/s7200.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions

@@ -35,6 +35,15 @@ needed_to_build_windows=(
   npm:npm
 )
 
+# What the package for arm64 needs besides.
+needed_to_build_arm64=(
+  aarch64-linux-gnu-g++:g++-aarch64-linux-gnu
+  qemu-aarch64:qemu-user
+)
+
+# The packages of the libraries that the command of a release is linked with.
+linked_libraries=(libbsd0 libc6 libedit2 libfmt9 libgcc-s1 libmd0 libstdc++6 libtinfo6 libyaml-cpp0.7 zlib1g)
+
 # What the page with its engine in one file needs besides, which --report fills in: the target page_file.
 needed_for_page_file=(
   clang++-19:clang-19
@@ -132,4 +141,40 @@ build() {
     exit 2
   fi
   cmake --build --preset "$preset" --parallel "$(nproc)" ${1+--target "$@"}
+}
+
+# for_release: sets version, and SOURCE_DATE_EPOCH unless it is set: the time of all files in packages, that of the last commit.
+# The options in for_debian keep the names of folders of this computer out of the command.
+for_release() {
+  version=$(sed -n 's/^project(s7200 VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+  export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
+  umask 022
+  unset CXXFLAGS LDFLAGS  # those of this computer are not for others
+  for_debian=(-DBUILD_TESTING=OFF "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$PWD=s7200")
+}
+
+# build_page BUILD: the page with its engine in one file, which is the same for all builds.
+build_page() {
+  local configured_with=()
+  build wasm engine
+  mkdir -p "$1/share/s7200"
+  tools/faces/page/build build/wasm/tools/faces/page/engine/engine.wasm "$1/share/s7200/page.html"
+}
+
+# make_deb BUILD: prints the Debian package of a build.
+make_deb() {
+  rm -f "$1"/packages/s7200_*.deb
+  cpack --config "$1/CPackConfig.cmake" >build/cpack.log 2>&1 || { cat build/cpack.log >&2; exit 2; }
+  ls "$1"/packages/s7200_*.deb
+}
+
+# copy_licences FOLDER PACKAGE...: what the authors of libraries want to be told to whoever gets them, as Debian's packages have it: of
+# those that are headers, of those in the page's engine, and of others.
+copy_licences() {
+  local into=$1 package
+  shift
+  mkdir -p "$into"
+  for package in libboost1.74-dev libcli11-dev libfmt-dev nlohmann-json3-dev libc++-19-dev-wasm32 wasi-libc "$@"; do
+    cp "/usr/share/doc/$package/copyright" "$into/$package.txt"
+  done
 }
