@@ -87,6 +87,7 @@ needed_to_test=(
   npm:npm
   x86_64-w64-mingw32-g++-posix:g++-mingw-w64-x86-64-posix
   /usr/lib/wine/wine64:wine64
+  "${needed_to_build_arm64[@]}"
 )
 
 # install_missing_packages COMMAND:PACKAGE...
