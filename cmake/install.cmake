@@ -37,6 +37,10 @@ install(FILES tools/completion/s7200.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/b
 install(FILES tools/completion/_s7200 DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT command)
 install(FILES tools/completion/s7200.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT command)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT command)
+# The licences of what is compiled into command and page, where it asks for that; Boost and LLVM do not.
+foreach(package libcli11-dev libfmt-dev nlohmann-json3-dev wasi-libc)
+  install(FILES /usr/share/doc/${package}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences RENAME ${package}.txt COMPONENT command OPTIONAL)
+endforeach()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/s7200)
 install(EXPORT s7200-targets NAMESPACE s7200:: DESTINATION ${package_dir})

@@ -2,6 +2,7 @@
 """The Debian package of a build: package.py S7200 SOURCE_DIR BUILD_DIR"""
 import gzip
 import os
+import pathlib
 import re
 import shutil
 import unittest
@@ -44,6 +45,9 @@ class Package(Case):
                     "usr/share/bash-completion/completions/s7200", "usr/share/zsh/vendor-completions/_s7200",
                     "usr/share/fish/vendor_completions.d/s7200.fish", "usr/share/s7200/stl_programs/modbus_slave.stl",
                     "usr/share/s7200/cmake/S7200Test.cmake"}
+        for package in ("libcli11-dev", "libfmt-dev", "nlohmann-json3-dev", "wasi-libc"):
+            if pathlib.Path(f"/usr/share/doc/{package}/copyright").exists():
+                expected.add(f"usr/share/doc/s7200/licences/{package}.txt")
         self.assertEqual(expected - files, set())
         beside = {file for file in files - expected if not file.startswith("usr/share/s7200/")}
         self.assertEqual(beside, set())
