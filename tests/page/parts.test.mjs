@@ -57,6 +57,18 @@ test('an answer belongs to the request before it, and its latency counts from th
   assert.deepEqual([one.request, one.answer, one.latency_ns], ['01 03', '01 83', 30]);
 });
 
+test('a request that is late may be asked about before its time is over', () => {
+  const after = (ms) => parts.exchanges_of(frames(frame('received 01 03', 0, 20)), 20 + ms * 1e6)[0];
+  assert.ok(!parts.is_overdue(after(50)));
+  assert.ok(parts.is_overdue(after(150)) && !parts.is_unanswered(after(150)));
+  assert.ok(parts.is_unanswered(after(1500)));
+});
+
+test('errors are the first track', () => {
+  const tracks = ['characters', 'scans', 'errors', 'value'].map((kind) => ({ kind, name: kind, exact: true, spans: [] }));
+  assert.deepEqual(parts.rows_of({ tracks }, 0).map((row) => row.track.kind), ['errors', 'characters', 'scans', 'value']);
+});
+
 test('a request without an answer is unanswered, unless the answer may still come', () => {
   const spans = frames(frame('received 01', 10, 20), frame('received 02', 5e9, 5e9 + 10));
   const early = parts.exchanges_of(spans, 5e9 + 20);

@@ -131,6 +131,32 @@ test('dragging in the ruler measures between two cursors', async () => {
   await picture(page, 'timeline_measured');
 });
 
+test('what is between the cursors is measured: count, shortest, average, longest, histogram', async () => {
+  await page.click('#timeline-all');
+  await page.click('[aria-label="Remove cursors"]');
+  await page.keyboard.press('Shift+M');
+  await page.waitForSelector('.measured tbody tr');
+  const cells = async (name) => page.locator(`.measured tr:has(th:text-is("${name}")) td`).allTextContents();
+  const frames = await cells('port 0 frames'), characters = await cells('port 0 received'), scans = await cells('scans');
+  assert.equal(frames[0], '5', 'three requests and two answers');
+  assert.deepEqual(characters.slice(0, 4), ['24', '1.09375 ms', '1.09375 ms', '1.09375 ms'], '10.5 bits from the start edge to the middle of the stop bit');
+  const [shortest, average, longest] = scans.slice(1, 4).map((text) => parseFloat(text) * (text.endsWith('µs') ? 1 : 1000));
+  assert.ok(shortest < average && average < longest, scans.join());
+  assert.ok(await page.locator('.measured .histogram').count() > 3);
+  await picture(page, 'timeline_measurement');
+  await page.locator('.measured tr:has(th:text-is("scans")) .link').nth(1).click();
+  await page.waitForSelector('.measured', { state: 'detached' });
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+});
+
+test('the longest scan since power-up is gone to', async () => {
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press('End');
+  await page.keyboard.press('Shift+C');
+  await page.waitForSelector('.notice:has-text("The longest scan since power-up lasted 5")', { timeout: 60000 });
+  assert.equal(await moment(page), 0, 'the first one makes a table');
+});
+
 test('an address that is watched is a wave', async () => {
   await page.click('#tab-causes');
   await page.evaluate(() => document.activeElement?.blur());

@@ -11,6 +11,7 @@ import { remember, remembered } from './memory';
 import { run_in_link } from './report';
 import { link_of, moment_from } from './words';
 import * as search from './timeline/search';
+import { measure } from './timeline/measure';
 import * as timeline from './timeline/view';
 import { close_menu } from './panes/menu';
 import { toggle_breakpoint } from './panes/program';
@@ -132,11 +133,13 @@ export const kActions: Action[] = [
   { id: 'right', group: 'Timeline', title: 'Later', keys: ['ArrowRight'], does: () => timeline.move_by(0.2) },
   { id: 'cursor-a', group: 'Timeline', title: 'Cursor A here', keys: ['['], does: () => timeline.set_cursor('a') },
   { id: 'cursor-b', group: 'Timeline', title: 'Cursor B here', keys: [']'], does: () => timeline.set_cursor('b') },
+  { id: 'measure', group: 'Timeline', title: 'Measure between the cursors, or what is in view', keys: ['Shift+M'], does: () => void measure() },
   { id: 'next-error', group: 'Timeline', title: 'Next lost character or error', keys: ['e'], does: () => void search.find_error(1) },
   { id: 'previous-error', group: 'Timeline', title: 'Previous one', keys: ['Shift+E'], does: () => void search.find_error(-1) },
   { id: 'next-unanswered', group: 'Timeline', title: 'Next unanswered request', keys: ['u'], does: () => void search.find_unanswered() },
   { id: 'condition', group: 'Timeline', title: 'Next time that a condition holds', keys: ['x'], does: () => focus_field('#condition') },
   { id: 'longest', group: 'Timeline', title: 'Longest answer', keys: ['Shift+L'], does: () => void search.find_longest() },
+  { id: 'longest-scan', group: 'Timeline', title: 'Longest scan', keys: ['Shift+C'], does: () => void search.find_longest_scan() },
 
   { id: 'mark', group: 'Timeline', title: 'Mark this moment, or take the mark away', keys: ['m'], does: toggle_mark },
   { id: 'next-mark', group: 'Timeline', title: 'Next mark', keys: ['>'], does: () => go_to_mark(1) },

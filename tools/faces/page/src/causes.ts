@@ -37,19 +37,27 @@ export function ask_effect(address: string): Promise<void> {
   return ask(`What came of the last change of ${named(address)}?`, `effect ${address}`);
 }
 
+const kShownBytes = 12;
+
+/** A frame by its first bytes, and what it says. */
+function in_short(frame: string): string {
+  const parts = /^((?:[0-9a-f]{2} ?)+)(.*)$/s.exec(frame), bytes = parts?.[1]!.trim().split(' ') ?? [];
+  return bytes.length <= kShownBytes ? frame : `${bytes.slice(0, kShownBytes).join(' ')} …${parts![2]}`;
+}
+
 const kAfterRequest = 100e6;  // ns after a request, when the program has made up its mind about it
 
 /** Why a request had no answer, as it is known a little after it and before the next one. */
 export async function ask_why_unanswered(one: Exchange, next: Exchange | undefined): Promise<void> {
   const newest = state.past?.newest_ns ?? 0;
   await go_to(Math.min(one.end_ns + kAfterRequest, next?.at_ns ?? Infinity, newest));
-  await ask(`Why has ${one.request} no answer?`, 'why');
+  await ask(`Why has ${in_short(one.request)} no answer?`, 'why');
 }
 
 /** What an answer has waited for, as it is known at its end. */
 export async function ask_why_latency(request: string, answer_end_ns: number): Promise<void> {
   await go_to(answer_end_ns);
-  await ask(`What did the answer to ${request} wait for?`, 'why latency');
+  await ask(`What did the answer to ${in_short(request)} wait for?`, 'why latency');
 }
 
 const kDone = 200;  // actions that are listed

@@ -11,9 +11,11 @@ export interface Exchange {
   latency_ns?: number;
   answer_end_ns?: number;
   pending?: boolean;
+  overdue?: boolean;
 }
 
 const kAwaited = 1e9;  // ns for which a request without an answer may still get one
+const kOverdue = 100e6;  // ns after which most programs have made up their mind about it
 
 function is_sent(frame: Span): boolean {
   return frame.text.startsWith('sent');
@@ -43,8 +45,14 @@ export function exchanges_of(spans: Spans | null, now_ns: number): Exchange[] {
       }
     }
     if (open && now_ns - open.end_ns < kAwaited) open.pending = true;
+    if (open?.pending && now_ns - open.end_ns > kOverdue) open.overdue = true;
   }
   return all.sort((a, b) => a.at_ns - b.at_ns);
+}
+
+/** Whether it may still be answered, and one may ask why it is not yet. */
+export function is_overdue(one: Exchange): boolean {
+  return one.answer === undefined && one.overdue === true;
 }
 
 export function is_unanswered(one: Exchange): boolean {

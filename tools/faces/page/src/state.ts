@@ -1,6 +1,7 @@
 // All that the page shows, as plain data. Who changes it says changed(), and the page is rendered with the next frame.
 import type { Connection, Engine } from './engine';
 import type { Cause, Done, Execution, Hello, LadderNetwork, Line, Outline, Past, Report, Source, Span, Spans, Value } from './protocol';
+import type { Measurement } from './timeline/measure';
 
 export type PaneName = 'program' | 'chart' | 'timeline' | 'causes' | 'line' | 'report';
 export type Theme = 'system' | 'light' | 'dark';
@@ -49,7 +50,7 @@ export interface State {
   /** Simulated seconds a second; 0: as fast as it goes. */
   pace: number;
   notice: { text: string; kind: 'info' | 'error' } | null;
-  dialog: 'help' | 'about' | null;
+  dialog: 'help' | 'about' | 'measurement' | null;
   menu: Menu | null;
   theme: Theme;
   /** Which pane a narrow window shows. */
@@ -82,6 +83,7 @@ export interface State {
   window: { from_ns: number; to_ns: number } | null;
   spans: Spans | null;
   cursors: { a_ns: number | null; b_ns: number | null };
+  measurement: Measurement | null;
   watched: string[];
   /** Of two futures the one that was kept. */
   first_future: { at_ns: number; until_ns: number; spans: Spans } | null;
@@ -143,6 +145,7 @@ export const state: State = {
   window: null,
   spans: null,
   cursors: { a_ns: null, b_ns: null },
+  measurement: null,
   watched: [],
   first_future: null,
   marks: [],
@@ -183,6 +186,11 @@ export function changed(): void {
     asked = false;
     render_page();
   });
+}
+
+export function show_dialog(which: State['dialog']): void {
+  state.dialog = which;
+  changed();
 }
 
 /** Brings a pane to the front. */

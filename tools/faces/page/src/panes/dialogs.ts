@@ -3,11 +3,11 @@ import { h, type Child, type Part } from '../dom';
 import { icon } from '../icons';
 import { kActions, key_text } from '../actions';
 import { can_open } from '../playground';
-import { changed, state } from '../state';
+import { measurement } from './measurement';
+import { show_dialog, state } from '../state';
 
 function close(): void {
-  state.dialog = null;
-  changed();
+  show_dialog(null);
 }
 
 function dialog(title: string, ...content: Child[]): Part {
@@ -54,5 +54,10 @@ function about(): Part {
 }
 
 export function dialogs(): Part | null {
-  return state.dialog === 'help' ? help() : state.dialog === 'about' ? about() : null;
+  switch (state.dialog) {
+    case 'help': return help();
+    case 'about': return about();
+    case 'measurement': return dialog('Measured', ...measurement());
+    default: return null;
+  }
 }

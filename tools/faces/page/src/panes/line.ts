@@ -4,7 +4,7 @@ import { command, go_to } from '../session';
 import { changed, state } from '../state';
 import { ask_why_latency, ask_why_unanswered } from '../causes';
 import { see_exchanges } from '../timeline/view';
-import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
+import { exchanges_of, is_overdue, is_unanswered, type Exchange } from '../exchanges';
 import { action, title_with_key } from '../actions';
 import { duration_text, moment_text } from '../words';
 import { histogram } from './histogram';
@@ -21,13 +21,13 @@ async function send(text: string): Promise<void> {
 const kExamples = ['01 03 00 0a 00 02 crc', 'read 40011:2', 'write 40011=1234', "'HELLO\\r'"];
 
 function row(one: Exchange, i: number, next: Exchange | undefined): Part {
-  const unanswered = is_unanswered(one);
+  const unanswered = is_unanswered(one) || is_overdue(one);
   const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : 'no answer');
   const why = unanswered ? { title: 'What kept the program from an answer', ask: () => void ask_why_unanswered(one, next) }
     : one.answer_end_ns === undefined ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one.request, one.answer_end_ns!) };
-  return h('tr', { key: i, class: one.error !== undefined || unanswered ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
+  return h('tr', { key: i, class: one.error !== undefined || is_unanswered(one) ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
     h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
-    h('td', { class: 'frame' }, one.request), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),
+    h('td', { class: 'frame' }, h('div', { class: 'frame-text', title: one.request }, one.request)), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),
     h('td', { class: 'number' }, one.latency_ns === undefined ? '' : duration_text(one.latency_ns)));
 }
 
@@ -43,7 +43,7 @@ function summary(all: Exchange[]): string {
   const unanswered = all.filter(is_unanswered).length;
   const spread = latencies.length === 0 ? ''
     : `, latency ${duration_text(Math.min(...latencies))} … ${duration_text(Math.max(...latencies))}`;
-  return `${all.length} requests, ${unanswered} without an answer${spread}`;
+  return `${all.length} ${all.length === 1 ? 'request' : 'requests'}, ${unanswered} without an answer${spread}`;
 }
 
 export function line_pane(): Part {

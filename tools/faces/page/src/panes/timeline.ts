@@ -2,6 +2,7 @@
 import { h, type Part } from '../dom';
 import { draw, height_of, kRuler, rows_of, span_at, span_text, type Theme, type View } from '../timeline/draw';
 import { ns_at, type Scale } from '../timeline/scale';
+import { measure } from '../timeline/measure';
 import * as search from '../timeline/search';
 import * as timeline from '../timeline/view';
 import { go_to } from '../session';
@@ -138,6 +139,7 @@ export function timeline_pane(): Part {
       tool('compare', 'Two futures: keep this one, change something, compare (c)', () => void compare_futures(), state.first_future ? 'End comparison' : 'What if?'),
       state.first_future ? tool('second', 'Run as far as the first future goes', () => void run_second(), icon('run')) : null,
       tool('a', 'Cursor A here ([)', () => timeline.set_cursor('a'), 'A'), tool('b', 'Cursor B here (])', () => timeline.set_cursor('b'), 'B'),
+      tool('measure', 'Measure between the cursors, or what is in view: count, shortest, average, longest, histogram (Shift+M)', () => void measure(), 'Measure'),
       h('span', { class: 'readout', role: 'status' }, state.computing ? 'computing …' : (state.first_future ? difference_text() : '') || measured() || told || `${duration_text(to_ns - from_ns)} in view`),
       state.cursors.a_ns !== null ? h('button', { class: 'plain', 'aria-label': 'Remove cursors', onclick: timeline.clear_cursors }, icon('close')) : null,
       state.spans?.left_out?.length ? h('span', { class: 'small', title: 'Zoom in to 10 s or less' }, `zoom in for ${state.spans.left_out.join(', ')}`) : null),

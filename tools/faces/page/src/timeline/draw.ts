@@ -25,10 +25,13 @@ function is_bit(track: SpanTrack): boolean {
   return track.spans.every((one) => (one.value === 0 || one.value === 1) && (one.least ?? 0) >= 0 && (one.most ?? 1) <= 1);
 }
 
-/** The tracks below the ruler; `scrolled` pixels of them are above it. */
+const is_of_errors = (track: SpanTrack): boolean => track.kind === 'errors';
+
+/** The tracks below the ruler, errors first, which must not be missed; `scrolled` pixels of them are above it. */
 export function rows_of(spans: Spans | null, scrolled: number): Row[] {
   let top = kRuler + kGap - scrolled;
-  return (spans?.tracks ?? []).map((track) => {
+  const tracks = spans?.tracks ?? [];
+  return [...tracks.filter(is_of_errors), ...tracks.filter((one) => !is_of_errors(one))].map((track) => {
     const height = track.kind === 'value' && !is_bit(track) ? kWave : kHeights[track.kind] ?? 16;
     const row = { track, top, height };
     top += height + kGap;

@@ -1,11 +1,11 @@
-// Searches through the past: the nearest trouble, the next request without an answer, the longest answer.
+// Searches through the past: the nearest trouble, the next request without an answer, the longest answer, the longest scan.
 import { exchanges_of, is_unanswered, type Exchange } from '../exchanges';
 import { ask_why_latency } from '../causes';
 import { command, move } from '../session';
 import { notice, state } from '../state';
 import { duration_text, moment_word } from '../words';
 import { show_found, spans_between } from './view';
-import type { Answers, Span, Stopped, Stops } from '../protocol';
+import type { Answers, Span, Stopped, Stops, Value } from '../protocol';
 
 function has_trouble(span: Span): boolean {
   return span.error !== undefined || (span.errors ?? 0) > 0;
@@ -88,6 +88,39 @@ export async function find_longest(): Promise<void> {
   await show_found(longest);
   await ask_why_latency(longest.text, longest.answer_end_ns);
   notice(`The longest of ${answers.count} answers: after ${duration_text(longest.answer_ns - longest.end_ns)}, to ${longest.text}`);
+}
+
+/** The longest scan since power-up, in ms, as the CPU knows it at a moment. */
+async function longest_scan_at(ns: number): Promise<number> {
+  const reply = await command<{ values: Value[] }>(`at ${moment_word(ns)}; values SMW26`);
+  return Number(reply.json?.values[0]?.number ?? 0);
+}
+
+/** The CPU counts it only up: the moment at which it came to what it is in the end is found by halves. */
+export async function find_longest_scan(): Promise<void> {
+  const past = state.past;
+  if (!past) return;
+  notice('Looking for the longest scan …');
+  const ms = await longest_scan_at(past.newest_ns);
+  if (ms === 0) {
+    notice('No scan has lasted 1 ms yet');
+    return;
+  }
+  let before = past.oldest_ns, since = past.newest_ns;
+  while (since - before > 1e6) {
+    const middle = Math.floor((before + since) / 2);
+    if (await longest_scan_at(middle) >= ms) since = middle;
+    else before = middle;
+  }
+  const now = (): number => state.past?.now_ns ?? 0;
+  await move(`at ${moment_word(since)}`);
+  let end_ns = since;
+  while (now() > Math.max(past.oldest_ns, since - ms * 1e6 / 2)) {
+    end_ns = now();
+    await move('rscan');
+  }
+  await show_found({ at_ns: now(), end_ns });
+  notice(`The longest scan since power-up lasted ${ms} ms (SMW26): scan ${state.past?.scan ?? ''}; others may have lasted as many`);
 }
 
 const kLongestRun = 10e9;  // ns that are run for a condition when there is no past after this moment
