@@ -174,6 +174,25 @@ test('a run that follows the clock takes switches meanwhile, and is paused from 
   await end(live.server);
 });
 
+test('the tracks of many PLCs are printed within the timeline', async () => {
+  const plant = await view('stl_programs/systems/polled_slaves.yaml');
+  const page = await open(chrome, plant.address);
+  await page.click('#do-scan');
+  await page.waitForFunction(() => document.querySelectorAll('.track-name').length > 20);
+  await page.emulateMedia({ media: 'print' });
+  await picture(page, 'frame_printed');
+  const below = await page.evaluate(() => {
+    const end = document.querySelector('.timeline').getBoundingClientRect().bottom;
+    return [...document.querySelectorAll('.track-name')].filter((one) => {
+      const box = one.getBoundingClientRect();
+      return box.top > end && document.elementFromPoint(box.left + 20, box.top + 4)?.closest('.track-name') === one;
+    }).length;
+  });
+  assert.equal(below, 0);
+  await page.close();
+  await end(plant.server);
+});
+
 test('a lost connection is said, and so is its return', async () => {
   let allowed = true, socket;
   const prepare = (page) => page.routeWebSocket(/socket/, (one) => {
