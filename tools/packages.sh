@@ -151,7 +151,7 @@ for_release() {
   export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}
   umask 022
   unset CXXFLAGS LDFLAGS  # those of this computer are not for others
-  for_debian=(-DBUILD_TESTING=OFF "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$PWD=s7200")
+  for_debian=(-DBUILD_TESTING=OFF "-DCMAKE_CXX_FLAGS=\"-ffile-prefix-map=$PWD=s7200\"")
 }
 
 # build_page BUILD: the page with its engine in one file, which is the same for all builds.
