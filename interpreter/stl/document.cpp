@@ -186,7 +186,18 @@ bool is_mark(std::string_view token) {
 }
 
 bool is_page_number(std::string_view token) {
-  return std::all_of(token.begin(), token.end(), [](char c) { return is_digit(c) || c == '-'; });
+  return std::all_of(token.begin(), token.end(), [](char c) { return is_digit(c) || c == '-' || c == '/'; });
+}
+
+/// `12`, `Page 2 of 3`, `Seite 2/3`, `Page 2`
+bool is_page_number(const std::vector<std::string_view>& words) {
+  constexpr std::array<std::string_view, 6> kPages{"PAGE", "SEITE", "P\u00E1GINA", "PAGINA", "FOLIO", "SHEET"};
+  constexpr std::array<std::string_view, 5> kOf{"OF", "VON", "DE", "SUR", "DI"};
+  const bool named = std::ranges::find(kPages, upper_case(words.front())) != kPages.end();
+  if (!named) return words.size() == 1 && is_page_number(words.front());
+  if (words.size() == 2) return is_page_number(words[1]);
+  return words.size() == 4 && is_page_number(words[1]) && is_page_number(words[3]) &&
+         std::ranges::find(kOf, upper_case(words[2])) != kOf.end();
 }
 
 bool is_ideographic(std::string_view token) {
@@ -506,7 +517,7 @@ class DocumentReader {
     if (reading.words >= 3 && !reading.first_solid) return true;
     auto words = tokens(std::string_view(reading.clean).substr(0, comment_start(reading.clean)));
     std::erase_if(words, is_mark);
-    if (words.empty() || (words.size() == 1 && is_page_number(words.front()))) return true;
+    if (words.empty() || is_page_number(words)) return true;
     if (is_ideographic(words.front())) return !reading.address;
     const WordShape first = shape_of(words.front());
     if (!first.word || !in_capitals_) return false;

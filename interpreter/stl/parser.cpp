@@ -1,6 +1,7 @@
 #include "interpreter/stl/parser.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -343,6 +344,45 @@ std::string describe(std::string_view rest) {
 
 constexpr std::string_view kStepsHint =
     "the preset of a timer is a number of its steps: 100 ms are 10 of a timer of 10 ms, 1 of one of 100 ms";
+
+/// Relations as other languages write them, and as STL does.
+struct WrittenRelation {
+  std::string_view written, relation;
+};
+constexpr std::array kWrittenRelations{WrittenRelation{"=>", ">="}, WrittenRelation{"=<", "<="}, WrittenRelation{"==", "="},
+                                       WrittenRelation{"!=", "<>"}, WrittenRelation{"><", "<>"}, WrittenRelation{">", ">"},
+                                       WrittenRelation{"<", "<"}};
+
+/// LDW, AB, OR and the like: what stands before the relation of a comparison.
+bool is_comparison_without_relation(std::string_view mnemonic) {
+  std::string word = upper_case(mnemonic);
+  if (word.starts_with("LD"))
+    word.erase(0, 2);
+  else if (word.starts_with('A') || word.starts_with('O'))
+    word.erase(0, 1);
+  else
+    return false;
+  constexpr std::array<std::string_view, 5> kTypes{"B", "W", "D", "R", "S"};
+  return std::ranges::find(kTypes, word) != kTypes.end();
+}
+
+/// The STL constant for `0x10`, `10h`, `&H10`, `$10`, `0b101` and `#5`; empty for anything else.
+std::string constant_here(std::string_view word) {
+  const std::string upper = upper_case(word);
+  const auto digits_after = [&](std::string_view mark, std::string_view digits) -> std::string {
+    if (!upper.starts_with(mark) || upper.size() == mark.size()) return {};
+    const std::string rest = upper.substr(mark.size());
+    return rest.find_first_not_of(digits) == rest.npos ? rest : std::string();
+  };
+  constexpr std::string_view kHex = "0123456789ABCDEF", kDecimal = "0123456789";
+  for (const std::string_view mark : {"0X", "&H", "$", "H'", "#16#"})
+    if (const std::string digits = digits_after(mark, kHex); !digits.empty()) return "16#" + digits;
+  if (const std::string digits = digits_after("0B", "01"); !digits.empty()) return "2#" + digits;
+  if (const std::string digits = digits_after("#", kDecimal); !digits.empty()) return digits;
+  const bool ends_with_h = upper.size() > 1 && upper.back() == 'H' && is_digit(upper.front()) &&
+                           upper.find_first_not_of(kHex) == upper.size() - 1;
+  return ends_with_h ? "16#" + upper.substr(0, upper.size() - 1) : std::string();
+}
 
 constexpr const char* kNetworkTakes = "NETWORK takes a number and nothing else";
 constexpr const char* kTitleOfNetwork = "a title is written as a comment: NETWORK 1 // title";
@@ -833,7 +873,8 @@ class LineReader {
 
   void report_unexpected(Place where, std::string expected) {
     if (report_heading() || report_time(where) || report_semicolon_comment(where) || report_assignment() ||
-        report_look_alike(where) || report_title_of_network(where) || report_second_statement(where))
+        report_look_alike(where) || report_foreign_constant(where) || report_comparison() || report_blank_in_address(where) ||
+        report_title_of_network(where) || report_second_statement(where))
       return;
     const std::string_view rest(where, static_cast<std::size_t>(end() - where));
     const bool at_start = text_.substr(0, text_.size() - rest.size()).find_first_not_of(" \t\f") == std::string_view::npos;
@@ -863,8 +904,16 @@ class LineReader {
   /// Reports `NETWORK 1 - Start`. Returns true after a message.
   bool report_title_of_network(Place where) {
     const auto words = split_words(text_);
-    if (words.size() < 3 || upper_case(words[0]) != "NETWORK" || !std::ranges::all_of(words[1], is_digit)) return false;
-    report(places_.position(where, 1), kNetworkTakes, kTitleOfNetwork, "titles of networks");
+    if (words.size() < 2 || upper_case(words[0]) != "NETWORK") return false;
+    const std::string_view number = std::string_view(words[1]).substr(0, words[1].size() - (words[1].ends_with(':') ? 1 : 0));
+    if (number.empty() || !std::ranges::all_of(number, is_digit)) return false;
+    if (words.size() > 3 && std::ranges::all_of(words[2], is_upper) && std::ranges::any_of(words[3], is_digit)) {
+      report(places_.position(where, 1), "two statements in one line", fmt::format("begin a new line with {}", words[2]));
+      return true;
+    }
+    if (words.size() == 2 && number.size() == words[1].size()) return false;
+    report(places_.position(where, 1), kNetworkTakes,
+           words.size() == 2 ? fmt::format("write NETWORK {}", number) : kTitleOfNetwork, "titles of networks");
     return true;
   }
 
@@ -908,6 +957,48 @@ class LineReader {
     return true;
   }
 
+  /// Reports `0x10`, `10h`, `$1F`, `#5`. Returns true after a message.
+  bool report_foreign_constant(Place where) {
+    std::string_view word = word_at(text_, static_cast<std::size_t>(where - begin()));
+    word = word.substr(0, word.find_last_not_of(",;") + 1);
+    const std::string meant = constant_here(word);
+    if (meant.empty()) return false;
+    report(position(Range(word.data(), word.data() + word.size())), fmt::format("{} is the constant of another language", word),
+           fmt::format("write {}", meant), "constants of other languages");
+    read_as_meant(word, meant);
+    return true;
+  }
+
+  /// Reports `LDW=> VW0, 5`, `LDW== VW0, 5` and `LDW >= VW0, 5`. Returns true after a message.
+  bool report_comparison() {
+    const std::string_view line = trim(text_.substr(0, comment_start(text_)));
+    const std::size_t letters = std::min(static_cast<std::size_t>(std::ranges::find_if_not(line, is_letter) - line.begin()), line.size());
+    const std::size_t sign = std::min(line.find_first_not_of(" \t", letters), line.size());
+    const std::size_t end = std::min(line.find_first_not_of("<>=!", sign), line.size());
+    const std::string_view mnemonic = line.substr(0, letters), written = line.substr(sign, end - sign);
+    const auto row = std::ranges::find(kWrittenRelations, written, &WrittenRelation::written);
+    const std::string_view relation = row == kWrittenRelations.end() ? written : row->relation;
+    const bool known = std::ranges::find(kWrittenRelations, relation, &WrittenRelation::relation) != kWrittenRelations.end();
+    const bool as_it_is = sign == letters && relation == written;
+    if (!is_comparison_without_relation(mnemonic) || !known || as_it_is || end == line.size()) return false;
+    report(position(Range(line.data(), line.data() + end)),
+           sign > letters ? "a comparison is one word" : fmt::format("there is no relation {}", written),
+           fmt::format("write {}{}", mnemonic, relation), "comparisons");
+    return true;
+  }
+
+  /// Reports `I0 .1`. Returns true after a message.
+  bool report_blank_in_address(Place where) {
+    const std::string_view before = std::string_view(begin(), static_cast<std::size_t>(where - begin()));
+    const std::string_view address = trim_end(before).substr(trim_end(before).find_last_of(" \t,") + 1);
+    const std::string_view bit = std::string_view(where, static_cast<std::size_t>(end() - where)).substr(0, 2);
+    if (address.size() == before.size() || address.data() + address.size() == where) return false;
+    if (bit.size() < 2 || bit[0] != '.' || !is_digit(bit[1]) || address.empty() || !is_digit(address.back())) return false;
+    report(position(Range(address.data(), bit.data() + bit.size())), "there is a blank in this address",
+           fmt::format("write {}{}", address, bit), "blanks in addresses");
+    return true;
+  }
+
   /// The line with another word, so that its other mistakes show in the same run.
   void read_as_meant(std::string_view word, std::string_view meant) {
     if (lines_.starts.size() > 1) return;
@@ -941,10 +1032,25 @@ class LineReader {
     if (!parse_beginning(at, end(), grammar::statement, second)) return false;
     const std::string_view mnemonic = view(second.mnemonic);
     if (before.ends_with(',') && is_letter(mnemonic.front())) return false;  // an operand
+    if (std::ranges::any_of(mnemonic, is_digit)) return false;
     if (second.operands.empty() && !(before.ends_with(';') && std::ranges::all_of(mnemonic, is_upper))) return false;
-    report(position(second.mnemonic), "two statements in one line",
-           fmt::format("begin a new line with {}", shortened(mnemonic)));
+    std::vector<std::string> later = mnemonics_in(before);
+    later.push_back(shortened(mnemonic));
+    report(position(second.mnemonic), several_statements(later), new_lines_with(later));
     return true;
+  }
+
+  /// What may be the mnemonics of further statements in a line: words in capitals between words with digits.
+  static std::vector<std::string> mnemonics_in(std::string_view line) {
+    constexpr std::size_t kLongest = 5;
+    const std::vector<std::string> words = split_words(line);
+    const auto has_digit = [](const std::string& word) { return std::ranges::any_of(word, is_digit); };
+    std::vector<std::string> found;
+    for (std::size_t i = 2; i + 1 < words.size(); ++i)
+      if (words[i].size() <= kLongest && std::ranges::all_of(words[i], [](char c) { return is_upper(c) || c == '='; }) &&
+          !words[i - 1].ends_with(',') && has_digit(words[i - 1]) && has_digit(words[i + 1]))
+        found.push_back(words[i]);
+    return found;
   }
 
   // A line full of wrong operands must not drown the other messages.
@@ -1065,6 +1171,16 @@ std::optional<std::string> parse_characters(std::string_view text, std::string& 
   if (bad.empty()) return bytes;
   why = fmt::format("{} is not allowed in a text; {}", describe(bad), kEscapes);
   return std::nullopt;
+}
+
+std::string several_statements(const std::vector<std::string>& later) {
+  return later.size() == 1 ? "two statements in one line" : fmt::format("{} statements in one line", later.size() + 1);
+}
+
+std::string new_lines_with(const std::vector<std::string>& later) {
+  const auto last = std::prev(later.end());
+  return later.size() == 1 ? "begin a new line with " + *last
+                           : fmt::format("begin new lines with {} and {}", fmt::join(later.begin(), last, ", "), *last);
 }
 
 std::optional<Operand> parse_operand(std::string_view text, std::string& why) {

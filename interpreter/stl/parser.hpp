@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/base/diagnostic.hpp"
 #include "interpreter/stl/ast.hpp"
@@ -27,6 +28,10 @@ inline constexpr const char* kGermanAddresses = "German addresses";
 ///   operands  : separated by commas, or by blanks or tabs
 ///   any case; CR LF, LF or CR line ends; blanks or tabs anywhere between tokens; K4, K-5 and KHFF as constants
 ParseResult parse(std::string_view text, std::string name);
+
+/// What is said of several statements in one line, of which `later` are the mnemonics of all but the first, and what to do.
+std::string several_statements(const std::vector<std::string>& later);
+std::string new_lines_with(const std::vector<std::string>& later);
 
 /// Reads a text that is one operand, with a German address as well. Returns nothing and sets `why` if it is not.
 std::optional<Operand> parse_operand(std::string_view text, std::string& why);

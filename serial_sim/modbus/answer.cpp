@@ -28,7 +28,7 @@ std::vector<std::uint16_t> words(Data bytes) {
 }
 
 std::string wrong_length(std::size_t expected, std::size_t found) {
-  return fmt::format("wrong length: {} data bytes, expected {}", found, expected);
+  return fmt::format("wrong length: {}, expected {}", counted(found, "data byte"), expected);
 }
 
 std::string not_repeated(Data answer) { return "does not repeat the request: " + to_hex(answer); }
@@ -64,7 +64,8 @@ const FunctionRow* row_of(std::span<const std::uint8_t> request) {
 std::string check_read(Data asked, Data answer, Shape shape, Answer& result) {
   const std::size_t count = load16(&asked[2]);
   const std::size_t bytes = shape == Shape::ReadBits ? (count + 7) / 8 : 2 * count;
-  if (answer.size() != 1 + bytes) return wrong_length(1 + bytes, answer.size());
+  if (answer.empty()) return "there is no byte count";
+  if (answer.size() != 1 + bytes) return wrong_length(bytes, answer.size() - 1);
   if (answer[0] != bytes) return fmt::format("wrong byte count: {}, expected {}", answer[0], bytes);
   if (shape == Shape::ReadRegisters) {
     result.values = words(answer.subspan(1));
@@ -301,7 +302,11 @@ Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::
   if (response.empty()) return answer;
   answer.verdict = Verdict::Wrong;
   const auto wrong = [&](std::string fault) {
-    answer.fault = std::move(fault) + (is_request(response) ? ": a request, so somebody else is a master, too" : "");
+    answer.fault = std::move(fault);
+    if (std::ranges::equal(request, response))
+      answer.fault += ": your own request has come back, an echo";
+    else if (is_request(response))
+      answer.fault += ": a request, so somebody else is a master, too";
     return answer;
   };
   if (response.size() < kAroundData) return wrong("too short for an answer: " + to_hex(response));

@@ -2935,6 +2935,15 @@ class Files(Case):
         self.assertIn("neither an address", self.ends(FAILED, "convert", EXPORTS / "pump.awl", "--to", "iec").stderr)
         self.ends(FINE, "convert", *self.PUMP, "--to", "iec")
 
+    def test_a_document_without_routine_ends_is_converted_for_a_cpu_22x(self):
+        text = "Hi all,\nI have this on a CPU 224 and it does not work:\n\nLD SM0.1\nMOVB 16#09, SMB30\nATCH INT_0, 8\nENI\n\nINT_0:\nLD SM0.0\nMOVB SMB2, VB100\n"
+        done = self.ends(FINE, "convert", self.program(text, "post.txt"), "--to", "iec")
+        self.assertIn("MOVB    SMB2, VB100", done.stdout)
+
+    def test_numbered_instructions_of_another_make_are_no_recording(self):
+        text = "0 LD X000\n1 OR Y000\n2 ANI X001\n3 OUT Y000\n4 LD M8002\n5 MOV K10 D0\n6 OUT T0 K50\n7 END\n"
+        self.assertIn("Mitsubishi", self.ends(FAILED, "check", self.program(text, "fx.txt")).stderr)
+
     def test_convert_keeps_names_among_blocks_and_writes_their_table(self):
         out, table = self.folder / "pump.awl", self.folder / "pump_symbols.txt"
         done = self.ends(FINE, "convert", *self.PUMP, "--to", "microwin", "-o", out)
@@ -3128,7 +3137,7 @@ class Files(Case):
         table = self.program("Speed\tVW20\n\"Pump 1\"\tQ0.3\n", "names.txt")
         done = self.ends(FINE, "run", SLAVE, table, "--scans", "1", "--set", "Speed=7", "--dump", "speed", "--dump", '"Pump 1"')
         self.assertRegex(done.stdout, r"VW20 .* 7\nQ0\.3 .* 0\n")
-        self.assertIn("'Spood' is not an address or a symbol of one",
+        self.assertIn("'Spood' is not an address or a symbol; did you mean Speed?",
                       self.ends(UNUSABLE, "run", SLAVE, table, "--set", "Spood=1").stderr)
 
     def test_a_byte_order_mark_is_no_part_of_a_text(self):

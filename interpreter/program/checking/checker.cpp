@@ -109,7 +109,7 @@ class Checker {
     const std::vector<std::string> near = symbols_like(written);
     return fmt::format("{} {} it{}; add it there, or write the address itself", fmt::join(tables, ", "),
                        tables.size() == 1 ? "does not have" : "do not have",
-                       near.empty() ? "" : fmt::format("; the nearest are {}", fmt::join(near, ", ")));
+                       near.empty() ? "" : fmt::format("; the nearest {} {}", near.size() == 1 ? "is" : "are", fmt::join(near, ", ")));
   }
 
   /// Symbols of the user that have a word in common with a name, the longest such word first.
@@ -215,9 +215,22 @@ class Checker {
   /// Reports what the parser could not read above a line of the source.
   void add_unread_lines(std::uint32_t above) {
     const auto end = unread_lines_.lower_bound(above);
-    for (auto line = unread_lines_.begin(); line != end; ++line)
-      add_unread(unread_.emplace_back(stl::Statement{{}, {*line, 1, 1}, {}, {}}));
+    for (auto line = unread_lines_.begin(); line != end; ++line) add_unread_line(*line);
     unread_lines_.erase(unread_lines_.begin(), end);
+  }
+
+  /// Of a line with a wrong operand the instruction is known, so that it hides no warnings of others.
+  void add_unread_line(std::uint32_t line) {
+    const auto words = line <= source_.text.size() ? stl::split_words(source_.text[line - 1]) : std::vector<std::string>{};
+    const std::string mnemonic = words.empty() ? std::string() : stl::upper_case(words.front());
+    const Instruction* const instruction = find_instruction(mnemonic);
+    const bool stays_in_line = instruction && instruction->structure == Structure::None;
+    const stl::Statement& statement =
+        unread_.emplace_back(stl::Statement{stays_in_line ? mnemonic : std::string(), {line, 1, 1}, {}, {}});
+    if (!stays_in_line) return add_unread(statement);
+    placed_.emplace_back();
+    mark_unread_operands(*instruction);
+    statements_.push_back({&statement, instruction, false, std::exchange(begins_network_, false)});
   }
 
   void mark_unread_operands(const Instruction& instruction) {
@@ -356,7 +369,7 @@ class Checker {
     if (is_missing_block(instruction, statement)) return false;
     const stl::Block* called = called_block(instruction, statement);
     if (given != taken && !called) {
-      if (is_two_statements(statement, taken)) return false;
+      if (is_two_statements(statement, taken) || has_blank_in_address(statement, taken)) return false;
       const stl::Position at = given > taken ? statement.operands[taken].position : statement.position;
       error(at, fmt::format("{} takes {}, not {}", instruction.mnemonic, counted(taken), given),
             fmt::format("write {}", syntax(instruction)));
@@ -376,6 +389,25 @@ class Checker {
     return good && blocks_fit(instruction, statement) && mode_fits(instruction, statement);
   }
 
+  /// `LD I 0.0`: the letters and the number of an address with a blank between them are two operands. True after a message.
+  bool has_blank_in_address(const stl::Statement& statement, std::size_t taken) {
+    if (statement.operands.size() <= taken) return false;
+    bool found = false;
+    for (std::size_t i = 0; i + 1 < statement.operands.size(); ++i) {
+      const stl::Position &letters = statement.operands[i].position, &number = statement.operands[i + 1].position;
+      const auto* name = std::get_if<stl::Name>(&statement.operands[i].value);
+      if (!name || written_at({letters.line, letters.column + letters.length, 1}) != " ") continue;
+      std::string why;
+      const std::string joined = name->text + written_at(number);
+      const auto operand = stl::parse_operand(joined, why);
+      if (!operand || !std::holds_alternative<stl::Address>(operand->value)) continue;
+      error({letters.line, letters.column, number.column + number.length - letters.column},
+            "there is a blank in this address", fmt::format("write {}", joined));
+      found = true;
+    }
+    return found;
+  }
+
   /// `LD I0.0 A I0.1`: after its operands, a statement has the mnemonic of another. True after a message.
   bool is_two_statements(const stl::Statement& statement, std::size_t taken) {
     const auto is_mnemonic = [](const stl::Operand& operand) {
@@ -385,8 +417,10 @@ class Checker {
     const auto begin = statement.operands.begin() + static_cast<std::ptrdiff_t>(std::min(taken, statement.operands.size()));
     const auto second = std::find_if(begin, statement.operands.end(), is_mnemonic);
     if (second == statement.operands.end()) return false;
-    error(second->position, "two statements in one line",
-          fmt::format("begin a new line with {}", std::get<stl::Name>(second->value).text));
+    std::vector<std::string> later;
+    for (auto each = second; each != statement.operands.end(); ++each)
+      if (is_mnemonic(*each)) later.push_back(std::get<stl::Name>(each->value).text);
+    error(second->position, stl::several_statements(later), stl::new_lines_with(later));
     return true;
   }
 

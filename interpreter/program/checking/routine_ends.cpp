@@ -50,10 +50,14 @@ void add_missing_ends(stl::Source& source) {
   source.lines = std::move(lines);
 }
 
-void add_missing_ends(stl::ParseResult& parsed) {
+void forget_missing_ends(stl::ParseResult& parsed) {
   if (std::ranges::none_of(parsed.source.lines, is_end))
     std::erase_if(parsed.diagnostics,
                   [](const stl::Diagnostic& diagnostic) { return diagnostic.cause.starts_with(stl::kMissingEnd); });
+}
+
+void add_missing_ends(stl::ParseResult& parsed) {
+  forget_missing_ends(parsed);
   add_missing_ends(parsed.source);
 }
 

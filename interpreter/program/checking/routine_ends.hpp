@@ -9,8 +9,10 @@ namespace s7200 {
 /// are written. An end is at the last statement of its routine.
 void add_missing_ends(stl::Source& source);
 
-/// Does so too, and takes back what the reader of a document reported of routines without end, if the document writes no
-/// ends at all.
+/// Takes back what the reader of a document reported of routines without end, if the document writes no ends at all.
+void forget_missing_ends(stl::ParseResult& parsed);
+
+/// Does both.
 void add_missing_ends(stl::ParseResult& parsed);
 
 }  // namespace s7200

@@ -4,7 +4,9 @@
 
 #include <bit>
 #include <utility>
+#include <vector>
 
+#include "interpreter/base/text/nearest.hpp"
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/program/operands/operands.hpp"
@@ -24,6 +26,19 @@ std::optional<stl::Address> find_address(std::string_view text, const AddressSpa
   if (const auto* address = symbol && symbol->value ? std::get_if<stl::Address>(&*symbol->value) : nullptr) return *address;
   const auto* address = operand ? std::get_if<stl::Address>(&operand->value) : nullptr;
   return address ? std::optional(*address) : std::nullopt;
+}
+
+/// Why a text names no memory, and what to write.
+std::string why_no_address(std::string_view text, const AddressSpace& space) {
+  const std::string shown = stl::shortened(text);
+  constexpr std::string_view kExamples = "write for example VB100, VW100:4, M31.7, AC0, VD20:real";
+  if (!space.symbols || space.symbols->empty()) return fmt::format("'{}' is not an address; {}", shown, kExamples);
+  if (stl::find_symbol(*space.symbols, text)) return fmt::format("'{}' is the symbol of a constant, not of memory", shown);
+  std::vector<std::string_view> names;
+  for (const stl::Symbol& symbol : *space.symbols) names.push_back(symbol.name);
+  const std::string_view meant = nearest(text, names);
+  return fmt::format("'{}' is not an address or a symbol; {}", shown,
+                     meant.empty() ? std::string(kExamples) : fmt::format("did you mean {}?", stl::printable(meant)));
 }
 
 /// `Pump` of `Pump:Q0.0`, with the address beside it; otherwise nothing.
@@ -89,8 +104,7 @@ std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace
   const auto address = find_address(text.substr(0, colon), space);
   const auto area = address ? area_named(address->area) : std::nullopt;
   if (!area || !names_width(*address, *area)) {
-    why = fmt::format("'{}' is not an address{}; write for example VB100, VW100:4, M31.7, AC0, VD20:real",
-                      stl::shortened(text), space.symbols && !space.symbols->empty() ? " or a symbol of one" : "");
+    why = why_no_address(text.substr(0, colon), space);
     return {};
   }
   MemoryRange range{*area, width_of(*address, *area).value_or(Width::Double), address->number, address->bit};

@@ -12,6 +12,7 @@
 
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/tables/symbols.hpp"
+#include "interpreter/stl/text/look_alikes.hpp"
 
 namespace s7200::stl {
 namespace {
@@ -386,6 +387,10 @@ class SymbolTableReader {
     if (address.text.empty()) return add_without_address(cells, line);
     std::string why;
     auto value = value_of(address.text, why);
+    if (!value && (value = as_meant(address, line))) {
+      result_.source.symbols.push_back({name.text, std::move(value), position(name, line), comment_of(cells, columns)});
+      return;
+    }
     if (!value)
       return error(position(address, line), why.empty() ? fmt::format("{} is not an address", shortened(address.text)) : why,
                    "a row of a symbol table is a name, an address or a constant, and perhaps a comment");
@@ -397,6 +402,21 @@ class SymbolTableReader {
       return error(position(name, line), fmt::format("{} is an address or a constant, not a name", shortened(name.text)),
                    "give the symbol a name of its own: in the program, this would always be the address or the constant");
     result_.source.symbols.push_back({name.text, std::move(value), position(name, line), comment_of(cells, columns)});
+  }
+
+  /// What a cell was meant for, after an error about the slip: `Q0.O`, `I0,1`. The symbol is known then.
+  std::optional<OperandValue> as_meant(const Cell& cell, std::string_view line) {
+    std::string meant(cell.text), wrong, why;
+    if (const auto look_alike = look_alike_operand(cell.text)) {
+      meant = look_alike->meant;
+      wrong = look_alike->wrong;
+    } else {
+      std::ranges::replace(meant, ',', '.');
+      wrong = "a comma before its bit";
+    }
+    auto value = meant == cell.text ? std::nullopt : value_of(meant, why);
+    if (value) error(position(cell, line), fmt::format("{} has {}", shortened(cell.text), wrong), fmt::format("write {}", meant));
+    return value;
   }
 
   /// The comment of a row. If no heading names its column, it begins after a type and goes on to the end.

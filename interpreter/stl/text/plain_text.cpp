@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -32,9 +33,11 @@ enum Change : std::uint32_t {
   kPercent = 1U << 9,
   kMargin = 1U << 10,
   kLineEnds = 1U << 11,
+  kQuotedLines = 1U << 12,
+  kTable = 1U << 13,
 };
 
-constexpr std::array<std::pair<Change, std::string_view>, 12> kChangeNames{{
+constexpr std::array<std::pair<Change, std::string_view>, 14> kChangeNames{{
     {kBlanks, "no-break and other Unicode blanks"},
     {kFullWidth, "full-width signs"},
     {kQuotes, "typographic quotes"},
@@ -45,8 +48,10 @@ constexpr std::array<std::pair<Change, std::string_view>, 12> kChangeNames{{
     {kMarkdown, "Markdown"},
     {kLineNumbers, "line numbers"},
     {kPercent, "% before addresses"},
-    {kMargin, "bullets, quotation marks and speakers in the margin"},
+    {kMargin, "marks in the margin"},
     {kLineEnds, "line ends of a word processor"},
+    {kQuotedLines, "quotes around each line"},
+    {kTable, "cells of a table"},
 }};
 
 // --- single characters ---
@@ -524,11 +529,11 @@ bool may_be_different(std::string_view line) {
   return has_line_end_of_word_processor(comment) || has_lines_in_comment(line);
 }
 
-/// Whether a line may be numbered, quoted, a row of a list or a heading.
+/// Whether a line may be numbered, quoted, a row of a list or of a table, or a heading.
 bool may_have_margin(std::string_view line) {
   const std::size_t from = line.find_first_not_of(" \t");
   if (from == std::string_view::npos) return false;
-  if (is_digit(line[from]) || std::string_view("[(>#").find(line[from]) != std::string_view::npos) return true;
+  if (is_digit(line[from]) || std::string_view("[(>#|\"'").find(line[from]) != std::string_view::npos) return true;
   const std::string_view next = line.substr(from + 1, 1);
   return (line[from] == '-' || line[from] == '*') && (next == " " || next == "\t" || next == "*");
 }
@@ -645,14 +650,20 @@ struct Row {
   std::vector<std::uint32_t> columns{};  // columns of the original, of each character and of the end; empty: the same
   std::uint32_t changes = 0;
 
-  void leave_out_beginning(std::size_t bytes, Change change) {
-    if (bytes == 0) return;
+  /// Puts `by` (ASCII) in place of some bytes; it has the column of the first of them.
+  void replace(std::size_t at, std::size_t bytes, std::string_view by, Change change) {
     if (columns.empty())
       for (std::uint32_t column = 1; column <= count_characters(text) + 1; ++column) columns.push_back(column);
-    const auto characters = count_characters(std::string_view(text).substr(0, bytes));
-    columns.erase(columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(characters));
-    text.erase(0, bytes);
+    const auto first = columns.begin() + static_cast<std::ptrdiff_t>(count_characters(std::string_view(text).substr(0, at)));
+    const auto characters = count_characters(std::string_view(text).substr(at, bytes));
+    const std::uint32_t column = *first;
+    columns.insert(columns.erase(first, first + static_cast<std::ptrdiff_t>(characters)), by.size(), column);
+    text.replace(at, bytes, by);
     changes |= change;
+  }
+
+  void leave_out_beginning(std::size_t bytes, Change change) {
+    if (bytes != 0) replace(0, bytes, "", change);
   }
 
   void leave_out(Change change) {
@@ -662,6 +673,70 @@ struct Row {
   }
 };
 
+// --- rows of a table ---
+
+/// The cells of `| LD | I0.0 |`, each without the stroke in front of it; none if it is no row of a table.
+std::vector<Part> cells_of(std::string_view line) {
+  const std::string_view code = trim(code_of(line));
+  if (!code.starts_with('|') || code.find('|', 1) == code.npos) return {};
+  std::vector<Part> cells;
+  const std::size_t begin = line.find('|');
+  for (std::size_t from = begin + 1; from < begin + code.size();) {
+    const std::size_t to = std::min(line.find('|', from), begin + code.size());
+    cells.push_back({from, to});
+    from = to + 1;
+  }
+  return cells;
+}
+
+/// Whether a row has a piece of ladder: `|--| |--( )--|`. A table has no wires but in its rules.
+bool is_drawn(std::string_view line) {
+  return line.find("--") != line.npos && line.find_first_not_of("|-+:= \t") != line.npos;
+}
+
+bool is_rule(std::string_view line) { return line.find_first_not_of("|-+:= \t") == line.npos && line.find('-') != line.npos; }
+
+bool is_one_operand(std::string_view cell) {
+  for (std::string_view rest = cell; !rest.empty();) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const std::string_view operand = trim(rest.substr(0, comma));
+    const bool number = operand.find_first_not_of("+-.0123456789") == operand.npos;
+    if (operand.empty() || operand.find_first_of(" \t") != operand.npos || (!number && !may_be_operand(operand))) return false;
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return !cell.empty();
+}
+
+/// `| Instruction | Operand | Comment |`: words in small letters where a mnemonic and an operand would stand.
+bool is_head_of_table(std::string_view line, const std::vector<Part>& cells) {
+  const auto cell = [&](std::size_t i) { return trim(line.substr(cells[i].from, cells[i].to - cells[i].from)); };
+  const auto is_word = [](std::string_view text) { return text.size() > 2 && std::ranges::any_of(text, is_lower); };
+  return cells.size() >= 2 && is_word(cell(0)) && is_word(cell(1)) && !is_one_operand(cell(1)) && !stands_without_mark(cell(0));
+}
+
+/// Makes a statement of a row: its number if it has one, the mnemonic, operands, and the rest as a comment.
+void read_cells(Row& row, const std::vector<Part>& cells) {
+  std::vector<std::string_view> separators;  // in front of each cell
+  enum { Number, Mnemonic, FirstOperand, Operand, Comment, Nothing } next = Number;
+  const std::string original = row.text;
+  for (const Part& part : cells) {
+    const std::string_view cell = trim(std::string_view(original).substr(part.from, part.to - part.from));
+    if (next == FirstOperand && cell.find_first_of(" \t") != cell.npos && !is_one_operand(cell)) next = Comment;
+    if (next == Operand && !is_one_operand(cell)) next = Comment;
+    separators.push_back(next == Operand ? "," : next == Comment && !cell.empty() ? "//" : " ");
+    if (next == Number && (cell.empty() || std::ranges::all_of(cell, is_digit)))
+      next = Mnemonic;
+    else if (next <= Mnemonic)
+      next = cell.find_first_of(" \t") == cell.npos ? FirstOperand : Comment;
+    else if (next == FirstOperand)
+      next = cell.empty() ? Comment : Operand;
+    else if (next == Comment && !cell.empty())
+      next = Nothing;
+  }
+  if (const std::size_t end = cells.back().to; original.substr(end, 1) == "|") row.replace(end, 1, " ", kTable);
+  for (std::size_t i = cells.size(); i-- > 0;) row.replace(cells[i].from - 1, 1, separators[i], kTable);
+}
+
 /// Changes that need all lines together. One step may uncover the next: `> 1. LD I0.0`, a fence in a quoted mail.
 class Page {
  public:
@@ -670,8 +745,8 @@ class Page {
   void run() {
     constexpr int kMostSteps = 6;
     for (int step = 0; step < kMostSteps; ++step)
-      if (!cut_out_fences() && !leave_out_speakers() && !leave_out_marks(quotation_mark) && !leave_out_numbers() &&
-          !leave_out_marks(list_mark))
+      if (!cut_out_fences() && !leave_out_speakers() && !leave_out_marks(quotation_mark) && !leave_out_cells() &&
+          !leave_out_quotes() && !leave_out_numbers() && !leave_out_marks(list_mark))
         return;
   }
 
@@ -743,6 +818,55 @@ class Page {
     std::vector<std::size_t> bytes;
     std::ranges::transform(rows, std::back_inserter(bytes), [mark](const Row& row) { return mark(row.text); });
     return leave_out_marked(bytes, kMargin);
+  }
+
+  /// Makes statements of the rows of a table, and leaves out its heads and rules. A table of symbols stays one: of its first
+  /// words each is a name, and no two are the same.
+  bool leave_out_cells() {
+    std::vector<Row> read = rows;
+    std::set<std::string> first_words;
+    bool of_symbols = true;
+    std::size_t in_table = 0, statements = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::vector<Part> cells = cells_of(rows[i].text);
+      if (cells.empty()) continue;
+      if (is_drawn(rows[i].text)) return false;
+      if (is_rule(rows[i].text) || is_head_of_table(rows[i].text, cells)) {
+        read[i].leave_out(kTable);
+        continue;
+      }
+      read_cells(read[i], cells);
+      ++in_table;
+      if (!looks_like_statement(read[i].text)) continue;
+      ++statements;
+      const std::string word = split_words(read[i].text).front();
+      of_symbols = of_symbols && is_letter(word.front()) && first_words.insert(word).second;
+    }
+    if (of_symbols || 3 * statements < in_table) return false;
+    rows = std::move(read);
+    return true;
+  }
+
+  /// Leaves out quotes around each line, with a comma behind them, too, as in the text of another program: `"LD I0.0",`
+  bool leave_out_quotes() {
+    std::vector<Row> read = rows;
+    std::size_t quoted = 0, statements = 0;
+    for (Row& row : read) {
+      const std::string_view code = trim(row.text);
+      if (stands_without_mark(code)) continue;
+      const std::size_t from = static_cast<std::size_t>(code.data() - row.text.data());
+      const std::size_t to = code.find(code.front(), 1);
+      if ((code.front() != '"' && code.front() != '\'') || to == code.npos) return false;
+      const std::string_view after = trim(code.substr(to + 1));
+      if (!after.empty() && after != "," && after != ";") return false;
+      row.replace(from + to, code.size() - to, "", kQuotedLines);
+      row.replace(from, 1, "", kQuotedLines);
+      ++quoted;
+      statements += looks_like_statement(row.text) ? 1U : 0U;
+    }
+    if (quoted < 2 || 3 * statements < quoted) return false;
+    rows = std::move(read);
+    return true;
   }
 
   /// Leaves out line numbers that rise; below a heading they may begin anew.

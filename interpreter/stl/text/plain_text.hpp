@@ -2,8 +2,8 @@
 //
 // Read as what they stand for: no-break and other Unicode blanks, full-width signs, typographic quotes, dashes and signs,
 // HTML tags and entities; left out: characters that nobody sees, Markdown fences and what is around them, line numbers,
-// bullets, the > of quoted mail, the times and names of a chat, text around lines with these, the % before an address. All of this may come together, in any
-// order. Comments and quoted text stay as they are.
+// bullets, the > of quoted mail, the times and names of a chat, strokes and rules of tables, quotes around each line, text around
+// lines with these, the % before an address. All of this may come together, in any order. Comments and quoted text stay as they are.
 #pragma once
 
 #include <cstdint>

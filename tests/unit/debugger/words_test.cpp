@@ -31,7 +31,7 @@ TEST(Words, AVariableOfABlockIsItsLocalMemoryWhereTheProgramStands) {
   EXPECT_TRUE(has(session.out.str(), "7"));
   EXPECT_TRUE(has(session("print #ratio"), "1.5"));
   EXPECT_EQ(session.error_of("expect #raw = 7 and #result = 7"), "no error");
-  EXPECT_TRUE(has(session.error_of("print #row"), "#row is not a variable of SBR 0, where it stands; did you mean #raw?"));
+  EXPECT_TRUE(has(session.error_of("print #row"), "#row is no variable of SBR 0, which is executed now; did you mean #raw?"));
 }
 
 TEST(Words, AConditionOfABreakpointKnowsTheVariablesOfItsPlace) {
@@ -93,7 +93,7 @@ TEST(Words, ContinueSaysThatItStandsWithinAScanAndGoesToItsEnd) {
   session("continue 20ms");
   bool within = false;
   for (int i = 0; i < 20 && !within; ++i)
-    within = session("continue 1001us").find("; it stands within a scan, to whose end 'continue 1.001 ms scan' would go") !=
+    within = session("continue 1001us").find("; it stands within a scan; 'continue 1.001 ms scan' goes on to the end of it") !=
              std::string::npos;
   EXPECT_TRUE(within) << session.out.str();
   const auto scans = session.state().scans;

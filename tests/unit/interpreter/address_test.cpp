@@ -120,7 +120,7 @@ TEST(Address, ASymbolOfTheProgramStandsForItsAddress) {
   EXPECT_EQ(parse_range("Speed:VW20", *program, why)->name_of(0), "VW20");
   EXPECT_EQ(parse_assignment("Speed:VW20=3", *program, why)->value, 3U);
   EXPECT_FALSE(parse_range("Limit", *program, why));
-  EXPECT_EQ(why, "'Limit' is not an address or a symbol of one; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
+  EXPECT_EQ(why, "'Limit' is the symbol of a constant, not of memory");
   EXPECT_FALSE(parse_range("Speed", cpu214(), why));
 }
 

@@ -163,7 +163,7 @@ TEST(PlainText, TextAroundNumberedOrQuotedLinesIsLeftOut) {
   EXPECT_EQ(program("From the forum:\n1. LD I0.0\n2. = Q0.0\n\nThanks, Jim\n"), program("\nLD I0.0\n= Q0.0\n\n\n"));
   EXPECT_EQ(program("Jim wrote:\n> LD I0.0\n> = Q0.0\n"), program("\nLD I0.0\n= Q0.0\n"));
   EXPECT_EQ(note("Jim wrote:\n> LD I0.0\n> = Q0.0\n"),
-            "page.txt: read as plain text: bullets, quotation marks and speakers in the margin; the first in line 2; left "
+            "page.txt: read as plain text: marks in the margin; the first in line 2; left "
             "out around "
             "the program: line 1");
 }
@@ -323,7 +323,7 @@ TEST(PlainText, TheTimesAndNamesOfAChatAreLeftOutWithWhatIsNoStatement) {
     EXPECT_EQ(without_blank_lines(program(chat)), expected) << chat;
   EXPECT_EQ(
       note("14:02 <hans> LD I0.0\n14:02 <jo> hm\n14:02 <hans> = Q0.0\n"),
-      "page.txt: read as plain text: bullets, quotation marks and speakers in the margin; the first in line 1; left out "
+      "page.txt: read as plain text: marks in the margin; the first in line 1; left out "
       "around the program: line 2");
 }
 
@@ -360,6 +360,86 @@ TEST(PlainText, AQuotedMailMayHaveHeadsAndAGreeting) {
                               "> NETWORK 1\n> LD I0.0\n> = Q0.0\n")
                              .parsed.source),
             program);
+}
+
+TEST(PlainText, RowsOfATableAreStatements) {
+  EXPECT_EQ(program("|NETWORK|1||\n|LD|I0.0|start|\n|MOVW|100|VW0|\n|LPS|||\n|A|I0.1||\n|=|Q0.0|\n"),
+            program("NETWORK 1\nLD I0.0 //start\nMOVW 100, VW0\nLPS\nA I0.1\n= Q0.0\n"));
+  EXPECT_EQ(program("| No | Instruction | Operand | Comment |\n|---:|---|---|---|\n| 1 | LD | Start_Button | the button |\n| 2 | MOVB | 1, VB0 |  |\n"),
+            program("LD Start_Button // the button\nMOVB 1, VB0\n"));
+  EXPECT_EQ(program("| Instruction | Operand |\n|---|---|\n| LD | I0.0 |\n| = | Q0.0 |\n"), program("LD I0.0\n= Q0.0\n"));
+  EXPECT_EQ(program("| LD I0.0 | start |\n| = Q0.0 // lamp |\n"), program("LD I0.0 // start\n= Q0.0 // lamp |\n"));
+  EXPECT_EQ(note("|LD|I0.0|\n|=|Q0.0|\n"), "page.txt: read as plain text: cells of a table; the first in line 1");
+  EXPECT_NE(diagnostics(checked("|LD|I0.0|\n|LD|I0.1|\n|MOVW|VB0|VW2|\n")).find("page.txt:3:"), std::string::npos);
+}
+
+TEST(PlainText, ATableOfSymbolsIsNoTableOfStatements) {
+  const auto source = read("| Name | Address |\n|---|---|\n| Pump | Q0.0 |\n| Start | I0.0 |\n").parsed.source;
+  ASSERT_EQ(source.symbols.size(), 2U);
+  EXPECT_EQ(source.symbols[0].name, "Pump");
+}
+
+TEST(PlainText, QuotesAroundEachLineAreLeftOut) {
+  EXPECT_EQ(program("“NETWORK 1”\n“LD I0.0”\n“= Q0.0”\n"), program("NETWORK 1\nLD I0.0\n= Q0.0\n"));
+  EXPECT_EQ(program("\"LD I0.0\",\n\"= Q0.0\"\n"), program("LD I0.0\n= Q0.0\n"));
+  EXPECT_EQ(program("'LD I0.0';\n\n'= Q0.0';\n"), program("LD I0.0\n\n= Q0.0\n"));
+  EXPECT_EQ(note("“LD I0.0”\n“= Q0.0”\n"),
+            "page.txt: read as plain text: typographic quotes, quotes around each line; the first in line 1");
+}
+
+TEST(Listing, APageNumberBetweenStatementsIsNoStatement) {
+  for (const char* page : {"Page 2 of 3", "Seite 2 von 3", "Page 2", "2/3"})
+    EXPECT_EQ(program("NETWORK 1\nLD I0.0\n" + std::string(page) + "\n= Q0.0\nNETWORK 2\nLD I0.1\n= Q0.1\n"),
+              program("NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\nLD I0.1\n= Q0.1\n"))
+        << page;
+}
+
+/// The only error in a listing of these lines, and its hint.
+std::string only_error(const std::string& lines) {
+  const CheckResult result = checked("NETWORK 1\n" + lines);
+  std::string found;
+  for (const stl::Diagnostic& d : result.diagnostics)
+    if (d.severity == stl::Severity::Error) found += (found.empty() ? "" : "\n") + d.message + ": " + d.hint;
+  return found;
+}
+
+TEST(Hints, StatementsInOneLineAreAllNamed) {
+  EXPECT_EQ(only_error("LD I0.0 A I0.1 O I0.2 = Q0.0\n"), "4 statements in one line: begin new lines with A, O and =");
+  EXPECT_EQ(only_error("LD I0.0 A I0.1\n= Q0.0\n"), "two statements in one line: begin a new line with A");
+  const CheckResult result = checked("NETWORK 1 LD I0.0\n= Q0.0\n");
+  EXPECT_NE(diagnostics(result).find("two statements in one line"), std::string::npos);
+  EXPECT_NE(diagnostics(result).find("begin a new line with LD"), std::string::npos);
+}
+
+TEST(Hints, ABlankInAnAddressIsNamed) {
+  EXPECT_EQ(only_error("LD I 0.0\n= Q0.0\n"), "there is a blank in this address: write I0.0");
+  EXPECT_EQ(only_error("LD I0 .0\n= Q0.0\n"), "there is a blank in this address: write I0.0");
+  EXPECT_EQ(only_error("LD I0.0\nMOVW VW 0, VW2\n"), "there is a blank in this address: write VW0");
+}
+
+TEST(Hints, ConstantsAndComparisonsOfOtherLanguagesGetThoseOfThisOne) {
+  EXPECT_EQ(only_error("LD I0.0\nMOVW 0x10, VW2\n"), "0x10 is the constant of another language: write 16#10");
+  EXPECT_EQ(only_error("LD I0.0\nMOVW 10h, VW2\n"), "10h is the constant of another language: write 16#10");
+  EXPECT_EQ(only_error("LD I0.0\nMOVB $1F, VB2\n"), "$1F is the constant of another language: write 16#1F");
+  EXPECT_EQ(only_error("LD I0.0\nMOVW #5, VW2\n"), "#5 is the constant of another language: write 5");
+  EXPECT_EQ(only_error("LDW=> VW0, 5\n= Q0.0\n"), "there is no relation =>: write LDW>=");
+  EXPECT_EQ(only_error("LDW== VW0, 5\n= Q0.0\n"), "there is no relation ==: write LDW=");
+  EXPECT_EQ(only_error("LDW >= VW0, 5\n= Q0.0\n"), "a comparison is one word: write LDW>=");
+}
+
+TEST(Hints, AWrongOperandHidesNoWarningOfAnotherNetwork) {
+  const std::string program = "NETWORK 1\nLD SM0.1\nMOVB 9, SMB30\nRCV VB100, 0\nXMT VB100, 0\nNETWORK 2\nLD I0.8\n= Q0.0\n";
+  const std::string said = diagnostics(checked(program));
+  EXPECT_NE(said.find("the bits of a byte are 0 to 7"), std::string::npos) << said;
+  EXPECT_NE(said.find("[receive-once]"), std::string::npos) << said;
+}
+
+TEST(Hints, ASlipInASymbolTableIsTheOnlyError) {
+  auto table = read("Symbol\tAddress\nMotor\tQ0.O\nStop_PB\tI0,1\nLamp\tQ0.1\n");
+  const std::string said = stl::render(table.parsed.diagnostics, table.parsed.source, false);
+  EXPECT_NE(said.find("Q0.O has the letter O in place of the digit 0"), std::string::npos) << said;
+  EXPECT_NE(said.find("I0,1 has a comma before its bit"), std::string::npos) << said;
+  EXPECT_EQ(table.parsed.source.symbols.size(), 3U);
 }
 
 }  // namespace

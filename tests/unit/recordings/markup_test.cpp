@@ -52,6 +52,19 @@ TEST(Markup, ADrawnTableIsRead) {
       " 10:00:00.100 | TX  | 01 03 00 0A 00 02 E4 09\n 10:00:00.140 | RX  | 01 03 04 12 34 56 78 81 07\n(2 rows)\n");
 }
 
+TEST(Markup, ColumnsAreWhereARuleOfDashesHasThem) {
+  const std::string head =
+      "Phase - IN, OUT\n\nDevice  Length  Phase  Data                      Description  Date        Time\n"
+      "------  ------  -----  ------------------------  -----------  ----------  ------------\n";
+  expect_the_conversation(head +
+                          "  26.2       8  OUT    01 03 00 0a  00 02 e4 09  ........     03/25/2010  10:00:00.100\n"
+                          "  26.1       9  IN     01 03 04 12  34 56 78 81  ...4Vx.      03/25/2010  10:00:00.140\n"
+                          "                       07                        .\n");
+  expect_the_conversation(
+      "time          dir  bytes\n------------  ---  -----\n10:00:00.100  TX   01 03 00 0A 00 02 E4 09\n"
+      "10:00:00.140  RX   01 03 04 12 34 56 78 81 07\n");
+}
+
 TEST(Markup, LinesOfADrawnTableKeepTheirNumbers) {
   std::string why;
   const auto recording = read_recording("|time|dir|data|\n|--|--|--|\n|10:00:00|TX|01 03 00 0A 00 02 E4 09|\n", {}, why);

@@ -368,6 +368,7 @@ TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
       {"steps:\n  - {wait: 1ms, frob: 1}\n", 2, 17, "'frob' has no place beside 'wait'"},
       {"steps:\n  - {wait: 1ms, count: 1}\n", 2, 17, "'count' has no place beside 'wait'"},
       {"steps:\n  - {expect: silence}\n", 2, 6, "a step that does nothing"},
+      {"steps:\n  - input: {I0.0: 1}\n", 2, 5, "there is no step 'input'"},
       {"steps:\n  - {wait: 1ms, mode: run}\n", 2, 17, "'wait' and 'mode' in one step"},
       {"steps:\n  - wait\n", 2, 5, "a step is a map, not 'wait'"},
       {"steps:\n  - wait: 5\n", 2, 11, "'5' is not a duration"},

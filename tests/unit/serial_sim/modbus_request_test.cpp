@@ -105,14 +105,19 @@ TEST(ModbusAnswer, WhatIsWrongWithIt) {
   EXPECT_EQ(describe(request, hex("01 03 02 12 34 00 00")), "wrong CRC");
   EXPECT_EQ(said("01 03 00 0a 00 01", "02 03 02 12 34"), "answer of station 2, not 1");
   EXPECT_EQ(said("01 03 00 0a 00 01", "01 04 02 12 34"), "answer to function 4, not 3");
-  EXPECT_EQ(said("01 03 00 0a 00 02", "01 03 02 12 34"), "wrong length: 3 data bytes, expected 5");
+  EXPECT_EQ(said("01 03 00 0a 00 02", "01 03 02 12 34"), "wrong length: 2 data bytes, expected 4");
   EXPECT_EQ(said("01 03 00 0a 00 01", "01 03 04 12 34"), "wrong byte count: 4, expected 2");
   EXPECT_EQ(said("01 06 00 03 12 34", "01 06 00 03 12 35"), "does not repeat the request: 00 03 12 35");
 }
 
+TEST(ModbusAnswer, AnEchoIsCalledOne) {
+  EXPECT_EQ(said("01 03 00 00 00 01", "01 03 00 00 00 01"),
+            "wrong length: 3 data bytes, expected 2: your own request has come back, an echo");
+}
+
 TEST(ModbusAnswer, ARequestIsCalledOne) {
   constexpr const char* kAsks = ": a request, so somebody else is a master, too";
-  EXPECT_EQ(said("01 03 00 0a 00 02", "01 03 00 00 00 0a"), std::string("wrong length: 4 data bytes, expected 5") + kAsks);
+  EXPECT_EQ(said("01 03 00 0a 00 02", "01 03 00 00 00 0a"), std::string("wrong length: 3 data bytes, expected 4") + kAsks);
   EXPECT_EQ(said("01 03 00 0a 00 02", "02 04 00 00 00 0a"), std::string("answer of station 2, not 1") + kAsks);
   EXPECT_EQ(said("01 03 00 0a 00 02", "01 10 00 00 00 01 02 12 34"), std::string("answer to function 16, not 3") + kAsks);
   EXPECT_EQ(said("02 03 00 0a 00 02", "01 06 00 00 00 0a"), "answer of station 1, not 2") << "its answer repeats it";
@@ -280,7 +285,7 @@ TEST(ModbusAnswer, WhatIsWrongWithDiagnosisAndFiles) {
   EXPECT_EQ(said("01 07", "01 07 6d 00"), "wrong length: 2 data bytes, expected 1");
   EXPECT_EQ(said("01 08 00 00 12 34", "01 08 00 00 12 35"), "does not repeat the request: 00 00 12 35");
   EXPECT_EQ(said("01 08 00 00 12 34", "01 08 00 01 12 34"), "answer to subfunction 1, not 0");
-  EXPECT_EQ(said("01 08 00 00 12 34", "01 08 00"), "wrong length: 1 data bytes, expected 4");
+  EXPECT_EQ(said("01 08 00 00 12 34", "01 08 00"), "wrong length: 1 data byte, expected 4");
   EXPECT_EQ(said("01 08 00 0b 00 00", "01 08 00 0b 00"), "wrong length: 3 data bytes, expected 4");
   EXPECT_EQ(said("01 08 00 04 00 00", "01 08 00 04 00 00"), "this subfunction is never answered");
   EXPECT_EQ(said("01 11", "01 11 03 15 ff"), "wrong byte count: 3, expected 2");

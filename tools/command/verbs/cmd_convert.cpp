@@ -4,6 +4,7 @@
 
 #include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/program/checking/routine_ends.hpp"
 #include "interpreter/program/loading/convert.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/reading/convert_output.hpp"
@@ -32,6 +33,7 @@ int run_convert(const ConvertOptions& options) {
   const CpuModel* const model = options.program.model_for(*source, options.program.path);
   if (!model) return kUnusable;
   if (!is_right_for(*model, *source)) return print_error("nothing was written"), kCheckFailed;
+  if (model->self & kCpu22x) forget_missing_ends(source->parsed);
   const Notation notation = *notation_named(options.notation);
   const auto text = convert(source->parsed, notation);
   if (!text) {

@@ -87,7 +87,7 @@ Columns columns_of(std::string_view line) {
         columns.unit = *unit;
       else if (names[i].find_first_of("[(") != std::string::npos)
         columns.unknown_unit = names[i];
-    } else if (!columns.direction && contains(names[i], {"DIR", "SIDE", "CHANNEL", "PORT", "NAME"})) {
+    } else if (!columns.direction && contains(names[i], {"DIR", "SIDE", "CHANNEL", "PORT", "NAME", "PHASE"})) {
       columns.direction = i;
     } else if (!columns.data && is_name_of_data(names[i])) {
       columns.data = i;
@@ -118,6 +118,12 @@ bool says_error(std::string_view field) {
   return std::ranges::find(kNone, stl::upper_case(stl::trim(field))) == kNone.end();
 }
 
+/// What a cell says of the direction. IN and OUT are those of USB, as its host has them; sentences have such words, too.
+Direction direction_in_cell(std::string_view cell) {
+  const std::string word = stl::upper_case(stl::trim(cell));
+  return word == "OUT" ? Direction::Request : word == "IN" ? Direction::Answer : direction_of(cell);
+}
+
 /// What the cells of a column are in the first rows below the names.
 struct Cells {
   std::size_t filled = 0, with_direction = 0, with_bytes = 0, bytes = 0, marked = 0;
@@ -125,7 +131,7 @@ struct Cells {
   void take(std::string_view cell) {
     if (cell.empty()) return;
     ++filled;
-    with_direction += direction_of(cell) != Direction::Unknown;
+    with_direction += direction_in_cell(cell) != Direction::Unknown;
     const auto read = bytes_of_text(cell);
     with_bytes += read.has_value();
     bytes += read ? read->size() : 0;
@@ -276,7 +282,7 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
       return {};
     }
     RecordedFrame frame{.at = time ? std::optional(days.since_first_midnight(*time)) : std::nullopt,
-                        .direction = !columns.sent ? direction_of(field(columns.direction))
+                        .direction = !columns.sent ? direction_in_cell(field(columns.direction))
                                      : is_received ? Direction::Answer
                                                    : Direction::Request,
                         .bytes = std::move(*data),

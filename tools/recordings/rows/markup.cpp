@@ -1,10 +1,12 @@
 #include "tools/recordings/rows/markup.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <vector>
 
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
@@ -235,6 +237,86 @@ WithoutMarkup without_rules(std::string_view text) {
   return plain;
 }
 
+// --- tables whose columns are ruled with dashes below their names: `------  -----  ----` ---
+
+/// Where columns begin, by a rule of at least three; none if the line is no such rule.
+std::vector<std::size_t> ruled_columns(std::string_view line) {
+  constexpr std::size_t kFewest = 3;
+  std::vector<std::size_t> begins;
+  if (line.find_first_not_of("- \t\r") != std::string_view::npos || line.find("--") == std::string_view::npos) return begins;
+  for (std::size_t at = line.find('-'); at != std::string_view::npos; at = line.find('-', line.find_first_of(" \t\r", at)))
+    begins.push_back(at);
+  return begins.size() >= kFewest ? begins : std::vector<std::size_t>{};
+}
+
+/// Reads such a table: cells are where the rule has their columns, a row without its first cell goes on with that above it.
+class RuledTable {
+ public:
+  /// The table with bars between its cells, and lines of the same numbers; nothing if the text has none.
+  static std::optional<WithoutMarkup> read(std::string_view text) {
+    RuledTable table;
+    std::string_view names;
+    for (const std::string_view line : Lines(text)) {
+      if (table.begins_.empty()) {
+        table.begins_ = ruled_columns(line);
+        if (table.begins_.empty())
+          table.lines_.emplace_back();
+        else
+          table.take_names(names);
+        names = line;
+      } else {
+        table.take(line);
+      }
+    }
+    if (table.begins_.empty()) return {};
+    return WithoutMarkup{.text = fmt::format("{}", fmt::join(table.lines_, "\n"))};
+  }
+
+ private:
+  std::vector<std::string> cells_of(std::string_view line) const {
+    std::vector<std::string> cells;
+    for (std::size_t i = 0; i < begins_.size(); ++i) {
+      const std::size_t begin = std::min(begins_[i], line.size());
+      const std::size_t end = i + 1 < begins_.size() ? std::min(begins_[i + 1], line.size()) : line.size();
+      cells.emplace_back(stl::trim(line.substr(begin, end - begin)));
+      std::ranges::replace(cells.back(), '|', '.');
+    }
+    return cells;
+  }
+
+  void take_names(std::string_view names) {
+    if (!lines_.empty()) lines_.back() = fmt::format("{}", fmt::join(cells_of(names), "|"));
+    lines_.emplace_back();
+  }
+
+  void take(std::string_view line) {
+    std::vector<std::string> cells = cells_of(line);
+    lines_.emplace_back();
+    if (stl::trim(line).empty()) return;
+    if (!cells[0].empty() || row_.empty()) {
+      row_ = std::move(cells);
+      place_ = lines_.size() - 1;
+    } else {
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        if (!cells[i].empty()) row_[i] += (row_[i].empty() ? "" : " ") + cells[i];
+    }
+    lines_[place_] = fmt::format("{}", fmt::join(row_, "|"));
+  }
+
+  std::vector<std::size_t> begins_{};
+  std::vector<std::string> lines_{}, row_{};
+  std::size_t place_ = 0;
+};
+
+bool has_ruled_columns(std::string_view text) {
+  bool after_names = false;
+  for (const std::string_view line : Lines(beginning_of(text))) {
+    if (after_names && !ruled_columns(line).empty()) return true;
+    after_names = !stl::trim(line).empty();
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<WithoutMarkup> without_markup(std::string_view text) {
@@ -244,6 +326,7 @@ std::optional<WithoutMarkup> without_markup(std::string_view text) {
     plain = {.text = PageText(text).take(),
              .note = "the tags of the page are left out: lines are numbered as they are without them"};
   const std::string_view so_far = plain ? std::string_view(plain->text) : text;
+  if (!plain && has_ruled_columns(text)) return RuledTable::read(text);
   if (!has_drawn_table(so_far)) return plain;
   WithoutMarkup rows = without_rules(so_far);
   if (plain) rows.note = std::move(plain->note);

@@ -48,7 +48,7 @@ std::string no_variable_text(std::string_view name, const std::string& routine, 
   const std::string there = names.empty()   ? "it has none"
                             : meant.empty() ? fmt::format("it has {}", fmt::join(names, ", "))
                                             : fmt::format("did you mean {}?", meant);
-  return fmt::format("{} is not a variable of {}, where it stands; {}", stl::shortened(name), routine,
+  return fmt::format("{} is no variable of {}, which is executed now; {}", stl::shortened(name), routine,
                      stl::printable(there));
 }
 

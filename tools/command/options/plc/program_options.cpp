@@ -13,6 +13,7 @@
 #include "interpreter/model/times/named_times.hpp"
 #include "interpreter/program/loading/dialect.hpp"
 #include "interpreter/program/loading/load_times.hpp"
+#include "interpreter/stl/text/plain_text.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/choices.hpp"
 #include "tools/command/options/help_groups.hpp"
@@ -239,7 +240,8 @@ std::optional<SourceText> read_program_text(const std::string& path, bool force_
   if (!bytes) return {};
   auto text = read_source(*bytes, name, why, force_document);
   const bool program =
-      text && (text->kind == SourceKind::Blocks || has_statements(*text) || begins_as_step7(*bytes) || other_dialect(*bytes));
+      text && (text->kind == SourceKind::Blocks || has_statements(*text) || begins_as_step7(*bytes) ||
+               other_dialect(stl::PlainText(*bytes).text()));
   if (const std::string form = program ? std::string() : form_of_recording(*bytes, text); !form.empty()) {
     print_error(
         fmt::format("cannot read {0}: it is a recording of a line ({1}), not a program: s7200 decode {0}", name, form));

@@ -85,7 +85,7 @@ std::string within_scan_text(const Session& session, const RunTo& run) {
   const State& state = session.cpu().state();
   const bool is_within = run.of_all && session.simulation().plc().executes() && standing_at(state).value_or(0) != 0;
   if (!is_within) return {};
-  return fmt::format("; it stands within a scan, to whose end 'continue {} scan' would go", format_duration(run.limit));
+  return fmt::format("; it stands within a scan; 'continue {} scan' goes on to the end of it", format_duration(run.limit));
 }
 
 void report_cpu_stop(Session& session) {
