@@ -198,11 +198,21 @@ class PacketFrames {
     }
     if (segment.data.empty()) return;
     const auto ahead = static_cast<std::int32_t>(segment.sequence - stream.next.value_or(segment.sequence));
+    const Bytes& server = asks ? segment.to : segment.from;
     if (ahead > 0) lose(stream, place, "segments before it are missing");
     const auto sent_again = static_cast<std::size_t>(std::max<std::int64_t>(0, -std::int64_t{ahead}));
     if (sent_again >= segment.data.size()) return;
     stream.next = segment.sequence + static_cast<std::uint32_t>(segment.data.size());
     Data data = segment.data.subspan(sent_again);
+    const bool may_begin = !tcp_servers_.contains(server) && (stream.out_of_step || stream.reader.pending() == 0);
+    if (rtu_servers_.contains(server) || (may_begin && is_rtu(data))) {
+      rtu_servers_.insert(server);
+      recording_.is_log = of_rtu_ = true;  // its times are those of TCP, which divides and joins frames as it likes
+      return recording_.frames.push_back({.at = at,
+                                          .direction = asks ? Direction::Request : Direction::Answer,
+                                          .bytes = Bytes(data.begin(), data.end()),
+                                          .place = place});
+    }
     if (stream.out_of_step) {
       const auto begin = first_message_in(data);
       if (!begin) return;
@@ -210,21 +220,16 @@ class PacketFrames {
       stream.reader = {};
       stream.out_of_step = false;
     }
-    if (stream.reader.pending() == 0 && is_rtu(data)) {
-      recording_.is_log = of_rtu_ = true;  // its times are those of TCP
-      return recording_.frames.push_back({.at = at,
-                                          .direction = asks ? Direction::Request : Direction::Answer,
-                                          .bytes = Bytes(data.begin(), data.end()),
-                                          .place = place});
-    }
     stream.reader.take(data);
-    while (const auto message = stream.reader.next())
+    while (const auto message = stream.reader.next()) {
+      tcp_servers_.insert(server);
       add({.at = at,
            .direction = asks ? Direction::Request : Direction::Answer,
            .bytes = modbus::rtu_frame(message->unit, message->pdu),
            .place = place,
            .stream = stream.connection,
            .exchange = modbus::exchange_of(*message)});
+    }
     if (!stream.reader.error().empty()) lose(stream, place, stream.reader.error());
   }
 
@@ -255,6 +260,8 @@ class PacketFrames {
   std::map<std::uint32_t, std::size_t> last_;         // frame of each connection
   std::map<std::string, Losses> losses_;              // by their reason
   std::map<std::uint16_t, std::size_t> other_ports_;  // packets of each that is not the one chosen
+  std::set<Bytes> rtu_servers_,
+      tcp_servers_;  // addresses with ports whose streams carry Modbus RTU, or messages with a head
   bool of_rtu_ = false;
   std::uint32_t connections_ = 0;
   std::size_t others_ = 0, broken_ = 0;
