@@ -1,8 +1,10 @@
 // What `sigrok-cli -A uart` prints: `uart-1: 01`, with --protocol-decoder-samplenum `1104-1938 uart-1: 01`, in any of the
-// decoder's formats. It does not say whether a character was RX or TX, and counts samples, not time.
+// decoder's formats. Without classes, `uart-1: rx-data: 01`, it does not say whether a character was RX or TX; it counts
+// samples, not time.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,20 +24,49 @@ struct Annotation {
   std::size_t number = 0;               ///< of its line
   std::optional<std::int64_t> begin{};  ///< sample
   std::string_view text{};
+  Direction direction = Direction::Unknown;  ///< by its class
+  bool is_of_bits = false;                   ///< its class is one of parts of a character
 };
+
+constexpr std::size_t kMostDigits = 18;
+
+/// The head of an annotation: `1104-1938 uart-1: `
+struct AnnotationHead {
+  std::string_view first{}, decoder{};
+  std::size_t length = 0;
+};
+std::optional<AnnotationHead> annotation_head(std::string_view line) {
+  Scan scan(line);
+  AnnotationHead head{.first = scan.take_digits(kMostDigits)};
+  const bool has_samples =
+      !head.first.empty() && scan.take("-") != '\0' && !scan.take_digits(kMostDigits).empty() && scan.take(" ") != '\0';
+  if (!head.first.empty() && !has_samples) return {};
+  head.decoder = scan.take_while(is_word_sign);
+  if (head.decoder.empty() || scan.take("-") == '\0' || scan.take_digits(kMostDigits).empty() || !scan.take_word(": "))
+    return {};
+  head.length = scan.at();
+  return head;
+}
+
+/// Takes the class off the text: `rx-data: 01`, `tx-start: Start bit`.
+void take_class(Annotation& annotation) {
+  Scan scan(annotation.text);
+  const bool rx = scan.take_word("rx-"), tx = !rx && scan.take_word("tx-");
+  const std::string_view name = scan.take_while([](char c) { return stl::is_letter(c) || c == '-'; });
+  if ((!rx && !tx) || name.empty() || !scan.take_word(": ")) return;
+  annotation.direction = rx ? Direction::Answer : Direction::Request;
+  annotation.is_of_bits = name != "data" && name != "warning" && name != "warnings" && name != "break";
+  annotation.text.remove_prefix(scan.at());
+}
 
 /// The annotation in a line; nothing if it is not one of the decoder `uart`.
 std::optional<Annotation> annotation_of(std::string_view line) {
-  constexpr std::size_t kMostDigits = 18;
-  Scan scan(line);
-  const std::string_view first = scan.take_digits(kMostDigits);
-  const bool has_samples =
-      !first.empty() && scan.take("-") != '\0' && !scan.take_digits(kMostDigits).empty() && scan.take(" ") != '\0';
-  if (!first.empty() && !has_samples) return {};
-  if (!scan.take_word("uart-") || scan.take_digits(kMostDigits).empty() || !scan.take_word(": ")) return {};
-  const std::string_view written = line.substr(scan.at());
+  const auto head = annotation_head(line);
+  if (!head || head->decoder != "uart") return {};
+  const std::string_view written = line.substr(head->length);
   Annotation annotation{.text = written == " " ? written : stl::trim(written)};  // a blank may be a character
-  if (has_samples) annotation.begin = decimal_number(first);
+  if (!head->first.empty()) annotation.begin = decimal_number(head->first);
+  take_class(annotation);
   if (annotation.text.size() > 2 && annotation.text.starts_with('"') && annotation.text.ends_with('"'))
     annotation.text = annotation.text.substr(1, annotation.text.size() - 2);  // sigrok-cli -l 3
   return annotation;
@@ -79,10 +110,12 @@ class Frames {
 
   void add(const Character& character, const Bytes& bytes) {
     const auto begin = character.annotation.begin;
-    RecordedFrame row{.bytes = bytes, .place = fmt::format("line {}", character.annotation.number)};
+    const Direction direction = character.annotation.direction;
+    RecordedFrame row{.direction = direction, .bytes = bytes, .place = fmt::format("line {}", character.annotation.number)};
     if (character.damaged) row.damaged = {0};
     if (begin && choices_.samplerate != 0) row.at = time_of(*begin);
-    const bool ends = begin && last_ && *begin - *last_ > kSilence * pitch_;
+    const bool ends = (begin && last_ && *begin - *last_ > kSilence * pitch_) || direction != direction_;
+    direction_ = direction;
     last_ = begin;
     if (choices_.samplerate == 0 && !ends && !recording.frames.empty()) {
       RecordedFrame& frame = recording.frames.back();
@@ -116,17 +149,37 @@ class Frames {
   const ReadingChoices& choices_;
   std::int64_t pitch_ = std::numeric_limits<std::int64_t>::max() / kSilence;
   std::optional<std::int64_t> last_;
+  Direction direction_ = Direction::Unknown;
 };
+
+/// The decoder that annotations are of that are none of characters; empty if there are characters, or no annotations.
+std::string_view other_decoder(std::string_view bytes) {
+  constexpr std::array<std::string_view, 6> kDecoders{"modbus", "midi", "lin", "can", "spi", "i2c"};
+  std::string_view other;
+  for (const std::string_view line : Lines(beginning_of(bytes))) {
+    const auto head = annotation_head(line);
+    if (head && head->decoder == "uart") return "";
+    const bool is_known = head && (!head->first.empty() || std::ranges::find(kDecoders, head->decoder) != kDecoders.end());
+    if (is_known && other.empty()) other = head->decoder;
+  }
+  return other;
+}
 
 }  // namespace
 
 bool looks_like_sigrok_annotations(std::string_view bytes) {
-  return is_text(bytes) && std::ranges::any_of(Lines(beginning_of(bytes)),
-                                               [](std::string_view line) { return annotation_of(line).has_value(); });
+  return is_text(bytes) && (std::ranges::any_of(Lines(beginning_of(bytes)),
+                                                [](std::string_view line) { return annotation_of(line).has_value(); }) ||
+                            !other_decoder(bytes).empty());
 }
 
 std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, const ReadingChoices& choices,
                                                      std::string& why) {
+  if (const std::string_view other = other_decoder(bytes); !other.empty()) {
+    why = fmt::format("it is what sigrok's decoder {} says, without the characters; print them with sigrok-cli -A uart",
+                      other);
+    return {};
+  }
   const bool bits = has_bits(bytes);
   std::vector<Character> characters;
   LeftOut left_out;
@@ -139,7 +192,7 @@ std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, con
       if (!stl::trim(line).empty()) left_out.without_bytes(number);
     } else if (is_damage(annotation->text)) {
       if (!characters.empty()) characters.back().damaged = true;
-    } else if (!is_of_the_frame(annotation->text) && !(bits && is_bit(annotation->text))) {
+    } else if (!annotation->is_of_bits && !is_of_the_frame(annotation->text) && !(bits && is_bit(annotation->text))) {
       annotation->number = number;
       finder.take(annotation->text, number);
       characters.push_back({.annotation = *annotation});
@@ -150,6 +203,9 @@ std::optional<LineRecording> read_sigrok_annotations(std::string_view bytes, con
   Frames frames(choices);
   frames.measure(characters);
   for (const Character& character : characters) frames.add(character, *notation->read(character.annotation.text));
+  const auto is_sent = [](const RecordedFrame& frame) { return frame.direction == Direction::Request; };
+  if (std::ranges::none_of(frames.recording.frames, is_sent))  // of one wire, whoever speaks on it
+    for (RecordedFrame& frame : frames.recording.frames) frame.direction = Direction::Unknown;
   frames.finish();
   left_out.tell(frames.recording);
   return std::move(frames.recording);
