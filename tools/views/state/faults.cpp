@@ -62,6 +62,21 @@ bool still_cuts(const Faults::Injected& injected, Time now) {
   return fault.lasts == kNever || (fault.from && now - injected.at < *fault.from + fault.lasts);
 }
 
+/// Why an answer was not changed. The length of one is known if a program of the simulator sends it.
+std::string_view why_answer_stays(serial::Misbehaviour misbehaviour) {
+  using serial::Misbehaviour;
+  switch (misbehaviour) {
+    case Misbehaviour::Stale:
+      return "there was no earlier answer to repeat";
+    case Misbehaviour::Nothing:
+    case Misbehaviour::Silent:
+    case Misbehaviour::Twice:
+      return "it was not known how long the answer is";
+    default:
+      return "the answer was too short, or of unknown length";
+  }
+}
+
 }  // namespace
 
 std::string fault_kinds_text() {
@@ -91,9 +106,8 @@ std::vector<std::string> fault_notes(const Faults& faults, const StationName& st
     std::string& note = notes.emplace_back(note_of(injected, injected.count, station));
     if (injected.impossible != 0)
       note += fmt::format(", and {}× {}", injected.impossible,
-                          injected.fault.kind == serial::FaultKind::Answer
-                              ? "the answer was too short for it, or there was none before, or its length was not known"
-                              : "the format of the character had no such bit");
+                          injected.fault.kind == serial::FaultKind::Answer ? why_answer_stays(injected.fault.misbehaviour)
+                                                                           : "the format of the character had no such bit");
   }
   return notes;
 }
