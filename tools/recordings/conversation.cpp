@@ -251,15 +251,23 @@ ReadFrame Conversation::read(Stream& stream, RecordedFrame frame, bool echo) {
 std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) {
   Stream& stream = stream_of(frame);
   std::vector<ReadFrame> all;
-  std::size_t begin = 0;
+  std::size_t begin = 0, heard = 0;
+  // A log has the time when it got the row. An echo in it was on the line while the request was sent.
+  const bool is_row = !stamps_.exact && !stamps_.at_end && frame.times.empty() && frame.at;
+  const auto part = [&](std::size_t from, std::size_t to) {
+    RecordedFrame cut = part_of(frame, from, to, stamps_);
+    if (is_row) *cut.at -= static_cast<Time>(heard) * stamps_.character;
+    return cut;
+  };
   while (begin < frame.bytes.size()) {
     const OpenRequest* open = stream.request_of(frame);
     const auto [length, echo] = first_message(stream, frame, begin, open != nullptr ? &open->frame : nullptr);
     if (length == 0) break;
-    all.push_back(read(stream, part_of(frame, begin, begin + length, stamps_), echo));
+    all.push_back(read(stream, part(begin, begin + length), echo));
     begin += length;
+    heard += echo ? length : 0;
   }
-  if (begin > 0) frame = part_of(frame, begin, frame.bytes.size(), stamps_);
+  if (begin > 0) frame = part(begin, frame.bytes.size());
   return all;
 }
 

@@ -139,21 +139,27 @@ bool has_crc_turned_round(Data bytes) {
   return modbus::crc_ok(turned);
 }
 
-/// The nature of a frame whose CRC is wrong, if it can be told; else empty.
-std::string what_it_is_instead(Data bytes, const RecordedFrame* open) {
+/// The nature of a frame whose CRC is wrong, if it can be told; else empty. What is marked as an answer is called no
+/// request, nor is the reverse done.
+std::string what_it_is_instead(const RecordedFrame& frame, const RecordedFrame* open) {
+  const Data bytes(frame.bytes);
   if (is_ppi(bytes)) return "a frame of PPI, not of Modbus RTU";
   if (is_modbus_tcp(bytes)) return "a message of Modbus TCP, not of Modbus RTU: it has a head and no CRC";
   const Bytes completed = with_crc(bytes);
-  if (open != nullptr && fits(modbus::check_answer(open->bytes, completed))) return "an answer without its CRC";
-  if (bytes.size() >= 2 && modbus::find_function(bytes[1]) != nullptr && has_length_of_request(completed) &&
-      modbus::extent_of_request(completed) == modbus::Extent::Whole)
+  const bool may_be_answer = open != nullptr && frame.direction != Direction::Request && open->bytes != frame.bytes;
+  if (may_be_answer && fits(modbus::check_answer(open->bytes, completed))) return "an answer without its CRC";
+  const std::size_t whole = may_be_answer ? modbus::length_of_answer(open->bytes, bytes) : 0;
+  if (frame.direction == Direction::Answer && bytes.size() < whole)
+    return fmt::format("an answer that is cut off: {} of {} bytes", bytes.size(), whole);
+  if (frame.direction != Direction::Answer && bytes.size() >= 2 && modbus::find_function(bytes[1]) != nullptr &&
+      has_length_of_request(completed) && modbus::extent_of_request(completed) == modbus::Extent::Whole)
     return "a request without its CRC";
   if (has_crc_turned_round(bytes)) return "its CRC has the high byte first: Modbus RTU sends the low byte first";
   return {};
 }
 
-std::string no_message(Data bytes, const RecordedFrame* open) {
-  const std::string instead = what_it_is_instead(bytes, open);
+std::string no_message(const RecordedFrame& frame, const RecordedFrame* open) {
+  const std::string instead = what_it_is_instead(frame, open);
   return instead.empty() ? "wrong CRC, or not a whole frame" : instead;
 }
 
@@ -184,10 +190,10 @@ std::string modbus_text(const RecordedFrame& frame, const RecordedFrame* open, c
   const Data bytes(frame.bytes);
   const bool crc = read.right || (bytes.size() >= kShortestRtu && modbus::crc_ok(bytes));
   if (read.direction == Direction::Answer) {
-    const std::string instead = crc ? "" : what_it_is_instead(bytes, open);
+    const std::string instead = crc ? "" : what_it_is_instead(frame, open);
     return instead.empty() ? modbus::describe(open->bytes, bytes, modbus::Numbering::Notation) : instead;
   }
-  if (!crc) return no_message(bytes, open);
+  if (!crc) return no_message(frame, open);
   if (read.direction == Direction::Unknown) return "an answer without its request";
   return read.right ? modbus_request_text(frame) : "no request: it does not have the length of its function";
 }
