@@ -544,7 +544,7 @@ class Verbs(Case):
         self.assertEqual([frame["kind"] for frame in decoded["frames"]], ["request", "answer", "request", "unread"])
         self.assertEqual([decoded["summary"][key] for key in ("answered", "wrong", "not_read", "possible_answers_not_read")], [1, 0, 1, 1])
         shown = self.ends(FINE, "decode", log)
-        self.assertIn("line 4: left out: '1?' beside its bytes is not understood", shown.stderr)
+        self.assertIn("line 4: left out: cannot tell what '1?' next to its bytes means", shown.stderr)
         self.assertIn("line 2: 'ok' beside the bytes: not read, as the bytes are a right frame without it", shown.stderr)
         self.assertIn("rows not read: 1 (1 may be the answer to a request)", shown.stdout)
         done = self.ends(FINE, "import-capture", log)
@@ -808,7 +808,7 @@ class Verbs(Case):
         self.assertEqual((done["form"], [done["summary"][key] for key in ("requests", "answered", "wrong", "strays")]), ("mbpoll", [1, 1, 0, 0]))
         brief = self.program("mbpoll 1.0-0\n-- Polling slave 1...\n[1]: \t4660\n", "brief.log")
         for verb in ("decode", "import-capture"):
-            self.assertIn("no frame in it; mbpoll prints frames only with its option -v", self.ends(UNUSABLE, verb, brief).stderr)
+            self.assertIn("no frames found; mbpoll prints frames only with its option -v", self.ends(UNUSABLE, verb, brief).stderr)
 
     def test_a_recording_in_another_protocol_is_named(self):
         log = self.program("10 02 00 49 4B 16\n10 00 02 00 02 16\n10 02 00 5C 5E 16\nE5\n", "ppi.log")

@@ -36,6 +36,10 @@ std::optional<LineRecording> read_pymodbus(std::string_view bytes, const Reading
 bool looks_like_character_log(std::string_view bytes);
 std::optional<LineRecording> read_character_log(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
+/// Recognises a dump by its rows alone, whose offsets go on from 0: xxd, hexdump, od.
+bool looks_like_dump(std::string_view bytes);
+std::optional<LineRecording> read_dump(std::string_view bytes, const ReadingChoices& choices, std::string& why);
+
 std::optional<LineRecording> read_text_log(std::string_view bytes, const ReadingChoices& choices, std::string& why);
 
 /// Turns frames of a log that are messages of Modbus TCP, with their heads, into frames of a serial line; then a note says

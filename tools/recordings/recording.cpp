@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/loading/dialect.hpp"
@@ -66,6 +65,8 @@ constexpr std::array kForms{
                   looks_like_python_bytes, read_python_bytes},
     RecordingForm{"characters", "text logs with the characters themselves: ?W<CR><LF>, \"?W\\r\\n\"", true,
                   looks_like_character_log, read_character_log},
+    RecordingForm{"dump", "dumps of recorded bytes: xxd, hexdump, od with -t x1, x2, o1, o2; without times", true,
+                  looks_like_dump, read_dump},
     RecordingForm{"text", "text logs with a frame or a character in each line", true, is_text, read_text_log},
 };
 
@@ -81,14 +82,53 @@ void note_times_that_run_backwards(LineRecording& recording) {
   }
 }
 
-/// Logs that Windows programs write as UTF-16, with its mark, as UTF-8; any other file as it is.
-/// `decoded` keeps what is converted.
+/// The mark of UTF-16 that a file lacks: every other byte of ASCII in it is 00. Empty: it lacks none.
+std::string_view missing_mark(std::string_view file) {
+  constexpr std::size_t kFewest = 4;
+  const std::string_view beginning = beginning_of(file);
+  if (beginning.size() < 2 * kFewest || beginning.find('\0') > 1) return "";
+  std::array<std::size_t, 2> zeros{};
+  for (std::size_t i = 0; i < beginning.size(); ++i) zeros[i % 2] += beginning[i] == '\0';
+  const std::size_t most = beginning.size() / 2 - beginning.size() / 20;
+  if (zeros[0] == 0 && zeros[1] >= most) return "\xFF\xFE";
+  return zeros[1] == 0 && zeros[0] >= most ? "\xFE\xFF" : "";
+}
+
+/// Logs that Windows programs write as UTF-16, with its mark or without, or in an encoding with two bytes for a sign, as
+/// UTF-8; any other file as it is: its bytes may be recorded characters. `decoded` keeps what is converted.
 std::string_view in_utf8(std::string_view file, std::string& decoded) {
+  const std::string_view mark = missing_mark(file);
   const bool marked = file.starts_with("\xFF\xFE") || file.starts_with("\xFE\xFF");
+  const std::string_view beginning = beginning_of(file);
   std::string why;
-  auto text = marked ? stl::decode(file, why) : std::nullopt;
+  std::optional<stl::DecodedText> text;
+  if (!mark.empty())
+    text = stl::decode(std::string(mark).append(file), why);
+  else if (marked)
+    text = stl::decode(file, why);
+  else if (const auto guess = stl::is_valid_utf8(beginning) ? std::nullopt : stl::decode(beginning, why);
+           guess && (guess->encoding == "GBK" || guess->encoding == "Shift-JIS") && !looks_like_character_log(file))
+    text = stl::decode(file, why);
   if (!text) return stl::without_byte_order_mark(file);
   return decoded = std::move(text->text);
+}
+
+/// Whether signs beyond ASCII stand in words. One by itself is a damaged character.
+bool has_words_beyond_ascii(std::string_view text) {
+  const auto is_beyond = [](char c) { return (c & 0x80) != 0; };
+  const auto is_of_word = [&](char c) { return stl::is_letter(c) || is_beyond(c); };
+  return std::ranges::adjacent_find(text, [&](char a, char b) {
+           return (is_beyond(a) && is_of_word(b)) || (is_of_word(a) && is_beyond(b));
+         }) != text.end();
+}
+
+/// A text log in UTF-8, whatever its encoding. `decoded` keeps what is converted.
+std::string_view log_in_utf8(std::string_view bytes, std::string& decoded) {
+  std::string why;
+  const std::string_view beginning = beginning_of(bytes);
+  if (stl::is_valid_utf8(beginning) || !has_words_beyond_ascii(beginning)) return bytes;
+  auto text = stl::decode(bytes, why);
+  return text ? decoded = std::move(text->text) : bytes;
 }
 
 constexpr std::string_view kIsProgram = "it is a program in STL, not a recording; s7200 check reads it, s7200 run runs it";
@@ -164,11 +204,14 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   if (plain) bytes = plain->text;
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
-    why = fmt::format("it has none of the forms {}", stl::joined(kForms, &RecordingForm::name));
+    why = "it is binary, and not a capture that decode knows; for recorded bytes alone, decode what xxd prints of it";
     return {};
   }
+  if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos) return why = "the file is empty", std::nullopt;
   const auto other = std::ranges::find_if(kOtherTexts, [&](const OtherText& each) { return each.is_it(bytes); });
   if (form->looks_like == is_text && other != kOtherTexts.end()) return why = other->why, std::nullopt;
+  std::string in_other_encoding;
+  if (form->looks_like == is_text) bytes = log_in_utf8(bytes, in_other_encoding);
   auto recording = form->read(bytes, choices, why);
   if (!recording) return {};
   recording->form = form->name;
@@ -185,7 +228,7 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   const bool one_value_each =  // `10:00:00,21,35` below `time,temp,pressure`
       std::ranges::all_of(recording->frames, [](const RecordedFrame& frame) { return frame.bytes.size() <= 1; });
   if (without_bytes || (table && one_value_each)) {
-    why = table ? "no column found for the bytes: name it Hex" : "no frame in it";
+    why = table ? "no column found for the bytes: name it Hex" : "no frames found";
     for (const std::string& note : recording->notes) why += "; " + note;
     return {};
   }

@@ -377,13 +377,13 @@ TEST(Forms, WhatIsNoBase64IsNotReadAsSuch) {
 
 TEST(Forms, JsonThatIsNotReadHasItsReason) {
   EXPECT_EQ(refusal_of("{\"time\":1e400,\"dir\":\"tx\",\"data\":\"0b03\"}\n"),
-            "no frame in it; line 1: left out: its number 1e400 is too large");
+            "no frames found; line 1: left out: its number 1e400 is too large");
   EXPECT_EQ(refusal_of("{\"time\":1,\"data\":\"0b03\",\"x\":" + std::string(100, '[') + std::string(100, ']') + "}\n"),
-            "no frame in it; line 1: left out: it is JSON of more than 16 maps and lists inside each other");
+            "no frames found; line 1: left out: it is JSON of more than 16 maps and lists inside each other");
   EXPECT_EQ(refusal_of("[{\"time\":1,\"value\":1234},\n{\"time\":2,\"value\":5678}]\n"),
-            "no frame in it; line 1: left out, and 1 more: no bytes in it");
+            "no frames found; line 1: left out, and 1 more: no bytes in it");
   EXPECT_EQ(refusal_of("{\"time\":1,\"data\":\"0b03\"\n"),
-            "no frame in it; line 1: left out: '{\"time\":1,\"data\":\"0b03\"' is not understood");
+            "no frames found; line 1: left out: '{\"time\":1,\"data\":\"0b03\"' is not understood");
 }
 
 TEST(Forms, DeepJsonIsNotUnderstood) {
@@ -567,7 +567,7 @@ TEST(Forms, AFollowedStreamIsReadAsWiresharkSavesIt) {
                    "      AAEAAAAHAQMEEjRWeA==\n"),
       "followed", 25 * ms);
   EXPECT_EQ(refusal_of(head + "  - packet: 4\n    peer: 0\n    data: !!binary |\n  - packet: 5\n    peer: 1\n"),
-            "no frame in it; line 9: left out: no bytes in it; line 12: left out: no bytes in it");
+            "no frames found; line 9: left out: no bytes in it; line 12: left out: no bytes in it");
   EXPECT_EQ(refusal_of(head + "  - packet: 4\n    peer: 0\n    data: !!binary |\n      A*E\n"),
             "line 9: its bytes are not base64");
 }
@@ -1095,7 +1095,7 @@ TEST(OtherNotations, ACharacterInEachRowMayBeInDecimalAndHex) {
 
 TEST(OtherNotations, DumpsWithoutCharactersGoOnByTheirOffsets) {
   expect_the_conversation(
-      recording_of("00000000  01 03 00 0a 00 02 e4 09\n00000008  01 03 04 12 34 56 78 81\n00000010  07\n"), "text", {});
+      recording_of("00000000  01 03 00 0a 00 02 e4 09\n00000008  01 03 04 12 34 56 78 81\n00000010  07\n"), "dump", {});
 }
 
 TEST(OtherNotations, PuttysPacketsHaveADirectionAndATimeInTheHeadingAboveThem) {

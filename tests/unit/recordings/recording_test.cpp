@@ -11,7 +11,6 @@
 #include <tuple>
 
 #include "interpreter/base/ppi_frame.hpp"
-#include "interpreter/base/text/joined.hpp"
 #include "interpreter/model/s7_pdu.hpp"
 #include "serial_sim/modbus/mbap.hpp"
 #include "serial_sim/modbus/request.hpp"
@@ -114,7 +113,7 @@ TEST(Recordings, TheLengthBelowADumpWhoseRowsAreAllLeftOutIsOfNoFrame) {
   const std::string full = "00000000  01 03 00 00 00 01 84 0a 01 03 00 00 00 01 84 0a\n";
   for (const std::string& rows :
        {std::string("00000000  01 03 0? 00\n"), full + "00000030  01 03\n", full + "00000010  01 0?\n00000020  01 03\n"})
-    EXPECT_TRUE(refusal_of(rows + "00000004\n").starts_with("no frame in it")) << rows;
+    EXPECT_TRUE(refusal_of(rows + "00000004\n").starts_with("no frames found")) << rows;
 }
 
 TEST(Recordings, WhatALineRepeatsManyTimesIsReadAllTheSame) {
@@ -165,7 +164,7 @@ TEST(Recordings, OnlyWhatMbpollPrintsInBracketsIsAFrame) {
   EXPECT_EQ(log.frames[1].bytes, kAnswer);
   EXPECT_EQ(
       refusal_of("mbpoll 1.0-0\n-- Polling slave 1...\n[1]: \t4369\n"),
-      "no frame in it; mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it "
+      "no frames found; mbpoll prints frames only with its option -v; writes and 32-bit values are not rebuilt from what it "
       "prints without");
 }
 
@@ -228,7 +227,7 @@ TEST(Recordings, OfALineWhoseBytesAreInDoubtNoPartIsRead) {
         Case{"0.030 RX 01 03 02 12 34 B5 33 3", "3"}, Case{"0.030 RX :010300C80002 45", ":010300C80002"},
         Case{"0.030 RX 01 03 02 0x123 34 B5 33", "0x123"}})
     EXPECT_EQ(refusal_of(line),
-              fmt::format("no frame in it; line 1: left out: '{}' beside its bytes is not understood", what));
+              fmt::format("no frames found; line 1: left out: cannot tell what '{}' next to its bytes means", what));
 }
 
 TEST(Recordings, ALineMayBeVeryLong) {
@@ -237,7 +236,7 @@ TEST(Recordings, ALineMayBeVeryLong) {
   EXPECT_EQ(recording_of("0.000 TX 01 " + pairs + " ; x\n").frames.size(), 1U);
   const RecordedFrame doubtful = recording_of("0.000 TX 01 " + pairs + "; x\n").frames.at(0);
   ASSERT_TRUE(doubtful.doubt);
-  EXPECT_EQ(doubtful.doubt->why, "'x' beside its bytes is not understood");
+  EXPECT_EQ(doubtful.doubt->why, "cannot tell what 'x' next to its bytes means");
 }
 
 TEST(Recordings, TheOffsetBeforeARowIsNoDataAndAFrameWithADoubtfulRowIsLeftOut) {
@@ -291,7 +290,7 @@ TEST(Recordings, TheOffsetsOfADumpAreNoData) {
   EXPECT_EQ(rows.frames[0].bytes.size(), 18U);
   EXPECT_EQ(rows.frames[0].bytes.back(), 0x11);
   EXPECT_EQ(refusal_of("00000040  01 03 00 00 00 01 84 0a\n"),
-            "no frame in it; line 1: left out: '00000040' beside its bytes is not understood")
+            "no frames found; line 1: left out: cannot tell what '00000040' next to its bytes means")
       << "what stands above it is missing";
 }
 
@@ -415,11 +414,11 @@ TEST(Recordings, ARequestOnASerialLineThatLooksLikeTheHeadOfModbusTcpIsNone) {
 
 TEST(Recordings, TimesThatAreNotUnderstoodOrRunBackwardsAreNoted) {
   EXPECT_EQ(recording_of("Mon 12:00 TX 01 03 00 00 00 01 84 0A\n").notes,
-            std::vector<std::string>{"line 1: read without its time: the form of that is not understood"});
+            std::vector<std::string>{"line 1: read without a time: cannot read '12:00' as one"});
   EXPECT_EQ(recording_of("10:15:01:103 TX 01 03 00 00 00 01 84 0A\n10:15:01:128 RX 01 03 02 12 34 B5 33\n"
                          "TX at 10:15 01 03 00 00 00 01 84 0A\nRX at 10:15 01 03 02 12 34 B5 33\n")
                 .notes,
-            std::vector<std::string>{"line 3: read without its time, and 1 more: the form of that is not understood"});
+            std::vector<std::string>{"line 3: read without a time, and 1 more: cannot read '10:15' as one"});
   const LineRecording log = recording_of(
       "10:00:00.000 > 01 03 00 00 00 01 84 0A\n10:00:00.025 < 01 03 02 12 34 B5 33\n"
       "10:00:00.020 > 01 03 00 00 00 01 84 0A\n");
@@ -434,7 +433,7 @@ TEST(Recordings, BlocksOfStep7AreNoBytes) {
   for (const char* const text : {"Hallo,\nbitte in DB 10 nachsehen.\n", "Der Wert steht in DB10 und FC 22\n",
                                  "CALL FB 10, DB 11\n", "siehe (DB 10)\n"})
     EXPECT_EQ(refusal_of(text),
-              "no frame in it; line 1: left out" + std::string(text[0] == 'H' ? ", and 1 more" : "") + ": no bytes in it")
+              "no frames found; line 1: left out" + std::string(text[0] == 'H' ? ", and 1 more" : "") + ": no bytes in it")
         << text;
   EXPECT_EQ(recording_of("TX DB 10\nRX FB 10\n").frames.at(1).bytes, (Bytes{0xFB, 0x10})) << "beside a direction";
 }
@@ -649,10 +648,10 @@ TEST(Recordings, WhatMbpollReadIsMadeOfTheValuesThatItPrints) {
                 .bytes,
             modbus::rtu_frame(1, Bytes{0x83, 2}));
   EXPECT_TRUE(refusal_of(printed_by_mbpoll(holding, "Read output (holding) register failed: Invalid CRC\n"))
-                  .starts_with("no frame in it"))
+                  .starts_with("no frames found"))
       << "what came instead is not said";
   EXPECT_TRUE(refusal_of(printed_by_mbpoll("32-bit float, output (holding) register table", "[1]: \t1.5\n"))
-                  .starts_with("no frame in it"));
+                  .starts_with("no frames found"));
 }
 
 std::string printed_by_mbpoll_of(int reference) {
@@ -903,7 +902,7 @@ TEST(Recordings, ModbusTcpIsFoundBelowTheHeadsOfManyLinks) {
 TEST(Recordings, ACaptureWithoutTheChosenPortNamesTheOneThatItHas) {
   std::string why;
   EXPECT_FALSE(read_recording(capture_with_head(101, {}, 5020), {}, why));
-  EXPECT_EQ(why, "no frame in it; 2 packets not of TCP port 502 were left out; most have port 5020: --tcp-port 5020");
+  EXPECT_EQ(why, "no frames found; 2 packets not of TCP port 502 were left out; most have port 5020: --tcp-port 5020");
   EXPECT_TRUE(read_recording(capture_with_head(101, {}, 5020), {.tcp_port = 5020}, why));
 }
 
@@ -918,6 +917,19 @@ TEST(Recordings, TcpMayCarryModbusRtu) {
   EXPECT_EQ(recording->frames[1].direction, Direction::Answer);
   EXPECT_FALSE(recording->over_tcp) << "they are frames of a serial line";
   EXPECT_EQ(recording->notes,
+            std::vector<std::string>{"its TCP carries Modbus RTU: the frames have a CRC, and no head of Modbus TCP"});
+}
+
+TEST(Recordings, AFrameOfModbusRtuInSeveralSegmentsCostsNoOther) {
+  const Bytes begin(kAnswer.begin(), kAnswer.begin() + 3), rest(kAnswer.begin() + 3, kAnswer.end());
+  LineRecording recording =
+      recording_of(ethernet_pcap({segment(true, 100, kRequest), segment(false, 500, begin), segment(false, 503, rest),
+                                  segment(true, 108, kRequest), segment(false, 507, kAnswer)}));
+  const auto frames = conversation(recording, *find_recorded_protocol("modbus"), {});
+  ASSERT_EQ(frames.size(), 4U);
+  for (const std::size_t answer : {1U, 3U}) EXPECT_EQ(frames[answer].frame.bytes, kAnswer) << answer;
+  EXPECT_EQ(frames[1].pieces, 2U);
+  EXPECT_EQ(recording.notes,
             std::vector<std::string>{"its TCP carries Modbus RTU: the frames have a CRC, and no head of Modbus TCP"});
 }
 
@@ -990,10 +1002,11 @@ TEST(Recordings, AfterALostSegmentReadingGoesOnWhereMessagesBegin) {
 }
 
 TEST(Recordings, WhatIsNoRecordingIsRefused) {
-  EXPECT_EQ(refusal_of(""), "no frame in it");
-  EXPECT_EQ(refusal_of("a letter\n"), "no frame in it; line 1: left out: no bytes in it");
+  EXPECT_EQ(refusal_of(""), "the file is empty");
+  EXPECT_EQ(refusal_of(" \r\n\n"), "the file is empty");
+  EXPECT_EQ(refusal_of("a letter\n"), "no frames found; line 1: left out: no bytes in it");
   EXPECT_EQ(refusal_of(std::string("a\0b", 3)),
-            fmt::format("it has none of the forms {}", stl::joined(recording_forms(), &RecordingForm::name)));
+            "it is binary, and not a capture that decode knows; for recorded bytes alone, decode what xxd prints of it");
   EXPECT_NE(refusal_of("\xD4\xC3\xB2\xA1 cut off"), "");
   std::string other = ethernet_pcap({});
   other[20] = 105;

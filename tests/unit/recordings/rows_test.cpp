@@ -127,7 +127,7 @@ TEST(RowsOfALog, ValuesWithNamesAreNotBytes) {
        {"2021-03-24 14:11:10 register 40001 = 1234", "address = 40001, value = 1234", "counter = 12345678", "D100 = 0042",
         "D100: 0042", "sensor.temp 2024-01-01T10:00:00 21", "10:00:02 error code 0x86", "10:00:00 temperature: 21",
         "time=10:00:00 level=info temp=21 data=42", "crc = 34BF", "10:00:00 GPS,12,34"})
-    EXPECT_EQ(refusal_of(line + '\n'), "no frame in it; line 1: left out: no bytes in it") << line;
+    EXPECT_EQ(refusal_of(line + '\n'), "no frames found; line 1: left out: no bytes in it") << line;
 }
 
 TEST(RowsOfALog, ATableOfValuesHasNoBytes) {
@@ -262,7 +262,7 @@ TEST(RowsOfALog, BytesMayBeTheTextsOfAList) {
 
 TEST(RowsOfALog, TheRateInASentenceIsNoByte) {
   EXPECT_EQ(refusal_of("voici la trace de mon automate (9600 bauds) :\n"),
-            "no frame in it; line 1: left out: no bytes in it");
+            "no frames found; line 1: left out: no bytes in it");
 }
 
 TEST(RowsOfALog, MicrosecondsThatSocatPadsToNineDigitsAreMicroseconds) {
@@ -363,8 +363,9 @@ TEST(RowsOfALog, AnEchoInTheRowOfTheAnswerIsNamedAndIsNoAnswer) {
     const auto frames = read(log);
     EXPECT_EQ(texts(frames), (std::vector<std::string>{kAsked, "the echo of the request", kSaid, kAsked,
                                                        "the echo of the request", kSaid}));
-    EXPECT_EQ(summary(frames),
-              "requests: 2, answered: 2 after 40 ms to 40 ms; wrong frames: 0, frames of no request: 0, echoes: 2\n");
+    EXPECT_EQ(
+        summary(frames),
+        "requests: 2, answered: 2 after 30.833 ms to 30.833 ms; wrong frames: 0, frames of no request: 0, echoes: 2\n");
     EXPECT_EQ(notes(frames), std::vector<std::string>{"line 2: the echo of a request, and 1 more: an adapter for two wires "
                                                       "hears what it sends; that is not an answer"});
     const Playback played = playback(frames, {}, {});
@@ -454,7 +455,7 @@ TEST(ColumnsOfALog, CharactersBehindABarAreNoBytes) {
         "10:00:00.000 | TX | 01 03 00 0a 00 02 e4 09 | ..~~\n10:00:00.030 | RX | 01 03 04 12 34 56 78 81 07 | ..4Vx.\n"})
     EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kSaid})) << log;
   EXPECT_EQ(recording_of("TX 01 03 00 0a 00 02 e4 09 | AB CD\nRX 01 03 04 12 34 56 78 81 07\n").notes,
-            std::vector<std::string>{"line 1: left out: '|' beside its bytes is not understood"});
+            std::vector<std::string>{"line 1: left out: cannot tell what '|' next to its bytes means"});
 }
 
 TEST(ColumnsOfALog, DirectionAndTimeMayStandInCellsAfterTheBytes) {
@@ -473,7 +474,7 @@ TEST(ColumnsOfALog, BytesRightAfterASignOfAnotherScriptAreWhole) {
     EXPECT_EQ(texts(read(log)), (std::vector{kAsked, kSaid})) << log;
     EXPECT_EQ(recording_of(log).frames[0].direction, Direction::Request) << log;
   }
-  EXPECT_TRUE(refusal_of("Motor m\u00FCde\n").starts_with("no frame in it")) << "the end of a word is no byte";
+  EXPECT_TRUE(refusal_of("Motor m\u00FCde\n").starts_with("no frames found")) << "the end of a word is no byte";
 }
 
 TEST(ColumnsOfALog, ListsOfJsonMayHaveTheirBracketsAnywhere) {
@@ -545,8 +546,9 @@ TEST(RowsThatAreNotRead, TheExchangeThatOneMayBelongToIsNotImported) {
       "requests: 2, answered: 1 after 20.833 ms to 20.833 ms; wrong frames: 0, frames of no request: 0, rows not read: "
       "1 (1 may be the answer to a request)\n");
   const auto [scenario, said] = playback(frames, {.character = 1'145'833}, {});
-  EXPECT_EQ(said, std::vector<std::string>{"line 1: left out: what follows it (line 2) may be its answer: not read: '5G' "
-                                           "beside its bytes is not understood"});
+  EXPECT_EQ(said, std::vector<std::string>{
+                      "line 1: left out: what follows it (line 2) may be its answer: not read: cannot tell what "
+                      "'5G' next to its bytes means"});
   EXPECT_EQ(scenario.find("silence"), std::string::npos) << scenario;
   EXPECT_NE(scenario.find("# line 1: left out"), std::string::npos) << scenario;
   EXPECT_NE(scenario.find("# line 3: station 1"), std::string::npos) << scenario;
@@ -580,10 +582,10 @@ TEST(RowsThatAreNotRead, AnUnansweredRequestOfModbusTcpBeforeOneIsNotImportedAsS
                     said = "9.1 RX 00 02 00 00 00 07 01 03 04 12 34 56 78\n";
   const auto frames = read(asked + "0.1 RX 00 01 00 00 00 07 01 03 04 12 5? 56 78\n" + next + said, {});
   ASSERT_EQ(frames.size(), 4U);
-  EXPECT_EQ(
-      playback(frames, {}, {}).notes,
-      std::vector<std::string>{"line 1: left out: what follows it (line 2) may be its answer: not read: '5?' beside its "
-                               "bytes is not understood"});
+  EXPECT_EQ(playback(frames, {}, {}).notes,
+            std::vector<std::string>{
+                "line 1: left out: what follows it (line 2) may be its answer: not read: cannot tell what '5?' next to its "
+                "bytes means"});
   EXPECT_EQ(texts(read(asked + "0.1 RX 00 01 00 00 00 07 01 03 04 12 34 56 78 ok\n", {})), (std::vector{kAsked, kSaid}));
 }
 
@@ -597,14 +599,15 @@ TEST(RowsThatAreNotRead, WhatHasComeAsATextAmongBytesIsNoSilence) {
 
 TEST(RowsThatAreNotRead, WhatIsSaidOfOneIsSafeToPrint) {
   const auto frames = read(kRequestRow + "10:00:00.030 RX 01 03 \x1b[31m 04\n10:00:00.040 RX 01 \xff 03\n");
-  EXPECT_EQ(texts(frames), (std::vector<std::string>{kAsked, "not read: '\uFFFD[31m' beside its bytes is not understood",
-                                                     "not read: '\uFFFD' beside its bytes is not understood"}));
+  EXPECT_EQ(texts(frames),
+            (std::vector<std::string>{kAsked, "not read: cannot tell what '\uFFFD[31m' next to its bytes means",
+                                      "not read: cannot tell what '\uFFFD' next to its bytes means"}));
 }
 
 TEST(RowsThatAreNotRead, WordsOfASentenceAreNoBytes) {
   for (const char* const line :
        {"10:00:00 warte ab", "10:00:00 de facto offline", "10:00:00 BAD FACE", "10:00:00 slave 2 timeout, retry 1"})
-    EXPECT_EQ(refusal_of(line), "no frame in it; line 1: left out: no bytes in it") << line;
+    EXPECT_EQ(refusal_of(line), "no frames found; line 1: left out: no bytes in it") << line;
 }
 
 TEST(RowsOfCharacters, AreFramesOnlyIfEachRowHasOneWithItsTime) {
@@ -837,14 +840,14 @@ TEST(NumbersInALog, AByteInDecimalWithItsHexBesideItIsOneByte) {
   }
   EXPECT_EQ(recording_of("0.025 received Byte  1 (0X1)\n").frames[0].bytes, (Bytes{0x01})) << "one digit";
   EXPECT_EQ(refusal_of("0.025 RX 18 (0x45)\n"),
-            "no frame in it; line 1: left out: '(0x45)' beside its bytes is not understood");
+            "no frames found; line 1: left out: cannot tell what '(0x45)' next to its bytes means");
 }
 
 TEST(NumbersInALog, NumbersThatWordsNameAreNoBytes) {
   for (const char* const line :
        {"length 12", "port 5020", "connected to plc7:5020", "tcp://plc.local:80", "Polling slave 10", "10:00:00.000 len: 08",
         "127.0.0.1:5020", "baud 9600", "waiting for 50", "read 12 bytes", "sent (12 bytes)"})
-    EXPECT_TRUE(refusal_of(line).starts_with("no frame in it")) << line;
+    EXPECT_TRUE(refusal_of(line).starts_with("no frames found")) << line;
   for (const char* const line :
        {"0.0 TX length 08 01 03 00 0a 00 02 e4 09", "0.0 TX 08 bytes 01 03 00 0a 00 02 e4 09",
         "0.0 plc7:5020 TX 01 03 00 0a 00 02 e4 09", "0.0 TX 01 03 00 0a 00 02 e4 09 (08 bytes)",
@@ -864,7 +867,7 @@ TEST(NumbersInALog, ANumberThatMayBeAByteOrNotIsNamed) {
         Case{"length 12 01 03 00 0a 00 02 e4 09", "12"}, Case{"packet 12 01 03 00 0a 00 02 e4 09", "12"},
         Case{"0000 01 03 00 0a", "0000"}, Case{"0x01 03 00 0a", "03"}})
     EXPECT_EQ(refusal_of(line),
-              fmt::format("no frame in it; line 1: left out: '{}' beside its bytes is not understood", what));
+              fmt::format("no frames found; line 1: left out: cannot tell what '{}' next to its bytes means", what));
   EXPECT_EQ(recording_of("01,03,00,0a,00,02,e4,09\n").frames[0].bytes.size(), 8U) << "no time";
 }
 

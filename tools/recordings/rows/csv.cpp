@@ -10,6 +10,7 @@
 #include "interpreter/base/text/text.hpp"
 #include "tools/json/base64.hpp"
 #include "tools/recordings/forms.hpp"
+#include "tools/recordings/left_out.hpp"
 #include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/notation.hpp"
 #include "tools/recordings/rows/table_rows.hpp"
@@ -27,6 +28,7 @@ struct Columns {
   char separator = 0;
   std::optional<std::size_t> time{}, direction{}, data{};
   std::optional<std::size_t> sent{}, received{};  ///< instead of direction and data
+  std::size_t byte_columns = 0;  ///< from `data` on, each with a byte of the frame; 0: the bytes stand in one
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
   bool base64 = false;         ///< the name of the data says so
@@ -73,12 +75,39 @@ bool is_name_of_data(std::string_view name) {
                          "NACHRICHT", "BASE64", "B64", "ZEICHEN", "TRAME", "TRAMA", "DATOS", "DATI", "DADOS"});
 }
 
+/// Finds columns with a byte each: `B0;B1;B2;B3`, `Byte 1,Byte 2,…`
+void find_columns_of_bytes(const std::vector<std::string>& names, Columns& columns) {
+  constexpr std::size_t kFewest = 4;
+  struct Numbered {
+    std::string_view name;
+    std::optional<std::uint32_t> number;
+  };
+  const auto numbered = [](std::string_view name) {
+    name = stl::trim(name);
+    const std::size_t end = name.find_last_not_of("0123456789") + 1;
+    return Numbered{name.substr(0, end), parse_decimal<std::uint32_t>(name.substr(end))};
+  };
+  for (std::size_t begin = 0, end = 0; begin < names.size(); begin = end) {
+    const Numbered first = numbered(names[begin]);
+    for (end = begin + 1; end < names.size() && first.number && !first.name.empty(); ++end) {
+      const Numbered next = numbered(names[end]);
+      if (next.name != first.name || next.number != *first.number + (end - begin)) break;
+    }
+    if (end - begin < kFewest) continue;
+    columns.data = begin;
+    columns.byte_columns = end - begin;
+    return;
+  }
+}
+
 Columns columns_of(std::string_view line) {
   Columns columns{.separator = separator_of(line)};
   if (columns.separator == 0) return columns;
   const auto names = fields_of(line, columns.separator);
   if (std::ranges::any_of(names, [](const std::string& name) { return leading_time(name).has_value(); })) return columns;
+  find_columns_of_bytes(names, columns);
   for (std::size_t i = 0; i < names.size(); ++i) {
+    if (columns.byte_columns > 0 && i >= *columns.data && i < *columns.data + columns.byte_columns) continue;
     if (contains(names[i], {"ERROR"})) {
       columns.errors.push_back(i);
     } else if (!columns.time && (is_name_of_time(names[i]) || is_unit(names[i]))) {
@@ -204,6 +233,19 @@ std::string_view content_of(std::string_view field, const Columns& columns) {
   return field.size() == 1 && !columns.sent ? field : stl::trim(field);
 }
 
+/// The cell with the bytes. Those of a column each are joined, in `joined`, up to the first that is empty.
+std::string_view cell_of(const std::vector<std::string>& fields, std::size_t column, const Columns& columns,
+                         std::string& joined) {
+  if (columns.byte_columns == 0) return column < fields.size() ? std::string_view(fields[column]) : "";
+  joined.clear();
+  for (std::size_t i = column; i < std::min(fields.size(), column + columns.byte_columns); ++i) {
+    const std::string_view cell = stl::trim(fields[i]);
+    if (cell.empty()) break;
+    joined.append(joined.empty() ? "" : " ").append(cell);
+  }
+  return joined;
+}
+
 constexpr Notation kBase64{"base64", [](std::string_view cell) -> std::optional<Bytes> {
                              auto bytes = from_base64(cell);
                              return bytes && !bytes->empty() ? std::move(bytes) : std::nullopt;
@@ -212,21 +254,24 @@ constexpr Notation kBase64{"base64", [](std::string_view cell) -> std::optional<
 /// The notation of the bytes below the names. Null with `why` set if they have none.
 struct ColumnNotation {
   const Notation* notation = nullptr;
-  bool characters = false;  ///< each row has one
+  bool characters = false;          ///< each row has one
+  const Notation* other = nullptr;  ///< the bytes may be in this as well; the protocol tells
 };
 ColumnNotation notation_of(TableRows rows, const Columns& columns, std::string& why) {
   if (columns.base64) return {.notation = &kBase64};
   NotationFinder finder;
   std::vector<std::string> fields;
+  std::string joined;
   while (const auto row = rows.next()) {
     take_fields(row->text, columns.separator, fields);
     for (const auto& column : {columns.data, columns.sent, columns.received})
       if (column && *column < fields.size())
-        if (const std::string_view cell = content_of(fields[*column], columns); !cell.empty())
+        if (const std::string_view cell = content_of(cell_of(fields, *column, columns, joined), columns); !cell.empty())
           finder.take(without_error(cell).cell, row->number);
   }
   const Notation* const found = finder.found(why);
-  return {.notation = found, .characters = found != nullptr && columns.time && finder.are_characters(*found)};
+  if (found == nullptr) return {};
+  return {.notation = found, .characters = columns.time && finder.are_characters(*found), .other = finder.other(*found)};
 }
 
 }  // namespace
@@ -251,11 +296,13 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
   LineRecording recording;
   TableRows rows(bytes, choices.stop);
   const Columns columns = take_columns(rows);
-  const auto [notation, characters] = notation_of(rows, columns, why);
+  const auto [notation, characters, other] = notation_of(rows, columns, why);
   if (notation == nullptr) return {};
   DayCounter days;
   CharacterJoiner joiner(choices);
   std::vector<std::string> fields;
+  std::string joined;
+  LeftOut left_out;
   while (const auto row = rows.next()) {
     if (row->text.find_first_not_of(" \t,;") == std::string::npos) continue;
     take_fields(row->text, columns.separator, fields);
@@ -265,7 +312,8 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
     const auto time = columns.time ? time_of(field(columns.time), columns) : std::nullopt;
     const bool is_received = columns.sent && stl::trim(field(columns.sent)).empty();
     const auto data_column = !columns.sent ? columns.data : is_received ? columns.received : columns.sent;
-    const WrittenCharacter written = without_error(content_of(field(data_column), columns));
+    const std::string_view cell = content_of(data_column ? cell_of(fields, *data_column, columns, joined) : "", columns);
+    const WrittenCharacter written = without_error(cell);
     auto data = notation->read(written.cell);
     if (columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
       why = fmt::format("line {}: bytes in both directions; write them in two lines", row->number);
@@ -276,8 +324,12 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
       return {};
     }
     const bool no_time = columns.time && !time;
+    if (!no_time && cell.empty()) {  // sniffers note reads that brought nothing
+      left_out.without_bytes(row->number);
+      continue;
+    }
     if (no_time || !data) {
-      why = fmt::format("line {}: '{}' is not {}", row->number, stl::shortened(field(no_time ? columns.time : data_column)),
+      why = fmt::format("line {}: '{}' is not {}", row->number, stl::shortened(no_time ? field(columns.time) : cell),
                         no_time ? "a time" : fmt::format("bytes in {}", notation->name));
       return {};
     }
@@ -287,6 +339,10 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
                                                    : Direction::Request,
                         .bytes = std::move(*data),
                         .place = fmt::format("line {}", row->number)};
+    if (const auto others = other != nullptr ? other->read(written.cell) : std::nullopt; others && *others != frame.bytes)
+      frame.doubt = std::make_shared<Doubt>(Doubt{.why = "its numbers may be decimal or hex",
+                                                  .word = stl::printable(stl::shortened(written.cell)),
+                                                  .readings = {{frame.bytes, false}, {*others, false}}});
     if (written.damaged ||
         std::ranges::any_of(columns.errors, [&](std::size_t column) { return says_error(field(column)); }))
       for (std::size_t place = 0; place < frame.bytes.size(); ++place) frame.damaged.push_back(place);
@@ -296,6 +352,7 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
       recording.frames.push_back(std::move(frame));
   }
   count_from_first(recording);
+  left_out.tell(recording);
   return recording;
 }
 

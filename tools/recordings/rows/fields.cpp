@@ -16,7 +16,7 @@ namespace {
 
 constexpr Time kDay = 86'400 * kSecond, kFarthest = 36'525 * kDay;
 
-constexpr std::string_view kBeforeTime = " \t\n\v\f\r[(\"", kAfterTime = " \t\n\v\f\r]):,;|";
+constexpr std::string_view kBeforeTime = " \t\n\v\f\r[(\"@", kAfterTime = " \t\n\v\f\r]):,;|";
 
 /// Skips what divides a time from the rest of its line, and the quotation mark of a time that one is before.
 void skip_after_time(Scan& scan) {
@@ -112,7 +112,7 @@ void skip_year(Scan& scan) {
   if (!is_year || (!scan.at_end() && kAfterTime.find(scan.next()) == std::string_view::npos)) scan.go_back_to(before);
 }
 
-/// A date before a time: `2026-11-22 `, `22.11.2026T`.
+/// A date before a time: `2026-11-22 `, `22.11.2026T`, `2026-11-22_`.
 std::optional<ReadDate> take_date(Scan& scan) {
   const std::size_t begin = scan.at();
   const std::size_t first = scan.take_digits(4).size();
@@ -122,26 +122,62 @@ std::optional<ReadDate> take_date(Scan& scan) {
   const bool goes_on = (second == 2 || (second == 1 && !year_first)) && scan.take(year_first ? "-/" : "./") != '\0';
   const std::size_t third = goes_on ? scan.take_digits(year_first ? 2 : 4).size() : 0;
   const std::string date(scan.since(begin));
-  if (third >= 2 && scan.take("T ") != '\0') return date_of(date);
+  if (third >= 2 && scan.take("T _") != '\0') return date_of(date);
   scan.go_back_to(begin);
   return {};
 }
 
-/// A time of day with a date before it or without: `12:34:56.789`, `1:02:03 PM`
+/// Skips the zone after a time: `Z`, `+02:00`. All times of a log have the same.
+void skip_zone(Scan& scan) {
+  const std::size_t before = scan.at();
+  const bool is_zone = scan.take("Z") != '\0' || (scan.take("+-") != '\0' && scan.take_digits(2).size() == 2 &&
+                                                  scan.take(":") != '\0' && scan.take_digits(2).size() == 2);
+  if (!is_zone || is_word_sign(scan.next())) scan.go_back_to(before);
+}
+
+/// A date and a time of day without signs between their digits: `20261122T123456.789Z`, `20261122_123456`
+std::optional<LeadingTime> time_in_digits(std::string_view text) {
+  constexpr std::size_t kDate = 8, kClock = 6;
+  Scan scan(text);
+  scan.skip(kBeforeTime);
+  const std::string_view date = scan.take_digits(kDate + 1);
+  if (date.size() != kDate || scan.take("T_-") == '\0') return {};
+  const std::string_view clock = scan.take_digits(kClock + 1);
+  if (clock.size() != kClock) return {};
+  const std::size_t end = scan.at();
+  const std::string_view part = scan.take(".,") != '\0' ? scan.take_digits(9) : "";
+  if (part.empty()) scan.go_back_to(end);
+  skip_zone(scan);
+  const auto day = day_number(static_cast<int>(decimal_number(date.substr(0, 4))),
+                              static_cast<unsigned>(decimal_number(date.substr(4, 2))),
+                              static_cast<unsigned>(decimal_number(date.substr(6))));
+  const Time hours = decimal_number(clock.substr(0, 2)), minutes = decimal_number(clock.substr(2, 2)),
+             seconds = decimal_number(clock.substr(4));
+  if (!day || hours > 23 || minutes > 59 || seconds > 60 || is_word_sign(scan.next())) return {};
+  skip_after_time(scan);
+  return LeadingTime{.time = ((hours * 60 + minutes) * 60 + seconds) * kSecond + fraction(part),
+                     .length = scan.at(),
+                     .of_day = true,
+                     .date = {day, day}};
+}
+
+/// A time of day with a date before it or without: `12:34:56.789`, `1:02:03 PM`, `12h34m56s789`; after a date also
+/// `12-34-56.789`
 std::optional<LeadingTime> time_of_day(std::string_view text) {
   Scan scan(text);
   scan.skip(kBeforeTime);
   const auto named_date = take_date_with_name(scan), day_first = named_date ? std::nullopt : take_date_with_day_first(scan);
   const auto date = named_date ? named_date : day_first ? day_first : take_date(scan);
   const std::string_view hours = scan.take_digits(2);
-  if (hours.empty() || scan.take(":") == '\0') return {};
+  const char sign = hours.empty() ? '\0' : scan.take(date ? ":h-." : ":h");
+  if (sign == '\0') return {};
   const std::string_view minutes = scan.take_digits(2);
-  if (minutes.size() != 2 || scan.take(":") == '\0') return {};
+  if (minutes.size() != 2 || scan.take({sign == 'h' ? "m" : &sign, 1}) == '\0') return {};
   const std::string_view seconds = scan.take_digits(2);
   if (seconds.size() != 2) return {};
   std::size_t end = scan.at();
   std::string_view part;
-  if (scan.take(".,:") != '\0') part = scan.take_digits(9);
+  if (scan.take(sign == 'h' ? ".,s" : ".,:") != '\0') part = scan.take_digits(9);
   if (part.empty())
     scan.go_back_to(end);
   else
@@ -151,6 +187,7 @@ std::optional<LeadingTime> time_of_day(std::string_view text) {
   const bool of_half_a_day = half != '\0' && scan.take("M") != '\0';
   if (!of_half_a_day) scan.go_back_to(end);
   if (named_date) skip_year(scan);
+  skip_zone(scan);
   skip_after_time(scan);
   const Time written = decimal_number(hours), hour = !of_half_a_day ? written : written % 12 + (half == 'P' ? 12 : 0);
   const Time time = ((hour * 60 + decimal_number(minutes)) * 60 + decimal_number(seconds)) * kSecond + fraction(part);
@@ -218,7 +255,7 @@ std::optional<LeadingTime> time_since_1970(std::string_view text) {
 /// A time since the start: `0.123456`, `-12.3 ms`, `+7us`
 std::optional<LeadingTime> time_since(std::string_view text) {
   Scan scan(text);
-  scan.skip(" \t\n\v\f\r[(\"");
+  scan.skip(kBeforeTime);
   const char sign = scan.take("+-");
   const bool below_zero = sign == '-';
   const std::string_view whole = scan.take_digits(10);
@@ -476,11 +513,14 @@ void take_numbers_out(std::vector<Word>& words) {
   }
 }
 
+/// Whether a word beside bytes is IN or OUT, which sentences have as well.
+bool is_in_or_out(std::string_view word) { return direction_beside_bytes(word) != Direction::Unknown; }
+
 bool names_a_direction(const Word& word) { return direction_of(word.text) != Direction::Unknown; }
 
 /// Whether a word beside bytes may be a damaged byte: `1`, `3G`, `??`, `123`
 bool may_be_a_damaged_byte(const Word& word) {
-  if (word.number == Word::Number::Yes || names_a_direction(word)) return false;
+  if (word.number == Word::Number::Yes || names_a_direction(word) || is_in_or_out(word.text)) return false;
   const auto is_sign = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '?' || c == '*'; };
   return (word.text.size() <= 2 && std::ranges::any_of(word.text, is_sign) && std::ranges::all_of(word.text, is_sign)) ||
          word.text.find_first_of("?*") != std::string_view::npos ||
@@ -502,6 +542,7 @@ bool ends_with_fraction(std::string_view text) {
 bool ends_with_digits(const Word& word) {
   const std::size_t end = word.text.find_last_not_of("0123456789ABCDEFabcdef");
   if (end == std::string_view::npos || end + 1 == word.text.size()) return false;
+  if ((word.text[end] & 0x80) != 0 && !stl::is_valid_utf8(word.text)) return true;  // of another encoding
   return std::ispunct(static_cast<unsigned char>(word.text[end])) != 0 && !has_clock(word.text) &&
          !ends_with_fraction(word.text) && word.text.find('=') == std::string_view::npos &&
          word.text.find("]:") == std::string_view::npos;
@@ -665,9 +706,10 @@ std::optional<OtherRun> other_run(Words run, Words after) {
   return OtherRun{run.first(run.size() - 1), run.back().text};
 }
 
-/// The text between the bars of hexdump -C: `|....4...|`
+/// The text between the bars of hexdump -C, `|....4...|`, and the signs of od, `>....4...<`.
 std::string_view without_bars(std::string_view text) {
-  const bool barred = text.size() > 2 && text.front() == '|' && text.back() == '|';
+  const bool barred = text.size() > 2 && ((text.front() == '|' && text.back() == '|') ||
+                                          (text.front() == '>' && text.back() == '<'));  // of od -t x1z
   return barred ? text.substr(1, text.size() - 2) : text;
 }
 
@@ -776,7 +818,7 @@ std::optional<Run> last_run(Words words) {
 
 /// The words for a request in English, German, French, Spanish, Italian, Portuguese, Russian and Chinese; ASCII letters in
 /// capitals.
-constexpr std::array<std::string_view, 34> kRequestWords{"TX",
+constexpr std::array<std::string_view, 40> kRequestWords{"TX",
                                                          "SENT",
                                                          "SEND",
                                                          "WRITE",
@@ -809,8 +851,14 @@ constexpr std::array<std::string_view, 34> kRequestWords{"TX",
                                                          "\u53D1",
                                                          "\u53D1\u9001",
                                                          "\u53D1\u9001\u6570\u636E",
-                                                         "OUTGOING"};
-constexpr std::array<std::string_view, 34> kAnswerWords{"RX",
+                                                         "OUTGOING",
+                                                         "TXD",
+                                                         "SND",
+                                                         "XMIT",
+                                                         "TRANSMIT",
+                                                         "TRANSMITTED",
+                                                         "SENDING"};
+constexpr std::array<std::string_view, 39> kAnswerWords{"RX",
                                                         "RECV",
                                                         "RECEIVED",
                                                         "READ",
@@ -843,7 +891,12 @@ constexpr std::array<std::string_view, 34> kAnswerWords{"RX",
                                                         "\u6536",
                                                         "\u63A5\u6536",
                                                         "\u63A5\u6536\u6570\u636E",
-                                                        "INCOMING"};
+                                                        "INCOMING",
+                                                        "RXD",
+                                                        "RCV",
+                                                        "RCVD",
+                                                        "RECEIVE",
+                                                        "RECEIVING"};
 constexpr std::size_t kLongestDirection = 20;  // bytes of UTF-8
 
 /// The text with blanks in place of signs that are not letters: U+2000 to U+2FFF and the wide ones from U+FF00 on.
@@ -891,6 +944,7 @@ constexpr std::array kWrittenUnits{WrittenUnit{"S", kSecond},
 
 std::optional<LeadingTime> leading_time(std::string_view text) {
   if (const auto time = time_of_day(text)) return time;
+  if (const auto time = time_in_digits(text)) return time;
   if (const auto time = minutes_since(text)) return time;
   if (const auto time = time_since(text)) return time;
   return time_since_1970(text);
@@ -974,6 +1028,40 @@ Direction direction_of(std::string_view written) {
   }
   if (request == answer) return Direction::Unknown;
   return request ? Direction::Request : Direction::Answer;
+}
+
+Direction direction_beside_bytes(std::string_view text) {
+  const auto is_other = [](char c) { return !is_word_sign(c); };
+  const auto end = std::find_if_not(text.rbegin(), text.rend(), is_other).base();
+  const auto begin = std::find_if(std::reverse_iterator(end), text.rend(), is_other).base();
+  const std::string word = end - begin <= 3 ? stl::upper_case({begin, end}) : std::string();
+  return word == "OUT" ? Direction::Request : word == "IN" ? Direction::Answer : Direction::Unknown;
+}
+
+std::string_view time_like_word(std::string_view text) {
+  constexpr std::string_view kUnits = "hmsu";
+  for (std::size_t begin = begin_of_word(text, 0); begin < text.size();) {
+    const std::size_t end = end_of_word(text, begin);
+    const std::string_view word = text.substr(begin, end - begin);
+    std::size_t run = 0;
+    bool has_unit = false;  // `08h15`, `1100ms`
+    for (std::size_t i = 0; i < word.size(); run = stl::is_digit(word[i]) ? run + 1 : 0, ++i)
+      has_unit = has_unit || (run > 1 && is_any_of(word[i], kUnits) && !word.starts_with("0x"));
+    if (has_clock(word) || (has_unit && !bytes_of_text(word))) return word;
+    begin = begin_of_word(text, end);
+  }
+  return {};
+}
+
+std::size_t length_of_name_of_time(std::string_view text) {
+  constexpr std::array<std::string_view, 6> kNames{"T", "TS", "TIME", "TIMESTAMP", "AT", "ZEIT"};
+  constexpr std::size_t kLongest = 9;
+  Scan scan(text);
+  scan.skip(kAllBlanks);
+  scan.take("[(");
+  const std::string name = stl::upper_case(scan.take_while(stl::is_letter, kLongest));
+  if (scan.take("=:") == '\0' || std::ranges::find(kNames, name) == kNames.end()) return 0;
+  return scan.at();
 }
 
 std::optional<Bytes> bytes_of_text(std::string_view text) {

@@ -49,6 +49,9 @@ bool is_name_of_time(std::string_view name);
 /// The direction that a word names: TX, sent, request, > … ask; RX, received, response, < … answer.
 Direction direction_of(std::string_view text);
 
+/// The direction of IN or OUT as the last word before bytes; sentences have these words elsewhere.
+Direction direction_beside_bytes(std::string_view before);
+
 /// The direction of bytes in brackets: [01][03] was sent, <01><03> was received.
 Direction direction_of_brackets(std::string_view bytes);
 
@@ -65,6 +68,12 @@ struct Word {
 
 /// Whether there is a time of day in a text: `10:00`.
 bool has_clock(std::string_view text);
+
+/// The first word that somebody may have meant for a time: `8:15`, `1100 ms` without its blank. Empty: there is none.
+std::string_view time_like_word(std::string_view text);
+
+/// The length of the name before a time: `T=`, `time: `. 0: there is none.
+std::size_t length_of_name_of_time(std::string_view text);
 
 /// The bytes of a line: one run of words in hex after what names them, with nothing after it but a comment.
 struct BytesInLine {

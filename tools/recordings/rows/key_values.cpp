@@ -30,12 +30,24 @@ struct Pairs {
   std::string_view before{};  ///< what stands before the first
   NamedFields fields{};
 };
+
+/// The time since 1970 after the fields of the line protocol of InfluxDB.
+void add_time_at_end(std::string_view rest, NamedFields& fields) {
+  constexpr std::size_t kFewestDigits = 10;
+  const std::string_view digits = stl::trim(rest);
+  if (!fields.empty() && digits.size() >= kFewestDigits && std::ranges::all_of(digits, stl::is_digit))
+    fields.push_back({.name = "time", .value = std::string(digits)});
+}
+
 Pairs pairs_of(std::string_view line) {
   Pairs pairs;
   std::string_view rest = line;
   while (true) {
     const std::size_t equals = rest.find('=');
-    if (equals == std::string_view::npos) return pairs;
+    if (equals == std::string_view::npos) {
+      add_time_at_end(rest, pairs.fields);
+      return pairs;
+    }
     std::size_t begin = equals;
     while (begin > 0 && is_of_name(rest[begin - 1])) --begin;
     if (pairs.fields.empty()) pairs.before = line.substr(0, static_cast<std::size_t>(rest.data() - line.data()) + begin);

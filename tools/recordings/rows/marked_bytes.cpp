@@ -34,12 +34,13 @@ struct PlainSign {
   std::string_view sign, plain;
 };
 /// A dash before a blank only divides: `01 \u2013 03`. The first row that fits is the one.
-constexpr std::array kPlainSigns{PlainSign{"\u2013 ", ""},  PlainSign{"\u2014 ", ""},  PlainSign{"\u2013", "-"},
-                                 PlainSign{"\u2014", "-"},  PlainSign{"\u2212", "-"},  PlainSign{"\u00A0", " "},
-                                 PlainSign{"\u2009", " "},  PlainSign{"\u202F", " "},  PlainSign{"\u201C", "\""},
-                                 PlainSign{"\u201D", "\""}, PlainSign{"\u201E", "\""}, PlainSign{"\u201F", "\""},
-                                 PlainSign{"\u00AB", "\""}, PlainSign{"\u00BB", "\""}, PlainSign{"\u2018", "\""},
-                                 PlainSign{"\u2019", "\""}, PlainSign{"`", " "}};
+constexpr std::array kPlainSigns{
+    PlainSign{"\u2013 ", ""},  PlainSign{"\u2014 ", ""},  PlainSign{"\u2013", "-"},  PlainSign{"\u2014", "-"},
+    PlainSign{"\u2212", "-"},  PlainSign{"\u00A0", " "},  PlainSign{"\u2009", " "},  PlainSign{"\u202F", " "},
+    PlainSign{"\u201C", "\""}, PlainSign{"\u201D", "\""}, PlainSign{"\u201E", "\""}, PlainSign{"\u201F", "\""},
+    PlainSign{"\u00AB", "\""}, PlainSign{"\u00BB", "\""}, PlainSign{"\u2018", "\""}, PlainSign{"\u2019", "\""},
+    PlainSign{"`", " "},       PlainSign{"\u25A0", " "},  PlainSign{"\u25A1", " "},  PlainSign{"\u25C6", " "},
+    PlainSign{"\u25C7", " "},  PlainSign{"\u25CB", " "},  PlainSign{"\u25CF", " "}};
 
 std::optional<std::uint8_t> byte_of(std::string_view word, const ByteMark& mark) {
   if (word.size() != mark.before.size() + mark.digits + mark.after.size()) return {};

@@ -9,6 +9,7 @@
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/json/base64.hpp"
+#include "tools/recordings/rows/notation.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -116,6 +117,7 @@ bool is_surely_base64(std::string_view text) {
 
 std::optional<Bytes> bytes_of(const NamedField& field) {
   if (field.bytes) return field.bytes;
+  if (field.value.starts_with("\\x")) return bytes_of_literal(field.value);
   const auto bytes = bytes_of_text(field.value);
   return bytes ? bytes : bytes_with_signs_between(field.value);
 }
@@ -207,7 +209,7 @@ bool has_frame(const NamedFields& fields) {
 
 bool has_base64(const NamedFields& fields) {
   return std::ranges::any_of(fields, [](const NamedField& field) {
-    return meaning_of(field.name).holds == Holds::Data && !field.bytes && !bytes_of(field) && is_surely_base64(field.value);
+    return may_hold_frame(meaning_of(field.name)) && !field.bytes && !bytes_of(field) && is_surely_base64(field.value);
   });
 }
 
@@ -228,9 +230,13 @@ const FieldMeaning& NamedFieldsReader::meaning_of(std::size_t place, const std::
 void NamedFieldsReader::take(const NamedFields& fields, std::string_view before, std::size_t number) {
   std::optional<LeadingTime> time;
   Direction said = Direction::Unknown;
+  std::string_view time_like;  // is in a field for times
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const FieldMeaning& meaning = meaning_of(i, fields[i].name);
-    if (!time && meaning.holds == Holds::Time) time = time_of(fields[i].value, meaning.unit);
+    if (!time && meaning.holds == Holds::Time) {
+      time = time_of(fields[i].value, meaning.unit);
+      if (!time) time_like = fields[i].value;
+    }
     if (said == Direction::Unknown && meaning.holds == Holds::Direction) said = direction_of(words_of_name(fields[i].value));
   }
   if (!time) time = leading_time(before);
@@ -255,6 +261,9 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
                                  .bytes = std::move(*bytes),
                                  .place = fmt::format("line {}", number)});
   }
+  if (frames > 0 && !at && !time_like.empty() && without_time_++ == 0)
+    first_without_time_ =
+        fmt::format("line {}: cannot read '{}' as its time", number, stl::printable(stl::shortened(time_like)));
   if (frames == 0 && !has_data && !take_line_of_log(fields, at, number)) left_out_.without_bytes(number);
 }
 
@@ -273,6 +282,9 @@ bool NamedFieldsReader::take_line_of_log(const NamedFields& fields, std::optiona
 LineRecording NamedFieldsReader::finish() {
   count_from_first(recording_);
   left_out_.tell(recording_);
+  if (without_time_ > 0)
+    recording_.notes.push_back(first_without_time_ +
+                               (without_time_ == 1 ? "" : fmt::format(", and {} more like it", without_time_ - 1)));
   if (in_base64_) recording_.notes.emplace_back("its bytes are read as base64: they are not hex");
   return std::move(recording_);
 }

@@ -65,6 +65,8 @@ class NamedFieldsReader {
   LeftOut left_out_;
   DayCounter days_;
   std::vector<KnownName> known_;
+  std::string first_without_time_{};
+  std::size_t without_time_ = 0;
   bool are_characters_ = false, in_base64_ = false;
 };
 

@@ -64,7 +64,24 @@ std::optional<Bytes> characters(std::string_view cell) {
   return escaped && escaped->size() == 1 ? escaped : std::nullopt;
 }
 
+/// Numbers with blanks or commas between them, each a byte in that base and without zeros that fill it up: `17 6 0 154`.
+std::optional<Bytes> numbers(std::string_view cell, int base) {
+  constexpr std::string_view kBetween = " \t,;";
+  if (cell.size() > 2 && cell.front() == '[' && cell.back() == ']') cell = cell.substr(1, cell.size() - 2);
+  Bytes bytes;
+  for (std::size_t begin = cell.find_first_not_of(kBetween); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(cell.find_first_of(kBetween, begin), cell.size());
+    const auto byte = byte_in_base(cell.substr(begin, end - begin), base);
+    if (!byte) return {};
+    bytes.push_back(*byte);
+    begin = cell.find_first_not_of(kBetween, end);
+  }
+  return bytes.empty() ? std::nullopt : std::optional(std::move(bytes));
+}
+
 constexpr Notation kHex{"hex", bytes_of_text};
+constexpr Notation kDecimals{"decimal numbers", [](std::string_view cell) { return numbers(cell, 10); }};
+constexpr Notation kShortHex{"hex numbers", [](std::string_view cell) { return numbers(cell, 16); }};
 
 /// The first that reads all cells is theirs: `18 (0x12)` could be two bytes in hex, and `00010010` four.
 constexpr std::array kNotations{
@@ -75,6 +92,8 @@ constexpr std::array kNotations{
     Notation{"octal", octal},
     Notation{"characters", bracketed},
     Notation{"characters", characters},
+    kDecimals,
+    kShortHex,
 };
 
 constexpr std::string_view kEscapes = "abtnvfre0", kEscaped{"\a\b\t\n\v\f\r\x1b\0", 9};
@@ -145,6 +164,11 @@ void NotationFinder::take(std::string_view cell, std::size_t line) {
       candidate.wrong = cell, candidate.line = line;
   }
   ++cells_;
+}
+
+const Notation* NotationFinder::other(const Notation& found) const {
+  const auto hex = std::ranges::find(candidates_, kShortHex.name, [](const Candidate& each) { return each.notation->name; });
+  return found.name == kDecimals.name && hex->read == cells_ ? hex->notation : nullptr;
 }
 
 bool NotationFinder::are_characters(const Notation& notation) const {

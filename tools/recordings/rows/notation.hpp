@@ -40,6 +40,9 @@ class NotationFinder {
   /// cells, or several do.
   const Notation* found(std::string& why) const;
 
+  /// The notation that reads all cells as well as decimal numbers do; null if there is none.
+  const Notation* other(const Notation& found) const;
+
   /// Whether each cell is one character, in that notation.
   bool are_characters(const Notation& notation) const;
 

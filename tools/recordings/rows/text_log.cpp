@@ -7,6 +7,7 @@
 #include "interpreter/base/text/text.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
+#include "tools/recordings/rows/dump.hpp"
 #include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/rows/marked_bytes.hpp"
@@ -28,13 +29,35 @@ bool stands_between_names(std::string_view text, std::size_t arrow) {
   return before > 0 && after < text.size() && is_word_sign(text[before - 1]) && is_word_sign(text[after]);
 }
 
-/// An arrow between two names says who talks to whom, not which of them is the master.
-Direction direction_of_heading(std::string_view text) {
-  const std::string_view head = text.substr(0, kLongestHead);
+/// The place of an arrow between two names: it says who talks to whom, not which of them is the master.
+std::size_t arrow_between_names(std::string_view head) {
   for (const std::string_view arrow : {"->", "<-"})
     for (std::size_t at = head.find(arrow); at != std::string_view::npos; at = head.find(arrow, at + 1))
-      if (stands_between_names(head, at)) return Direction::Unknown;
-  return direction_of(head);
+      if (stands_between_names(head, at)) return at;
+  return std::string_view::npos;
+}
+
+Direction direction_of_heading(std::string_view text) {
+  const std::string_view head = text.substr(0, kLongestHead);
+  return arrow_between_names(head) == std::string_view::npos ? direction_of(head) : Direction::Unknown;
+}
+
+/// The direction that the text before the bytes of a row names: `TX`, `IN`, `M->S`.
+Direction direction_of_row(std::string_view text) {
+  const std::size_t arrow = arrow_between_names(text.substr(0, kLongestHead));
+  if (arrow == std::string_view::npos) {
+    const Direction named = direction_of(text);
+    return named != Direction::Unknown ? named : direction_beside_bytes(text);
+  }
+  const std::string before = stl::upper_case(stl::trim_end(text.substr(0, text.find_last_not_of("<-", arrow) + 1)));
+  const std::string_view first = std::string_view(before).substr(before.find_last_of(" \t[(") + 1);
+  const bool forward = text[arrow] == '-';
+  if (first == "M" || first == "MASTER") return forward ? Direction::Request : Direction::Answer;
+  if (first == "S" || first == "SLAVE") return forward ? Direction::Answer : Direction::Request;
+  std::string words(text);
+  std::ranges::replace_if(
+      words, [](char c) { return c == '<' || c == '>'; }, ' ');
+  return direction_of(words);
 }
 
 /// The length of Modbus Poll's counter, which is not a byte: `Tx:000001-`
@@ -52,7 +75,7 @@ struct LeadingDirection {
   std::size_t length = 0;
 };
 
-/// Words before a time of day, of a row that names its direction before or after the time; none if a byte is among them.
+/// Words before a time of day that has a date, or is in a row that names its direction; none if a byte is among them.
 LeadingDirection words_before_time(std::string_view line) {
   constexpr std::size_t kMostWords = 4, kMostAfter = 40;
   Scan scan(line);
@@ -65,7 +88,8 @@ LeadingDirection words_before_time(std::string_view line) {
     const auto time = leading_time(line.substr(scan.at()));
     if (!time || !time->of_day) continue;
     const Direction before = direction_of(line.substr(0, scan.at()));
-    const bool named = before != Direction::Unknown ||
+    const bool of_logger = time->date[0] && is_any_of(word.back(), ":]");  // `modbus: 2026/11/22 10:00:00`
+    const bool named = before != Direction::Unknown || of_logger ||
                        direction_of(line.substr(scan.at() + time->length, kMostAfter)) != Direction::Unknown;
     return named ? LeadingDirection{before, scan.at()} : LeadingDirection{};
   }
@@ -107,6 +131,8 @@ struct TimeOfRow {
 };
 TimeOfRow time_of_row(std::string_view line) {
   if (const auto time = leading_time(line)) return {{}, time};
+  if (const std::size_t name = length_of_name_of_time(line); name > 0)
+    if (const auto time = leading_time(line.substr(name))) return {{Direction::Unknown, name}, time};
   const LeadingDirection before = leading_direction(line);
   return {before, before.length > 0 ? leading_time(line.substr(before.length)) : std::nullopt};
 }
@@ -159,7 +185,21 @@ bool has_padded_microseconds(std::string_view text) {
 struct TimesOfLog {
   bool deltas = false;               ///< each counts from the row above
   bool padded_microseconds = false;  ///< socat's
+  bool durations = false;            ///< Portmon's: how long each call took
 };
+
+/// Whether Portmon wrote the durations of calls, not the time of day: `0  0.00000559  app.exe  IRP_MJ_WRITE  …`
+bool has_durations(std::string_view text) {
+  constexpr std::size_t kMostDigits = 9;
+  for (const std::string_view line : Lines(beginning_of(text))) {
+    Scan scan(line);
+    const bool is_call = !scan.take_digits(kMostDigits).empty() && scan.skip(" \t") > 0 &&
+                         !scan.take_digits(kMostDigits).empty() && scan.take(".,") != '\0' &&
+                         !scan.take_digits(kMostDigits).empty() && scan.skip(" \t") > 0;
+    if (is_call && line.find("IRP_MJ_") != std::string_view::npos) return true;
+  }
+  return false;
+}
 
 /// Whether a text has a word: three letters, one of them beyond F. A damaged byte has none.
 bool is_of_words(std::string_view text) {
@@ -208,7 +248,8 @@ class LogReader {
     if (const auto character = character_of_interceptty(line)) return take(*character);
     line.remove_prefix(length_of_index(line));
     const auto [before, time] = time_of_row(line);
-    const std::optional<Time> at = time ? std::optional(time_of(*time, line)) : std::nullopt;
+    const bool tells_time = time && !(times_.durations && !time->of_day);
+    const std::optional<Time> at = tells_time ? std::optional(time_of(*time, line)) : std::nullopt;
     if (time) line.remove_prefix(before.length + time->length);
     const std::string_view whole = line;
     const bool is_of_dump = !at && (has_offsets_ || is_dump(line));
@@ -226,19 +267,29 @@ class LogReader {
     const std::string_view rest = stl::trim_end(line.substr(counter));
     const auto direction = [&, told = before.direction](Direction read) { return told != Direction::Unknown ? told : read; };
     auto found = bytes_of_lines_.in(rest);
-    in_dump_ = !at && (rest.size() < whole.size() || (found && found->has_characters)) && is_dump(whole);
+    if (const auto row = has_offset_ ? dump_row(whole) : std::nullopt; row && row->digits_of_group > 2)
+      found = BytesInLine{.bytes = row->bytes, .begin = rest.find_first_not_of(kAllBlanks)};
+    const bool is_row_of_dump = rest.size() < whole.size() || (found && found->has_characters);
+    in_dump_ = !at && (has_offset_ || (is_row_of_dump && is_dump(whole)));
     if (!found)
       take_heading(at, direction(direction_of_heading(line)), line);
     else if (found->bytes.empty())
-      leave_out(*found, at, direction(direction_of(line.substr(0, counter + found->begin))));
+      leave_out(*found, at, direction(direction_of_row(line.substr(0, counter + found->begin))));
     else
-      take_with_cells(std::move(*found), rest, direction(direction_of(line.substr(0, counter + found->begin))), at);
+      take_with_cells(std::move(*found), rest, direction(direction_of_row(line.substr(0, counter + found->begin))), at);
   }
 
   LineRecording finish() {
     drop_heading();
     note(left_out_, "left out", "no bytes in it");
-    note(not_understood_, "read without its time", "the form of that is not understood");
+    if (without_time_.count > 0) {
+      const std::string more = without_time_.count == 1 ? "" : fmt::format(", and {} more", without_time_.count - 1);
+      recording_.notes.push_back(fmt::format("line {}: read without a time{}: cannot read '{}' as one", without_time_.first,
+                                             more, stl::printable(stl::shortened(time_like_))));
+    }
+    if (times_.durations)
+      recording_.notes.emplace_back(
+          "no times are known: Portmon wrote how long each call took; its option Clock Time shows when it was");
     if (times_.deltas) recording_.notes.emplace_back("its times have a plus sign: each counts from the row above");
     count_from_first(recording_);
     return std::move(recording_);
@@ -282,7 +333,7 @@ class LogReader {
     std::size_t length = 0;
   };
   static Offset offset_of(std::string_view line) {
-    constexpr std::size_t kFewestBeforeColon = 2, kFewest = 4, kMost = 8;
+    constexpr std::size_t kFewestBeforeColon = 2, kFewest = 4, kMost = 8, kOfOd = 7;
     Scan scan(line);
     scan.skip(kAllBlanks);
     scan.take_word("0x");
@@ -291,16 +342,13 @@ class LogReader {
     const std::size_t blanks = scan.skip(kAllBlanks);
     const std::size_t begin = scan.at();
     const bool before_pair = scan.take_hex(3).size() == 2 && (scan.at_end() || scan.skip(kAllBlanks, 1) == 1);
-    const bool is_offset = digits.size() >= (colon ? kFewestBeforeColon : kFewest) && digits.size() % 2 == 0;
+    const bool is_of_od = digits.size() == kOfOd && before_pair && !colon;
+    const bool is_offset = digits.size() >= (colon ? kFewestBeforeColon : kFewest) && (digits.size() % 2 == 0 || is_of_od);
     return is_offset && blanks > 0 && (colon || blanks > 1 || before_pair) ? Offset{digits, begin} : Offset{};
   }
 
-  /// Whether the offset continues the dump. Offsets count in hex, rarely in decimal.
-  bool is_right(const Offset& offset) const {
-    const bool decimal = std::ranges::all_of(offset.digits, stl::is_digit);
-    return hex_number(offset.digits) == bytes_above() ||
-           (decimal && static_cast<std::size_t>(decimal_number(offset.digits)) == bytes_above());
-  }
+  /// Whether the offset continues the dump.
+  bool is_right(const Offset& offset) const { return is_offset_of(offset.digits, bytes_above()); }
 
   /// The number of bytes of the frame above the row.
   std::size_t bytes_above() const { return goes_on_ || has_offsets_ ? recording_.frames.back().bytes.size() : 0; }
@@ -317,11 +365,12 @@ class LogReader {
   }
 
   /// Whether a line ends a dump, as `00000008` does below the last row: the number of its bytes, with those of rows that
-  /// were left out.
+  /// were left out. Of od it has six digits or seven.
   bool ends_dump(std::string_view line) const {
     const std::string_view digits = stl::trim(line);
-    return in_dump_ && digits.size() == 8 && digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos &&
-           (row_left_out_ || hex_number(digits) == recording_.frames.back().bytes.size());
+    return in_dump_ && digits.size() >= 6 && digits.size() <= 8 &&
+           digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos &&
+           (row_left_out_ || is_offset_of(digits, recording_.frames.back().bytes.size()));
   }
 
   /// A character without a time: a frame lasts until the other end speaks.
@@ -371,7 +420,10 @@ class LogReader {
       if (!at && heading_ && heading_->number + 1 == number_ && heading_->direction == Direction::Unknown)
         at = std::exchange(heading_, std::nullopt)->at;  // of a logger that writes a line with the time above each
       drop_heading();
-      if (!at && has_clock(line.substr(0, found.begin))) not_understood_.add(number_);
+      if (const std::string_view word = at ? "" : time_like_word(line.substr(0, found.begin)); !word.empty()) {
+        if (without_time_.count == 0) time_like_ = word;
+        without_time_.add(number_);
+      }
       goes_on_ = in_dump_ && found.bytes.size() >= kFullRow;
       has_offsets_ = in_dump_ && has_offset_;
     }
@@ -413,7 +465,7 @@ class LogReader {
   static std::shared_ptr<const Doubt> doubt_of(const BytesInLine& found, std::vector<Reading> readings) {
     const std::string word = stl::printable(stl::shortened(found.not_understood));
     return std::make_shared<Doubt>(
-        Doubt{fmt::format("'{}' beside its bytes is not understood", word), word, std::move(readings)});
+        Doubt{fmt::format("cannot tell what '{}' next to its bytes means", word), word, std::move(readings)});
   }
 
   void take_heading(std::optional<Time> at, Direction direction, std::string_view line) {
@@ -461,7 +513,8 @@ class LogReader {
   BytesOfLines bytes_of_lines_;
   DayCounter days_;
   std::size_t number_ = 0;
-  Lines left_out_, not_understood_;
+  Lines left_out_, without_time_;
+  std::string time_like_{};  // what may be the time of the first of those lines
   TimesOfLog times_;
   Time last_time_ = 0;
   CharacterJoiner joiner_;
@@ -484,7 +537,8 @@ std::optional<LineRecording> read_text_log(std::string_view file, const ReadingC
   const std::string_view bytes = plain ? std::string_view(*plain) : file;
   constexpr std::size_t kShortestRow = 16;  // of most logs
   const auto lines = std::min(static_cast<std::size_t>(std::ranges::count(bytes, '\n')) + 1, bytes.size() / kShortestRow);
-  const TimesOfLog times{.deltas = has_deltas(bytes), .padded_microseconds = has_padded_microseconds(bytes)};
+  const TimesOfLog times{
+      .deltas = has_deltas(bytes), .padded_microseconds = has_padded_microseconds(bytes), .durations = has_durations(bytes)};
   const auto read = [&](bool joins) -> std::optional<LineRecording> {
     LogReader reader(choices, joins, joins ? 0 : lines, times);
     for (const std::string_view line : Lines(bytes, choices.stop)) {
