@@ -248,12 +248,14 @@ ReadFrame Conversation::read(Stream& stream, RecordedFrame frame, bool echo) {
   return read;
 }
 
-std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) {
+std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame) { return take_complete(frame, 1); }
+
+std::vector<ReadFrame> Conversation::take_complete(RecordedFrame& frame, std::size_t rows) {
   Stream& stream = stream_of(frame);
   std::vector<ReadFrame> all;
   std::size_t begin = 0, heard = 0;
   // A log has the time when it got the row. An echo in it was on the line while the request was sent.
-  const bool is_row = !stamps_.exact && !stamps_.at_end && frame.times.empty() && frame.at;
+  const bool is_row = !stamps_.exact && !stamps_.at_end && rows == 1 && frame.times.empty() && frame.at;
   const auto part = [&](std::size_t from, std::size_t to) {
     RecordedFrame cut = part_of(frame, from, to, stamps_);
     if (is_row) *cut.at -= static_cast<Time>(heard) * stamps_.character;
@@ -289,13 +291,15 @@ bool Conversation::is_several(const Stream& stream, const RecordedFrame& frame) 
   return true;
 }
 
-std::vector<ReadFrame> Conversation::add(RecordedFrame frame) {
+std::vector<ReadFrame> Conversation::add(RecordedFrame frame) { return add(std::move(frame), 1); }
+
+std::vector<ReadFrame> Conversation::add(RecordedFrame frame, std::size_t rows) {
   std::vector<ReadFrame> all;
   Stream& stream = stream_of(frame);
   const bool has_characters = frame.direction == Direction::Unknown && !frame.times.empty();
   const bool may_be_several = !is_echo(stream, frame);
   if (may_be_several && (has_characters || stream.reader->messages_share_frames() || is_several(stream, frame)))
-    all = take_complete(frame);
+    all = take_complete(frame, rows);
   if (!frame.bytes.empty()) all.push_back(read(stream, std::move(frame), false));
   return all;
 }
@@ -404,10 +408,10 @@ std::vector<ReadFrame> Conversation::take(std::span<const RecordedFrame>& rows) 
     bool without_word = false;
     auto known = settled(stream, frame, without_word);
     if (!known) return {not_read(stream, std::move(frame))};
-    all = add(*std::move(known));
+    all = add(*std::move(known), count);
     if (without_word) all.back().ignored = doubt->word;
   } else {
-    all = add(std::move(frame));
+    all = add(std::move(frame), count);
   }
   all.back().pieces = count;
   if (count == 1) all.back().wrong_with_rows = announced.count - 1;

@@ -152,6 +152,9 @@ class Conversation {
   };
 
   Stream& stream_of(const RecordedFrame& frame);
+  /// `rows`: of the recording, that the frame is put together from.
+  std::vector<ReadFrame> add(RecordedFrame frame, std::size_t rows);
+  std::vector<ReadFrame> take_complete(RecordedFrame& frame, std::size_t rows);
   Message first_message(const Stream& stream, const RecordedFrame& frame, std::size_t begin,
                         const RecordedFrame* open) const;
   bool begins_with_echo(const Stream& stream, const RecordedFrame& frame, std::size_t begin,

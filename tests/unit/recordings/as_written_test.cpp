@@ -256,6 +256,8 @@ TEST(AsWritten, TimesAreReadAsTheyAreWritten) {
        {std::pair("08h15m01s100", "08h15m01s140"), std::pair("2024-03-05_08-15-01.100", "2024-03-05_08-15-01.140"),
         std::pair("@1100ms", "@1140ms"), std::pair("T=1100ms", "T=1140ms"), std::pair("time: 1.100 s", "time: 1.140 s"),
         std::pair("20240305T081501.100Z", "20240305T081501.140Z"), std::pair("20240305_081501.100", "20240305_081501.140"),
+        std::pair("[+00:00:01.100]", "[+00:00:01.140]"), std::pair("Tx @08:15:01.100:", "Rx @08:15:01.140:"),
+        std::pair("05.03.2024;08:15:01;100;TX;", "05.03.2024;08:15:01;140;RX;"),
         std::pair("2024-03-05T08:15:01.100+01:00", "2024-03-05T08:15:01.140+01:00"),
         std::pair("modbus: 2024/03/05 08:15:01.100 modbus: pdu", "modbus: 2024/03/05 08:15:01.140 modbus: pdu")}) {
     const auto frames = read(fmt::format("{} {}\n{} {}\n", first, kRequest, second, kAnswer));
@@ -310,6 +312,11 @@ TEST(AsWritten, AnEchoInTheRowOfItsAnswerTakesNoTimeAfterTheRequest) {
   const auto plain = read("10:00:00.000 > " + kRequest + "\n10:00:00.031 < " + kAnswer + "\n");
   EXPECT_EQ(glued[2].latency, plain.at(1).latency);
   EXPECT_TRUE(glued[2].latency);
+  const auto in_pieces =
+      read("10:00:00.000 > " + kRequest + "\n10:00:00.010 < 01 03 00\n10:00:00.013 < 0A 00 02 E4 09 01 03 04 " +
+           "12\n10:00:00.040 < 34 56 78 81 07\n");
+  ASSERT_EQ(in_pieces.size(), 3U);
+  EXPECT_EQ(in_pieces[2].latency, 10 * kMillisecond) << "the echo took its time since the first row";
 }
 
 }  // namespace

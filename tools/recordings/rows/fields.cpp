@@ -122,7 +122,7 @@ std::optional<ReadDate> take_date(Scan& scan) {
   const bool goes_on = (second == 2 || (second == 1 && !year_first)) && scan.take(year_first ? "-/" : "./") != '\0';
   const std::size_t third = goes_on ? scan.take_digits(year_first ? 2 : 4).size() : 0;
   const std::string date(scan.since(begin));
-  if (third >= 2 && scan.take("T _") != '\0') return date_of(date);
+  if (third >= 2 && scan.take("T _;,\t") != '\0') return date_of(date);
   scan.go_back_to(begin);
   return {};
 }
@@ -161,6 +161,16 @@ std::optional<LeadingTime> time_in_digits(std::string_view text) {
                      .date = {day, day}};
 }
 
+/// Takes the milliseconds that a table has in the cell after a time of day: `;100;`. Empty: there are none.
+std::string_view milliseconds_in_cell(Scan& scan) {
+  const std::size_t before = scan.at();
+  const char separator = scan.take(";\t");
+  const std::string_view digits = separator != '\0' ? scan.take_digits(4) : "";
+  if (digits.size() == 3 && scan.next() == separator) return digits;
+  scan.go_back_to(before);
+  return {};
+}
+
 /// A time of day with a date before it or without: `12:34:56.789`, `1:02:03 PM`, `12h34m56s789`; after a date also
 /// `12-34-56.789`
 std::optional<LeadingTime> time_of_day(std::string_view text) {
@@ -168,6 +178,7 @@ std::optional<LeadingTime> time_of_day(std::string_view text) {
   scan.skip(kBeforeTime);
   const auto named_date = take_date_with_name(scan), day_first = named_date ? std::nullopt : take_date_with_day_first(scan);
   const auto date = named_date ? named_date : day_first ? day_first : take_date(scan);
+  if (!date) scan.take("+");  // since the start
   const std::string_view hours = scan.take_digits(2);
   const char sign = hours.empty() ? '\0' : scan.take(date ? ":h-." : ":h");
   if (sign == '\0') return {};
@@ -178,10 +189,11 @@ std::optional<LeadingTime> time_of_day(std::string_view text) {
   std::size_t end = scan.at();
   std::string_view part;
   if (scan.take(sign == 'h' ? ".,s" : ".,:") != '\0') part = scan.take_digits(9);
-  if (part.empty())
+  if (part.empty()) {
     scan.go_back_to(end);
-  else
-    end = scan.at();
+    part = milliseconds_in_cell(scan);
+  }
+  end = scan.at();
   scan.take(kAllBlanks);
   const char half = scan.take("AP");
   const bool of_half_a_day = half != '\0' && scan.take("M") != '\0';

@@ -84,7 +84,7 @@ LeadingDirection words_before_time(std::string_view line) {
     const std::string_view word = scan.take_while([](char c) { return !is_any_of(c, kAllBlanks); });
     if (bytes_of_text(word)) return {};
     scan.skip(kAllBlanks);
-    if (!stl::is_digit(scan.next()) && scan.next() != '[' && scan.next() != '(') continue;
+    if (!stl::is_digit(scan.next()) && !is_any_of(scan.next(), "[(@")) continue;
     const auto time = leading_time(line.substr(scan.at()));
     if (!time || !time->of_day) continue;
     const Direction before = direction_of(line.substr(0, scan.at()));
