@@ -268,12 +268,12 @@ class DocumentReader {
   }
 
   /// The lines above the first statement of a listing and below its last that can be nothing but text: a sentence before
-  /// the program, `Code:`, `Regards`.
+  /// the program, `Code:`, `Regards`; and `Page 2 of 3` wherever it stands.
   std::vector<std::uint32_t> text_around() const {
     const auto [first, last] = statements();
     std::vector<std::uint32_t> lines;
     for (auto i = readings_.begin(); first != readings_.end() && i != readings_.end(); ++i)
-      if ((i < first || i >= last) && i->verdict == Verdict::Prose && (is_text(*i) || ends_a_sentence(*i)) &&
+      if ((i < first || i >= last || names_a_page(*i)) && i->verdict == Verdict::Prose && (is_text(*i) || ends_a_sentence(*i)) &&
           advice_on(*i).what.empty())  // NETZWERK has a message of its own
         lines.push_back(static_cast<std::uint32_t>(i - readings_.begin()) + 1);
     return lines;
@@ -509,6 +509,11 @@ class DocumentReader {
     if (!reading.all_solid) return false;
     if (reading.address) return beside_stl || may_be_mnemonic(reading.mnemonic);
     return beside_stl && !advice_on(reading).what.empty();
+  }
+
+  static bool names_a_page(const LineReading& reading) {
+    const auto words = tokens(reading.clean);
+    return words.size() > 1 && is_page_number(words);
   }
 
   /// Whether a line between the statements of a routine that begins with no mnemonic can be nothing but text. Any other line

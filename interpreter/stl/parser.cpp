@@ -714,7 +714,7 @@ class LineReader {
     if (!statement.operands.empty()) {
       const auto* number = std::get_if<Integer>(&statement.operands.front().value);
       if (statement.operands.size() > 1 || number == nullptr || number->value < 0) {
-        if (report_look_alike_number(statement.operands.front())) return;
+        if (report_look_alike_number(statement.operands.front()) || report_statement_beside_heading(head.position)) return;
         report(statement.operands.front().position, kNetworkTakes, kTitleOfNetwork);
         return;
       }
@@ -873,8 +873,8 @@ class LineReader {
 
   void report_unexpected(Place where, std::string expected) {
     if (report_heading() || report_time(where) || report_semicolon_comment(where) || report_assignment() ||
-        report_look_alike(where) || report_foreign_constant(where) || report_comparison() || report_blank_in_address(where) ||
-        report_title_of_network(where) || report_second_statement(where))
+        report_look_alike(where) || report_foreign_constant(where) || report_comparison() ||
+        report_blank_in_address(where) || report_title_of_network(where) || report_second_statement(where))
       return;
     const std::string_view rest(where, static_cast<std::size_t>(end() - where));
     const bool at_start = text_.substr(0, text_.size() - rest.size()).find_first_not_of(" \t\f") == std::string_view::npos;
@@ -901,16 +901,23 @@ class LineReader {
     return true;
   }
 
+  /// Reports `NETWORK 1 LD I0.0`. Returns true after a message.
+  bool report_statement_beside_heading(const Position& at) {
+    const auto words = split_words(text_);
+    const bool statement =
+        words.size() > 3 && std::ranges::all_of(words[2], is_upper) && std::ranges::any_of(words[3], is_digit);
+    if (statement) report(at, several_statements({words[2]}), new_lines_with({words[2]}));
+    return statement;
+  }
+
   /// Reports `NETWORK 1 - Start`. Returns true after a message.
   bool report_title_of_network(Place where) {
     const auto words = split_words(text_);
     if (words.size() < 2 || upper_case(words[0]) != "NETWORK") return false;
-    const std::string_view number = std::string_view(words[1]).substr(0, words[1].size() - (words[1].ends_with(':') ? 1 : 0));
+    const std::string_view number =
+        std::string_view(words[1]).substr(0, words[1].size() - (words[1].ends_with(':') ? 1 : 0));
     if (number.empty() || !std::ranges::all_of(number, is_digit)) return false;
-    if (words.size() > 3 && std::ranges::all_of(words[2], is_upper) && std::ranges::any_of(words[3], is_digit)) {
-      report(places_.position(where, 1), "two statements in one line", fmt::format("begin a new line with {}", words[2]));
-      return true;
-    }
+    if (report_statement_beside_heading(places_.position(where, 1))) return true;
     if (words.size() == 2 && number.size() == words[1].size()) return false;
     report(places_.position(where, 1), kNetworkTakes,
            words.size() == 2 ? fmt::format("write NETWORK {}", number) : kTitleOfNetwork, "titles of networks");
@@ -963,8 +970,8 @@ class LineReader {
     word = word.substr(0, word.find_last_not_of(",;") + 1);
     const std::string meant = constant_here(word);
     if (meant.empty()) return false;
-    report(position(Range(word.data(), word.data() + word.size())), fmt::format("{} is the constant of another language", word),
-           fmt::format("write {}", meant), "constants of other languages");
+    report(position(Range(word.data(), word.data() + word.size())),
+           fmt::format("{} is the constant of another language", word), fmt::format("write {}", meant));
     read_as_meant(word, meant);
     return true;
   }
@@ -972,7 +979,8 @@ class LineReader {
   /// Reports `LDW=> VW0, 5`, `LDW== VW0, 5` and `LDW >= VW0, 5`. Returns true after a message.
   bool report_comparison() {
     const std::string_view line = trim(text_.substr(0, comment_start(text_)));
-    const std::size_t letters = std::min(static_cast<std::size_t>(std::ranges::find_if_not(line, is_letter) - line.begin()), line.size());
+    const std::size_t letters =
+        std::min(static_cast<std::size_t>(std::ranges::find_if_not(line, is_letter) - line.begin()), line.size());
     const std::size_t sign = std::min(line.find_first_not_of(" \t", letters), line.size());
     const std::size_t end = std::min(line.find_first_not_of("<>=!", sign), line.size());
     const std::string_view mnemonic = line.substr(0, letters), written = line.substr(sign, end - sign);
@@ -983,7 +991,7 @@ class LineReader {
     if (!is_comparison_without_relation(mnemonic) || !known || as_it_is || end == line.size()) return false;
     report(position(Range(line.data(), line.data() + end)),
            sign > letters ? "a comparison is one word" : fmt::format("there is no relation {}", written),
-           fmt::format("write {}{}", mnemonic, relation), "comparisons");
+           fmt::format("write {}{}", mnemonic, relation));
     return true;
   }
 
@@ -995,7 +1003,7 @@ class LineReader {
     if (address.size() == before.size() || address.data() + address.size() == where) return false;
     if (bit.size() < 2 || bit[0] != '.' || !is_digit(bit[1]) || address.empty() || !is_digit(address.back())) return false;
     report(position(Range(address.data(), bit.data() + bit.size())), "there is a blank in this address",
-           fmt::format("write {}{}", address, bit), "blanks in addresses");
+           fmt::format("write {}{}", address, bit));
     return true;
   }
 

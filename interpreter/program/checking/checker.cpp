@@ -215,23 +215,11 @@ class Checker {
   /// Reports what the parser could not read above a line of the source.
   void add_unread_lines(std::uint32_t above) {
     const auto end = unread_lines_.lower_bound(above);
-    for (auto line = unread_lines_.begin(); line != end; ++line) add_unread_line(*line);
+    for (auto line = unread_lines_.begin(); line != end; ++line)
+      add_unread(unread_.emplace_back(stl::Statement{{}, {*line, 1, 1}, {}, {}}));
     unread_lines_.erase(unread_lines_.begin(), end);
   }
 
-  /// Of a line with a wrong operand the instruction is known, so that it hides no warnings of others.
-  void add_unread_line(std::uint32_t line) {
-    const auto words = line <= source_.text.size() ? stl::split_words(source_.text[line - 1]) : std::vector<std::string>{};
-    const std::string mnemonic = words.empty() ? std::string() : stl::upper_case(words.front());
-    const Instruction* const instruction = find_instruction(mnemonic);
-    const bool stays_in_line = instruction && instruction->structure == Structure::None;
-    const stl::Statement& statement =
-        unread_.emplace_back(stl::Statement{stays_in_line ? mnemonic : std::string(), {line, 1, 1}, {}, {}});
-    if (!stays_in_line) return add_unread(statement);
-    placed_.emplace_back();
-    mark_unread_operands(*instruction);
-    statements_.push_back({&statement, instruction, false, std::exchange(begins_network_, false)});
-  }
 
   void mark_unread_operands(const Instruction& instruction) {
     for (std::size_t i = 0; i < instruction.rules().size(); ++i)
@@ -649,13 +637,24 @@ class Checker {
   std::shared_ptr<const Program> what_is_known(const ProgramStructure& structure) {
     if (!routines_are_known()) return nullptr;
     auto program = program_of(structure);
-    for (std::uint32_t i = 0; i < statements_.size(); ++i) {
-      Op op;
-      op.instruction = &unread_instruction();
-      program->ops.push_back(is_unread(statements_[i]) ? op : decode(i, structure));
-    }
+    for (std::uint32_t i = 0; i < statements_.size(); ++i)
+      program->ops.push_back(is_unread(statements_[i]) ? what_is_known(*statements_[i].statement) : decode(i, structure));
     program->constants = constants_.bytes();
     return program;
+  }
+
+  /// Of a line with a wrong operand the instruction is known, so that it hides no warnings of others.
+  Op what_is_known(const stl::Statement& statement) const {
+    Op op;
+    op.instruction = &unread_instruction();
+    const std::uint32_t line = statement.position.line;
+    const bool of_parser = statement.mnemonic.empty() && line >= 1 && line <= source_.text.size();
+    const auto words = of_parser ? stl::split_words(source_.text[line - 1]) : std::vector<std::string>{};
+    const Instruction* const instruction = words.empty() ? nullptr : find_instruction(stl::upper_case(words.front()));
+    if (!instruction || instruction->structure != Structure::None) return op;
+    op.instruction = instruction;
+    for (std::size_t i = 0; i < instruction->rules().size(); ++i) op.operand[i].at = kUnread;
+    return op;
   }
 
   // --- decoding ---

@@ -673,7 +673,18 @@ struct Row {
   }
 };
 
-// --- rows of a table ---
+// --- rows of a table, lines in quotes ---
+
+/// The part of a line that is in quotes as a whole, but for a comma or semicolon behind them; from 0 if it is not.
+Part inside_quotes(std::string_view line) {
+  const std::string_view code = trim(line);
+  if (!code.starts_with('"') && !code.starts_with('\'')) return {};
+  const std::size_t end = code.find(code.front(), 1);
+  const std::string_view after = end == code.npos ? code : trim(code.substr(end + 1));
+  if (!after.empty() && after != "," && after != ";") return {};
+  const auto from = static_cast<std::size_t>(code.data() - line.data());
+  return {from + 1, from + end};
+}
 
 /// The cells of `| LD | I0.0 |`, each without the stroke in front of it; none if it is no row of a table.
 std::vector<Part> cells_of(std::string_view line) {
@@ -694,14 +705,17 @@ bool is_drawn(std::string_view line) {
   return line.find("--") != line.npos && line.find_first_not_of("|-+:= \t") != line.npos;
 }
 
-bool is_rule(std::string_view line) { return line.find_first_not_of("|-+:= \t") == line.npos && line.find('-') != line.npos; }
+bool is_rule(std::string_view line) {
+  return line.find_first_not_of("|-+:= \t") == line.npos && line.find('-') != line.npos;
+}
 
 bool is_one_operand(std::string_view cell) {
   for (std::string_view rest = cell; !rest.empty();) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
     const std::string_view operand = trim(rest.substr(0, comma));
     const bool number = operand.find_first_not_of("+-.0123456789") == operand.npos;
-    if (operand.empty() || operand.find_first_of(" \t") != operand.npos || (!number && !may_be_operand(operand))) return false;
+    if (operand.empty() || operand.find_first_of(" \t") != operand.npos || (!number && !may_be_operand(operand)))
+      return false;
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
   return !cell.empty();
@@ -711,7 +725,8 @@ bool is_one_operand(std::string_view cell) {
 bool is_head_of_table(std::string_view line, const std::vector<Part>& cells) {
   const auto cell = [&](std::size_t i) { return trim(line.substr(cells[i].from, cells[i].to - cells[i].from)); };
   const auto is_word = [](std::string_view text) { return text.size() > 2 && std::ranges::any_of(text, is_lower); };
-  return cells.size() >= 2 && is_word(cell(0)) && is_word(cell(1)) && !is_one_operand(cell(1)) && !stands_without_mark(cell(0));
+  return cells.size() >= 2 && is_word(cell(0)) && is_word(cell(1)) && !is_one_operand(cell(1)) &&
+         !stands_without_mark(cell(0));
 }
 
 /// Makes a statement of a row: its number if it has one, the mnemonic, operands, and the rest as a comment.
@@ -849,24 +864,20 @@ class Page {
 
   /// Leaves out quotes around each line, with a comma behind them, too, as in the text of another program: `"LD I0.0",`
   bool leave_out_quotes() {
-    std::vector<Row> read = rows;
+    std::vector<Row> whole = rows;
+    std::vector<std::size_t> bytes;
     std::size_t quoted = 0, statements = 0;
-    for (Row& row : read) {
-      const std::string_view code = trim(row.text);
-      if (stands_without_mark(code)) continue;
-      const std::size_t from = static_cast<std::size_t>(code.data() - row.text.data());
-      const std::size_t to = code.find(code.front(), 1);
-      if ((code.front() != '"' && code.front() != '\'') || to == code.npos) return false;
-      const std::string_view after = trim(code.substr(to + 1));
-      if (!after.empty() && after != "," && after != ";") return false;
-      row.replace(from + to, code.size() - to, "", kQuotedLines);
-      row.replace(from, 1, "", kQuotedLines);
+    for (Row& row : rows) {
+      const Part inside = inside_quotes(row.text);
+      bytes.push_back(inside.from);
+      if (inside.from == 0) continue;
+      row.replace(inside.to, row.text.size() - inside.to, "", kQuotedLines);
       ++quoted;
-      statements += looks_like_statement(row.text) ? 1U : 0U;
+      statements += looks_like_statement(std::string_view(row.text).substr(inside.from)) ? 1U : 0U;
     }
-    if (quoted < 2 || 3 * statements < quoted) return false;
-    rows = std::move(read);
-    return true;
+    if (quoted >= 2 && 3 * statements >= quoted && leave_out_marked(bytes, kQuotedLines)) return true;
+    rows = std::move(whole);
+    return false;
   }
 
   /// Leaves out line numbers that rise; below a heading they may begin anew.

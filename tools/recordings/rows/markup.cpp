@@ -276,12 +276,21 @@ class RuledTable {
   std::vector<std::string> cells_of(std::string_view line) const {
     std::vector<std::string> cells;
     for (std::size_t i = 0; i < begins_.size(); ++i) {
-      const std::size_t begin = std::min(begins_[i], line.size());
-      const std::size_t end = i + 1 < begins_.size() ? std::min(begins_[i + 1], line.size()) : line.size();
+      const std::size_t begin = begin_of_cell(line, begins_[i]);
+      const std::size_t end = i + 1 < begins_.size() ? begin_of_cell(line, begins_[i + 1]) : line.size();
       cells.emplace_back(stl::trim(line.substr(begin, end - begin)));
       std::ranges::replace(cells.back(), '|', '.');
     }
     return cells;
+  }
+
+  /// Where a cell begins: at the rule's column, or before it with a word that is wider than the cells in front of it left
+  /// it.
+  static std::size_t begin_of_cell(std::string_view line, std::size_t column) {
+    const auto is_blank = [&](std::size_t at) { return line[at] == ' ' || line[at] == '\t'; };
+    if (column >= line.size()) return line.size();
+    while (column > 0 && !is_blank(column) && !is_blank(column - 1)) --column;
+    return column;
   }
 
   void take_names(std::string_view names) {
