@@ -303,10 +303,9 @@ Answer check_answer(std::span<const std::uint8_t> request, std::span<const std::
   answer.verdict = Verdict::Wrong;
   const auto wrong = [&](std::string fault) {
     answer.fault = std::move(fault);
-    if (std::ranges::equal(request, response))
-      answer.fault += ": your own request has come back, an echo";
-    else if (is_request(response))
-      answer.fault += ": a request, so somebody else is a master, too";
+    if (is_request(response))
+      answer.fault += std::ranges::equal(request, response) ? ": your own request has come back, an echo"
+                                                            : ": a request, so somebody else is a master, too";
     return answer;
   };
   if (response.size() < kAroundData) return wrong("too short for an answer: " + to_hex(response));

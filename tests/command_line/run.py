@@ -3570,7 +3570,7 @@ class Files(Case):
         self.assertEqual((suites.get("errors"), suites.get("failures")), ("1", "0"))
         (case,) = suites.iter("testcase")
         self.assertEqual((case.get("file"), case.get("line")), (str(typo), "3"))
-        self.assertEqual(case.find("error").get("message"), "a step that does nothing")
+        self.assertEqual(case.find("error").get("message"), "there is no step 'reed'")
 
     def test_send_and_master_say_why_each_request_got_no_answer(self):
         bad = ["01 03 00 0a 00 01 00 00"]

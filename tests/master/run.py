@@ -139,7 +139,7 @@ class WrongAnswers(Case):
                 (framed(b"\x01\x03\x04\x12\x34"), "wrong byte count: 4, expected 2"),
                 (framed(b"\x01\x03\x02\x12\x34\x56"), "wrong length: 3 data bytes, expected 2"),
                 (RIGHT + b"\x01", "wrong CRC"),
-                (framed(b"\x01\x83"), "there is no byte count"),
+                (framed(b"\x01\x83"), "wrong length: 0 data bytes, expected 1"),
                 (bytes(2000), "an answer without end, cut off")):
             with self.subTest(fault):
                 exchange = self.only(FAILED, self.pty([(0, answer)]).path, "read", "40001", *PATIENT)

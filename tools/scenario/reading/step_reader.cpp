@@ -73,8 +73,11 @@ const YamlNode* StepReader::find_action(const YamlNode& node) {
   std::vector<std::string_view> known;
   for (const ScenarioKey& key : keys)
     if (makes_a_step(key)) known.push_back(key.key);
-  const auto unknown = std::ranges::find_if(
-      node.keys, [&](const YamlNode& key) { return std::ranges::find(keys, key.text, &ScenarioKey::key) == keys.end(); });
+  const auto unknown = std::ranges::find_if(node.keys, [&](const YamlNode& key) {
+    return std::ranges::none_of(keys, [&](const ScenarioKey& row) {
+      return row.key == key.text && (makes_a_step(row) || row.where == ScenarioKey::Where::Modifier);
+    });
+  });
   const std::string hint = fmt::format("it has one of: {}", fmt::join(known, ", "));
   if (unknown != node.keys.end())
     values_.wrong(*unknown, fmt::format("there is no step '{}'", stl::shortened(unknown->text)), hint);
