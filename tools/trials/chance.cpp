@@ -191,6 +191,10 @@ Stimulus TrialMaker::disturbance() {
   if (chance_.one_in(3)) return {.wait = wait(), .what = Stimulus::What::Break};
   Stimulus stimulus = frame();
   stimulus.damaged = static_cast<std::uint16_t>(1 + chance_.below(stimulus.bytes.size()));
+  stimulus.bad_stop = chance_.one_in(3);
+  if (!stimulus.bad_stop) return stimulus;
+  if (stimulus.gap == 0) stimulus.damaged = static_cast<std::uint16_t>(stimulus.bytes.size());
+  stimulus.bytes[stimulus.damaged - 1u] |= 1;  // without a bit at mark it would be a break
   return stimulus;
 }
 

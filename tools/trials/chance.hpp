@@ -40,7 +40,7 @@ class TrialMaker {
   /// one; characters that the program compares with; or noise.
   Stimulus frame();
 
-  /// What goes wrong around a program: a character with wrong parity, a break, power that fails.
+  /// What goes wrong around a program: a character with a wrong parity or stop bit, a break, power that fails.
   Stimulus disturbance();
 
   /// A frame that is a little different from one that has led to something new.

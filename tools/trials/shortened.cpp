@@ -22,7 +22,7 @@ class Shortening {
     leave_out_stimuli();
     for (std::size_t i = 0; i < trial_.size(); ++i) {
       if (trial_[i].what == What::Frame) cut_frame(i);
-      mend_parity(i);
+      mend_character(i);
       simplify_times(i);
       simplify_bytes(i);
     }
@@ -79,14 +79,19 @@ class Shortening {
     }
   }
 
-  /// Takes characters out of a frame; the one with wrong parity stays the same one, if it stays.
+  /// Takes characters out of a frame; the damaged one stays the same one, if it stays.
   static void cut(Stimulus& frame, std::size_t from, std::size_t to) {
     const auto begin = frame.bytes.begin();
     frame.bytes.erase(begin + static_cast<std::ptrdiff_t>(from), begin + static_cast<std::ptrdiff_t>(to));
     if (frame.damaged > to)
       frame.damaged = static_cast<std::uint16_t>(frame.damaged - (to - from));
     else if (frame.damaged > from)
-      frame.damaged = 0;
+      mend(frame);
+  }
+
+  static void mend(Stimulus& frame) {
+    frame.damaged = 0;
+    frame.bad_stop = false;
   }
 
   bool accept_at(std::size_t i, Stimulus stimulus) {
@@ -123,9 +128,9 @@ class Shortening {
     }
   }
 
-  void mend_parity(std::size_t i) {
+  void mend_character(std::size_t i) {
     Trial candidate = trial_;
-    candidate[i].damaged = 0;
+    mend(candidate[i]);
     accept(std::move(candidate));
   }
 
@@ -141,6 +146,7 @@ class Shortening {
       candidate[i].wait = (trial_[i].wait + unit - 1) / unit * unit;
       if (candidate[i].wait <= 2 * trial_[i].wait && accept(std::move(candidate))) break;
     }
+    if (trial_[i].bad_stop && trial_[i].damaged < trial_[i].bytes.size()) return;  // needs it
     Trial candidate = trial_;
     candidate[i].gap = 0;
     accept(std::move(candidate));

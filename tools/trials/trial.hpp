@@ -23,6 +23,7 @@ struct Stimulus {
   std::vector<std::uint8_t> bytes{};
   Time gap = 0;               ///< between the characters of a frame
   std::uint16_t damaged = 0;  ///< number of the character of a frame whose parity bit is wrong, from 1; 0: none
+  bool bad_stop = false;      ///< it is its stop bit that is wrong; what follows such a character comes after a gap
   bool other_port = false;    ///< a frame or break comes at the other port than frames usually do
 
   bool operator==(const Stimulus&) const = default;

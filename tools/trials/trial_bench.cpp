@@ -98,12 +98,15 @@ Time TrialBench::give(const Stimulus& frame) {
   for (std::size_t i = 0; i < frame.bytes.size(); ++i) {
     if (!reach(start + to_report)) return cpu_.time();
     done_.interrupted |= port.sent_until > start;
+    const bool bad_stop = frame.damaged == i + 1 && frame.bad_stop;
     if (hears(number, start, format))
       cpu_.character_received(
           {.byte = static_cast<std::uint8_t>(format.data_bits == 7 ? frame.bytes[i] & 0x7F : frame.bytes[i]),
-           .parity_error = frame.damaged == i + 1 && format.parity != Parity::None,
+           .parity_error = frame.damaged == i + 1 && !frame.bad_stop && format.parity != Parity::None,
+           .framing_error = bad_stop,
            .start = start,
-           .end = start + to_report},
+           .end = start + to_report,
+           .line_break = bad_stop && frame.bytes[i] == 0 && format.parity != Parity::Odd},
           number);
     start += format.character_time() + frame.gap;
   }

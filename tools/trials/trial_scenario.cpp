@@ -35,7 +35,8 @@ std::string steps_of(const Stimulus& stimulus, Time at, std::uint8_t before) {
     std::string text =
         fmt::format("  - send: {}\n    at: {}\n    timeout: {}\n", frame_text(stimulus), exact(at), exact(kPatience));
     if (stimulus.gap != 0) text += fmt::format("    gap: {}\n", exact(stimulus.gap));
-    return text;
+    if (!stimulus.bad_stop) return text;
+    return fmt::format("  - fault: framing:character={}\n{}  - fault: none\n", stimulus.damaged, text);
   }
   std::string text = fmt::format("  - wait: until {}\n", exact(at));
   if (stimulus.what == What::Power) return text + "  - power_cycle: memory kept\n";
@@ -50,7 +51,8 @@ std::string steps_of(const Stimulus& stimulus, Time at, std::uint8_t before) {
 
 std::string frame_text(const Stimulus& frame) {
   serial::Frame characters = serial::to_frame(frame.bytes);
-  if (frame.damaged != 0 && frame.damaged <= characters.size()) characters[frame.damaged - 1u].wrong_parity = true;
+  if (!frame.bad_stop && frame.damaged != 0 && frame.damaged <= characters.size())
+    characters[frame.damaged - 1u].wrong_parity = true;
   return serial::to_hex(characters);
 }
 

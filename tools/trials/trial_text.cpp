@@ -23,6 +23,7 @@ std::vector<std::string> words(const Trial& trial) {
     } else if (stimulus.what == Stimulus::What::Frame) {
       text = "sends " + frame_text(stimulus);
       if (stimulus.gap != 0) text += fmt::format(", {} between characters", format_duration(stimulus.gap));
+      if (stimulus.bad_stop) text += fmt::format(", character {} with a wrong stop bit", stimulus.damaged);
     } else if (stimulus.what == Stimulus::What::Input) {
       const std::uint8_t value = stimulus.bytes.front();
       for (unsigned bit = 0; bit < 8; ++bit)

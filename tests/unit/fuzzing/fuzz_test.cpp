@@ -167,6 +167,18 @@ TEST(Fuzz, ACharacterWithWrongParityIsTriedAndWritten) {
   EXPECT_TRUE(fuzzed.is_shown(*stop));
 }
 
+TEST(Fuzz, AWrongStopBitIsTriedAndWritten) {
+  const std::string takes_bad_messages =
+      "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#94, SMB87\nMOVW 1, SMW90\nMOVW 20, SMW92\nMOVB 50, SMB94\nATCH 0, 23\nENI\n"
+      "RCV VB100, 0\nMEND\nINT 0\nLDB= SMB86, 1\nAB>= VB100, 1\nSTOP\nLD SM0.0\nRCV VB100, 0\nRETI\n";
+  const Fuzzed fuzzed(takes_bad_messages, {.runs = 10'000, .seconds = 60}, "224");
+  const FuzzFinding* const stop = fuzzed.of(Kind::Stop);
+  ASSERT_TRUE(stop) << fuzz_text(fuzzed.inspection, fuzzed.result);
+  EXPECT_TRUE(stop->trial.back().bad_stop);
+  EXPECT_NE(fuzz_text(fuzzed.inspection, fuzzed.result).find(" with a wrong stop bit\n"), std::string::npos);
+  EXPECT_TRUE(fuzzed.is_shown(*stop));
+}
+
 TEST(Fuzz, ABreakIsTriedAndWritten) {
   const std::string waits_for_a_break =
       "LD SM0.1\nMOVB 9, SMB30\nMOVB 16#86, SMB87\nMOVB 3, SMB94\nMOVW 50, SMW92\nATCH 0, 23\nENI\nRCV VB100, 0\nMEND\n"
