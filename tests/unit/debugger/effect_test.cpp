@@ -1,5 +1,8 @@
 // What `effect` says came of a change.
-#include "tests/unit/debugger/session.hpp"
+#include <fstream>
+
+#include "tests/support/scratch_folder.hpp"
+#include "tests/unit/debugger/system_session.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -122,6 +125,63 @@ TEST(Effect, WhatTheProgramWroteIsFollowedAsWhatSomebodySet) {
   EXPECT_TRUE(has(text, " by = M0.0 in line 2\n")) << text;
   EXPECT_TRUE(has(text, "\n  Q0.0 is 1, not 0, from ")) << text;
   EXPECT_TRUE(has(text, "  all is alike again from ")) << text;
+}
+
+constexpr std::string_view kScaled =
+    "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL Scale, I0.2, VW10, M0.0, VW20\nLD M0.0\n= Q0.0\n"
+    "LDW> VW20, 100\n= Q0.1\nEND_ORGANIZATION_BLOCK\n"
+    "SUBROUTINE_BLOCK Scale:SBR0\nVAR_INPUT\non : BOOL; raw : INT;\nEND_VAR\n"
+    "VAR_OUTPUT\nruns : BOOL; result : INT;\nEND_VAR\nBEGIN\nNETWORK 1\nLD #on\n= #runs\nLD SM0.0\nMOVW #raw, #result\n"
+    "+I 90, #result\nEND_SUBROUTINE_BLOCK\n";
+
+TEST(Effect, ParametersOfASubroutineHandOnInAndOut) {
+  AtPrompt session(for_effects(kScaled));
+  session("continue 20ms; input I0.2=1; continue 100ms; set VW10=11; continue 100ms");
+  const std::string bit = session("effect I0.2");
+  EXPECT_TRUE(has(bit, "M0.0 is 1, not 0, from ")) << bit;
+  EXPECT_TRUE(has(bit, "Q0.0 is 1, not 0, from ")) << bit;
+  EXPECT_FALSE(has(bit, "Q0.1")) << bit;
+  EXPECT_FALSE(has(bit, "only because scans take other times")) << bit;
+  const std::string word = session("effect VW10");
+  EXPECT_TRUE(has(word, "VW20 is 16#0065 (101), not 16#005A (90), from ")) << word;
+  EXPECT_TRUE(has(word, "Q0.1 is 1, not 0, from ")) << word;
+  EXPECT_FALSE(has(word, "Q0.0")) << word;
+  EXPECT_FALSE(has(word, "only because scans take other times")) << word;
+}
+
+TEST(Effect, AMessageIsStoredBecauseOfWhatStartedItsRcv) {
+  AtPrompt session(for_effects(
+      "LD SM0.1\nMOVB 16#09, SMB30\nMOVB 16#B0, SMB87\nMOVB 16#0D, SMB89\nMOVW 5, SMW90\nMOVB 10, SMB94\nATCH 0, 23\nENI\n"
+      "LD I0.2\nEU\nRCV VB100, 0\nLDB= VB101, 16#41\n= Q0.0\nMEND\nINT 0\nLD SM0.0\nINCW VW40\nRETI\n"));
+  session("continue 20ms; input I0.2=1; continue 50ms; send 41 42 0d; continue 300ms");
+  const std::string text = session("effect I0.2");
+  EXPECT_TRUE(has(text, "VB101 is 16#41 (65), not 16#00 (0), from ")) << text;
+  EXPECT_TRUE(has(text, ": RCV VB100, 0 in line 11, after LD I0.2 in line 9\n")) << text;
+  EXPECT_TRUE(has(text, "Q0.0 is 1, not 0, from ")) << text;
+  EXPECT_TRUE(has(text, "INT 0 runs for event 23 (")) << text;
+  EXPECT_TRUE(has(text, "\n    VW40 is 16#0001 (1), not 16#0000 (0), from ")) << text;
+  EXPECT_FALSE(has(text, "only because scans take other times")) << text;
+}
+
+TEST(Effect, WhatNetrAndNetwLetTheSystemStoreComesOfThem) {
+  const std::string folder = test::scratch_folder();
+  std::ofstream(folder + "other.stl") << "LD SM0.1\nMOVB 7, VB0\nSPA VB0, 0\nMOVB 9, VB500\nMEND\n";
+  for (const std::string_view job : {"NETR", "NETW"}) {
+    std::ofstream(folder + "asks.stl") << "LD SM0.1\nMOVB 2, SMB30\nMOVB 7, VB101\nMOVD &VB500, VD102\nMOVB 1, VB106\n"
+                                       << "LD I0.2\nEU\n"
+                                       << job << " VB100, 0\nLDB= VB107, 9\n= Q0.0\nLD V100.7\n= Q0.1\nMEND\n";
+    SystemSession session("plcs:\n  asks: {program: " + folder + "asks.stl, cpu: 224}\n  other: {program: " + folder +
+                              "other.stl, cpu: 224}\nlines: {bus: {stations: [asks, other]}}\n",
+                          0);
+    session("continue 50ms; input I0.2=1; continue 500ms");
+    const std::string text = session("effect I0.2");
+    EXPECT_TRUE(has(text, "VB100 is ")) << text;
+    EXPECT_TRUE(has(text, std::string(job) + " VB100, 0 in line 8")) << text;
+    EXPECT_TRUE(has(text, "Q0.1 is 1, not 0, from ")) << text;
+    EXPECT_EQ(has(text, "VB107 is 16#09 (9), not 16#00 (0), from "), job == "NETR") << text;
+    EXPECT_EQ(has(text, "Q0.0 is 1, not 0, from "), job == "NETR") << text;
+    EXPECT_FALSE(has(text, "only because scans take other times")) << text;
+  }
 }
 
 TEST(Effect, AFatalErrorAndItsStopAreNamed) {

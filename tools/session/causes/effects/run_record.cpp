@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "interpreter/analysis/effects/effects.hpp"
+#include "interpreter/base/text/among.hpp"
 #include "interpreter/model/special_memory.hpp"
 #include "tools/session/causes/effects/changed_place.hpp"
 #include "tools/session/past/actions/access.hpp"
@@ -66,6 +67,11 @@ std::vector<Bits> reads_now(const Cpu& cpu, std::uint32_t op) {
   for (const MemoryAccess& each : effects_now(cpu.program(), op, cpu.state().image))
     if (each.reads()) reads.push_back(each.bits);
   return reads;
+}
+
+/// Whether the system goes on storing what comes of it.
+bool lets_the_system_store(const Instruction& instruction) {
+  return instruction.effect == Effect::Receives || is_among(instruction.mnemonic, {"NETR", "NETW"});
 }
 
 bool begins_routine(const Instruction& instruction) {
@@ -206,6 +212,7 @@ void SeriesRecorder::instruction(const InstructionRecord& record) {
   }
   note_changes(record.op, record.at);
   if (decides(instruction)) note_decision(record);
+  if (record.powered && lets_the_system_store(instruction)) note_store(record.op);
   const auto rules = instruction.rules();
   if (!rules.empty() && !op[0].pointer && is_timer(op[0].at))
     timers_[timer_of(std::uint64_t{op[0].at} * 8)] = looks_of(record.op);
@@ -222,11 +229,29 @@ std::vector<Look> SeriesRecorder::looks_of(std::uint32_t op) {
   return looks;
 }
 
+void SeriesRecorder::note_store(std::uint32_t op) {
+  Store store{.at = cpu_.time(), .looks = looks_of(op)};
+  for (const MemoryAccess& each : effects_now(cpu_.program(), op, cpu_.state().image))
+    if (each.writes()) store.places.push_back(each.bits);
+  stores_[op] = std::move(store);
+}
+
+/// The instruction that lets the system store there, the last one that was executed.
+std::optional<std::uint32_t> SeriesRecorder::stored_by(const Bits& place) const {
+  std::optional<std::uint32_t> found;
+  for (const auto& [op, store] : stores_) {
+    const bool there = std::ranges::any_of(store.places, [&](const Bits& bits) { return bits.overlaps(place); });
+    if (there && (!found || stores_.at(*found).at < store.at)) found = op;
+  }
+  return found;
+}
+
 /// A timer goes on because of the last execution of its instruction, and its bit because of its value; an input has what its
-/// point has.
+/// point has; a message is stored because of its RCV.
 std::vector<Look> SeriesRecorder::looks_of_system(const Bits& place) const {
   const auto byte = static_cast<std::uint32_t>(place.first / 8);
   if (byte < image::kQ) return {{0, {place.first + std::uint64_t{image::kInputs - image::kI} * 8, place.count}}};
+  if (const auto by = stored_by(place)) return stores_.at(*by).looks;
   if (!is_timer(byte)) return {};
   const std::uint32_t number = timer_of(place.first);
   const auto executed = timers_.find(number);
@@ -279,6 +304,7 @@ void SeriesRecorder::note_changes(std::optional<std::uint32_t> op, Time at) {
     Happening happening = happening_of(op, at);
     happening.place = place;
     happening.looks = op ? looks_of(*op) : looks_of_system(place);
+    if (!op) happening.op = stored_by(place);
     for (const std::uint64_t bit : changed)
       if (place.contains({bit, 1}))
         run_.series[bit].push_back({at, run_.happenings.size(), (now[bit / 8] >> (bit % 8) & 1) != 0});
@@ -320,6 +346,8 @@ void SeriesRecorder::record(const TraceRecord& record) {
     case TraceKind::ServiceBegin:
       happening.where = record.event;
       happening.what = record.routine;
+      for (const PortInfo& port : kPorts)
+        if (port.received_message == record.event) happening.looks = looks_of_system({port.message * std::uint64_t{8}, 8});
       break;
     case TraceKind::Attach:
     case TraceKind::Detach:

@@ -112,6 +112,8 @@ class SeriesRecorder final : public Reader {
   void heed_edges_again();
   void note_changes(std::optional<std::uint32_t> op, Time at);
   void note_decision(const InstructionRecord& record);
+  void note_store(std::uint32_t op);
+  std::optional<std::uint32_t> stored_by(const Bits& place) const;
   std::vector<Look> looks_of(std::uint32_t op);
   std::vector<Look> looks_of_system(const Bits& place) const;
   Happening happening_of(std::optional<std::uint32_t> op, Time at) const;
@@ -128,6 +130,14 @@ class SeriesRecorder final : public Reader {
   std::vector<std::optional<bool>> decided_{};               // by op
   std::map<std::uint32_t, std::vector<Look>> timers_{};      // by number: what their last execution looked at
   std::array<std::vector<Look>, kPorts.size()> messages_{};  // what the last XMT looked at
+
+  /// What the system stores after an RCV, NETR or NETW.
+  struct Store {
+    Time at = 0;
+    std::vector<Bits> places{};
+    std::vector<Look> looks{};
+  };
+  std::map<std::uint32_t, Store> stores_{};  // by op, of their last execution
   std::size_t level_ = 0;
   std::vector<Bits> read_now_{}, written_now_{};  // of the instruction under way, if they are known only before it
   Time scan_ = 0;
