@@ -256,6 +256,58 @@ TEST(WhyNot, WhatHasBeenToldIsReferredTo) {
       << text;
 }
 
+/// Q0.0 hangs on eight bits, each of which hangs on three others, and those on an input each.
+std::string deep_program() {
+  std::string text;
+  for (int bit = 0; bit < 8; ++bit) {
+    for (int of = 0; of < 3; ++of) text += fmt::format("LD I{}.{}\n= M{}.{}\n", of, bit, 10 + of, bit);
+    text += fmt::format("LD M10.{0}\nA M11.{0}\nA M12.{0}\n= M0.{0}\n", bit);
+  }
+  for (int bit = 0; bit < 8; ++bit) text += fmt::format("{} M0.{}\n", bit == 0 ? "LD" : "A", bit);
+  return text + "= Q0.0\nLD M0.7\n= Q0.1\nMEND\n";
+}
+
+TEST(WhyNot, OfALongAnswerTheNearestIsShownAndWhatToAskForMore) {
+  AtPrompt session(deep_program());
+  session("continue 20ms");
+  const std::string some = session("why not Q0.0"), all = session("why not Q0.0 all");
+  const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
+  EXPECT_LE(lines(some), 38) << some;
+  EXPECT_GT(lines(all), 100);
+  for (int bit = 0; bit < 8; ++bit) EXPECT_TRUE(has(some, fmt::format("\n    M0.{} is 0", bit))) << some;
+  EXPECT_TRUE(has(some, "(A M0.7 in line ")) << some;
+  EXPECT_TRUE(has(some, "): … more: why not M0.7\n")) << some;
+  EXPECT_FALSE(has(all, "more:"));
+  EXPECT_TRUE(has(session("why not M0.7"), "(A M11.7 in line "));
+}
+
+TEST(WhyNot, OfALongAnswerWhatWasToldDeepDownIsToldWhereItIsNearest) {
+  std::string text;
+  for (int level = 1; level < 4; ++level) {
+    for (int of = 1; of < 6; ++of)
+      text += fmt::format("LD M{}.{}\nA M{}.0\n= M{}.{}\n", level + 1, of, level + 1, level, of);
+    text += fmt::format("LD M{}.5\n= M{}.0\n", level + 1, level);
+  }
+  AtPrompt session("LD M1.1\nA M1.2\nA M1.3\nA M1.4\nA M1.5\nA M2.5\n= Q0.0\n" + text + "MEND\n");
+  session("continue 20ms");
+  const std::string some = session("why not Q0.0");
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < some.size(); at = some.find('\n', at) + 1)
+    lines.push_back(some.substr(at, some.find('\n', at) - at));
+  ASSERT_LE(lines.size(), 38U) << some;
+  std::size_t references = 0;
+  for (const std::string& line : lines) {
+    const std::size_t at = line.find(", line ");
+    if (at == std::string::npos || !has(line, " of this answer")) continue;
+    ++references;
+    const std::size_t number = std::stoul(line.substr(at + 7));
+    ASSERT_LE(number, lines.size());
+    const auto name = [](const std::string& of) { return of.substr(of.find('M'), 4); };
+    EXPECT_EQ(name(lines[number - 1]), name(line)) << some;
+  }
+  EXPECT_GT(references, 0U) << some;
+}
+
 constexpr std::string_view kTwoCoils =
     "LD I0.0\n"
     "= Q0.0\n"

@@ -16,6 +16,7 @@ bool is_file(const std::string& word) {
 }
 
 bool is_not(const std::string& word) { return stl::lower_case(word) == "not"; }
+bool is_all(const std::string& word) { return stl::lower_case(word) == "all"; }
 
 }  // namespace
 
@@ -24,6 +25,8 @@ WhyRequest why_request(std::vector<std::string> words) {
   words.erase(words.begin());
   std::vector<std::string> about;
   for (std::string& word : words) (about.empty() && is_file(word) ? request.paths : about).push_back(std::move(word));
+  request.all = about.size() > 1 && is_all(about.back());
+  if (request.all) about.pop_back();
   request.not_so = about.size() > 1 && (is_not(about.front()) || is_not(about.back()));
   if (request.not_so) about.erase(is_not(about.back()) ? about.end() - 1 : about.begin());
   request.about = joined(about);

@@ -10,6 +10,7 @@ struct WhyRequest {
   std::vector<std::string> paths{};  ///< of the program and its parts: the first word, and files that follow it
   std::string about{};               ///< an address or a condition; empty if there is none
   bool not_so = false;               ///< what keeps it from being so: `not` in front of it or after it
+  bool all = false;                  ///< `all` at the end: however long the answer is
 };
 
 WhyRequest why_request(std::vector<std::string> words);

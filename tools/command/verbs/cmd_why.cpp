@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/inspecting/inspected_program.hpp"
@@ -28,6 +29,11 @@ struct WhyOptions {
   std::string memory;
   bool json = false;
 };
+
+std::string further_question(const WhyRequest& question, const Obstacle& node, bool is_root) {
+  if (is_root) return fmt::format("s7200 why … {}{} all", stl::printable(question.about), question.not_so ? " not" : "");
+  return fmt::format("s7200 why … {}", memory_text(as_named(node.bits)));
+}
 
 void add_nodes(const Obstacle& obstacle, std::size_t depth, nlohmann::ordered_json& nodes) {
   nlohmann::ordered_json node = to_json(obstacle);
@@ -60,11 +66,12 @@ int run_why(const WhyOptions& options) {
   if (!holds) return print_error(fmt::format("{}: {}", stl::printable(question.about), why)), kUnusable;
   const bool nothing_to_say = question.not_so && *holds;
   const Obstacle answer = question.not_so ? why_not(cpu, *wish) : what_keeps(cpu, *wish);
+  const auto further = [&](const Obstacle& node, bool is_root) { return further_question(question, node, is_root); };
   if (!options.json) {
     if (nothing_to_say)
       fmt::print("{} holds now\n", stl::printable(wish->text));
     else
-      fmt::print("{}\n", fmt::join(lines_of(answer), "\n"));
+      fmt::print("{}\n", fmt::join(question.all ? lines_of(answer) : few_lines_of(answer, further), "\n"));
     return kFine;
   }
   auto results = results_of("why");
@@ -84,10 +91,9 @@ int run_why(const WhyOptions& options) {
 void add_why(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<WhyOptions>();
   CLI::App* verb = app.add_subcommand("why", "which contacts hold an output, from a picture of memory");
-  verb->add_option(
-          "PROGRAM", options->words,
-          "an STL file with its symbol table and data block, then an address or a condition, and not; not asks what "
-          "keeps it from being so")
+  verb->add_option("PROGRAM", options->words,
+                   "an STL file with its symbol table and data block, then an address or a condition, not and all; not asks "
+                   "what keeps it from being so, all is for long answers")
       ->required();
   verb->add_option("--memory", options->memory, "what the CPU has kept, as 'run --memory' writes it [a first scan]")
       ->type_name("FILE.json")

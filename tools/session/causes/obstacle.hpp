@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -36,6 +37,13 @@ void number_lines(Obstacle& root);
 
 /// Each node in a line, what is because of it below, two columns further in.
 std::vector<std::string> lines_of(const Obstacle& obstacle);
+
+/// The question that tells what is because of a node: `why not M0.0`; of the root, which needs all of the answer.
+using FurtherQuestion = std::function<std::string(const Obstacle& node, bool is_root)>;
+
+/// The same in about as many lines as a screen has: what is nearest to the root first. A node with more below it says which
+/// question tells that.
+std::vector<std::string> few_lines_of(const Obstacle& obstacle, const FurtherQuestion& question);
 
 /// The node and all below: its kind, what it has of name, value, wanted, since_ns, text, as_line, and `because`. `line` is
 /// that of the instruction, as `place` says it.

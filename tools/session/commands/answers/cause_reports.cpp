@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/base/text/joined.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/trace/text/statement_text.hpp"
@@ -21,6 +22,13 @@
 
 namespace s7200::tools {
 namespace {
+
+/// What to type for what is because of a node: `why not M0.0`.
+std::string further_question(const Wish& wish, const Obstacle& node, bool is_root) {
+  if (is_root) return fmt::format("why not {} all", stl::printable(wish.text));
+  const std::string_view asks = node.wanted.empty() ? "why" : node.wanted == "0" ? "why not not" : "why not";
+  return fmt::format("{} {}", asks, memory_text(as_named(node.bits)));
+}
 
 /// `places`: what it was about; what of it is forced is said if the system wrote it.
 FoundInPast found(const Session& session, const WriterSearch& search, const std::vector<Bits>& places) {
@@ -93,7 +101,7 @@ Reply cause_of(Session& session, const MemoryRange& range, std::string_view name
   return reply;
 }
 
-Reply obstacles_to(Session& session, const Wish& wish) {
+Reply obstacles_to(Session& session, const Wish& wish, bool all) {
   const Cpu& cpu = session.cpu();
   const std::string name = stl::printable(wish.text);
   Json json{{"name", name}};
@@ -111,7 +119,9 @@ Reply obstacles_to(Session& session, const Wish& wish) {
   const std::string standstill = session.simulation().plc().executes()
                                      ? ""
                                      : fmt::format("{} executes nothing now\n", session.name_of(session.focus()));
-  return {.text = fmt::format("{}{}\n", standstill, fmt::join(lines_of(*answer), "\n")), .json = std::move(json)};
+  const auto question = [&](const Obstacle& node, bool is_root) { return further_question(wish, node, is_root); };
+  const std::vector<std::string> lines = all ? lines_of(*answer) : few_lines_of(*answer, question);
+  return {.text = fmt::format("{}{}\n", standstill, fmt::join(lines, "\n")), .json = std::move(json)};
 }
 
 Reply effect_of(Session& session, const MemoryRange& range, std::string_view name, Time within) {

@@ -36,7 +36,7 @@ Reply cause_of(Session& session, const MemoryRange& range, std::string_view name
 
 /// What is in the way of a wish: `Q0.3 is 0, must be 1`, and the tree of what holds it off; {"name": "Q0.3", "holds": false,
 /// "whyNot": {…}}.
-Reply obstacles_to(Session& session, const Wish& wish);
+Reply obstacles_to(Session& session, const Wish& wish, bool all = false);
 
 /// What came of the last change of memory before now, which is called `name`, at most for `within`; {"effect": {…}}, or
 /// {"text": "…"} if nothing has changed it.

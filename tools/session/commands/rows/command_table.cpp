@@ -171,18 +171,19 @@ takes the address that the pointer holds now. 'rwho' goes there.)",
       {"rwho", "rw", "rwho ADDRESS | event N", "back to in front of the instruction that 'who' names",
        "rwho event 8 goes to where the program last changed which routine gets the characters: where it dropped a frame.",
        commands::back_to_write, Takes::Writers, true, "event"},
-      {"why", "", "why [ADDRESS | not CONDITION | latency]",
+      {"why", "", "why [ADDRESS | not CONDITION [all] | latency]",
        "what decided that it has come here: contacts, a jump or a conditional return, without going there",
        R"(With an address: who wrote it last, which contacts decided that, and so on back to an input; or which instructions
 could write it, and what keeps them from it. why not Q0.3: the rungs that write it, the fewest contacts that would have to
 change, with what each has, since when and who could change it; why not not Q0.3 what keeps it on, why not VW10 > 5 who
-writes VW10. why latency: what the last answer to a master in the simulation waited for. Where an 'expect' or a step of a
-scenario has just failed, why is about the memory that was not as expected.
+writes VW10. Of a long answer the nearest 38 lines are shown, with what to ask for more; why not Q0.3 all shows all of it.
+why latency: what the last answer to a master in the simulation waited for. Where an 'expect' or a step of a scenario has
+just failed, why is about the memory that was not as expected.
 Without one: the contacts of this rung, or what the main program or the interrupt routine came by last, with operand values.
 While a master or a program waits for an answer, and where it gives up: also what has left the request without one,
 be it the program, an event that is not attached, a port in PPI mode, or the line that lost it or its answer; or that
 it was for another station. That comes first, what led to this place last.)",
-       commands::why, Takes::Wishes, false, "not latency"},
+       commands::why, Takes::Wishes, false, "not latency all"},
       {"effect", "ef", "effect ADDRESS [at TIME] [within TIME]",
        "what came of the last change of a bit or word: what it made otherwise, and until when",
        R"(Of the last change before now, or before TIME, a moment as those of at. The known past is compared, for TIME (10 s) after

@@ -28,11 +28,13 @@ FoundInPast writer_of(Session& session, const Words& arguments, std::string_view
   return place ? last_writer(session, place->range, place->name) : FoundInPast{wrong(why)};
 }
 
-Reply why_not(Session& session, const Words& words) {
+Reply why_not(Session& session, Words words) {
   if (words.empty()) return wrong(expects("why not", "a bit or a condition, for example: why not Q0.3, why not VW10 > 5"));
+  const bool all = words.size() > 1 && stl::lower_case(words.back()) == "all";
+  if (all) words.pop_back();
   std::string why;
   const auto wish = parse_wish(joined(words), session.program(), why);
-  return wish ? obstacles_to(session, *wish) : wrong(fmt::format("why not: {}", why));
+  return wish ? obstacles_to(session, *wish, all) : wrong(fmt::format("why not: {}", why));
 }
 
 /// The answered request of a simulated master that ended last on the line of the PLC that is looked at; null if there is
