@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/analysis/longest_ways.hpp"
 #include "interpreter/base/bytes.hpp"
 #include "interpreter/base/text/numbers.hpp"
@@ -36,16 +35,30 @@ std::optional<std::int64_t> limit_in(const std::string& comment) {
 
 class BoundsBuilder {
  public:
-  BoundsBuilder(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated)
-      : facts_(facts), calls_(calls), timed_(timed), stated_(stated), ways_(facts, timed, [this](std::uint32_t op) {
-          return known_times(op);
-        }) {
+  BoundsBuilder(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated,
+                const Waiter& waiter)
+      : facts_(facts),
+        calls_(calls),
+        timed_(timed),
+        stated_(stated),
+        waiter_(waiter),
+        ways_(
+            facts, timed, [this](std::uint32_t op) { return known_times(op); }, waiter) {
     for (const Calls::Node& node : calls.nodes) usual_.disturbing.push_back(node.by_interrupt);
   }
 
   Bounds all() {
     for (std::uint32_t op = 0; op < timed_.ops.size(); ++op)
       if (is_loop(timed_, op)) bounds_.loops.push_back({op, times_of(op)});
+    Bounds interrupted;
+    interrupted.loops = bounds_.loops;
+    interrupted.is_complete = false;
+    measure_all();
+    return waiter_.stop.stop_requested() ? interrupted : std::move(bounds_);
+  }
+
+ private:
+  void measure_all() {
     measure_routines();
     bounds_.scan = bounds_.routines[0].time;
     for (const Time phase : timed_.scan_phase) bounds_.scan += phase;
@@ -56,10 +69,8 @@ class BoundsBuilder {
     bounds_.scan_with_interrupts = with_interrupts();
     for (std::size_t port = 0; port < timed_.model->ports; ++port)
       if (const auto found = answer(port)) bounds_.answers.push_back(*found);
-    return std::move(bounds_);
   }
 
- private:
   // --- loops ---
 
   std::optional<std::int64_t> times_of(std::uint32_t op) const {
@@ -128,33 +139,16 @@ class BoundsBuilder {
 
   // --- interrupts ---
 
-  /// The constants that instructions move to a byte or a word of special memory; nothing if one of them is none.
-  std::optional<std::vector<std::int64_t>> constants_written(std::uint32_t at, Width width) const {
-    std::vector<std::int64_t> all;
-    const Bits bits{at * 8u, bytes_of(width) * 8u};
-    for (std::uint32_t op = 0; op < facts_.effects.size(); ++op)
-      for (const MemoryAccess& access : facts_.effects[op]) {
-        if (!access.writes() || access.by_pointer || !access.bits.overlaps(bits)) continue;
-        const auto box = value_box_of(*timed_.ops[op].instruction);
-        const auto value = box && box->carries() && box->from && access.bits == bits
-                               ? constant_value(timed_, timed_.ops[op][*box->from], width)
-                               : std::nullopt;
-        if (!value) return {};
-        all.push_back(*value);
-      }
-    return all;
-  }
-
   Time timed_period(std::size_t timer) const {
     const Time shortest = timed_.model->shortest_timed_interval;
-    const auto written = constants_written(sm::kTimedInterval[timer], Width::Byte);
+    const auto written = constants_written(facts_, sm::kTimedInterval[timer], Width::Byte);
     if (!written || written->empty()) return shortest;
     return std::max(shortest, *std::ranges::min_element(*written) * kMillisecond);
   }
 
   /// The time of a character in the fastest format that the port is given.
   Time character_time(std::size_t port) const {
-    const auto written = constants_written(kPorts[port].control, Width::Byte);
+    const auto written = constants_written(facts_, kPorts[port].control, Width::Byte);
     const auto time = [&](std::int64_t control) {
       const std::uint32_t baud = timed_.model->baud[(control & sm::kBaudRate) >> 2];
       const std::int64_t bits = (control & sm::kSevenBits ? 9 : 10) + (control & 0x40 ? 1 : 0);
@@ -343,10 +337,10 @@ class BoundsBuilder {
       const bool used = timed && std::ranges::any_of(calls_.events, [&](const EventUse& use) {
                           return use.number == event::kTimed0 + timer && !use.attached.empty();
                         });
-      if (used && !take(constants_written(sm::kTimedInterval[timer], Width::Byte))) return {};
+      if (used && !take(constants_written(facts_, sm::kTimedInterval[timer], Width::Byte))) return {};
     }
     const bool receives = timed_.receives_messages[port];
-    if (receives && !take(constants_written(kPorts[port].message + sm::message::kTimeout, Width::Word))) return {};
+    if (receives && !take(constants_written(facts_, kPorts[port].message + sm::message::kTimeout, Width::Word))) return {};
     return longest;
   }
 
@@ -397,6 +391,7 @@ class BoundsBuilder {
   const Calls& calls_;
   const Program& timed_;
   const StatedLoops& stated_;
+  const Waiter& waiter_;
   LongestWays ways_;
   LongestWays::Assumed usual_{};
   Time longest_instruction_ = 0;  // of the main program, with what it calls
@@ -410,8 +405,9 @@ bool is_loop(const Program& program, std::uint32_t op) {
   return kind_of(of) == Structure::For || (kind_of(of) == Structure::Jump && of.target <= op);
 }
 
-Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated) {
-  return BoundsBuilder(facts, calls, timed, stated).all();
+Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated,
+                 const Waiter& waiter) {
+  return BoundsBuilder(facts, calls, timed, stated, waiter).all();
 }
 
 }  // namespace s7200

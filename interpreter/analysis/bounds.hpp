@@ -63,9 +63,11 @@ struct Bounds {
   /// With as many interrupts as can come in it. As with OfEvent::latency, there is no bound if interrupts leave no time for
   /// it, if the period of an attached event is not known, or if they may stay disabled for good.
   std::optional<Time> scan_with_interrupts;
+  bool is_complete = true;  ///< false: whoever waited asked to end, and only the loops are known
 };
 
 /// `timed`: the program of `facts`, with the times to count with. `stated` counts before all that the program says.
-Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated = {});
+Bounds bounds_of(const Facts& facts, const Calls& calls, const Program& timed, const StatedLoops& stated = {},
+                 const Waiter& waiter = {});
 
 }  // namespace s7200

@@ -20,6 +20,7 @@ constexpr std::int64_t kMostUnits = 255;  ///< units of an instruction that memo
 constexpr std::int64_t kMostShifted = 32;
 constexpr std::size_t kMostWays = 1000, kFewWays = 40;  ///< in front of an op
 constexpr std::uint64_t kManySteps = 100'000;           ///< after which few ways must do
+constexpr std::uint64_t kMuchKept = 2'000'000;          ///< values of cells that are kept, about 200 MB: the same
 constexpr int kLevels = 9;                              ///< of the logic stack
 
 Structure flow_role(const Op& op) { return op.instruction->structure; }
@@ -50,8 +51,8 @@ struct Way {
 
 using WayList = std::vector<Way>;
 
-/// Takes the shortest two ways with the same stack for one.
-void join_the_shortest(WayList& ways) {
+/// Takes the shortest two ways with the same stack for one. False if there are none.
+bool join_the_shortest(WayList& ways) {
   std::ranges::stable_sort(ways, {}, &Way::time);
   for (std::size_t i = 0; i < ways.size(); ++i)
     for (std::size_t other = i + 1; other < ways.size(); ++other) {
@@ -59,11 +60,12 @@ void join_the_shortest(WayList& ways) {
       ways[i].memory.join(ways[other].memory);
       ways[i].time = ways[other].time;
       ways.erase(ways.begin() + static_cast<std::ptrdiff_t>(other));
-      return;
+      return true;
     }
+  return false;
 }
 
-void add_way(WayList& ways, Way way, std::size_t most = kMostWays) {
+void add_way(WayList& ways, Way way, std::size_t most) {
   const auto same =
       std::ranges::find_if(ways, [&](const Way& each) { return each.stack == way.stack && each.memory == way.memory; });
   if (same != ways.end()) {
@@ -71,7 +73,8 @@ void add_way(WayList& ways, Way way, std::size_t most = kMostWays) {
     return;
   }
   ways.push_back(std::move(way));
-  if (ways.size() > most) join_the_shortest(ways);
+  while (ways.size() > most && join_the_shortest(ways)) {
+  }
 }
 
 /// How deep the logic stack is looked at from each op of a routine on.
@@ -119,6 +122,7 @@ class LongestWays::Follower {
       : facts_(of.facts_),
         timed_(of.timed_),
         times_(of.times_),
+        waiter_(of.waiter_),
         assumed_(assumed),
         cells_(of.facts_, assumed.disturbing),
         needs_(of.facts_.flow, of.timed_) {}
@@ -132,7 +136,7 @@ class LongestWays::Follower {
     Through through;
     WayList all;
     for (unsigned top = 0; top < 2; ++top) {
-      add_way(all, {StackOfWay(top), cells_.nothing_known(), 0});
+      all.push_back({StackOfWay(top), cells_.nothing_known(), 0});
     }
     for (const auto& [op, ways] : walk(from, to, std::move(all), through)) take(through.exits, ways);
     return finish(through);
@@ -165,8 +169,8 @@ class LongestWays::Follower {
     return way;
   }
 
-  static void take(WayList& into, const WayList& from) {
-    for (const Way& way : from) add_way(into, way);
+  void take(WayList& into, const WayList& from) const {
+    for (const Way& way : from) add_way(into, way, most_ways());
   }
 
   Through through_routine(std::uint32_t routine, WayMemory memory) {
@@ -179,6 +183,7 @@ class LongestWays::Follower {
     for (auto& [op, ways] : walk(of.first, of.end, {{StackOfWay(1), memory, 0}}, through)) take(through.exits, ways);
     under_way_.erase(routine);
     known_.push_back({routine, memory, through});
+    kept_ += (1 + through.exits.size()) * memory.value.size();
     return through;
   }
 
@@ -189,7 +194,10 @@ class LongestWays::Follower {
     for (std::uint32_t op = from; op < to; ++op) {
       const auto here = arrivals.extract(op);
       if (here.empty()) continue;
-      for (const Way& way : here.mapped()) step(op, way, from, arrivals, through);
+      for (const Way& way : here.mapped()) {
+        if (waiter_.asks_to_end()) return {};
+        step(op, way, from, arrivals, through);
+      }
     }
     return arrivals;
   }
@@ -197,11 +205,12 @@ class LongestWays::Follower {
   void arrive(std::uint32_t op, Way way, Arrivals& arrivals) const {
     way.stack = needs_.kept(op, way.stack);
     cells_.forget_dead(way.memory, op);
-    add_way(arrivals[op], std::move(way), has_patience() ? kMostWays : kFewWays);
+    add_way(arrivals[op], std::move(way), most_ways());
   }
 
   /// After many steps, calls and loops are followed as if nothing were known in front of them: each once.
-  bool has_patience() const { return steps_ < kManySteps; }
+  std::size_t most_ways() const { return has_patience() ? kMostWays : kFewWays; }
+  bool has_patience() const { return steps_ < kManySteps && kept_ < kMuchKept; }
 
   // --- an op ---
 
@@ -245,7 +254,7 @@ class LongestWays::Follower {
   void return_from(std::uint32_t op, Way way, Through& through) const {
     way.stack = StackOfWay();
     cells_.forget_dead_after(way.memory, facts_.flow.nodes[op].routine);
-    add_way(through.exits, std::move(way));
+    add_way(through.exits, std::move(way), most_ways());
   }
 
   /// CRET and CRETI return; END and STOP end the scan.
@@ -419,13 +428,16 @@ class LongestWays::Follower {
       if (known.from == from && known.to == to && known.memory == memory) return known.pass;
     const Pass pass = followed_pass(from, to, memory);
     known_passes_.push_back({from, to, memory, pass});
+    std::size_t ways = 1 + pass.through.exits.size();
+    for (const auto& [op, leaving] : pass.leaves) ways += leaving.size();
+    kept_ += ways * memory.value.size();
     return pass;
   }
   Pass followed_pass(std::uint32_t from, std::uint32_t to, const WayMemory& memory) {
     Pass pass;
     WayList all;
     for (unsigned top = 0; top < 2; ++top) {
-      add_way(all, {StackOfWay(top), memory, 0});
+      all.push_back({StackOfWay(top), memory, 0});
     }
     pass.leaves = walk(from, to, std::move(all), pass.through);
     for (const auto& [op, ways] : pass.leaves)
@@ -448,7 +460,7 @@ class LongestWays::Follower {
     for (const auto& [to, ways] : pass.leaves)
       if (to != but_for)
         for (const Way& each : ways) arrive(to, {each.stack, way.memory, time}, arrivals);
-    for (const Way& exit : pass.through.exits) add_way(through.exits, {exit.stack, way.memory, time});
+    for (const Way& exit : pass.through.exits) add_way(through.exits, {exit.stack, way.memory, time}, most_ways());
     through.include(pass.through);
     if (pass.through.ends) through.end_at(time);
     if (pass.through.to_transmission) through.transmit_at(time);
@@ -522,6 +534,7 @@ class LongestWays::Follower {
   const Facts& facts_;
   const Program& timed_;
   const Times& times_;
+  const Waiter& waiter_;
   const Assumed& assumed_;
   WayCells cells_;
   StackNeeds needs_;
@@ -534,7 +547,7 @@ class LongestWays::Follower {
   std::vector<Entry> known_{};
   std::vector<KnownPass> known_passes_{};
   std::set<std::uint32_t> under_way_{};  // routines
-  std::uint64_t steps_ = 0;
+  std::uint64_t steps_ = 0, kept_ = 0;
 };
 
 std::vector<LongestWay> LongestWays::of_routines(const std::vector<std::uint32_t>& routines, const Assumed& assumed) const {

@@ -41,9 +41,10 @@ class LongestWays {
     std::uint32_t port = 0;                     ///< whose XMT are meant
   };
 
-  /// `timed`: the program of `facts`, with the times to count with; it has no errors. All must live as long as this.
-  LongestWays(const Facts& facts, const Program& timed, Times times)
-      : facts_(facts), timed_(timed), times_(std::move(times)) {}
+  /// `timed`: the program of `facts`, with the times to count with; it has no errors. All must live as long as this. If
+  /// `waiter` asks to end, no result means anything.
+  LongestWays(const Facts& facts, const Program& timed, Times times, const Waiter& waiter)
+      : facts_(facts), timed_(timed), times_(std::move(times)), waiter_(waiter) {}
 
   /// `routines`: in ControlFlow::routines. For each what it takes from its beginning.
   std::vector<LongestWay> of_routines(const std::vector<std::uint32_t>& routines, const Assumed& assumed) const;
@@ -55,6 +56,7 @@ class LongestWays {
   const Facts& facts_;
   const Program& timed_;
   Times times_;
+  const Waiter& waiter_;
 };
 
 }  // namespace s7200

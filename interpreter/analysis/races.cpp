@@ -129,9 +129,10 @@ class Protection {
 
 class RaceFinder {
  public:
-  RaceFinder(const Facts& facts, const Calls& calls)
+  RaceFinder(const Facts& facts, const Calls& calls, const Waiter& waiter)
       : facts_(facts),
         calls_(calls),
+        waiter_(waiter),
         accesses_(facts),
         protection_(facts, calls),
         first_scan_(ops_of_first_scan(facts.program)) {}
@@ -192,6 +193,7 @@ class RaceFinder {
 
   void find_lost_updates(const Routine& routine) {
     for (std::uint32_t op = routine.first; op < routine.end; ++op) {
+      if (waiter_.asks_to_end()) return;
       if (is_unread(facts_.program.ops[op])) continue;
       for (const MemoryAccess& access : accesses_.of(op))
         if (access.role == Role::In && access.bits.count >= kBitsOfByte && is_shared(as_named(access.bits)) &&
@@ -277,6 +279,7 @@ class RaceFinder {
   void find_torn(const Routine& routine, Race::Kind kind) {
     const bool reads = kind == Race::Kind::TornRead;
     for (const Foreign& foreign : foreign_) {
+      if (waiter_.asks_to_end()) return;
       const Bits& whole = foreign.access.bits;
       const bool meant = reads ? foreign.access.writes() : foreign.access.reads();
       if (!meant || whole.count < kBitsOfWord || whole.count > kBitsOfDouble) continue;
@@ -305,6 +308,7 @@ class RaceFinder {
 
   const Facts& facts_;
   const Calls& calls_;
+  const Waiter& waiter_;
   Accesses accesses_;
   Protection protection_;
   std::vector<bool> first_scan_;
@@ -315,6 +319,8 @@ class RaceFinder {
 
 }  // namespace
 
-std::vector<Race> find_races(const Facts& facts, const Calls& calls) { return RaceFinder(facts, calls).all(); }
+std::vector<Race> find_races(const Facts& facts, const Calls& calls, const Waiter& waiter) {
+  return RaceFinder(facts, calls, waiter).all();
+}
 
 }  // namespace s7200

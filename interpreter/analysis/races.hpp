@@ -34,7 +34,8 @@ struct Race {
   std::uint8_t event = 0;             ///< that starts it
 };
 
-/// By the ops of the main program, each pair of them once for each interrupt routine. Empty without an ENI.
-std::vector<Race> find_races(const Facts& facts, const Calls& calls);
+/// By the ops of the main program, each pair of them once for each interrupt routine. Empty without an ENI. If `waiter` asks
+/// to end, those that were found by then.
+std::vector<Race> find_races(const Facts& facts, const Calls& calls, const Waiter& waiter = {});
 
 }  // namespace s7200

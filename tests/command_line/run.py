@@ -2740,6 +2740,16 @@ class Inspect(Case):
         self.assertIn('  "Speed" has "Retry" in it, VB131: shared.stl:2, shared.stl:3\n', shown)
         self.assertIn('in shared.stl:4 begins at "Table" and goes on over "Limit"\n', shown)
 
+    def test_a_message_or_a_table_that_may_become_longer_than_its_symbol_is_worth_a_look(self):
+        text = "LD SM0.1\nMOVB {}, SMB94\nMOVW 5, Table\nLD I0.0\nRCV Buffer, 0\nATT VW2, Table\nMEND\n"
+        symbols = self.program("Symbol\tAddress\nBuffer\tVB100\nStation\tVB120\nTable\tVW400\nLimit\tVW412\n", "rooms.txt")
+        def shown(most):
+            return self.ends(FINE, "inspect", self.program(text.format(most), "rooms.stl"), symbols, "--cpu", "224").stdout
+        self.assertIn('in rooms.stl:5 begins at "Buffer" and may go on over "Station"\n', shown(20))
+        self.assertNotIn('"Station"\n', shown(19))
+        self.assertNotIn('"Station"\n', shown("VB90"), "how many characters it may have is not known")
+        self.assertIn('in rooms.stl:6 begins at "Table" and may go on over "Limit"\n', shown(19))
+
     def test_the_user_may_say_how_often_a_loop_runs(self):
         program = self.program("LD SM0.0\nFOR VW0, 1, VW2\nINCW VW4\nNEXT\nMEND\n", "loop.stl")
         def bounds(*more):

@@ -333,6 +333,12 @@ def catches(process, number):
     return caught or process.poll() is not None
 
 
+def processor_time(process):
+    """In seconds, in user mode."""
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+    return int(fields[11]) / os.sysconf("SC_CLK_TCK")
+
+
 def blocked(process, pipe):
     """Whether a process sleeps because `pipe`, which it writes, is full."""
     waiting = struct.unpack("i", fcntl.ioctl(pipe, termios.FIONREAD, b"\0" * 4))[0]
@@ -468,6 +474,32 @@ class Signals(Case):
                     self.assertIn(b"s7200: note: interrupted", process.error)
                     self.assertEqual(json.loads(process.out)["s7200"]["verb"], verb)
             pathlib.Path(path).unlink()
+
+    def test_long_analyses(self):
+        """Many ways lead through a program whose subroutines look at forty words and write them."""
+        text, drawn = "LD SM0.0\n", itertools.cycle(number * 7 % 40 for number in range(40))
+        for call in range(40):
+            text += f"LDW= VW{2 * next(drawn)}, {call % 8}\nCALL {1 + call % 24}\n"
+        text += "MEND\n"
+        for routine in range(1, 25):
+            text += f"SBR {routine}\n"
+            for way in range(14):
+                text += f"LD I{way % 2}.{way % 8}\nMOVW {(way * routine) % 8}, VW{2 * next(drawn)}\n"
+                if routine < 24 and way in (5, 10):
+                    text += f"LDW= VW{2 * next(drawn)}, {routine % 8}\nCALL {routine + 1}\n"
+            text += "RET\n"
+        program = self.file("ways.stl", text)
+        for number in SIGNALS:
+            with self.subTest(number):
+                process = self.start("inspect", program, "bounds", "--cpu", "224")
+                self.eventually(lambda process=process: processor_time(process) > 0.3, "it does not work")
+                self.assertEqual(self.ended(process, number), FAILED)
+                self.assertEqual(process.out, b"interrupted before the bounds were known\n")
+                self.assertTrue(process.error.endswith(b"s7200: note: interrupted\n"), process.error)
+        process = self.start("inspect", program, "document", "--cpu", "224", "--json")
+        self.eventually(lambda: processor_time(process) > 0.3, "it does not work")
+        self.assertEqual(self.ended(process, signal.SIGTERM), FAILED)
+        self.assertIn("interrupted before the bounds were known", json.loads(process.out)["files"][0]["document"])
 
     def test_writing_a_pipe_that_no_one_reads(self):
         pipe = self.folder / "pipe"

@@ -65,6 +65,7 @@ std::optional<SeenTimes> seen_times(const Inspection& inspection) {
   std::uint64_t chance = 1;
   Time next = kBetween;
   while (cpu.time() < kRun && cpu.state().mode == Mode::Run) {
+    if (inspection.waiter.asks_to_end()) return {};
     cpu.run(std::min(next, kRun));
     while (queue.next() <= cpu.time()) {
       const Event event = queue.pop();

@@ -219,7 +219,7 @@ std::optional<LostWord> worst_instant(const Inspection& inspection, const Race& 
   const auto started = machine.started();
   if (!started) return {};
   Interrupt interrupt{race.event, inspection.facts.flow.routines[race.routine].number, 0x55, 0};
-  for (std::uint32_t number = 0; number < kAttempts; ++number) {
+  for (std::uint32_t number = 0; number < kAttempts && !inspection.waiter.asks_to_end(); ++number) {
     const Attempt attempt(inspection, race, *started, number);
     const auto steps = machine.steps(attempt.state());
     // A label or the head of a routine takes no time: the next instruction is executed with it.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "interpreter/analysis/effects/value_boxes.hpp"
 #include "interpreter/program/ladder/networks.hpp"
 
 namespace s7200 {
@@ -25,13 +26,34 @@ std::vector<std::uint32_t> network_numbers(const Program& program, const Control
 
 }  // namespace
 
-Facts facts_of(const Program& program) {
+Facts facts_of(const Program& program, const Waiter& waiter) {
   ControlFlow flow = control_flow(program);
-  Pointers pointers(program, flow);
+  Pointers pointers(program, flow, waiter);
   Facts facts{program, std::move(flow), std::move(pointers), {}, {}};
   for (std::uint32_t op = 0; op < program.ops.size(); ++op) facts.effects.push_back(effects_of(program, op, facts.pointers));
   facts.networks = network_numbers(program, facts.flow);
   return facts;
+}
+
+std::optional<std::vector<std::int64_t>> constants_written(const Facts& facts, std::uint32_t at, Width width) {
+  std::vector<std::int64_t> all;
+  const Bits bits{at * 8u, bytes_of(width) * 8u};
+  for (std::uint32_t op = 0; op < facts.effects.size(); ++op)
+    for (const MemoryAccess& access : facts.effects[op]) {
+      if (!access.writes() || access.by_pointer || !access.bits.overlaps(bits)) continue;
+      const Op& writer = facts.program.ops[op];
+      const bool leaves_its_length = access.operand != kNoOperand && width == Width::Word &&
+                                     writer.instruction->operand[access.operand].most != 0 &&
+                                     access.bits.first == bits.first;
+      if (leaves_its_length) continue;  // ATT, FIFO, LIFO: the first word of a table
+      const auto box = value_box_of(*writer.instruction);
+      const auto value = box && box->carries() && box->from && access.bits == bits
+                             ? constant_value(facts.program, writer[*box->from], width)
+                             : std::nullopt;
+      if (!value) return {};
+      all.push_back(*value);
+    }
+  return all;
 }
 
 }  // namespace s7200

@@ -1,6 +1,7 @@
 // What warnings and views ask of a program, worked out once.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "interpreter/analysis/effects/effects.hpp"
@@ -18,7 +19,11 @@ struct Facts {
   std::vector<std::uint32_t> networks;
 };
 
-/// `program` must live as long as what is returned.
-Facts facts_of(const Program& program);
+/// `program` must live as long as what is returned. If `waiter` asks to end, less is known of pointers.
+Facts facts_of(const Program& program, const Waiter& waiter = {});
+
+/// The constants that instructions move to memory at `at`, a byte, a word or a double word; nothing if one of those that
+/// write there does anything else.
+std::optional<std::vector<std::int64_t>> constants_written(const Facts& facts, std::uint32_t at, Width width);
 
 }  // namespace s7200

@@ -55,22 +55,24 @@ bool Pointers::Content::add(const Content& other) {
   return size() != before;
 }
 
-Pointers::Pointers(const Program& program, const ControlFlow& flow) : program_(program) {
+Pointers::Pointers(const Program& program, const ControlFlow& flow, const Waiter& waiter) : program_(program) {
   for (const Op& op : program.ops)
     for (const Operand& operand : op.operand)
       if (operand.pointer) begin(operand.at);
   for (const Parameter& parameter : program.parameters)
     if (parameter.actual.pointer) begin(parameter.actual.at);
   do {
-    while (!contents_.empty() && add_writes()) {
+    while (!contents_.empty() && !waiter.asks_to_end() && add_writes()) {
     }
-  } while (give_up_unset());
-  if (has_unread(program)) return;
+  } while (!waiter.asks_to_end() && give_up_unset());
+  if (waiter.asks_to_end())
+    for (auto& [at, content] : contents_) content.add(anything());
+  if (has_unread(program) || waiter.asks_to_end()) return;
   // What is known of pointers tells what interrupts and subroutines write, and that tells more of pointers.
   for (int round = 0; round < (contents_.empty() ? 1 : 2); ++round) {
     std::vector<std::vector<MemoryAccess>> effects;
     for (std::uint32_t op = 0; op < program.ops.size(); ++op) effects.push_back(effects_of(program, op, *this));
-    reaching_ = ReachingValues(program, flow, effects, *this);
+    reaching_ = ReachingValues(program, flow, effects, *this, waiter);
   }
 }
 

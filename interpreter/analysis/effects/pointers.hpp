@@ -29,8 +29,8 @@ struct MemoryAccess;
 class Pointers {
  public:
   explicit Pointers(const Program& program) : Pointers(program, control_flow(program)) {}
-  /// `flow` is that of the program.
-  Pointers(const Program& program, const ControlFlow& flow);
+  /// `flow` is that of the program. If `waiter` asks to end, less is known.
+  Pointers(const Program& program, const ControlFlow& flow, const Waiter& waiter = {});
 
   /// As if nothing were known of any: for what must hold whoever sets a pointer.
   static Pointers nothing_known(const Program& program) { return Pointers(program, Nothing{}); }

@@ -16,6 +16,7 @@ namespace s7200 {
 namespace {
 
 constexpr int kNarrowings = 2;
+constexpr std::size_t kMostFollowed = 3'000'000;  ///< cells in front of blocks, about 1 GB: nothing is known of more
 constexpr int kPatience = 4;  ///< times that a value may grow where ways meet before it is widened
 
 Structure structure_at(const Op& op) { return op.instruction->structure; }
@@ -78,26 +79,32 @@ bool counts_its_passes(const ControlFlow& flow, const Program& program,
 class ValueFollower {
  public:
   ValueFollower(const Program& program, const ControlFlow& flow, const std::vector<std::vector<MemoryAccess>>& effects,
-                const Pointers& pointers, ReachingValues& result)
+                const Pointers& pointers, const Waiter& waiter, ReachingValues& result)
       : program_(program),
         flow_(flow),
         effects_(effects),
         pointers_(pointers),
+        waiter_(waiter),
         calls_(calls_of(program, flow)),
         cells_(program, flow, effects, pointers, calls_),
         result_(result) {}
 
   void follow() {
     if (cells_.empty()) return;
-    find_loops();
     find_leaders();
+    if (static_cast<std::size_t>(std::ranges::count(leads_, true)) * cells_.size() > kMostFollowed) return;
+    find_loops();
     begin();
     while (!waiting_.empty()) {
+      if (waiter_.asks_to_end()) return;
       const std::uint32_t leader = *waiting_.begin();
       waiting_.erase(waiting_.begin());
       walk(leader);
     }
-    for (int round = 0; round < kNarrowings; ++round) narrow();
+    for (int round = 0; round < kNarrowings; ++round) {
+      if (waiter_.asks_to_end()) return;
+      narrow();
+    }
     phase_ = Phase::Recording;
     walk_all();
   }
@@ -647,6 +654,7 @@ class ValueFollower {
   const ControlFlow& flow_;
   const std::vector<std::vector<MemoryAccess>>& effects_;
   const Pointers& pointers_;
+  const Waiter& waiter_;
   Calls calls_;
   FollowedCells cells_;
   ReachingValues& result_;
@@ -666,8 +674,9 @@ class ValueFollower {
 };
 
 ReachingValues::ReachingValues(const Program& program, const ControlFlow& flow,
-                               const std::vector<std::vector<MemoryAccess>>& effects, const Pointers& pointers) {
-  ValueFollower(program, flow, effects, pointers, *this).follow();
+                               const std::vector<std::vector<MemoryAccess>>& effects, const Pointers& pointers,
+                               const Waiter& waiter) {
+  ValueFollower(program, flow, effects, pointers, waiter, *this).follow();
 }
 
 std::optional<ValueSet> ReachingValues::pointer(std::uint32_t op, std::uint32_t at) const {

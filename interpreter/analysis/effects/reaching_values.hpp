@@ -20,6 +20,7 @@
 
 #include "interpreter/analysis/effects/value_set.hpp"
 #include "interpreter/analysis/flow/calls.hpp"
+#include "interpreter/analysis/waiter.hpp"
 
 namespace s7200 {
 
@@ -39,9 +40,10 @@ std::vector<PointerTarget> places_of(const Program& program, const ValueSet& add
 
 class ReachingValues {
  public:
-  /// `effects`: effects_of() each op. `pointers`: what is known of them at any time. The program has no errors.
+  /// `effects`: effects_of() each op. `pointers`: what is known of them at any time. The program has no errors. If `waiter`
+  /// asks to end, nothing is known.
   ReachingValues(const Program& program, const ControlFlow& flow, const std::vector<std::vector<MemoryAccess>>& effects,
-                 const Pointers& pointers);
+                 const Pointers& pointers, const Waiter& waiter);
 
   /// What the pointer at `at`, through which op number `op` goes, may hold. Nothing if no way leads to the op.
   std::optional<ValueSet> pointer(std::uint32_t op, std::uint32_t at) const;

@@ -20,9 +20,9 @@ void forget_warnings_of_stand_ins(const stl::Source& source, stl::Diagnostics& d
 
 }  // namespace
 
-CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times) {
+CheckResult check(stl::ParseResult parsed, const CpuModel& model, const TimeTable& times, const Waiter& waiter) {
   DecodedSource decoded = decode_program(std::move(parsed), model, times);
-  if (decoded.known) find_warnings(*decoded.known, decoded.diagnostics);
+  if (decoded.known) find_warnings(*decoded.known, decoded.diagnostics, waiter);
   if (decoded.program) decoded.program->looks = looks_of(*decoded.program);
   forget_warnings_of_stand_ins(decoded.source, decoded.diagnostics);
   stl::sort(decoded.diagnostics);

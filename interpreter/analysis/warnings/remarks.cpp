@@ -7,6 +7,7 @@
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/effects/pointers.hpp"
 #include "interpreter/base/text/among.hpp"
+#include "interpreter/model/ports.hpp"
 #include "interpreter/program/loading/unread.hpp"
 
 namespace s7200 {
@@ -20,6 +21,7 @@ class RemarkFinder {
     find_one_sided();
     find_shared();
     for (std::uint32_t op = 0; op < facts_.program.ops.size(); ++op) find_past_symbol(op);
+    for (std::uint32_t op = 0; op < facts_.program.ops.size(); ++op) find_full_room(op);
     std::ranges::stable_sort(remarks_, {}, [](const Remark& remark) { return std::tuple(remark.kind, remark.bits.first); });
     return std::move(remarks_);
   }
@@ -131,6 +133,43 @@ class RemarkFinder {
       const std::vector<std::string> names = symbols_from(access.bits);
       if (names.size() > 1) remarks_.push_back({Remark::Kind::PastItsSymbol, access.bits, names, {op}});
     }
+  }
+
+  void find_full_room(std::uint32_t op) {
+    const auto room = room_of(op);
+    if (!room) return;
+    const std::vector<std::string> names = symbols_from(*room);
+    if (names.size() > 1) remarks_.push_back({Remark::Kind::MayPassItsSymbol, *room, names, {op}});
+  }
+
+  /// The memory of the longest message of RCV, or of the table of ATT when it is full, as constants say.
+  std::optional<Bits> room_of(std::uint32_t op) const {
+    const Op& of = op_of(op);
+    if (is_unread(of)) return {};
+    if (of.instruction->effect == Effect::Receives && !of[0].pointer) {
+      const auto most = most_put_into(kPorts[of[1].at].message + sm::message::kMost, Width::Byte);
+      return most ? std::optional(Bits{of[0].at * std::uint64_t{8}, 8 * (1 + std::uint64_t(*most))}) : std::nullopt;
+    }
+    if (of.instruction->mnemonic != "ATT" || of[1].pointer) return {};
+    constexpr std::uint64_t kHead = 2;  // words: most entries, entries
+    const auto most = most_put_into(of[1].at, Width::Word);
+    return most ? std::optional(Bits{of[1].at * std::uint64_t{8}, 16 * (kHead + std::uint64_t(*most))}) : std::nullopt;
+  }
+
+  /// The largest number that constants and the data block put into a byte or a word; nothing without one above 0, or if
+  /// something else is put there.
+  std::optional<std::int64_t> most_put_into(std::uint32_t at, Width width) const {
+    auto all = constants_written(facts_, at, width);
+    if (!all) return {};
+    for (const InitialData& data : facts_.program.data) {
+      const std::uint32_t begin = image::kV + data.offset;
+      if (at < begin || at + bytes_of(width) > begin + data.bytes.size()) continue;
+      std::int64_t value = 0;
+      for (std::uint32_t i = 0; i < bytes_of(width); ++i) value = value << 8 | data.bytes[at - begin + i];
+      all->push_back(value);
+    }
+    const auto most = std::ranges::max_element(*all);
+    return most == all->end() || *most <= 0 ? std::nullopt : std::optional(*most);
   }
 
   /// A symbol that stands for the start of a block, and those of the memory after it; nothing without the first.

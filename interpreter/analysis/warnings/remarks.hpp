@@ -12,15 +12,15 @@ namespace s7200 {
 
 struct Remark {
   enum class Kind : std::uint8_t {
-    NeverReset,    ///< a bit that S sets and no instruction ever switches off
-    NeverSet,      ///< a bit that R resets, that a contact looks at, and that no instruction ever switches on
-    SharedMemory,  ///< a symbol for a byte or a word inside the word of another one; instructions use both
-    PastItsSymbol  ///< a block that begins at a symbol and goes on over others
+    NeverReset,       ///< a bit that S sets and no instruction ever switches off
+    NeverSet,         ///< a bit that R resets, that a contact looks at, and that no instruction ever switches on
+    SharedMemory,     ///< a symbol for a byte or a word inside the word of another one; instructions use both
+    PastItsSymbol,    ///< a block that begins at a symbol and goes on over others
+    MayPassItsSymbol  ///< the same of a message or a table, if it becomes as long as it may
   };
   Kind kind = Kind::NeverReset;
   Bits bits;  ///< the bit; the memory of the inner symbol; the block
-  std::vector<std::string>
-      symbols;                     ///< SharedMemory: the outer and the inner one; PastItsSymbol: the first, then the others
+  std::vector<std::string> symbols;  ///< SharedMemory: the outer and the inner one; of a block: the first, then the others
   std::vector<std::uint32_t> ops;  ///< that set or reset it, use both, write the block
 };
 

@@ -2,6 +2,10 @@
 // of an interrupt routine 40 us (tests/support/plc.hpp).
 #include "interpreter/analysis/bounds.hpp"
 
+#include <fmt/format.h>
+
+#include <atomic>
+
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -133,6 +137,50 @@ TEST(Bounds, LatencyIsTheLongestInstructionAndTheRoutinesThatAreServedBefore) {
 TEST(Bounds, HaveNoLatencyWhereInterruptsStayDisabledOrAnEventHasNoPeriod) {
   EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 10\nENI\nLD I0.0\nDISI\nMEND\nINT 0\nRETI\n").events[0].latency);
   EXPECT_FALSE(bounds("LD SM0.1\nATCH 0, 0\nENI\nMEND\nINT 0\nLD SM0.0\nRETI\n").scan_with_interrupts);
+}
+
+/// Whoever waits, and asks to end after so many steps.
+struct Impatient {
+  explicit Impatient(std::uint64_t most) : left(most) {}
+  std::uint64_t left, steps = 0;
+  std::atomic<bool> enough = false;
+  Waiter waiter() {
+    return {StopToken(enough), [this] {
+              ++steps;
+              if (steps == left) enough = true;
+            }};
+  }
+};
+
+/// 16 bits that a subroutine looks at one by one, each with a loop after it.
+std::string many_ways() {
+  std::string text = "LD SM0.0\n";
+  for (int i = 0; i < 16; ++i) text += fmt::format("LDW= VW{}, {}\nMOVW {}, VW{}\nCALL 1\n", 2 * i, i, i + 1, 2 * i + 2);
+  text += "MEND\nSBR 1\n";
+  for (int i = 0; i < 16; ++i) text += fmt::format("LDW= VW{}, {}\nMOVW {}, VW{}\nCRET\n", 2 * i, i + 2, i, 64 + 2 * i);
+  return text + "LBL 1\nLD I0.0\nINCW VW200\nJMP 1\nRET\n";
+}
+
+TEST(Bounds, WhoeverWaitsMayEndThem) {
+  const auto program = program_of(many_ways(), *find_cpu("224"));
+  Impatient patient(0), impatient(50);
+  const Facts facts = facts_of(*program, patient.waiter());
+  const Calls calls = calls_of(*program, facts.flow);
+  EXPECT_TRUE(bounds_of(facts, calls, *program, {}, patient.waiter()).is_complete);
+  EXPECT_GT(patient.steps, 200U) << "it is asked on all ways";
+  const Bounds ended = bounds_of(facts, calls, *program, {}, impatient.waiter());
+  EXPECT_FALSE(ended.is_complete);
+  EXPECT_EQ(ended.loops.size(), 1U) << "what is known without following ways";
+  EXPECT_LT(impatient.steps, 150U);
+}
+
+TEST(Bounds, WithoutPatienceLessIsKnownOfPointers) {
+  const auto program = program_of("LD SM0.1\nMOVD &VB100, VD0\nLD SM0.0\nMOVB 1, *VD0\nMEND\n", *find_cpu("224"));
+  Impatient impatient(1);
+  const Facts ended = facts_of(*program, impatient.waiter()), known = facts_of(*program);
+  const auto targets = [](const Facts& facts) { return facts.pointers.targets(3, image::kV); };
+  EXPECT_EQ(targets(known), (std::vector<PointerTarget>{{image::kV + 100, image::kV + 101}}));
+  EXPECT_GT(targets(ended).size(), 1U) << "anywhere";
 }
 
 }  // namespace

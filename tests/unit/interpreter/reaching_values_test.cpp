@@ -1,6 +1,8 @@
 // Where pointers lead at each instruction that goes through them.
 #include "interpreter/analysis/effects/reaching_values.hpp"
 
+#include <fmt/format.h>
+
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/effects/pointers.hpp"
 #include "interpreter/base/bytes.hpp"
@@ -220,6 +222,18 @@ TEST(ReachingValues, ALoopHasTheBoundOfWhatEndsIt) {
   EXPECT_EQ(passes("LD SM0.0\nBTI VB0, VW2\n-I 3, VW2\nFOR VW4, 1, VW2\nNEXT\nMEND\n"), 252);
   EXPECT_EQ(passes("LD SM0.0\nFOR VW4, 1, VW2\nNEXT\nMEND\n"), std::nullopt);
   EXPECT_EQ(passes("LDW<= VW2, 16\nFOR VW4, 1, VW2\nNEXT\nMEND\n"), 16);
+}
+
+/// The passes of the first of so many loops.
+std::optional<std::int64_t> passes_beside(int loops) {
+  std::string text;
+  for (int i = 0; i < loops; ++i) text += fmt::format("LDW<= VW{}, 9\nFOR VW{}, 1, VW{}\nNEXT\n", 4 * i, 4 * i + 2, 4 * i);
+  return Pointers(*program_of(text + "MEND\n", *find_cpu("226"))).passes(1);
+}
+
+TEST(ReachingValues, OfWhatTakesTooMuchMemoryNothingIsKnown) {
+  EXPECT_EQ(passes_beside(20), 9);
+  EXPECT_EQ(passes_beside(1000), std::nullopt);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tools/command/exit_code.hpp"
 #include "tools/command/inspecting/inspected_program.hpp"
 #include "tools/command/options/plc/tables_by_cpu.hpp"
+#include "tools/command/terminal/progress.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/testing/trial_output.hpp"
 #include "tools/compare/behaviour.hpp"
@@ -31,7 +32,7 @@ std::optional<BehaviourResult> behaviour(const CompareOptions& options, const In
   BehaviourSettings settings{.seed = options.bound.seed, .runs = options.bound.runs, .seconds = options.bound.seconds};
   settings.watched = watched;
   settings.stop = interruption();
-  TrialProgress progress;
+  CountedProgress progress("run");
   settings.progress = [&](std::uint64_t runs) { progress(runs); };
   return compare_behaviour(older, newer, settings);
 }

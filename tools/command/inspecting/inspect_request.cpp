@@ -1,5 +1,7 @@
 #include "tools/command/inspecting/inspect_request.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 
@@ -21,6 +23,12 @@ void find_slip(InspectRequest& request) {
 }
 
 }  // namespace
+
+std::string views_text() {
+  std::string text = "Views:\n";
+  for (const InspectView& view : inspect_views()) text += fmt::format("  {:<9} {}\n", view.name, view.meaning);
+  return text;
+}
 
 InspectRequest inspect_request(const std::vector<std::string>& words) {
   InspectRequest request;

@@ -15,6 +15,9 @@ struct InspectRequest {
   std::string slip, meant;            ///< a word that is probably a view with a slip, and that view; empty: there is none
 };
 
+/// The views with what each shows, for the help.
+std::string views_text();
+
 InspectRequest inspect_request(const std::vector<std::string>& words);
 
 }  // namespace s7200::tools

@@ -53,12 +53,12 @@ std::shared_ptr<const Program> known_program(const CpuOptions& options, ProgramF
 }
 
 std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const Question& question,
-                                    TablesByCpu& tables, int& exit_code) {
+                                    TablesByCpu& tables, const Waiter& waiter, int& exit_code) {
   auto program = known_program(options, file, tables, exit_code);
   if (!program) return {};
   const CpuModel* const model = program->model;
   const TimeTable* const times = tables.of(*model);
-  std::optional<Inspection> inspection(std::in_place, std::move(program));
+  std::optional<Inspection> inspection(std::in_place, std::move(program), waiter);
   inspection->lose_word = worst_instant;
   inspection->see_times = seen_times;
   inspection->slowest = [&file, model, times] { return decode_program(file.text.parsed, *model, slowest(*times)).known; };

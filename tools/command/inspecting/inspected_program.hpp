@@ -25,6 +25,6 @@ std::shared_ptr<const Program> known_program(const CpuOptions& options, ProgramF
 /// `file` and the tables must live as long as what is returned. Errors of the program are printed, and what they are in is
 /// left out. Nothing after messages, if the program or what is asked for is unknown: `exit_code` says how to end.
 std::optional<Inspection> inspected(const CpuOptions& options, ProgramFiles& file, const Question& question,
-                                    TablesByCpu& tables, int& exit_code);
+                                    TablesByCpu& tables, const Waiter& waiter, int& exit_code);
 
 }  // namespace s7200::tools

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "interpreter/base/file_path.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/command/inspecting/inspected_program.hpp"
 #include "tools/command/options/plc/tables_by_cpu.hpp"
+#include "tools/command/terminal/progress.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/testing/trial_output.hpp"
 #include "tools/fuzzing/fuzz.hpp"
@@ -106,11 +106,11 @@ int run_fuzz(const FuzzOptions& options) {
   catch_interruption();
   auto settings = settings_of(options, *program);
   if (!settings) return kUnusable;
-  std::optional<TrialProgress> progress(std::in_place);
-  settings->progress = [&](std::uint64_t runs) { (*progress)(runs); };
-  const Inspection inspection(program);
+  CountedProgress progress("run");
+  settings->progress = [&](std::uint64_t runs) { progress(runs); };
+  const Inspection inspection(program, {settings->stop});
   const FuzzResult result = fuzz(inspection, *settings);
-  progress.reset();
+  progress.end();
   if (options.json) {
     auto json = results_of("fuzz");
     json["file"] = programs.front().path;

@@ -5,27 +5,10 @@
 #include <filesystem>
 
 #include "interpreter/base/file_path.hpp"
-#include "interpreter/base/text/counted.hpp"
 #include "tools/command/terminal/terminal.hpp"
-#include "tools/host/console.hpp"
-#include "tools/host/host_time.hpp"
 #include "tools/scenario/transcripts/transcript_writer.hpp"
 
 namespace s7200::tools {
-
-TrialProgress::TrialProgress() : next_(host_time() + 2 * kSecond) {}
-
-TrialProgress::~TrialProgress() {
-  if (shown_) fmt::print(stderr, "\n");
-}
-
-void TrialProgress::operator()(std::uint64_t runs) {
-  const Time now = host_time();
-  if (now <= next_ || !is_terminal(Standard::Error)) return;
-  next_ = now + kSecond;
-  shown_ = true;
-  fmt::print(stderr, "\r{}", s7200::counted(runs, "run"));
-}
 
 bool TrialFile::claim(const std::string& option, const std::string& path, const std::string& verb,
                       const std::vector<std::string>& inputs) {

@@ -1,4 +1,4 @@
-// What verbs that try programs by chance have in common: their progress, and the scenarios that they write.
+// What verbs that try programs by chance have in common: the scenarios that they write.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,6 @@
 #include "tools/trials/trial_scenario.hpp"
 
 namespace s7200::tools {
-
-/// On a terminal, once a second, from the second second on.
-class TrialProgress {
- public:
-  TrialProgress();
-  ~TrialProgress();
-  void operator()(std::uint64_t runs);
-
- private:
-  Time next_;  ///< of the host
-  bool shown_ = false;
-};
 
 /// A scenario that is written. Each returns false after a message.
 class TrialFile {

@@ -14,6 +14,7 @@
 #include "tools/command/options/plc/program_options.hpp"
 #include "tools/command/options/plc/stand_in_options.hpp"
 #include "tools/command/options/plc/tables_by_cpu.hpp"
+#include "tools/command/terminal/progress.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/verbs/commands.hpp"
 #include "tools/host/interruption.hpp"
@@ -32,7 +33,8 @@ struct CheckOptions {
 
 /// Without the warnings that are switched off.
 CheckResult check_with(const CheckOptions& options, const SourceText& text, const CpuModel& model, const TimeTable& times) {
-  CheckResult result = check(text.parsed, model, times);
+  CountedProgress progress("step");
+  CheckResult result = check(text.parsed, model, times, waiting_with(progress));
   if (options.cpu.no_stand_ins) refuse_stand_ins(result);
   std::erase_if(result.diagnostics, [&](const stl::Diagnostic& d) {
     return d.severity == stl::Severity::Warning &&

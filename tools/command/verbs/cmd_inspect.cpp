@@ -19,6 +19,7 @@
 #include "tools/command/options/plc/program_options.hpp"
 #include "tools/command/options/plc/stand_in_options.hpp"
 #include "tools/command/options/plc/tables_by_cpu.hpp"
+#include "tools/command/terminal/progress.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/verbs/commands.hpp"
 #include "tools/host/interruption.hpp"
@@ -49,13 +50,15 @@ int run_inspect(const InspectOptions& options) {
   if (!picture.claim(options.svg, *request.view, request.paths)) return kUnusable;
   catch_interruption();
   int exit_code = kFine;
+  CountedProgress progress("step");
+  const Waiter waiter = waiting_with(progress);
   TablesByCpu tables(options.cpu);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   auto programs = read_programs(request.paths, exit_code);
   if (picture && programs.size() > 1) return print_error("--svg takes one program: a picture is of one"), kUnusable;
   for (ProgramFiles& file : programs) {
     if (interrupted()) break;
-    auto inspection = inspected(options.cpu, file, {*request.view, request.about}, tables, exit_code);
+    auto inspection = inspected(options.cpu, file, {*request.view, request.about}, tables, waiter, exit_code);
     if (!inspection) continue;
     inspection->ascii = options.ascii;
     std::string why;
@@ -67,8 +70,10 @@ int run_inspect(const InspectOptions& options) {
       files.push_back({{"file", file.path}, {"cpu", inspection->program->model->name}});
       files.back()[std::string(request.view->name)] = request.view->json(*inspection);
     } else if (!picture) {
+      const std::string text = request.view->text(*inspection);
+      progress.end();
       if (programs.size() > 1) fmt::print("{}\n", stl::printable(file.path));
-      fmt::print("{}", request.view->text(*inspection));
+      fmt::print("{}", text);
       std::fflush(stdout);
     }
   }
@@ -79,12 +84,6 @@ int run_inspect(const InspectOptions& options) {
   }
   print_interruption();
   return interrupted() ? static_cast<int>(kCheckFailed) : exit_code;
-}
-
-std::string views_text() {
-  std::string text = "Views:\n";
-  for (const InspectView& view : inspect_views()) text += fmt::format("  {:<9} {}\n", view.name, view.meaning);
-  return text;
 }
 
 }  // namespace

@@ -17,19 +17,23 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::string_view kErrors = "a program with errors has no times";
+constexpr std::string_view kInterrupted = "interrupted before the bounds were known";
 
 std::string ms(Time time) { return fmt::format("{:.3f} ms", static_cast<double>(time) / kMillisecond); }
 
 /// The bounds with the times of the table, and with the slowest that are possible.
 struct Both {
   Bounds usual, slow;
+  bool are_complete() const { return usual.is_complete && slow.is_complete; }
 };
 
 Both bounds_of(const Inspection& inspection) {
   const Calls calls = calls_of(*inspection.program, inspection.facts.flow);
   const auto slow = inspection.slowest ? inspection.slowest() : nullptr;
-  return {s7200::bounds_of(inspection.facts, calls, *inspection.program, inspection.stated_loops),
-          s7200::bounds_of(inspection.facts, calls, slow ? *slow : *inspection.program, inspection.stated_loops)};
+  const auto with = [&](const Program& timed) {
+    return s7200::bounds_of(inspection.facts, calls, timed, inspection.stated_loops, inspection.waiter);
+  };
+  return {with(*inspection.program), with(slow ? *slow : *inspection.program)};
 }
 
 bool is_wanted(const Inspection& inspection, const Routine& routine) {
@@ -158,6 +162,10 @@ std::optional<SeenTimes> seen_in(const Inspection& inspection) {
 std::string bounds_text(const Inspection& inspection) {
   if (has_unread(*inspection.program) || inspection.program->times.rows().empty()) return std::string(kErrors) + "\n";
   const Both both = bounds_of(inspection);
+  if (!both.are_complete()) {
+    const std::string known = all_loops_text(inspection, both);
+    return fmt::format("{}\n{}{}", kInterrupted, known.empty() ? "" : "\n", known);
+  }
   if (!inspection.selection.everything()) return routines_text(inspection, both);
   const auto seen = seen_in(inspection);
   std::string text = scan_text(inspection, both, seen) + "\n" + routines_text(inspection, both);
@@ -172,6 +180,7 @@ std::string bounds_text(const Inspection& inspection) {
 ordered_json bounds_json(const Inspection& inspection) {
   if (has_unread(*inspection.program) || inspection.program->times.rows().empty()) return nullptr;
   const Both both = bounds_of(inspection);
+  if (!both.are_complete()) return nullptr;
   const auto seen = seen_in(inspection);
   ordered_json json{{"scan_ns", both.usual.scan}, {"scan_slowest_ns", both.slow.scan}};
   json["scan_with_interrupts_ns"] = time_json(both.usual.scan_with_interrupts);

@@ -14,6 +14,7 @@
 #include "interpreter/analysis/effects/facts.hpp"
 #include "interpreter/analysis/races.hpp"
 #include "interpreter/analysis/selection.hpp"
+#include "interpreter/analysis/waiter.hpp"
 
 namespace s7200::tools {
 
@@ -41,6 +42,7 @@ struct SeenTimes {
 /// unread (interpreter/program/loading/unread.hpp).
 struct Inspection {
   std::shared_ptr<const Program> program;
+  Waiter waiter;  ///< if it asks to end, views have what is known by then, and say so
   Facts facts;
   Selection selection{};
   /// Looks for a run in which a race loses a word. Empty: none is looked for; whoever can run programs sets it.
@@ -52,7 +54,10 @@ struct Inspection {
   /// The program with the slowest times that are possible by their uncertainty. Empty: they are not known.
   std::function<std::shared_ptr<const Program>()> slowest{};
 
-  explicit Inspection(std::shared_ptr<const Program> inspected) : program(std::move(inspected)), facts(facts_of(*program)) {}
+  explicit Inspection(std::shared_ptr<const Program> inspected, Waiter waits = {})
+      : program(std::move(inspected)), waiter(std::move(waits)), facts(facts_of(*program, waiter)) {}
+
+  bool was_interrupted() const { return waiter.stop.stop_requested(); }
 };
 
 /// Where an instruction stands, in the columns of Micro/WIN's cross reference: `SBR_3   2  slave.stl:120`.

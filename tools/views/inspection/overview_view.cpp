@@ -31,7 +31,7 @@ struct Overview {
       : inspection(of),
         calls(calls_of(*of.program, of.facts.flow)),
         reference(cross_reference(of.facts)),
-        races(find_races(of.facts, calls).size()),
+        races(find_races(of.facts, calls, of.waiter).size()),
         remarks(remarks_of(of.facts, reference)) {}
 
   const Inspection& inspection;
@@ -123,6 +123,7 @@ std::string remark_text(const Inspection& inspection, const Remark& remark) {
       return fmt::format("{} has {} in it, {}: {}", quoted_symbol(remark.symbols[0]), quoted_symbol(remark.symbols[1]),
                          memory_text(remark.bits), places);
     case Remark::Kind::PastItsSymbol:
+    case Remark::Kind::MayPassItsSymbol:
       break;
   }
   constexpr std::size_t kShown = 3;
@@ -130,8 +131,9 @@ std::string remark_text(const Inspection& inspection, const Remark& remark) {
   for (std::size_t i = 1; i < std::min(remark.symbols.size(), kShown + 1); ++i)
     over.push_back(quoted_symbol(remark.symbols[i]));
   if (remark.symbols.size() > kShown + 1) over.push_back(fmt::format("{} more", remark.symbols.size() - kShown - 1));
-  return fmt::format("{} in {} begins at {} and goes on over {}", instruction_text(inspection, remark.ops.front()), places,
-                     quoted_symbol(remark.symbols[0]), stl::joined(over, overview_name));
+  const bool may = remark.kind == Remark::Kind::MayPassItsSymbol;
+  return fmt::format("{} in {} begins at {} and {} over {}", instruction_text(inspection, remark.ops.front()), places,
+                     quoted_symbol(remark.symbols[0]), may ? "may go on" : "goes on", stl::joined(over, overview_name));
 }
 
 std::string remarks_text(const Overview& overview) {
@@ -143,7 +145,7 @@ std::string remarks_text(const Overview& overview) {
 }
 
 ordered_json remarks_json(const Overview& overview) {
-  constexpr std::string_view kKinds[]{"never reset", "never set", "shared memory", "past its symbol"};
+  constexpr std::string_view kKinds[]{"never reset", "never set", "shared memory", "past its symbol", "may pass its symbol"};
   ordered_json all = ordered_json::array();
   for (const Remark& remark : overview.remarks) {
     ordered_json json{{"kind", kKinds[static_cast<std::size_t>(remark.kind)]},

@@ -49,7 +49,8 @@ std::string with_symbols(const Inspection& inspection, const Bits& bits) {
 }
 
 std::vector<Race> wanted(const Inspection& inspection) {
-  std::vector<Race> all = find_races(inspection.facts, calls_of(*inspection.program, inspection.facts.flow));
+  std::vector<Race> all =
+      find_races(inspection.facts, calls_of(*inspection.program, inspection.facts.flow), inspection.waiter);
   const Selection& selection = inspection.selection;
   std::erase_if(all, [&](const Race& race) {
     const bool memory = selection.memory.empty() || selection.has(race.bits);
@@ -63,6 +64,7 @@ std::vector<Race> wanted(const Inspection& inspection) {
 std::string scenario_text(const Inspection& inspection, const Race& race) {
   if (!inspection.lose_word) return {};
   const auto lost = inspection.lose_word(inspection, race);
+  if (!lost && inspection.was_interrupted()) return "  interrupted before a run was found in which the word is lost\n";
   if (!lost) return "  no run of it was found in which the word is lost\n";
   return "  " +
          wrapped_at(
@@ -90,6 +92,8 @@ std::string races_text(const Inspection& inspection) {
   const std::vector<Race> races = wanted(inspection);
   std::string text;
   for (const Race& race : races) text += race_text(inspection, race);
+  if (inspection.was_interrupted())
+    return text + fmt::format("{} found before the interruption\n", counted(races.size(), "race"));
   if (races.empty()) return "no races found\n";
   return text + fmt::format("{}; DISI before the first instruction and ENI after the last keep the interrupt away\n",
                             counted(races.size(), "race"));
