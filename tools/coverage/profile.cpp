@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "interpreter/program/ladder/networks.hpp"
+
 namespace s7200::tools {
 
 std::uint64_t Durations::count() const {
@@ -96,6 +98,7 @@ void Profile::add(const Profile& other, const ProfileOrigin& origin) {
   executed.resize(other.executed.size());
   for (std::size_t op = 0; op < executed.size(); ++op) executed[op] += other.executed[op];
   scans.add(other.scans);
+  for (const auto& [network, seen] : other.networks) networks[network].add(seen);
   if (other.worst_scan && (!worst_scan || other.worst_scan->length > worst_scan->length)) {
     worst_scan = other.worst_scan;
     worst_scan->in = origin_of(other.worst_scan->in, origin);
@@ -115,6 +118,8 @@ ProfileSink::ProfileSink(std::shared_ptr<const Program> program)
     : program_(std::move(program)), flow_(control_flow(*program_)), reasons_(*program_) {
   profile_.program = program_;
   profile_.executed.resize(program_->ops.size());
+  const Networks networks(*program_);
+  for (std::uint32_t op = 0; op < program_->ops.size(); ++op) network_of_.push_back(networks.first_of(op));
 }
 
 void ProfileSink::begin(const Cpu& cpu) {
@@ -162,6 +167,7 @@ void ProfileSink::end_scan(Time at) {
   if (!scan_) return;
   scan_->length = at - scan_->begin;
   profile_.scans.add(scan_->length);
+  for (const auto& [network, time] : networks_of_scan_) profile_.networks[network].add(time);
   if (!profile_.worst_scan || scan_->length > profile_.worst_scan->length) profile_.worst_scan = scan_;
 }
 
@@ -173,6 +179,7 @@ void ProfileSink::begin_scan(const TraceRecord& record) {
   scan_->number = record.count;
   scan_->begin = record.at;
   scan_->interrupts = 0;
+  networks_of_scan_.clear();
   scan_->routines.assign(flow_.routines.size(), 0);
   if (in_interrupt_) return;
   stack_ = {0};
@@ -224,7 +231,10 @@ void ProfileSink::instruction(const InstructionRecord& record) {
   last_ = record.end;
   profile_.total += took;
   here().ops[record.op] += took;
-  if (scan_) scan_->routines[stack_.back()] += took;
+  if (scan_) {
+    scan_->routines[stack_.back()] += took;
+    networks_of_scan_[network_of_[record.op]] += took;
+  }
   ++profile_.executed[record.op];
   reasons_.note(record);
   follow();

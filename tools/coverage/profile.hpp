@@ -90,6 +90,7 @@ struct Profile {
   std::map<Stack, OfStack> stacks{};
   std::vector<std::uint64_t> executed{};  ///< by op
   Durations scans{};
+  std::map<std::uint32_t, Durations> networks{};  ///< by the first op: their time in scans in which they took any
   std::optional<ProfiledScan> worst_scan{};
   std::map<std::uint8_t, ProfiledEvent> events{};
 
@@ -138,6 +139,8 @@ class ProfileSink final : public TraceSink {
   Profile::Stack stack_, interrupted_;
   Profile::OfStack* here_ = nullptr;  // of stack_; null: not looked up
   std::optional<ProfiledScan> scan_;
+  std::vector<std::uint32_t> network_of_;              // by op, the first one
+  std::map<std::uint32_t, Time> networks_of_scan_{};  // by the first op
 };
 
 }  // namespace s7200::tools

@@ -63,7 +63,10 @@ class NamedProfile {
     for (const char* const list : {"routines", "networks", "instructions"}) json[list] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < flow().routines.size(); ++i)
       json["routines"].push_back({{"routine", routine_text(flow().routines[i])}, {"time_ns", time_of_routine(i)}});
-    for (const TimeRow& row : networks()) json["networks"].push_back(row_json(row));
+    for (const TimeRow& row : networks()) {
+      json["networks"].push_back(row_json(row));
+      json["networks"].back()["in_scan"] = durations_json(in_scan(row));
+    }
     for (const TimeRow& row : instructions()) {
       json["instructions"].push_back(row_json(row));
       json["instructions"].back()["executed"] = profile_.executed[row.op];
@@ -165,18 +168,29 @@ class NamedProfile {
   }
 
   std::string places() const {
-    std::string text = "networks\n";
+    std::string text = "networks, with their time in a scan\n";
     const auto line = [&](const TimeRow& row, const std::string& what) {
       const std::string all = fmt::format("  {:>6}  {:>14}  {}{}", share(row.time), format_duration(row.time, 6),
                                           column(place_text(inspection_, row.op), 36), what);
       return std::string(stl::trim_end(all)) + "\n";
     };
     const auto all_networks = networks(), all = instructions();
-    for (std::size_t i = 0; i < std::min(kMostRows, all_networks.size()); ++i) text += line(all_networks[i], "");
+    for (std::size_t i = 0; i < std::min(kMostRows, all_networks.size()); ++i)
+      text += line(all_networks[i], in_scan_text(in_scan(all_networks[i])));
     text += "instructions\n";
     for (std::size_t i = 0; i < std::min(kMostRows, all.size()); ++i)
       text += line(all[i], stl::shortened(instruction_text(inspection_, all[i].op)));
     return text;
+  }
+
+  /// The time of a network in the scans that it took time in.
+  Durations in_scan(const TimeRow& network) const {
+    const auto found = profile_.networks.find(network.op);
+    return found == profile_.networks.end() ? Durations() : found->second;
+  }
+  static std::string in_scan_text(const Durations& durations) {
+    if (durations.empty()) return {};
+    return fmt::format("mean {}, most {}", format_duration(durations.mean(), 3), format_duration(durations.most(), 3));
   }
 
   static std::string spread(const Durations& durations) {

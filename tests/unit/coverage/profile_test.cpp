@@ -1,10 +1,12 @@
 // Where simulated time goes: all of it, to the nanosecond.
 #include "tools/coverage/profile.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
 
+#include "interpreter/program/ladder/networks.hpp"
 #include "tests/support/plc.hpp"
 #include "tools/coverage/profile_report.hpp"
 
@@ -68,6 +70,20 @@ TEST(Profile, TheWorstScanIsKnownWithItsRoutines) {
       << "SBR 0 has a loop";
 }
 
+TEST(Profile, NetworksHaveTheirTimeInEachScan) {
+  const Profile profile = profile_of(kProgram, 3 * kSecond);
+  constexpr std::uint32_t kFor = 11;
+  const std::uint32_t network = Networks(*profile.program).first_of(kFor);
+  ASSERT_TRUE(profile.networks.contains(network));
+  const Durations& loop = profile.networks.at(network);
+  EXPECT_LT(loop.count(), profile.scans.count()) << "it is called while SM0.5 is on";
+  EXPECT_GT(loop.count(), 100U) << "for half of the time, in longer scans";
+  EXPECT_GT(loop.least(), 200 * kMicrosecond);
+  EXPECT_LT(loop.most(), profile.scans.most());
+  EXPECT_EQ(profile.networks.at(0).count(), profile.scans.count()) << "the first network is in each scan";
+  EXPECT_NE(profile_text(profile).find(fmt::format("most {}\n", format_duration(loop.most(), 3))), std::string::npos);
+}
+
 TEST(Profile, InterruptsAreCountedWithWhatTheyWaitedFor) {
   const Profile profile = profile_of(
       "LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nLD SM0.0\nDISI\nFOR VW0, 1, 200\nNEXT\nENI\n"
@@ -89,6 +105,7 @@ TEST(Profile, RunsOfAProgramAreMerged) {
   const Profile& both = all.programs().front();
   EXPECT_EQ(both.total, one.total + other.total);
   EXPECT_EQ(both.scans.count(), one.scans.count() + other.scans.count());
+  EXPECT_EQ(both.networks.at(0).count(), both.scans.count());
   EXPECT_FALSE(both.worst_scan->in.scenario.empty());
 }
 
