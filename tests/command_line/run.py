@@ -3499,6 +3499,12 @@ class Files(Case):
         self.assertEqual([one["outcome"] for one in report["runs"]], ["passed", "failed"])
         self.assertEqual(len(report["programs"]), 1, "the program of both is there once")
         self.assertEqual((report["runs"][1]["findings"][0]["recording"], report["runs"][1]["findings"][0]["line"]), (0, 4))
+        with_band = self.program(f"program: {SLAVE}\nrobust: 100%\nsteps:\n  - {{read: holding 0, expect: [0], latency: ..16ms}}\n", "share.yaml")
+        (of_band,) = run("test", with_band)["runs"]
+        self.assertEqual(len(of_band["recordings"]), 1, "the run with the table that failed")
+        self.assertIn("times", of_band["options"], "which is not that of the CPU")
+        self.assertRegex(of_band["findings"][1]["text"], r"latency.*; with ")
+        self.assertEqual(of_band["findings"][1]["recording"], 0)
         plant = SOURCE / "tests/recordings/plant.log"
         report = run("decode", plant)
         printed = json.loads(subprocess.run([command, "decode", plant, "--json"], capture_output=True, check=False, timeout=120).stdout)

@@ -58,6 +58,7 @@ struct BandResult {
   std::size_t asked = 0;               ///< tables it has
   std::size_t tables = 0, passed = 0;  ///< fewer if it was interrupted
   std::string failed_with{};           ///< the first of the tables with which it failed; empty: none
+  std::vector<Finding> findings{};     ///< with that one, if it is not the first of all
   LatencyRange latency{};              ///< of all its answers
 };
 
@@ -81,7 +82,7 @@ struct ScenarioResult {
   double host_seconds = 0;
   CoverageOfPrograms coverage{};     ///< if it was observed; of an interrupted scenario up to then
   ProfileOfPrograms profile{};       ///< the same
-  std::optional<BandResult> band{};  ///< all else is of the first table
+  std::optional<BandResult> band{};  ///< all else is of the first table, but the recordings of the first that failed
 };
 
 }  // namespace s7200::tools

@@ -90,13 +90,19 @@ ScenarioResult run_turn(const Scenario& scenario, const Bench& bench, std::size_
   return run_scenario(scenario, of_table);
 }
 
-void add_to(BandResult& band, const ScenarioResult& of_table, const std::string& table) {
+/// Whether it is the first that has failed.
+bool add_to(BandResult& band, const ScenarioResult& of_table, const std::string& table) {
   const bool passed = of_table.outcome == Outcome::Passed;
+  const bool first_failed = !passed && band.failed_with.empty();
   ++band.tables;
   band.passed += passed;
-  if (!passed && band.failed_with.empty()) band.failed_with = table;
+  if (first_failed) {
+    band.failed_with = table;
+    if (band.tables > 1) band.findings = of_table.findings;
+  }
   for (const Seen& seen : of_table.seen)
     if (const auto latency = latency_of(seen.exchange)) band.latency.add(*latency);
+  return first_failed;
 }
 
 /// A scenario that passes with too few tables fails, and so does one that fails with the first. An interrupted
@@ -159,10 +165,16 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
           const bool banded = benches->of[scenario].band && of_table.outcome != Outcome::Skipped;
           BandResult band = table == 0 ? BandResult{} : of_one.band.value_or(BandResult{});
           if (banded) band.asked = benches->of[scenario].band->size();
-          if (banded) add_to(band, of_table, benches->of[scenario].band->table_name(table));
+          const bool first_failed =
+              banded && add_to(band, of_table, benches->of[scenario].band->table_name(table));
           for (const ProgramCoverage& each : of_table.coverage.programs()) result.coverage.add(each.map, each.tried);
           result.profile.add(of_table.profile, {"", scenarios_[scenario].name, opening_command(scenarios_[scenario])});
-          if (table == 0) of_one = std::move(of_table);
+          if (table == 0) {
+            of_one = std::move(of_table);
+          } else if (first_failed) {
+            of_one.program = std::move(of_table.program);
+            of_one.recordings = std::move(of_table.recordings);
+          }
           if (banded) of_one.band = band;
           if (!last && !settings_.stop.stop_requested()) return true;
           if (!settings_.exchanges_wanted) of_one.seen.clear();

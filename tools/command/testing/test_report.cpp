@@ -1,5 +1,7 @@
 #include "tools/command/testing/test_report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <variant>
@@ -48,7 +50,11 @@ ReportedRun reported(const Report& report) {
   ReportedRun run{
       .file = scenario.source->name, .name = scenario.name, .outcome = outcome_of(report), .reason = result.reason};
   for (const Finding& finding : result.findings) run.findings.push_back(reported_finding(scenario, finding));
-  if (result.band) return run;
+  if (result.band)
+    for (const Finding& finding : result.band->findings) {
+      run.findings.push_back(reported_finding(scenario, finding));
+      run.findings.back().text += fmt::format("; with {}", result.band->failed_with);
+    }
   std::string why;
   if (scenario.plan && !result.recordings.empty() && can_be_carried(result.recordings))
     run.system = reported_system(scenario.system, *scenario.plan, result.spots, why);

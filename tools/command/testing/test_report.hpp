@@ -10,7 +10,7 @@
 
 namespace s7200::tools {
 
-/// In the order of the reports. One of a system, or with a band of execution times, is without its run.
+/// In the order of the reports. With a band of execution times the run is that of the first table with which it failed.
 std::vector<ReportedRun> reported_runs(const std::vector<Report>& reports);
 
 /// Writes the report and the JUnit file that are wanted; that leads to the report. False after a message.
