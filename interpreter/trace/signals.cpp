@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
@@ -24,8 +26,34 @@ std::optional<Signal> interrupt_of(const std::string& name) {
   return Signal{.kind = Signal::Kind::Interrupt, .name = fmt::format("INT{}", *routine), .routine = *routine};
 }
 
+constexpr std::string_view kPort = "PORT";
+
+constexpr std::array<std::pair<std::string_view, PortLevel>, 3> kLevels{
+    {{"RXD", PortLevel::Rxd}, {"TXD", PortLevel::Txd}, {"LINE", PortLevel::Line}}};
+
+Signal level_signal(std::uint8_t port, std::string_view of, PortLevel level) {
+  return {.kind = Signal::Kind::Level, .name = fmt::format("{}{}.{}", kPort, port, of), .port = port, .level = level};
+}
+
+/// `PORT0.TXD` or `PORT0`. Nothing without a `why` for a name of another kind.
+std::optional<Signal> level_of(const std::string& name, const AddressSpace& space, std::string& why) {
+  const std::string upper = stl::upper_case(name);
+  if (!upper.starts_with(kPort)) return {};
+  const std::size_t dot = std::min(upper.find('.'), upper.size());
+  const auto port = parse_decimal<std::uint8_t>(std::string_view(upper).substr(kPort.size(), dot - kPort.size()));
+  if (!port) return {};
+  if (*port >= space.model.ports)
+    return why = fmt::format("{}: the CPU {} has no port {}", stl::shortened(name), space.model.name, *port), std::nullopt;
+  if (dot == upper.size()) return Signal{.kind = Signal::Kind::Levels, .name = name, .port = *port};
+  for (const auto& [of, level] : kLevels)
+    if (upper.substr(dot + 1) == of) return level_signal(*port, of, level);
+  why = fmt::format("{}: the levels of a port are RXD, TXD and LINE", stl::shortened(name));
+  return {};
+}
+
 std::optional<Signal> signal_of(const std::string& name, const AddressSpace& space, std::string& why) {
   if (auto interrupt = interrupt_of(name)) return interrupt;
+  if (auto level = level_of(name, space, why); level || !why.empty()) return level;
   const auto place = parse_range(name, space, why);
   if (!place) return {};
   if (place->count == 1) return Signal{.kind = Signal::Kind::Memory, .name = name, .place = *place};
@@ -37,6 +65,7 @@ std::optional<Signal> signal_of(const std::string& name, const AddressSpace& spa
 
 std::optional<std::vector<Signal>> parse_signals(std::string_view text, const AddressSpace& space, std::string& why) {
   std::vector<Signal> signals;
+  why.clear();
   while (!text.empty()) {
     const std::size_t comma = std::min(text.find(','), text.size());
     const auto signal = signal_of(std::string(stl::trim(text.substr(0, comma))), space, why);
@@ -52,15 +81,17 @@ std::optional<std::vector<Signal>> parse_signals(std::string_view text, const Ad
 std::vector<Signal> signals_of(const std::vector<Signal>& wanted, const Program& program) {
   std::vector<Signal> all;
   for (const Signal& one : wanted) {
-    if (one.kind != Signal::Kind::Interrupts) {
+    if (one.kind == Signal::Kind::Levels) {
+      for (const auto& [of, level] : kLevels) all.push_back(level_signal(one.port, of, level));
+    } else if (one.kind == Signal::Kind::Interrupts) {
+      for (std::size_t number = 0; number < program.interrupt.size(); ++number)
+        if (program.interrupt[number] != kNoRoutine)
+          all.push_back({.kind = Signal::Kind::Interrupt,
+                         .name = fmt::format("INT{}", number),
+                         .routine = static_cast<std::uint8_t>(number)});
+    } else {
       all.push_back(one);
-      continue;
     }
-    for (std::size_t number = 0; number < program.interrupt.size(); ++number)
-      if (program.interrupt[number] != kNoRoutine)
-        all.push_back({.kind = Signal::Kind::Interrupt,
-                       .name = fmt::format("INT{}", number),
-                       .routine = static_cast<std::uint8_t>(number)});
   }
   return all;
 }

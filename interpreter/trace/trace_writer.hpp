@@ -1,9 +1,11 @@
 // A trace that is written line by line.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string_view>
 
+#include "interpreter/trace/signals.hpp"
 #include "interpreter/trace/text/trace_lines.hpp"
 #include "interpreter/trace/trace.hpp"
 
@@ -25,6 +27,12 @@ class TraceWriter : public TraceSink {
 
   /// Writes what is done to the PLC from outside, in words.
   virtual void note(Time at, std::string_view what) = 0;
+
+  /// A level at a port is `mark` from `at` on. Only signals show it.
+  virtual void level(std::uint8_t /*port*/, PortLevel /*level*/, Time /*at*/, bool /*mark*/) {}
+
+  /// All levels at the port before `until` have been told, and all that the CPU did before it.
+  virtual void settled(std::uint8_t /*port*/, Time /*until*/) {}
 
   /// The run is over: writes what ends the file, if its form has that.
   virtual void finish() {}

@@ -169,6 +169,14 @@ class Sigrok(Case):
         changes = [level for i, level in enumerate(levels) if i == 0 or level != levels[i - 1]]
         self.assertEqual(changes[:3], [b"0", b"1", b"0"])
 
+    def test_levels_at_a_port_in_a_trace_of_signals_are_what_was_sent(self):
+        trace = self.folder / "trace.vcd"
+        exchanges = self.send(SLAVE, "--trace", trace, "--signals", "Q0.0,INT,PORT0", with_crc("0103000a0002"), with_crc("0106000a1234"))
+        done = run("sigrok-cli", "-I", "vcd:downsample=1000", "-i", trace, "-B", "uart=tx", "-P",
+                   "uart:rx=PORT0.RXD:tx=PORT0.TXD:baudrate=9600:parity=even")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.hex(), self.said(exchanges, "response"))
+
     def test_levels_in_the_files_of_sigrok_are_read_as_what_was_sent(self):
         """Our receiver at the end of: our sender, our VCD, sigrok's file."""
         exchanges = self.send(SLAVE, "--timeout", "100ms", *map(with_crc, TALK[:8]))
@@ -232,6 +240,18 @@ class Gtkwave(Case):
         self.assertEqual(changes, written)
         self.assertEqual([value for _, name, value in changes if name == "VW10"], [f"{count:016b}" for count in range(7)])
         self.assertEqual([value for _, name, value in changes if name == "VD20"][1], "1" * 32)
+
+    def test_levels_at_a_port_are_those_of_the_line(self):
+        trace = self.folder / "trace.vcd"
+        self.send(SLAVE, "--trace", trace, "--signals", "INT,PORT0", with_crc("0103000a0002"))
+        understood, (line, _) = self.understood(trace), self.changes(self.vcd.read_text(encoding="utf-8"))
+        self.assertEqual(understood, self.changes(trace.read_text(encoding="utf-8")))
+        changes, _ = understood
+        names = {"PORT0.RXD": "rx", "PORT0.TXD": "tx", "PORT0.LINE": "line"}
+        levels = [(at, names[name], value) for at, name, value in changes if name in names]
+        self.assertEqual(sorted(levels), line)
+        self.assertGreater(len(line), 100)
+        self.assertGreater(sum(name == "INT123" for _, name, _ in changes), 8)
 
     def test_levels_of_a_line_are_understood_as_they_were_written(self):
         self.send(SLAVE, with_crc("0103000a0002"))

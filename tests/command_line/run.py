@@ -3550,6 +3550,24 @@ class Files(Case):
         system = SOURCE / "stl_programs/systems/gateway.yaml"
         self.assertIn("a trace of a whole system is text or .jsonl", self.ends(UNUSABLE, "run", system, "--for", "1s", "--trace", events).stderr)
 
+    def test_records_end_at_a_limit_that_is_said_before(self):
+        out, run = self.folder / "trace.txt", ["run", SLAVE, "--for", "1h", "--trace-instructions", "--trace"]
+        done = s7200(*run, out, "--record-limit", "4MB", "--json")
+        self.assertEqual(done.returncode, UNUSABLE)
+        self.assertRegex(done.stderr, r"note: \S*trace\.txt would have about [\d.]+ GB at the end, and the run ends when it has 4 MB; --record-limit")
+        self.assertRegex(done.stderr, r"error: \S*trace\.txt has reached 4 MB and ends there; --record-limit lets records grow further")
+        self.assertEqual(json.loads(done.stdout)["stop_reason"], "record limit")
+        self.assertLess(json.loads(done.stdout)["time_ns"], 60e9)
+        text = out.read_bytes()
+        self.assertTrue(3.9e6 < len(text) <= 4e6 and text.endswith(b"\n"), len(text))
+        short = ["run", SLAVE, "--for", "100ms", "--trace-instructions", "--trace", out]
+        self.assertNotIn("--record-limit", self.ends(FINE, *short).stderr)
+        self.ends(FINE, *short, "--record-limit", "none")
+        self.ends(UNUSABLE, *short, "--record-limit", "10KB")
+        self.assertIn("'5' is not a size: write 500MB, 20GB or none", self.ends(UNUSABLE, *short, "--record-limit", "5").stderr)
+        system = SOURCE / "stl_programs/systems/gateway.yaml"
+        self.assertIn("has reached 10 KB", self.ends(UNUSABLE, "run", system, "--for", "5s", "--trace", self.folder / "all.txt", "--record-limit", "10KB").stderr)
+
     # What the description of the Trace Event Format wants of each kind of event besides name, ph, pid and tid.
     OF_EVENT = {"M": {"args"}, "i": {"ts", "s"}, "C": {"ts", "args"}, "X": {"ts", "dur"}, "s": {"ts", "id", "cat"}, "f": {"ts", "id", "cat", "bp"}}
 

@@ -99,6 +99,9 @@ void ChromeTrace::write(Time at) {
   }
 }
 
-void ChromeTrace::finish() { put(kNever, "\n]\n"); }
+void ChromeTrace::finish() {
+  SignalTrace::finish();
+  put(kNever, "\n]\n");
+}
 
 }  // namespace s7200::tools

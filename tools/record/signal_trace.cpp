@@ -39,36 +39,74 @@ std::string in_one_word(std::string name) {
 }  // namespace
 
 SignalTrace::SignalTrace(TraceWanted wanted) : TraceWriter(wanted.detail), wanted_(std::move(wanted)) {
+  settled_.fill(kNever);
   for (const Signal& signal : wanted_.signals) {
-    const bool memory = signal.kind == Signal::Kind::Memory;
-    shown_.push_back({signal, memory ? std::nullopt : std::optional(0U), !memory});
+    const bool memory = signal.kind == Signal::Kind::Memory, level = signal.kind == Signal::Kind::Level;
+    if (!memory) change(0, shown_.size(), level ? 1 : 0);
+    shown_.push_back({signal});
     of_memory_ |= memory;
+    of_levels_ |= level;
+    if (level) settled_[signal.port] = 0;
   }
+  known_.resize(shown_.size());
 }
 
 void SignalTrace::record(const TraceRecord& record) {
   const bool begins = record.kind == TraceKind::ServiceBegin;
   if (begins || record.kind == TraceKind::ServiceEnd)
-    for (Shown& one : shown_)
-      if (one.signal.kind == Signal::Kind::Interrupt && one.signal.routine == record.routine) {
-        one.bits = begins ? 1 : 0;
-        one.changed = true;
-      }
+    for (std::size_t i = 0; i < shown_.size(); ++i)
+      if (const Signal& signal = shown_[i].signal;
+          signal.kind == Signal::Kind::Interrupt && signal.routine == record.routine)
+        change(std::max(at_, record.at), i, begins ? 1 : 0);
   look(record.at);
 }
 
 void SignalTrace::look(Time at) {
   const State* const state = wanted_.state ? wanted_.state() : nullptr;
   at_ = std::max(at_, at);  // a record may be about something that began before an instruction that is over
-  for (Shown& one : shown_) {
-    if (!state || one.signal.kind != Signal::Kind::Memory) continue;
-    const std::uint32_t bits = bits_at(*state, one.signal.place, 0);
-    one.changed |= one.bits != bits;
-    one.bits = bits;
+  for (std::size_t i = 0; i < shown_.size(); ++i) {
+    const Signal& signal = shown_[i].signal;
+    if (!state || signal.kind != Signal::Kind::Memory) continue;
+    const std::uint32_t bits = bits_at(*state, signal.place, 0);
+    if (std::exchange(known_[i], bits) != bits) change(at_, i, bits);
   }
-  if (std::ranges::none_of(shown_, &Shown::changed)) return;
-  write(at_);
-  for (Shown& one : shown_) one.changed = false;
+  if (!of_levels_) write_until(kNever);
+}
+
+/// Instants that run again, because a session has gone back, are not written again.
+void SignalTrace::level(std::uint8_t port, PortLevel level, Time at, bool mark) {
+  if (at < settled_[port]) return;
+  for (std::size_t i = 0; i < shown_.size(); ++i)
+    if (const Signal& signal = shown_[i].signal;
+        signal.kind == Signal::Kind::Level && signal.port == port && signal.level == level)
+      change(at, i, mark ? 1 : 0);
+}
+
+void SignalTrace::settled(std::uint8_t port, Time until) {
+  if (until <= settled_[port]) return;
+  settled_[port] = until;
+  write_until(std::ranges::min(settled_));
+}
+
+Time SignalTrace::levels_until() const { return of_levels_ ? std::ranges::min(settled_) : 0; }
+
+/// Writes the changes before `end`, those of an instant together.
+void SignalTrace::write_until(Time end) {
+  if (waiting_.empty()) return;
+  std::ranges::stable_sort(waiting_, {}, &Change::at);
+  const auto rest = std::ranges::lower_bound(waiting_, end, {}, &Change::at);
+  for (auto next = waiting_.begin(); next != rest;) {
+    const Time at = next->at;
+    for (; next != rest && next->at == at; ++next) {
+      Shown& one = shown_[next->signal];
+      one.changed |= one.bits != next->bits;
+      one.bits = next->bits;
+    }
+    if (std::ranges::none_of(shown_, &Shown::changed)) continue;
+    write(at);
+    for (Shown& one : shown_) one.changed = false;
+  }
+  waiting_.erase(waiting_.begin(), rest);
 }
 
 double SignalTrace::number_of(const Shown& one) const {
@@ -112,6 +150,11 @@ void VcdTrace::write(Time at) {
       fmt::format_to(out, "b{:b} {}\n", *one.bits, code_of(i));
   }
   put(at, fmt::to_string(text));
+}
+
+void VcdTrace::finish() {
+  SignalTrace::finish();
+  if (const Time end = levels_until(); end > told_) put(end, fmt::format("#{}\n", end));
 }
 
 CsvTrace::CsvTrace(TraceWanted given) : SignalTrace(std::move(given)) {

@@ -17,13 +17,17 @@ struct RunLimits {
   Time end = kNever;        ///< of the simulation; kNever: only the number of scans ends it
   std::uint64_t scans = 0;  ///< 0: any number
   bool strict = false;      ///< the first run-time error ends it
+  Time slice = 10 * kSecond;
 };
 
-/// Runs in slices; `progress` is told between them, and what is computed does not depend on it. Returns why it ended:
-/// `time`, `scans`, `endless scan`, `stop`, `fatal`, `run-time error` or `interrupted`.
-std::string_view run(serial::Simulation& simulation, const RunLimits& limits, const std::function<void()>& progress);
+/// Is told between the slices of a run; false ends it. What is computed does not depend on it.
+using RunProgress = std::function<bool()>;
+
+/// Runs in slices. Returns why it ended: `time`, `scans`, `endless scan`, `stop`, `fatal`, `run-time error`, `interrupted`,
+/// or `record limit` if `progress` has ended it.
+std::string_view run(serial::Simulation& simulation, const RunLimits& limits, const RunProgress& progress);
 
 /// The same of a rig: a PROGRAM runs within its limits, a system to their `end`, whatever its PLCs do.
-std::string_view run(Rig& rig, const RunLimits& limits, const std::function<void()>& progress);
+std::string_view run(Rig& rig, const RunLimits& limits, const RunProgress& progress);
 
 }  // namespace s7200::tools

@@ -165,8 +165,7 @@ std::optional<SuiteResult> Suite::run(const Watcher<Report>& watcher, Messages& 
           const bool banded = benches->of[scenario].band && of_table.outcome != Outcome::Skipped;
           BandResult band = table == 0 ? BandResult{} : of_one.band.value_or(BandResult{});
           if (banded) band.asked = benches->of[scenario].band->size();
-          const bool first_failed =
-              banded && add_to(band, of_table, benches->of[scenario].band->table_name(table));
+          const bool first_failed = banded && add_to(band, of_table, benches->of[scenario].band->table_name(table));
           for (const ProgramCoverage& each : of_table.coverage.programs()) result.coverage.add(each.map, each.tried);
           result.profile.add(of_table.profile, {"", scenarios_[scenario].name, opening_command(scenarios_[scenario])});
           if (table == 0) {

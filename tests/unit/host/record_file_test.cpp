@@ -53,6 +53,33 @@ TEST_F(RecordFiles, GrowByWholeLines) {
   EXPECT_EQ(content(), all);
 }
 
+TEST_F(RecordFiles, EndWithAWholeLineWhereTheirLimitIs) {
+  files_.limit_records(100'000);
+  std::ostream& out = open();
+  for (int i = 0; i < 20'000; ++i) out << "line " << i << '\n';
+  ASSERT_TRUE(file_.size());
+  EXPECT_TRUE(file_.size()->full);
+  std::string why;
+  EXPECT_FALSE(file_.close(why));
+  EXPECT_EQ(why, path() + " has reached 100 KB and ends there; --record-limit lets records grow further");
+  EXPECT_LE(content().size(), 100'000U);
+  EXPECT_GT(content().size(), 99'900U);
+  EXPECT_EQ(content().back(), '\n');
+}
+
+TEST(Sizes, AreReadAndWritten) {
+  EXPECT_EQ(parse_size("500MB"), 500'000'000U);
+  EXPECT_EQ(parse_size(" 1.5 gb "), 1'500'000'000U);
+  EXPECT_EQ(parse_size("7B"), 7U);
+  EXPECT_EQ(parse_size("none"), UINT64_MAX);
+  for (const char* const wrong : {"", "500", "MB", "-1MB", "0MB", "1e9GB", "nanGB"})
+    EXPECT_FALSE(parse_size(wrong)) << wrong;
+  EXPECT_EQ(size_text(1e9), "1 GB");
+  EXPECT_EQ(size_text(1.34e12), "1.3 TB");
+  EXPECT_EQ(size_text(560'400), "560 KB");
+  EXPECT_EQ(size_text(12), "12 B");
+}
+
 TEST_F(RecordFiles, WithoutLineEndsGrowAllTheSame) {
   std::ostream& out = open();
   out << std::string(200'000, 'x');

@@ -59,6 +59,38 @@ TEST(Signals, AreAddressesSymbolsAndInterruptRoutines) {
   EXPECT_EQ(all[4].name, "INT5");
 }
 
+TEST(Signals, AreLevelsOfThePortsThatTheCpuHas) {
+  const auto program = test::compile(kProgram);
+  std::string why;
+  const auto signals = parse_signals("PORT0.TXD,port0", *program, why);
+  ASSERT_TRUE(signals) << why;
+  std::string names;
+  for (const Signal& one : signals_of(*signals, *program)) names += one.name + " ";
+  EXPECT_EQ(names, "PORT0.TXD PORT0.RXD PORT0.TXD PORT0.LINE ");
+  EXPECT_FALSE(parse_signals("PORT1", *program, why));
+  EXPECT_EQ(why, "PORT1: the CPU 214 has no port 1");
+  EXPECT_FALSE(parse_signals("PORT0.CTS", *program, why));
+  EXPECT_EQ(why, "PORT0.CTS: the levels of a port are RXD, TXD and LINE");
+}
+
+TEST(VcdTrace, LevelsAreInTheirPlaceAmongWhatTheCpuHasDoneMeanwhile) {
+  const auto program = test::compile(kProgram);
+  std::string why, text;
+  const auto wanted = parse_signals("INT5,PORT0.TXD", *program, why).value();
+  const auto trace = trace_format_of("a.vcd").writer(
+      {.take = [&text](Time, std::string_view line) { text += line; }, .program = program, .signals = wanted});
+  text.clear();
+  trace->record({.at = 500, .kind = TraceKind::ServiceBegin, .routine = 5});
+  trace->level(0, PortLevel::Txd, 300, false);
+  trace->level(0, PortLevel::Rxd, 400, false);
+  trace->level(0, PortLevel::Txd, 900, true);
+  trace->settled(0, 900);
+  EXPECT_EQ(text, "#0\n0!\n1\"\n#300\n0\"\n#500\n1!\n") << "0, 300, 500; 900 may still have more";
+  trace->level(0, PortLevel::Txd, 200, true);
+  trace->finish();
+  EXPECT_TRUE(text.ends_with("#900\n1\"\n")) << "what was told before is not told again: " << text;
+}
+
 TEST(Signals, OfSeveralValuesOrNoneAreRefused) {
   const auto program = test::compile(kProgram);
   std::string why;

@@ -27,8 +27,8 @@ TEST(Stop, TwoSessionsOnTwoThreadsStopApart) {
   const auto first = rig_with(StopToken(first_asked)), second = rig_with(StopToken(second_asked));
   std::string_view first_reason, second_reason;
   {
-    const std::jthread endless([&] { first_reason = run(first->simulation(), {.end = kNever}, [] {}); });
-    second_reason = run(second->simulation(), {.end = kEnd}, [] {});
+    const std::jthread endless([&] { first_reason = run(first->simulation(), {.end = kNever}, [] { return true; }); });
+    second_reason = run(second->simulation(), {.end = kEnd}, [] { return true; });
     first_asked = true;
   }
   EXPECT_EQ(first_reason, "interrupted");
@@ -39,7 +39,7 @@ TEST(Stop, TwoSessionsOnTwoThreadsStopApart) {
 TEST(Stop, ThatIsAskedForBeforehandLeavesNothingToRun) {
   const std::atomic<bool> asked = true;
   const auto rig = rig_with(StopToken(asked));
-  EXPECT_EQ(run(rig->simulation(), {.end = kSecond}, [] {}), "interrupted");
+  EXPECT_EQ(run(rig->simulation(), {.end = kSecond}, [] { return true; }), "interrupted");
   EXPECT_LT(rig->simulation().time(), kSecond);
 }
 

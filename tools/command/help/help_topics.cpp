@@ -58,11 +58,11 @@ std::string files() {
          "  --trace FILE    what happens in the CPU, with its time: interrupts, characters, attachments, errors, the way "
          "of the main program; with --trace-instructions each instruction. FILE.jsonl gets JSON lines for other "
          "programs, FILE.json events for the viewers of Perfetto and Chrome; FILE.vcd and FILE.csv get the values of "
-         "--signals over time\n"
+         "--signals over time: memory, interrupt routines, the levels at a port (PORT0)\n"
          "  --capture FILE  the line: levels in FILE.vcd, for sigrok and waveform viewers; frames in FILE.pcap, for "
          "Wireshark and 's7200 decode'\n"
          "An existing file is replaced only if the same option wrote it; links are not followed. You can read a record "
-         "while it grows.\n";
+         "while it grows; it ends at 1 GB, or where --record-limit says.\n";
 }
 
 /// Tables of Markdown, as columns: `  key: FORM  meaning`.

@@ -4,22 +4,31 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "interpreter/analysis/waiter.hpp"
+#include "tools/host/files/record_file.hpp"
 #include "tools/rig/run.hpp"
 
 namespace s7200::tools {
 
-/// On a terminal, once a second, from the second second on. The limits outlive it.
+/// On a terminal, once a second, from the second second on, with the sizes that records will have. A note says when one will
+/// be larger than it may be. The limits outlive it.
 class Progress {
  public:
-  /// `now`: simulated time.
-  Progress(std::function<Time()> now, const RunLimits& limits);
+  /// `now`: simulated time; `records`: how far they have grown.
+  Progress(std::function<Time()> now, std::function<std::vector<RecordSize>()> records, const RunLimits& limits);
 
-  void operator()();
+  /// False when a record has reached its limit.
+  bool operator()();
 
  private:
+  double at_end(const RecordSize& record) const;
+  void note_too_large(const std::vector<RecordSize>& records);
+
   std::function<Time()> now_;
+  std::function<std::vector<RecordSize>()> records_;
+  bool noted_ = false;
   const RunLimits& limits_;
   Time next_;  ///< of the host
 };

@@ -35,9 +35,10 @@ std::string_view run_with_clock(LiveRun& live, RecordedRig& rig, const RunLimits
 }
 
 Ending run_to_end(RecordedRig& rig, const RunBridges& bridges, bool serves, const RunOptions& options) {
-  const RunLimits limits{options.end(serves), options.scans, options.rig.strict()};
+  RunLimits limits{options.end(serves), options.scans, options.rig.strict()};
+  if (!rig.record_sizes().empty()) limits.slice = kSecond;  // so that a full record ends it soon
   if (!serves && !options.bridge.realtime())
-    return {run(rig, limits, Progress([&] { return rig.system().time(); }, limits))};
+    return {run(rig, limits, Progress([&] { return rig.system().time(); }, [&] { return rig.record_sizes(); }, limits))};
   const bool to_ppi = bridges.joined && bridges.joined->carries_ppi();
   const auto live = live_run_of(rig, bridges.of_plan, bridges.joined,
                                 {.speed = options.bridge.speed(),

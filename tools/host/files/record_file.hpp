@@ -1,7 +1,9 @@
 // Files that record a run: a trace, the outputs, a capture.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -9,6 +11,19 @@
 #include "tools/host/files/written_files.hpp"
 
 namespace s7200::tools {
+
+/// `560 KB`, `1.3 GB`: 1000 bytes are 1 KB.
+std::string size_text(double bytes);
+
+/// Reads `500MB`, `1.5 GB`, or `none` for no limit. Nothing if it is no such size.
+std::optional<std::uint64_t> parse_size(std::string_view text);
+
+/// How far a record has grown.
+struct RecordSize {
+  std::string path;
+  std::uint64_t bytes = 0, limit = 0;
+  bool full = false;  ///< it has reached its limit and takes nothing more
+};
 
 /// claim(), open(), the first line, put(), the rest of the record, close(). The rule for all files is in written_files.hpp.
 class RecordFile {
@@ -29,7 +44,10 @@ class RecordFile {
   /// Writes what is recorded so far, for whoever follows the file. What cannot be written close() tells.
   void flush();
 
-  /// Closes the file. Returns false if not everything could be written.
+  /// Nothing for a pipe, a device or standard output, and for what is not open.
+  std::optional<RecordSize> size() const;
+
+  /// Closes the file. Returns false if not everything could be written, because it has reached its limit too.
   bool close(std::string& why);
 
  private:
@@ -39,6 +57,7 @@ class RecordFile {
   Destination destination_;
   std::ostream* standard_output_ = nullptr;  ///< not null: that is where it goes
   NewFile file_;
+  std::uint64_t limit_ = kRecordLimit;
   std::unique_ptr<Buffer> buffer_;  ///< null: standard output, or nothing is open
   std::unique_ptr<std::ostream> stream_;
 };

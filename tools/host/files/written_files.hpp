@@ -9,13 +9,14 @@
 //     when it is complete and on the disk, if it is a result: memory, a transcript, JUnit, STL;
 //     with its first line, if it is a record of a run: a trace, outputs, a capture. A run may go on for days, and what it
 //     records is looked at meanwhile. The record grows under its name, is whole up to where the run or the disk ended, and
-//     is known by its first line from then on.
+//     is known by its first line from then on. It ends where it reaches its limit.
 // - A record may also go to a pipe, a terminal or another character device, which have nothing to lose; so can a link to
 //     one, such as /dev/fd/63, which a shell makes for `--trace >(grep LOST)`.
 //
 // All names are looked at before anything is written: a command that is refused has changed nothing.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -56,6 +57,9 @@ struct Destination {
   bool replaces_content() const { return replaced && !replaced->empty; }
 };
 
+/// How large a record may grow if nobody asks for more: two days of events of a poll a second, half an hour of instructions.
+inline constexpr std::uint64_t kRecordLimit = 1'000'000'000;
+
 /// All files that one command writes.
 class WrittenFiles {
  public:
@@ -64,6 +68,10 @@ class WrittenFiles {
   explicit WrittenFiles(std::ostream* standard_output = nullptr);
 
   std::ostream* standard_output() const { return standard_output_; }
+
+  /// Records end when they have that many bytes; those that go to a pipe or device do not.
+  void limit_records(std::uint64_t bytes) { record_limit_ = bytes; }
+  std::uint64_t record_limit() const { return record_limit_; }
 
   /// The command reads this file, if it is one.
   void reads(const std::string& path);
@@ -84,6 +92,7 @@ class WrittenFiles {
   static Place place_of(std::string user, const std::string& path);
 
   std::ostream* standard_output_;
+  std::uint64_t record_limit_ = kRecordLimit;
   std::vector<Place> places_;
 };
 

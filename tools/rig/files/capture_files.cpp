@@ -75,16 +75,17 @@ bool CaptureFiles::put(std::string& why) {
   return std::ranges::all_of(captures_, [&](Capture& capture) { return capture.file.put(why); });
 }
 
-void CaptureFiles::watch(serial::Plc& plc, std::uint8_t port) {
-  if (!captures_.empty()) plc.set_wire_sink(this, port);
-}
-
 void CaptureFiles::watch(serial::ResponderStation& plc, Time from) {
   if (!captures_.empty()) plc.set_wire_sink(this, from);
 }
 
 void CaptureFiles::flush() {
   for (Capture& capture : captures_) capture.file.flush();
+}
+
+void CaptureFiles::add_sizes(std::vector<RecordSize>& sizes) const {
+  for (const Capture& capture : captures_)
+    if (const auto size = capture.file.size()) sizes.push_back(*size);
 }
 
 void CaptureFiles::close(std::vector<std::string>& problems) {

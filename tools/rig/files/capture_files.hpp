@@ -28,11 +28,14 @@ class CaptureFiles final : private serial::WireSink {
   /// Reads the line by the settings in the line's file instead of the settings of the watched port.
   void read_as(const serial::LineSettings& line) { line_ = line; }
 
-  /// Captures the line at a port from now on, until close() or the end of the PLC. This object outlives the PLC.
-  void watch(serial::Plc& plc, std::uint8_t port);
+  /// What is told of the wires at a port, so that they are captured until close(); null without captures.
+  serial::WireSink* sink() { return captures_.empty() ? nullptr : this; }
 
   /// Captures the line at the port of a PLC of another make.
   void watch(serial::ResponderStation& plc, Time from);
+
+  /// Adds how far they have grown.
+  void add_sizes(std::vector<RecordSize>& sizes) const;
 
   /// Closes all of them; adds to `problems` what could not be written.
   void close(std::vector<std::string>& problems);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -46,6 +47,23 @@ bool PlcFiles::read_memory(std::optional<RetentiveMemory>& kept, std::string& wh
   if (!kept && memory_.memory()) kept = *memory_.memory();
   return true;
 }
+
+serial::WireSink* PlcFiles::levels_at(std::uint8_t port) {
+  const auto is_there = [port](const Signal& signal) {
+    return signal.port == port && (signal.kind == Signal::Kind::Level || signal.kind == Signal::Kind::Levels);
+  };
+  if (!trace_ || std::ranges::none_of(settings_.signals, is_there)) return nullptr;
+  return &levels_.emplace_back(*trace_, port);
+}
+
+void PlcFiles::Levels::edge(serial::Wire wire, Time at, bool mark, int) {
+  static_assert(static_cast<int>(PortLevel::Rxd) == static_cast<int>(serial::Wire::Rx) &&
+                static_cast<int>(PortLevel::Txd) == static_cast<int>(serial::Wire::Tx) &&
+                static_cast<int>(PortLevel::Line) == static_cast<int>(serial::Wire::Line));
+  trace.level(port, static_cast<PortLevel>(wire), at, mark);
+}
+
+void PlcFiles::Levels::settled(Time until, const SerialFormat&) { trace.settled(port, until); }
 
 void PlcFiles::keep_memory(std::vector<std::string>& problems) const {
   std::string why;

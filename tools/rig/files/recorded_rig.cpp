@@ -25,6 +25,7 @@ std::vector<std::string> open_messages(const serial::Plc& plc) {
 
 RecordedRig::RecordedRig(SystemPlan plan, const RigSurroundings& surroundings)
     : RigFiles{.written = WrittenFiles(surroundings.standard_output)}, Rig(std::move(plan), surroundings.seen) {
+  written.limit_records(surroundings.record_limit);
   stop_when(surroundings.stop);
   if (!surroundings.trace.empty()) trace = std::make_unique<SystemTrace>(plan_, system(), surroundings.trace_detail);
   for (std::size_t number = 0; number < plan_.plcs.size(); ++number) plcs.emplace_back(plan_.plcs[number], plc(number));
@@ -76,16 +77,32 @@ bool RecordedRig::open_records(std::string& why) {
          std::ranges::all_of(captures, [&](CaptureFiles& each) { return each.put(why); });
 }
 
-/// Each line at its first PLC: an S7-200, or one of another make if there is none.
+/// Captures each line at its first PLC, an S7-200, or one of another make if there is none; and shows traces their ports.
 void RecordedRig::watch_lines() {
   auto capture = captures.begin();
   for (const LinePlan& line : plan_.lines) {
     CaptureFiles& files = *capture++;
     files.read_as(line.settings);
-    if (const StationPlan* const first = first_plc(line))
-      files.watch(plc(first->number), first->port);
-    else if (const StationPlan* const other = first_other_plc(plan_, line))
-      files.watch(*responder(other->number), time());
+    const StationPlan* const other = first_plc(line) ? nullptr : first_other_plc(plan_, line);
+    if (other) files.watch(*responder(other->number), time());
+  }
+  std::size_t number = 0;
+  for (PlcFiles& each : plcs) watch_ports(number++, each);
+}
+
+void RecordedRig::watch_ports(std::size_t number, PlcFiles& files) {
+  serial::Plc& watched = plc(number);
+  for (std::uint8_t port = 0; port < plan_.plcs[number].program->model->ports; ++port) {
+    std::vector<serial::WireSink*> sinks{files.levels_at(port)};
+    auto capture = captures.begin();
+    for (const LinePlan& line : plan_.lines) {
+      const StationPlan* const first = first_plc(line);
+      if (first && first->number == number && first->port == port) sinks.push_back(capture->sink());
+      ++capture;
+    }
+    std::erase(sinks, nullptr);
+    if (sinks.size() == 1) watched.set_wire_sink(sinks.front(), port);
+    if (sinks.size() > 1) watched.set_wire_sink(&wires.emplace_back(std::move(sinks)), port);
   }
 }
 
@@ -102,6 +119,15 @@ void RecordedRig::flush_records() {
   if (trace) trace->flush();
   for (PlcFiles& plc : plcs) plc.flush();
   for (CaptureFiles& each : captures) each.flush();
+}
+
+std::vector<RecordSize> RecordedRig::record_sizes() const {
+  std::vector<RecordSize> sizes;
+  if (trace)
+    if (const auto size = trace->size()) sizes.push_back(*size);
+  for (const PlcFiles& plc : plcs) plc.add_sizes(sizes);
+  for (const CaptureFiles& each : captures) each.add_sizes(sizes);
+  return sizes;
 }
 
 std::vector<std::string> RecordedRig::finish() {

@@ -1,6 +1,7 @@
 // A rig with the files that its plan names: what its PLCs have kept, and what is recorded of it.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <iosfwd>
 #include <list>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "serial_sim/line/wire_fan_out.hpp"
 #include "tools/host/files/written_files.hpp"
 #include "tools/rig/files/capture_files.hpp"
 #include "tools/rig/files/plc_files.hpp"
@@ -23,6 +25,7 @@ struct RigSurroundings {
   std::ostream* standard_output = nullptr;  ///< `-` for a trace and the outputs
   std::string trace{};                      ///< of a system, all its PLCs in one file
   TraceDetail trace_detail = TraceDetail::Way;
+  std::uint64_t record_limit = kRecordLimit;
   RigSpots seen{};
   StopToken stop{};               ///< ends what runs
   std::function<void()> begun{};  ///< told when all has been read, before files are written
@@ -34,6 +37,7 @@ struct RigFiles {
   std::unique_ptr<SystemTrace> trace{};  ///< null: none
   std::list<PlcFiles> plcs{};
   std::list<CaptureFiles> captures{};  ///< by line
+  std::list<serial::WireFanOut> wires{};
 };
 
 class RecordedRig final : private RigFiles, public Rig {
@@ -50,6 +54,9 @@ class RecordedRig final : private RigFiles, public Rig {
   /// behind.
   void flush_records();
 
+  /// How far the records have grown that are files.
+  std::vector<RecordSize> record_sizes() const;
+
   /// Completes the records and keeps the memories of the PLCs that have had power. Returns what could not be written.
   std::vector<std::string> finish();
 
@@ -59,6 +66,7 @@ class RecordedRig final : private RigFiles, public Rig {
   bool read_memories(std::string& why);
   bool open_records(std::string& why);
   void watch_lines();
+  void watch_ports(std::size_t number, PlcFiles& files);
   void listen();
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ class SystemTrace final {
 
   /// Writes the lines before which no other line can come any more.
   void flush();
+
+  /// How far the file has grown; nothing for a pipe or device.
+  std::optional<RecordSize> size() const { return file_.size(); }
 
   /// The sink that watches a CPU. The file is open.
   TraceSink& station(std::size_t plc);

@@ -31,6 +31,11 @@ void TraceFiles::flush() {
   for (Record& record : records_) record.file.flush();
 }
 
+void TraceFiles::add_sizes(std::vector<RecordSize>& sizes) const {
+  for (const Record& record : records_)
+    if (const auto size = record.file.size()) sizes.push_back(*size);
+}
+
 void TraceFiles::close(std::vector<std::string>& problems) {
   for (Record& record : records_) {
     std::string why;

@@ -27,6 +27,9 @@ class TraceFiles {
   /// Writes the records so far to their files.
   void flush();
 
+  /// Adds how far they have grown.
+  void add_sizes(std::vector<RecordSize>& sizes) const;
+
   /// Closes all of them; adds to `problems` what could not be written.
   void close(std::vector<std::string>& problems);
 

@@ -36,6 +36,19 @@ void RigOptions::add_to(CLI::App& app) {
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->group(help_group::kResults);
+  app.add_option_function<std::string>(
+         std::string(kRecordLimitOption),
+         [this](const std::string& given) {
+           const auto size = parse_size(given);
+           if (!size)
+             throw CLI::ValidationError(std::string(kRecordLimitOption),
+                                        fmt::format("'{}' is not a size: write 500MB, 20GB or none", stl::shortened(given)));
+           record_limit_ = *size;
+         },
+         fmt::format("how large a trace, a capture or a record of outputs may grow, 20GB; none: without limit [{}]",
+                     size_text(static_cast<double>(kRecordLimit))))
+      ->type_name("SIZE")
+      ->group(help_group::kMore);
 }
 
 /// Reads what the options of a PROGRAM say into the settings. False after messages.
@@ -215,7 +228,7 @@ std::unique_ptr<RecordedRig> RigOptions::assemble(bool json, const std::string& 
 }
 
 std::unique_ptr<RecordedRig> RigOptions::assemble_another(std::shared_ptr<const Program> program,
-                                                  std::vector<std::string>& problems) const {
+                                                          std::vector<std::string>& problems) const {
   SystemPlan plan = plan_;
   plan.plcs.front().program = std::move(program);
   return RecordedRig::assemble(std::move(plan), surroundings({}, {spot_}), problems);
@@ -227,6 +240,7 @@ RigSurroundings RigOptions::surroundings(const std::string& link, std::vector<Sp
           .standard_output = &std::cout,
           .trace = is_system() ? settings_.trace : "",
           .trace_detail = settings_.trace_detail,
+          .record_limit = record_limit_,
           .seen = {.spots = std::move(spots), .lines = {}},
           .stop = interruption(),
           .begun = catch_interruption};

@@ -2,6 +2,7 @@
 // recorded of it, what is kept and shown after it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -91,7 +92,8 @@ class RigOptions {
   std::unique_ptr<RecordedRig> assemble(bool json, const std::string& link = {});
 
   /// A rig like that of assemble() for another program, from any thread. Null, with `problems` if it is not for a signal.
-  std::unique_ptr<RecordedRig> assemble_another(std::shared_ptr<const Program> program, std::vector<std::string>& problems) const;
+  std::unique_ptr<RecordedRig> assemble_another(std::shared_ptr<const Program> program,
+                                                std::vector<std::string>& problems) const;
 
   /// How a master talks on the line of what was loaded: as `given`, and for the rest as a system file says.
   serial::MasterSettings on_line(const serial::MasterSettings& given) const {
@@ -148,10 +150,14 @@ class RigOptions {
   bool looks_at_all_ = false;
   bool joins_ = true;  ///< a master, the line at the spot
   bool strict_ = false;
+  std::uint64_t record_limit_ = kRecordLimit;
   bool only_interrupted_ = false;  ///< while a record waited for its reader
   FaultOptions faults_;
   ProgramSettings settings_;
 };
+
+/// How large records may grow: an option of systems too.
+inline constexpr std::string_view kRecordLimitOption = "--record-limit";
 
 /// Whether an option of a rig makes sense for a line without an S7-200.
 bool is_about_the_line(std::string_view option);

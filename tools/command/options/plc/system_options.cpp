@@ -52,7 +52,7 @@ std::optional<SystemPlan> load_system(const ProgramOptions& options, int& exit_c
 }
 
 bool is_about_one_plc(const std::string& option) {
-  if (option == kNoSkip || option == kNoStandIns) return false;
+  if (option == kNoSkip || option == kNoStandIns || option == kRecordLimitOption) return false;
   CLI::App of_one_plc;
   ProgramOptions programs;
   RigOptions rigs;
