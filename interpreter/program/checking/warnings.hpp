@@ -29,7 +29,6 @@ enum class Warning : std::uint8_t {
   RepeatedEdge,
   SkippedTimer,
   Unreachable,
-  UnusedFreeport,
   UnusedLabel,
   UnusedRoutine,
   UnusedSpecialMemory,
