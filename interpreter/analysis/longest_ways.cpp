@@ -454,7 +454,7 @@ class LongestWays::Follower {
     return known.value_or(1);
   }
 
-  /// WayList that leave a body for somewhere else than the next pass, after `passes` at most.
+  /// The ways that leave a body for somewhere else than the next pass, after `passes` at most.
   void leave(const Pass& pass, Time time, const Way& way, std::uint32_t but_for, Arrivals& arrivals,
              Through& through) const {
     for (const auto& [to, ways] : pass.leaves)

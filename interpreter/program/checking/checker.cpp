@@ -109,7 +109,8 @@ class Checker {
     const std::vector<std::string> near = symbols_like(written);
     return fmt::format("{} {} it{}; add it there, or write the address itself", fmt::join(tables, ", "),
                        tables.size() == 1 ? "does not have" : "do not have",
-                       near.empty() ? "" : fmt::format("; the nearest {} {}", near.size() == 1 ? "is" : "are", fmt::join(near, ", ")));
+                       near.empty() ? ""
+                                    : fmt::format("; the nearest {} {}", near.size() == 1 ? "is" : "are", fmt::join(near, ", ")));
   }
 
   /// Symbols of the user that have a word in common with a name, the longest such word first.
@@ -219,7 +220,6 @@ class Checker {
       add_unread(unread_.emplace_back(stl::Statement{{}, {*line, 1, 1}, {}, {}}));
     unread_lines_.erase(unread_lines_.begin(), end);
   }
-
 
   void mark_unread_operands(const Instruction& instruction) {
     for (std::size_t i = 0; i < instruction.rules().size(); ++i)
