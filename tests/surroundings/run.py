@@ -298,7 +298,8 @@ class Streams(Case):
         memory, trace = self.folder / "memory.json", self.folder / "run.trace"
         for output, other, path in (("--trace", "--output", trace), ("--output", "--trace", trace)):
             with self.subTest(output):
-                process = self.start("run", self.blinking, "--for", "9999h", output, "-", other, path, "--memory", memory)
+                process = self.start("run", self.blinking, "--for", "9999h", "--record-limit", "none",
+                                     output, "-", other, path, "--memory", memory)
                 process.stdout.readline()
                 process.stdout.close()
                 self.assertEqual(process.wait(LONG), -signal.SIGPIPE)
