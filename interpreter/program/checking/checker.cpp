@@ -217,8 +217,30 @@ class Checker {
   void add_unread_lines(std::uint32_t above) {
     const auto end = unread_lines_.lower_bound(above);
     for (auto line = unread_lines_.begin(); line != end; ++line)
-      add_unread(unread_.emplace_back(stl::Statement{{}, {*line, 1, 1}, {}, {}}));
+      add_unread(unread_.emplace_back(stl::Statement{unread_text(*line), {*line, 1, 1}, {}, {}}));
     unread_lines_.erase(unread_lines_.begin(), end);
+  }
+
+  /// What is written in a line that the parser could not read; it stands in place of a mnemonic.
+  std::string unread_text(std::uint32_t line) const {
+    if (line < 1 || line > source_.text.size()) return {};
+    const std::string_view text = source_.text[line - 1];
+    return stl::printable(stl::shortened(stl::trim(text.substr(0, text.find("//")))));
+  }
+
+  /// The lines of the source, with those that the parser could not read as statements, so that each op has one.
+  std::vector<stl::Line> lines_with_unread() const {
+    std::vector<stl::Line> lines;
+    auto next = unread_.begin();
+    const auto add_unread_above = [&](std::uint32_t line) {
+      for (; next != unread_.end() && next->position.line < line; ++next) lines.emplace_back(*next);
+    };
+    for (const stl::Line& line : source_.lines) {
+      if (const auto* head = std::get_if<stl::NetworkHead>(&line)) add_unread_above(head->position.line);
+      if (const auto* statement = std::get_if<stl::Statement>(&line)) add_unread_above(statement->position.line);
+      lines.push_back(line);
+    }
+    return lines;
   }
 
   void mark_unread_operands(const Instruction& instruction) {
@@ -637,6 +659,7 @@ class Checker {
   std::shared_ptr<const Program> what_is_known(const ProgramStructure& structure) {
     if (!routines_are_known()) return nullptr;
     auto program = program_of(structure);
+    program->source.lines = lines_with_unread();
     for (std::uint32_t i = 0; i < statements_.size(); ++i)
       program->ops.push_back(is_unread(statements_[i]) ? what_is_known(*statements_[i].statement) : decode(i, structure));
     program->constants = constants_.bytes();
@@ -647,9 +670,8 @@ class Checker {
   Op what_is_known(const stl::Statement& statement) const {
     Op op;
     op.instruction = &unread_instruction();
-    const std::uint32_t line = statement.position.line;
-    const bool of_parser = statement.mnemonic.empty() && line >= 1 && line <= source_.text.size();
-    const auto words = of_parser ? stl::split_words(source_.text[line - 1]) : std::vector<std::string>{};
+    const bool of_parser = std::ranges::any_of(unread_, [&](const auto& unread) { return &unread == &statement; });
+    const auto words = of_parser ? stl::split_words(statement.mnemonic) : std::vector<std::string>{};
     const Instruction* const instruction = words.empty() ? nullptr : find_instruction(stl::upper_case(words.front()));
     if (!instruction || instruction->structure != Structure::None) return op;
     op.instruction = instruction;

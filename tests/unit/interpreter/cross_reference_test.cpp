@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "interpreter/analysis/drawn_networks.hpp"
 #include "interpreter/analysis/effects/memory_names.hpp"
 #include "interpreter/analysis/selection.hpp"
 #include "interpreter/base/text/joined.hpp"
+#include "interpreter/program/checking/checker.hpp"
+#include "interpreter/stl/parser.hpp"
 #include "tests/support/plc.hpp"
 
 namespace s7200::test {
@@ -33,6 +36,29 @@ TEST(CrossReference, OverlappingMemoryIsOneEntryWithItsParts) {
 
 TEST(CrossReference, ATimerIsOneEntryWithItsBitAndItsValue) {
   EXPECT_EQ(shown("LD I0.0\nTON T37, 100\nLD T37\nMOVW T37, VW0\nR T37, 1\nMEND\n"), "I0.0 r0; VW0 w3; T37 c1 r2 r3 w4");
+}
+
+/// A line that cannot be read is in its network, and nothing else moves: each line of a program with errors is where it is
+/// written.
+TEST(CrossReference, OfAProgramWithErrorsNetworksKeepTheirLines) {
+  const CpuModel& cpu = *find_cpu("214");
+  const auto program = decode_program(stl::parse("NETWORK 1\nLD I0.0\nA I0.9\n= Q0.0\nNETWORK 2\nLD I0.1\nA \x1B[31m ??\n"
+                                                 "= Q0.1\nNETWORK 3\nLD I0.2\n= Q0.2\nMEND\n",
+                                                 "pump.stl"),
+                                      cpu, default_times(cpu))
+                           .known;
+  ASSERT_TRUE(program);
+  const Facts facts = facts_of(*program);
+  const auto drawn = drawn_networks(program->source);
+  ASSERT_EQ(drawn.size(), 3U);
+  EXPECT_EQ(drawn[0].why_not, "A I0.9 is not an instruction");
+  EXPECT_EQ(drawn[1].why_not, "A \uFFFD[31m ?? is not an instruction");
+  EXPECT_EQ(drawn[2].why_not, "");
+  for (const DrawnNetwork& network : drawn)
+    for (std::uint32_t op = network.first; op < network.end; ++op) {
+      EXPECT_EQ(facts.networks[op], network.ladder.number) << op;
+      EXPECT_EQ(program->statement(op).position.line, 2 + 4 * (network.ladder.number - 1) + op - network.first);
+    }
 }
 
 TEST(CrossReference, AccumulatorsAreOneThingInEveryWidth) {
