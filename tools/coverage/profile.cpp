@@ -120,6 +120,7 @@ ProfileSink::ProfileSink(std::shared_ptr<const Program> program)
   profile_.executed.resize(program_->ops.size());
   const Networks networks(*program_);
   for (std::uint32_t op = 0; op < program_->ops.size(); ++op) network_of_.push_back(networks.first_of(op));
+  in_networks_.resize(program_->ops.size());
 }
 
 void ProfileSink::begin(const Cpu& cpu) {
@@ -167,7 +168,7 @@ void ProfileSink::end_scan(Time at) {
   if (!scan_) return;
   scan_->length = at - scan_->begin;
   profile_.scans.add(scan_->length);
-  for (const auto& [network, time] : networks_of_scan_) profile_.networks[network].add(time);
+  for (const std::uint32_t network : networks_of_scan_) profile_.networks[network].add(in_networks_[network]);
   if (!profile_.worst_scan || scan_->length > profile_.worst_scan->length) profile_.worst_scan = scan_;
 }
 
@@ -179,6 +180,7 @@ void ProfileSink::begin_scan(const TraceRecord& record) {
   scan_->number = record.count;
   scan_->begin = record.at;
   scan_->interrupts = 0;
+  for (const std::uint32_t network : networks_of_scan_) in_networks_[network] = 0;
   networks_of_scan_.clear();
   scan_->routines.assign(flow_.routines.size(), 0);
   if (in_interrupt_) return;
@@ -233,7 +235,9 @@ void ProfileSink::instruction(const InstructionRecord& record) {
   here().ops[record.op] += took;
   if (scan_) {
     scan_->routines[stack_.back()] += took;
-    networks_of_scan_[network_of_[record.op]] += took;
+    const std::uint32_t network = network_of_[record.op];
+    if (in_networks_[network] == 0 && took != 0) networks_of_scan_.push_back(network);
+    in_networks_[network] += took;
   }
   ++profile_.executed[record.op];
   reasons_.note(record);

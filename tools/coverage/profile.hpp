@@ -140,7 +140,8 @@ class ProfileSink final : public TraceSink {
   Profile::OfStack* here_ = nullptr;  // of stack_; null: not looked up
   std::optional<ProfiledScan> scan_;
   std::vector<std::uint32_t> network_of_;              // by op, the first one
-  std::map<std::uint32_t, Time> networks_of_scan_{};  // by the first op
+  std::vector<Time> in_networks_;                  // by the first op: their time in the scan so far
+  std::vector<std::uint32_t> networks_of_scan_{};  // the first ops of those that took any
 };
 
 }  // namespace s7200::tools
