@@ -1,6 +1,7 @@
 #include "interpreter/base/file_source.hpp"
 
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/base/text/utf16.hpp"
 
 namespace s7200 {
 
@@ -11,7 +12,9 @@ bool FileSource::exists(const std::string& path) const {
 
 std::optional<std::string> FileSource::read_text(const std::string& path, std::string& why) const {
   auto text = read(path, why);
-  if (text) text->erase(0, text->size() - stl::without_byte_order_mark(*text).size());
+  if (!text) return text;
+  if (auto converted = stl::from_marked_utf16(*text)) return converted;
+  text->erase(0, text->size() - stl::without_byte_order_mark(*text).size());
   return text;
 }
 

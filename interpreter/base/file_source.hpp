@@ -19,8 +19,8 @@ class FileSource {
   /// Whether there is a file of this name, be it that it cannot be read.
   virtual bool exists(const std::string& path) const;
 
-  /// A text in UTF-8, without the byte order mark that some editors put before it. Returns nothing and sets `why` like
-  /// read().
+  /// A text in UTF-8, without the byte order mark that some editors put before it; UTF-16 with its mark is converted.
+  /// Returns nothing and sets `why` like read().
   std::optional<std::string> read_text(const std::string& path, std::string& why) const;
 };
 

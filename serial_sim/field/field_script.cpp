@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
+#include "interpreter/base/text/csv.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/model/special_memory.hpp"
 #include "interpreter/program/checking/special_memory_use.hpp"
@@ -17,23 +19,19 @@ namespace {
 
 __extension__ using Wide = __int128;
 
+constexpr std::size_t kAddress = 1;  // of the fields of a row
+
 constexpr std::uint64_t kHighestMillihertz = 1'000'000'000;  // 1 MHz
 
-/// # begins a comment where a word could begin: not in 16#FF.
+/// # begins a comment where a word could begin: not in 16#FF, nor in the quotes of a symbol.
 std::string_view without_comment(std::string_view line) {
-  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
-    if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t') return line.substr(0, at);
-  return line;
-}
-
-std::vector<std::string_view> fields_of(std::string_view row) {
-  std::vector<std::string_view> fields;
-  for (std::size_t comma = 0; comma != std::string_view::npos;) {
-    comma = row.find(',');
-    fields.push_back(stl::trim(row.substr(0, comma)));
-    if (comma != std::string_view::npos) row.remove_prefix(comma + 1);
+  bool quoted = false;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    if (line[at] == '"') quoted = !quoted;
+    const bool could_begin = at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t';
+    if (line[at] == '#' && !quoted && could_begin) return line.substr(0, at);
   }
-  return fields;
+  return line;
 }
 
 /// Parses a frequency in mHz, in any range: `5kHz`, `0.5 Hz`. It is read as a duration whose nanosecond is a millihertz.
@@ -50,8 +48,8 @@ std::optional<std::uint64_t> parse_frequency(std::string_view text) {
 
 class FieldScriptReader {
  public:
-  FieldScriptReader(const std::string& name, const CpuModel& model, std::vector<std::string>& errors)
-      : name_(name), model_(model), errors_(errors) {}
+  FieldScriptReader(const std::string& name, const AddressSpace& space, std::vector<std::string>& errors)
+      : name_(name), space_(space), errors_(errors) {}
 
   FieldScript read(std::string_view csv) {
     bool first = true;
@@ -60,8 +58,13 @@ class FieldScriptReader {
       const std::string_view line = csv.substr(0, csv.find('\n'));
       csv.remove_prefix(std::min(csv.size(), line.size() + 1));
       const std::string_view row = stl::trim(without_comment(line));
-      if (row.empty()) continue;
-      if (!(first && row.starts_with("time"))) read_row(fields_of(row));
+      if (row.find_first_not_of(",;\t ") == std::string_view::npos || row.starts_with("\"#")) continue;
+      if (first) separator_ = csv_separator(row);
+      auto fields = csv_fields(row, separator_);
+      if (!fields)
+        error("a double quote is not closed");
+      else if (!(first && row.starts_with("time")))
+        read_row(std::move(*fields));
       first = false;
     }
     return std::move(script_);
@@ -75,7 +78,10 @@ class FieldScriptReader {
 
   void error(std::string_view what) { errors_.push_back(fmt::format("{}:{}: {}", name_, line_, what)); }
 
-  void read_row(const std::vector<std::string_view>& field) {
+  void read_row(std::vector<std::string> field) {
+    while (field.back().empty()) field.pop_back();  // spreadsheets fill rows up
+    for (std::size_t i = 0; i < field.size(); ++i)
+      if (i != kAddress) field[i] = with_decimal_point(std::move(field[i]), separator_);
     const bool pulses = field.size() == 5 && field[2] == "pulses";
     if (!pulses && field.size() != 3) return error("write time,address,value or time,address,pulses,frequency,duration");
     const auto at = parse_duration(field[0]);
@@ -90,7 +96,7 @@ class FieldScriptReader {
 
   /// Checks that the field can drive the memory: it drives inputs. Returns a message for anything else.
   bool drivable(const MemoryRange& range, std::string_view address) {
-    const std::size_t potentiometers = is_modelled_special_memory(model_, sm::kPotentiometer[1] - image::kSM) ? 2 : 1;
+    const std::size_t potentiometers = is_modelled_special_memory(space_.model, sm::kPotentiometer[1] - image::kSM) ? 2 : 1;
     const bool potentiometer =
         range.area == Area::SM && range.width == Width::Byte && range.at - sm::kPotentiometer[0] < potentiometers;
     const bool analog = range.area == Area::AI && range.number % 2 == 0;
@@ -105,20 +111,20 @@ class FieldScriptReader {
 
   std::optional<Assignment> assignment(std::string_view address, std::string_view value) {
     std::string why;
-    const auto range = parse_range(address, model_, why);
+    const auto range = parse_range(address, space_, why);
     if (!range || range->count != 1) {
       error(range ? fmt::format("'{}': a row sets one address, without a count", stl::shortened(address)) : why);
       return {};
     }
     if (!drivable(*range, address)) return {};
-    const auto parsed = parse_assignment(fmt::format("{}={}", address, value), model_, why);
+    const auto parsed = parse_value(*range, value);
     if (!parsed)
       error(fmt::format("'{}' is not a value for {}; write a number that fits, for example 1, 16#FF or -5",
                         stl::shortened(value), address));
     return parsed;
   }
 
-  void add_change(Time at, const std::vector<std::string_view>& field) {
+  void add_change(Time at, const std::vector<std::string>& field) {
     const auto given = assignment(field[1], field[2]);
     if (!given) return;
     const MemoryRange& range = given->place;
@@ -136,7 +142,7 @@ class FieldScriptReader {
     }
   }
 
-  void add_pulses(Time at, const std::vector<std::string_view>& field) {
+  void add_pulses(Time at, const std::vector<std::string>& field) {
     const auto given = assignment(field[1], "0");
     if (!given) return;
     if (given->place.area != Area::I || given->place.width != Width::Bit)
@@ -174,8 +180,9 @@ class FieldScriptReader {
   }
 
   const std::string& name_;
-  const CpuModel& model_;
+  const AddressSpace& space_;
   std::vector<std::string>& errors_;
+  char separator_ = ',';
   std::size_t line_ = 0;
   Time last_ = 0;
   FieldScript script_;
@@ -188,9 +195,9 @@ Time FieldPulses::edge(std::uint64_t number) const {
   return at + static_cast<Time>(Wide{number} * 500'000'000'000 / Wide{millihertz});
 }
 
-FieldScript parse_field_script(std::string_view csv, const std::string& name, const CpuModel& model,
+FieldScript parse_field_script(std::string_view csv, const std::string& name, const AddressSpace& space,
                                std::vector<std::string>& errors) {
-  return FieldScriptReader(name, model, errors).read(csv);
+  return FieldScriptReader(name, space, errors).read(csv);
 }
 
 }  // namespace s7200::serial

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "interpreter/base/time.hpp"
-#include "interpreter/model/cpu_model.hpp"
+#include "interpreter/program/operands/address.hpp"
 
 namespace s7200::serial {
 
@@ -44,12 +44,13 @@ struct FieldScript {
 /// Reads
 ///
 ///   time,address,value
-///   10ms,I0.3,1                      a bit, byte or word of I, a word of AI, SMB28, SMB29, or SM0.7
+///   10ms,I0.3,1                      a bit, byte or word of I, a word of AI, SMB28, SMB29, SM0.7, or a symbol of one
 ///   1.5s,I0.6,pulses,5kHz,200ms      whole pulses of that frequency, as many as the duration holds
 ///
-/// The heading may be left out, # at the start of a line or after a blank begins a comment, times ascend. Errors, each
-/// `name:line: what, and what to do`: nothing is to be done with a script that has any.
-FieldScript parse_field_script(std::string_view csv, const std::string& name, const CpuModel& model,
+/// Where the first row has semicolons or tabs, they separate, and numbers may have a decimal comma. The heading may be left
+/// out, # at the start of a line or after a blank begins a comment, times ascend. Errors, each `name:line: what, and what to
+/// do`: nothing is to be done with a script that has any.
+FieldScript parse_field_script(std::string_view csv, const std::string& name, const AddressSpace& space,
                                std::vector<std::string>& errors);
 
 }  // namespace s7200::serial

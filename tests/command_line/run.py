@@ -2465,6 +2465,16 @@ class JsonPage(Case):
     TOLD_TWICE = "LD I0.0\nA I0.1\n= M0.0\nLD M0.0\n= M0.1\nLD M0.0\n= M0.2\nLD M0.1\nA M0.2\n= Q0.0\nMEND\n"
     WIDE = "NETWORK 1 // as long as it may be\nLD I0.0 // start\n" + "A M0.0\n" * 12 + "= Q0.0\nMOVB 1, VB0\nMEND\n"
 
+    @staticmethod
+    def ask_over_tcp(port):
+        """As soon as somebody serves there."""
+        for _ in range(100):
+            with contextlib.suppress(ConnectionRefusedError), socket.create_connection(("127.0.0.1", port)) as client:
+                client.sendall(bytes.fromhex("0103000a0001a408"))
+                return client.recv(1)
+            time.sleep(0.05)
+        return None
+
     def runs(self):
         echo, wrong = self.program(Json.ECHO, "echo.stl"), self.program("LD VB0\nMEND\n", "wrong.stl")
         faulty = self.program("// CPU 224\nLD SM0.0\nMOVR 1.5, VD20\nMOVD 0, *VD100\n"
@@ -2517,6 +2527,11 @@ class JsonPage(Case):
         yield from (["run", SLAVE, "--for", "50ms", *bridge]
                     for bridge in (["--pty", self.folder / "plc"], ["--tcp", "0"], ["--rfc2217", "0"], ["--rtu-over-tcp", "0"], ["--modbus-tcp", "0"],
                                    ["--device", os.ttyname(secondary)]))
+        deaf = self.program("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n", "deaf.stl")
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            port = free.getsockname()[1]
+        threading.Thread(target=self.ask_over_tcp, args=(port,), daemon=True).start()
+        yield ["run", deaf, "--for", "3s", "--tcp", str(port)]
         line = [["--fault", f"{fault}:of=answer"] for fault in ("parity", "framing")] + [["--fault", "echo"]]
         yield from (["send", SLAVE, "--crc", "0103000a0001", "--timeline", "--timeout", "50ms", *fault] for fault in line)
 
@@ -2884,6 +2899,76 @@ class Files(Case):
         self.assertEqual(self.ends(FINE, "run", path, "--scans", "2").stderr, said)
 
     PUMP = [EXPORTS / "pump.awl", EXPORTS / "pump_symbols.txt", EXPORTS / "pump_data.txt"]
+    TIMES = "mnemonic;form;base_us;per_unit_us;unit;marker;source\nMOVB;;80,5;;;measured;eigene Messung, Füllstand\n"
+
+    def test_tables_of_spreadsheets_are_read_as_windows_writes_them(self):
+        rows, table = "time;address;value;;\r\n0,02s;Level_High;1;;\r\n", self.folder / "table.csv"
+        for encoding in ("utf-8", "utf-8-sig", "utf-16", "utf-16-le", "cp1252"):
+            with self.subTest(encoding):
+                table.write_bytes(rows.encode(encoding))
+                done = self.ends(FINE, "run", *self.PUMP, "--input", table, "--for", "100ms", "--dump", "I0.0", "--json")
+                self.assertEqual(json.loads(done.stdout)["dump"]["I0.0"]["values"], [1])
+                table.write_bytes(self.TIMES.encode(encoding))
+                shown = self.json(FINE, "times", table, "--json")
+                self.assertIn("Füllstand", json.dumps(shown, ensure_ascii=False))
+
+    def test_umlauts_of_symbols_in_inputs_may_be_in_the_code_page_of_a_spreadsheet(self):
+        symbols = self.program("Symbol\tAddress\nFüllstand\tAIW0\nStörung\tI0.3\n", "symbols.txt")
+        program, rows = self.program("LD Störung\nMOVW Füllstand, VW0\nMEND\n"), self.folder / "in.csv"
+        rows.write_bytes("10ms;Störung;1\n20ms;Füllstand;1234\n".encode("cp1252"))
+        result = self.json(FINE, "run", program, "--with", symbols, "--input", rows, "--for", "100ms", "--dump", "VW0", "--json")
+        self.assertEqual(result["dump"]["VW0"]["values"], [1234])
+
+    def test_scenarios_and_yaml_in_utf_16_are_read(self):
+        scenario = self.folder / "good.yaml"
+        scenario.write_bytes(Scenarios.GOOD.encode("utf-16"))
+        self.ends(FINE, "test", scenario)
+
+    def test_a_symbol_stands_beside_its_address_in_a_dump(self):
+        done = self.ends(FINE, "run", *self.PUMP, "--for", "200ms", "--dump", "Longest_Run", "--dump", "VW100", "--dump", '"Fault lamp"')
+        self.assertIn("VW100    16#012C         300  Longest_Run\nVW100    16#012C         300\nQ0.1     0  \"Fault lamp\"\n", done.stdout)
+
+    def test_a_table_that_cannot_be_read_makes_no_errors_of_its_symbols(self):
+        done = self.ends(UNUSABLE, "check", self.PUMP[0], "missing.txt")
+        self.assertNotIn("defined symbol", done.stdout + done.stderr)
+        self.assertIn("pump.awl is not checked: its symbols may be in a file that cannot be read", done.stderr)
+        self.assertIn("fine", self.ends(UNUSABLE, "check", SLAVE, "missing.txt").stdout)
+
+    def test_a_table_after_the_program_of_master_is_no_action(self):
+        done = self.ends(UNUSABLE, "master", self.PUMP[0], self.PUMP[1], "read", "40001")
+        self.assertIn(f"'{self.PUMP[1]}' is a file, and an action is expected here; another file of the program's project is given with "
+                      f"--with {self.PUMP[1]}\n", done.stderr)
+
+    def test_single_quotes_of_the_console_of_windows_are_named(self):
+        hint = "the console of Windows holds words together with double quotes only"
+        for words in (["run", "'pump", "station.awl'"], ["why", SLAVE, "Q0.0", "--set", "'VW10=5'"], ["debug", SLAVE, "-x", "'print", "VB0'"]):
+            with self.subTest(words):
+                self.assertIn(hint, self.ends(UNUSABLE, *words).stderr)
+        self.assertNotIn(hint, self.ends(UNUSABLE, "run", "missing.stl").stderr)
+
+    DEAF = "LD SM0.1\nMOVB 16#09, SMB30\nMEND\n"
+
+    def asked_over_tcp(self, program, *options):
+        """A program that a client asks twice over a bridge, and what it prints when it ends."""
+        process = subprocess.Popen([S7200, "run", str(program), "--tcp", "0", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        port = int(re.search(r":(\d+)", process.stderr.readline()).group(1))
+        with socket.create_connection(("127.0.0.1", port)) as client:
+            for _ in range(2):
+                client.sendall(bytes.fromhex("0103000a0001a408"))
+                time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        return process.communicate(timeout=60)[0]
+
+    def test_a_run_behind_a_bridge_says_why_requests_got_no_answer(self):
+        said = self.asked_over_tcp(self.program(self.DEAF))
+        self.assertRegex(said, r"why 2 requests got no answer, the first 01 03 00 0a 00 01 a4 08, sent at [\d.]+ ms:\n"
+                               r"  [\d.]+ ms  no answer to 8 characters since [\d.]+ ms: event 8 is not attached; no instruction has attached it since "
+                               r"power-up, and the program has no ATCH for event 8 and no RCV; SMB30, which puts the port in Freeport mode, was set at "
+                               r"[\d.]+ ms by MOVB 16#09, SMB30 in line 2\n")
+        self.assertNotIn("got no answer", self.asked_over_tcp(SLAVE))
+        listener = self.program("LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, VB0\nRETI\n")
+        self.assertNotIn("got no answer", self.asked_over_tcp(listener), "it never speaks")
+
     NEEDS_WITH = (["send", "--text", "x", "--timeout", "10ms"], ["master", "slave-id", "--timeout", "10ms"])
 
     def test_an_export_with_its_symbols_and_data_is_a_program_for_every_verb(self):

@@ -66,6 +66,15 @@ void add_verbs(CLI::App& app, std::string_view asked, int& exit_code) {
   _exit(kCheckFailed);
 }
 
+/// Single quotes, as pages for Linux have them, hold nothing together in the console of Windows: it hands them on.
+void hint_at_single_quotes(const std::vector<std::string>& words) {
+  const auto quoted = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with('\''); });
+  if (quoted == words.end()) return;
+  print_note(
+      fmt::format("{} begins with a single quote: the console of Windows holds words together with double quotes only",
+                  stl::shortened(*quoted)));
+}
+
 int run_command(const std::vector<std::string>& words) {
   CLI::App app{"s7200 runs SIMATIC S7-200 STL programs in simulated time, with their ports on simulated lines."};
   app.name("s7200");
@@ -111,5 +120,8 @@ int main(int argc, char** argv) {
   using namespace s7200::tools;
   open_standard_streams();
   end_at_interruption(end_interrupted);
-  return close_standard_streams(run_command(words_of_command_line(argc, argv)));
+  const std::vector<std::string> words = words_of_command_line(argc, argv);
+  const int exit_code = run_command(words);
+  if (exit_code == kUnusable) hint_at_single_quotes(words);
+  return close_standard_streams(exit_code);
 }

@@ -17,8 +17,11 @@ namespace s7200::tools {
 /// Whether a word names a serial device rather than anything else: /dev/tty…, the far side of a pty, COM3, \\.\COM12.
 bool names_serial_device(const std::string& word);
 
-/// How help texts name one: `/dev/ttyUSB0, or a pty by its link`, `COM3`.
+/// How help texts name one: `/dev/ttyUSB0`, `COM3`.
 std::string_view example_of_serial_device();
+
+/// Whether this system has ptys; Windows has none.
+bool has_ptys();
 
 class SerialDevice {
  public:

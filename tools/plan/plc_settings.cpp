@@ -4,19 +4,21 @@
 
 #include <algorithm>
 
+#include "interpreter/stl/text/encoding.hpp"
+
 namespace s7200::tools {
 
-std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model, const FileSource& files,
+std::optional<serial::FieldScript> read_field(const std::string& path, const AddressSpace& space, const FileSource& files,
                                               std::vector<std::string>& problems) {
   if (path.empty()) return serial::FieldScript{};
   std::string why;
-  const auto csv = files.read_text(path, why);
+  const auto csv = stl::read_decoded(files, path, why);
   if (!csv) {
     problems.push_back(fmt::format("cannot read {}: {}", path, why));
     return {};
   }
   std::vector<std::string> errors;
-  auto field = serial::parse_field_script(*csv, path, model, errors);
+  auto field = serial::parse_field_script(*csv, path, space, errors);
   constexpr std::size_t kShown = 10;
   problems.insert(problems.end(), errors.begin(),
                   errors.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, errors.size())));

@@ -42,7 +42,7 @@ struct PlcSettings {
 
 /// Reads a script of inputs; nothing, with `problems` set, if the file is not such a script. An empty path is an empty
 /// script.
-std::optional<serial::FieldScript> read_field(const std::string& path, const CpuModel& model, const FileSource& files,
+std::optional<serial::FieldScript> read_field(const std::string& path, const AddressSpace& space, const FileSource& files,
                                               std::vector<std::string>& problems);
 
 }  // namespace s7200::tools

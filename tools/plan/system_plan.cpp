@@ -83,7 +83,7 @@ std::optional<SystemPlan> read_plan_of(std::shared_ptr<const Program> program, c
   if (settings.port >= model.ports)
     problems.push_back(
         fmt::format("CPU {} has no port {}; a second port needs {}", model.name, settings.port, s7200::to_text(kTwoPorts)));
-  auto field = read_field(settings.input, model, files, problems);
+  auto field = read_field(settings.input, *program, files, problems);
   if (!field || !problems.empty()) return {};
   return plan_of(std::move(program), settings, std::move(*field));
 }

@@ -83,7 +83,8 @@ bool is_other_plc(std::string_view text) { return text.starts_with(kOtherPlc); }
 
 std::string slave_targets_help(std::initializer_list<SlaveTarget::Kind> without, std::string_view device) {
   using enum SlaveTarget::Kind;
-  const std::string device_row = fmt::format("  {:38}{}\n", example_of_serial_device(), device);
+  const std::string devices = fmt::format("{}{}", example_of_serial_device(), has_ptys() ? ", or a pty by its link" : "");
+  const std::string device_row = fmt::format("  {:38}{}\n", devices, device);
   const std::pair<SlaveTarget::Kind, std::string_view> rows[] = {
       {Program, "  PROGRAM                               an STL file or document, in simulation; - is standard input\n"},
       {System, "  SYSTEM.yaml                           PLCs and lines, in simulation; --at says where the master joins\n"},

@@ -121,14 +121,20 @@ void find_missing_freeport(const Facts& facts, std::size_t number, stl::Diagnost
   }
 }
 
+/// The constant that a MOVB writes into the control byte of a port.
+std::optional<std::uint8_t> control_written(const Program& program, const Op& op, const PortInfo& port) {
+  const bool moves_into_it = op.instruction->effect == Effect::CopiesByte && op[1].at == port.control && !op[1].pointer;
+  if (!moves_into_it || op[0].at < image::kConstants || op[0].pointer || op[0].unread()) return {};
+  return program.constants[op[0].at - image::kConstants];
+}
+
+bool is_freeport(std::uint8_t control) { return (control & sm::kProtocol) == sm::kFreeport; }
+
 /// Whether an instruction may put a port in another mode than PPI, of which a master answers too.
 bool may_leave_ppi(const Facts& facts, std::uint32_t number, const PortInfo& port) {
   if (!sets_up_port(facts, number, port)) return false;
-  const Program& program = facts.program;
-  const Op& op = program.ops[number];
-  const bool moves_into_it = op.instruction->effect == Effect::CopiesByte && op[1].at == port.control;
-  const bool is_constant = moves_into_it && op[0].at >= image::kConstants;
-  return !is_constant || (program.constants[op[0].at - image::kConstants] & sm::kProtocol) == sm::kFreeport;
+  const auto control = control_written(facts.program, facts.program.ops[number], port);
+  return !control || is_freeport(*control);
 }
 
 }  // namespace
@@ -211,6 +217,31 @@ void find_missing_receive_event(const Facts& facts, stl::Diagnostics& diagnostic
                                  "attach an interrupt routine to the event and read the character in it",
                                  "no receive event"));
     }
+  }
+}
+
+void find_unused_freeport(const Facts& facts, stl::Diagnostics& diagnostics) {
+  const Program& program = facts.program;
+  if (has_unread(program)) return;
+  for (std::size_t number = 0; number < program.model->ports; ++number) {
+    const PortInfo& port = kPorts[number];
+    const auto uses_it = [&](const Op& op) { return uses_port(op) && op[1].at == number; };
+    if (std::ranges::any_of(program.ops, uses_it) || attaches(program, port.received)) continue;
+    const auto sets_freeport = [&](const Op& op) {
+      const auto control = control_written(program, op, port);
+      return control && is_freeport(*control);
+    };
+    const auto found = std::ranges::find_if(program.ops, sets_freeport);
+    if (found == program.ops.end()) continue;
+    diagnostics.push_back(warn(
+        Warning::UnusedFreeport, place(program, static_cast<std::uint32_t>(found - program.ops.begin())),
+        fmt::format("port {} is in Freeport mode and the program neither listens nor speaks there: no ATCH attaches event "
+                    "{}, and no RCV or XMT is for this port",
+                    number, std::uint8_t{port.received}),
+        fmt::format("in Freeport mode the program itself is the protocol: attach an interrupt routine to event {}, or "
+                    "receive with RCV; without Freeport the port speaks PPI",
+                    std::uint8_t{port.received}),
+        "nobody listens"));
   }
 }
 

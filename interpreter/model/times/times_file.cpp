@@ -57,30 +57,10 @@ std::string needed_header() {
   return fmt::format("{}[,{}{}", header(kNeededColumns), fmt::join(optional, "[,"), std::string(optional.size(), ']'));
 }
 
-bool is_header(std::string_view line) {
-  for (std::size_t columns = kNeededColumns; columns <= kColumns.size(); ++columns)
-    if (line == header(columns)) return true;
-  return false;
-}
-
-/// The fields of a CSV line, quoted as in RFC 4180. Nothing if a quote is not closed.
-std::optional<std::vector<std::string>> fields(std::string_view line) {
-  std::vector<std::string> result(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (quoted && line[i] == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      result.back() += line[i++];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      result.emplace_back();
-    } else {
-      result.back() += line[i];
-    }
-  }
-  if (quoted) return {};
-  for (std::string& field : result) field = std::string(stl::trim(field));
-  return result;
+/// Whether these are the names of the columns, in their order.
+bool is_header(const std::vector<std::string>& fields) {
+  return fields.size() >= kNeededColumns && fields.size() <= kColumns.size() &&
+         std::equal(fields.begin(), fields.end(), kColumns.begin());
 }
 
 std::optional<Time> microseconds(const std::string& text) {
@@ -118,15 +98,17 @@ std::string unknown_marker(const std::string& marker) {
 }
 
 /// Reads one line into `row`. Returns what is wrong with it; empty if nothing is.
-std::string read_row(std::string_view line, TimeRow& row) {
-  const auto read = fields(line);
+std::string read_row(std::string_view line, char separator, TimeRow& row) {
+  auto read = csv_fields(line, separator);
   if (!read) return "a double quote is not closed";
-  const std::vector<std::string>& field = *read;
+  std::vector<std::string>& field = *read;
   if (field.size() < kNeededColumns)
     return fmt::format("{} columns, but {} are needed ({})", field.size(), kNeededColumns, header(kNeededColumns));
   if (field.size() > kColumns.size())
     return fmt::format("{} columns, but there are {} ({}); write a text with commas in double quotes", field.size(),
                        kColumns.size(), header(kColumns.size()));
+  for (const Column number : {kBase, kPerUnit, kUncertainty, kBaseWithin, kPerUnitWithin})
+    if (number < field.size()) field[number] = with_decimal_point(std::move(field[number]), separator);
   row.mnemonics = mnemonics_of(field[kMnemonic]);
   if (row.mnemonics.empty()) return "the mnemonic is missing";
   row.form = field[kForm];
@@ -175,12 +157,12 @@ class Given {
   std::map<std::string, Areas> areas_;
 };
 
-/// The CPU in a comment such as `# CPU 224`, perhaps with the commas that spreadsheets add. With more words it is a comment
-/// like any other.
+/// The CPU in a comment such as `# CPU 224`, perhaps with the separators that spreadsheets add. With more words it is a
+/// comment like any other.
 std::string cpu_of(std::string_view comment) {
   if (!comment.starts_with(kCpu)) return {};
   comment.remove_prefix(kCpu.size());
-  const auto words = stl::split_words(comment.substr(0, comment.find(',')));
+  const auto words = stl::split_words(comment.substr(0, comment.find_first_of(",;\t")));
   return words.size() == 1 ? words.front() : std::string();
 }
 
@@ -211,22 +193,24 @@ std::string line_of(const TimeRow& row, std::size_t columns) {
 TimesFile read_times(std::string_view csv, const std::string& name, std::vector<std::string>& errors) {
   TimesFile file;
   bool header_seen = false, any_line = false;
+  char separator = ',';
   std::size_t number = 0;
   while (!csv.empty()) {
     ++number;
     std::string_view line = csv.substr(0, csv.find('\n'));
     csv.remove_prefix(std::min(csv.size(), line.size() + 1));
     line = stl::trim(line);
-    if (line.starts_with('#')) {
+    if (line.starts_with('#') || line.starts_with("\"#")) {
       if (std::string cpu = cpu_of(line); !cpu.empty()) {
         file.cpu = std::move(cpu);
         file.cpu_line = number;
       }
       continue;
     }
-    if (line.empty()) continue;
+    if (line.find_first_not_of(",;\t ") == std::string_view::npos) continue;
     if (!header_seen) {
-      header_seen = is_header(line);
+      separator = csv_separator(line);
+      header_seen = is_header(csv_fields(line, separator).value_or(std::vector<std::string>()));
       if (header_seen) continue;
       errors.push_back(
           fmt::format("{}:{}: not a table of execution times: the first line must be {}", name, number, needed_header()));
@@ -234,7 +218,7 @@ TimesFile read_times(std::string_view csv, const std::string& name, std::vector<
     }
     any_line = true;
     TimeRow row;
-    if (const std::string error = read_row(line, row); !error.empty())
+    if (const std::string error = read_row(line, separator, row); !error.empty())
       errors.push_back(fmt::format("{}:{}: {}", name, number, error));
     else
       file.lines.push_back({number, std::move(row)});

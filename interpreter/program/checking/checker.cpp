@@ -93,17 +93,26 @@ class Checker {
       const std::string meant = nearest_symbol(written_at(diagnostic.position));
       if (!meant.empty())
         diagnostic.hint = fmt::format("did you mean {}?", meant);
-      else if (!source_.symbols.empty())
+      else if (!users_symbols().empty())
         diagnostic.hint = hint_with_table(written_at(diagnostic.position));
-      if (!meant.empty() || !source_.symbols.empty()) diagnostic.cause = diagnostic.message;
+      if (!meant.empty() || !users_symbols().empty()) diagnostic.cause = diagnostic.message;
     }
+  }
+
+  /// The symbols of the tables that were given: a stand-in has its own.
+  std::vector<stl::Symbol> users_symbols() const {
+    std::vector<stl::Symbol> symbols = source_.symbols;
+    std::erase_if(symbols, [this](const stl::Symbol& symbol) {
+      return is_stand_in(stl::in_file(source_, symbol.position.line).file);
+    });
+    return symbols;
   }
 
   /// The hint for a name that is in no table that was given: `symbols.txt does not have it; the nearest are Pump_1 and
   /// Pump_2`.
   std::string hint_with_table(std::string_view written) const {
     std::vector<std::string> tables;
-    for (const stl::Symbol& symbol : source_.symbols)
+    for (const stl::Symbol& symbol : users_symbols())
       if (std::string file = stl::in_file(source_, symbol.position.line).file; tables.empty() || tables.back() != file)
         tables.push_back(std::move(file));
     const std::vector<std::string> near = symbols_like(written);
@@ -118,7 +127,7 @@ class Checker {
     constexpr std::size_t kLeastCommon = 3, kShown = 3;
     const std::string name = stl::upper_case(written);
     std::vector<std::pair<std::size_t, std::string>> found;
-    for (const stl::Symbol& symbol : source_.symbols)
+    for (const stl::Symbol& symbol : users_symbols())
       if (const std::size_t common = longest_common(name, stl::upper_case(symbol.name)); common >= kLeastCommon)
         found.emplace_back(common, symbol.name);
     std::ranges::stable_sort(found, std::greater{}, &std::pair<std::size_t, std::string>::first);

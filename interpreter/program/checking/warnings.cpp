@@ -28,6 +28,8 @@ std::span<const WarningInfo> all_warnings() {
       WarningInfo{Warning::RepeatedEdge, "repeated-edge", "EU or ED in a loop, or in a subroutine that a scan calls twice"},
       WarningInfo{Warning::SkippedTimer, "skipped-timer", "a 100 ms timer that a jump leaves out in some scans"},
       WarningInfo{Warning::Unreachable, "unreachable", "an instruction that nothing leads to"},
+      WarningInfo{Warning::UnusedFreeport, "unused-freeport",
+                  "a port in Freeport mode without XMT, RCV and an interrupt for its characters"},
       WarningInfo{Warning::UnusedLabel, "unused-label", "a label that no JMP goes to"},
       WarningInfo{Warning::UnusedRoutine, "unused-routine", "a routine that is never called or attached"},
       WarningInfo{Warning::UnusedSpecialMemory, "unused-sm",

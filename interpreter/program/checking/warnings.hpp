@@ -29,6 +29,7 @@ enum class Warning : std::uint8_t {
   RepeatedEdge,
   SkippedTimer,
   Unreachable,
+  UnusedFreeport,
   UnusedLabel,
   UnusedRoutine,
   UnusedSpecialMemory,

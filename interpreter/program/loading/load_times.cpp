@@ -10,6 +10,7 @@
 #include "interpreter/model/times/named_times.hpp"
 #include "interpreter/model/times/times_file.hpp"
 #include "interpreter/program/checking/checker.hpp"
+#include "interpreter/stl/text/encoding.hpp"
 
 namespace s7200 {
 namespace {
@@ -135,7 +136,7 @@ std::optional<TimeTable> load_times(const CpuModel& model, const std::string& ta
     return {};
   }
   std::string why;
-  const auto csv = files.read_text(table, why);
+  const auto csv = stl::read_decoded(files, table, why);
   if (!csv) {
     errors.push_back(fmt::format("cannot read {}: {}; tables for CPU {} that have a name: {}", table, why, model.name,
                                  names_of_times(model)));

@@ -21,11 +21,6 @@ char16_t first_pair(std::string_view bytes, const CodePage& page) {
   return trail < kTrails && index < page.pairs.size() ? page.pairs[index] : kUndefined;
 }
 
-bool is_surrogate(char32_t unit, char32_t first) { return unit >= first && unit < first + 0x400; }
-constexpr char32_t kHigh = 0xD800, kLow = 0xDC00, kBeyond = 0x10000;
-
-std::string little_endian(char32_t unit) { return {static_cast<char>(unit & 0xFF), static_cast<char>(unit >> 8)}; }
-
 }  // namespace
 
 const CodePage* find_code_page(std::string_view name) {
@@ -54,32 +49,6 @@ std::string from_character(char32_t character, const CodePage& page) {
   if (pair == page.pairs.end()) return {};
   const auto index = pair - page.pairs.begin();
   return {static_cast<char>(kFirstLead + index / kTrails), static_cast<char>(kFirstTrail + index % kTrails)};
-}
-
-std::string utf16_to_utf8(std::string_view bytes, ByteOrder order) {
-  std::string text;
-  const auto unit_at = [&](std::size_t index) -> char32_t {
-    if (index + 1 >= bytes.size()) return kReplacement;
-    const char32_t first = byte_in_page(bytes, index), second = byte_in_page(bytes, index + 1);
-    return order == ByteOrder::Little ? first | second << 8 : first << 8 | second;
-  };
-  for (std::size_t i = 0; i < bytes.size(); i += 2) {
-    const char32_t unit = unit_at(i);
-    const bool high = is_surrogate(unit, kHigh), pair = high && i + 2 < bytes.size() && is_surrogate(unit_at(i + 2), kLow);
-    if (pair) {
-      text += to_utf8(kBeyond + ((unit - kHigh) << 10) + (unit_at(i + 2) - kLow));
-      i += 2;
-    } else {
-      text += to_utf8(high || is_surrogate(unit, kLow) ? kReplacement : unit);
-    }
-  }
-  return text;
-}
-
-std::string to_utf16(char32_t character) {
-  if (character < kBeyond) return little_endian(character);
-  const char32_t beyond = character - kBeyond;
-  return little_endian(kHigh + (beyond >> 10)) + little_endian(kLow + (beyond & 0x3FF));
 }
 
 }  // namespace s7200::stl

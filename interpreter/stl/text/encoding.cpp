@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/base/text/utf16.hpp"
 #include "interpreter/stl/text/code_pages.hpp"
 
 namespace s7200::stl {
@@ -50,13 +52,21 @@ std::string not_text(std::string_view bytes) {
     if (bytes.starts_with(kind.beginning)) return kind.what;
   }
   const auto nulls = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\0'));
-  if (nulls > 0 && nulls * 3 > bytes.size()) return "UTF-16 without a byte order mark, or binary data; save it as UTF-8";
   if (nulls > 0) return "binary data (it has NUL bytes)";
   const auto controls = std::count_if(bytes.begin(), bytes.end(), [](char c) {
     return c >= 0 && c < 0x20 && "\t\n\r\f\x1A"sv.find(c) == std::string_view::npos;
   });
   if (static_cast<std::size_t>(controls) * 10 > bytes.size()) return "binary data (it is full of control characters)";
   return {};
+}
+
+/// The byte order of UTF-16 without its mark: a program is mostly ASCII, so that every other byte is 0, and no character is
+/// 0.
+std::optional<ByteOrder> order_of_unmarked_utf16(std::string_view bytes) {
+  std::array<std::size_t, 2> nulls{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) nulls[i % 2] += bytes[i] == '\0';
+  if (bytes.size() % 2 != 0 || nulls[0] * nulls[1] != 0 || (nulls[0] + nulls[1]) * 3 < bytes.size()) return {};
+  return nulls[0] != 0 ? ByteOrder::Big : nulls[1] != 0 ? std::optional(ByteOrder::Little) : std::nullopt;
 }
 
 /// The UTF-8 text with every unreadable byte replaced.
@@ -202,8 +212,10 @@ std::optional<DecodedText> decoded(std::string text, std::string_view encoding, 
 }  // namespace
 
 std::optional<DecodedText> decode(std::string_view bytes, std::string& why) {
-  if (bytes.starts_with("\xFF\xFE"sv)) return decoded(utf16_to_utf8(bytes.substr(2), ByteOrder::Little), kUtf16, why);
-  if (bytes.starts_with("\xFE\xFF"sv)) return decoded(utf16_to_utf8(bytes.substr(2), ByteOrder::Big), kUtf16, why);
+  if (auto text = from_marked_utf16(bytes)) return decoded(std::move(*text), kUtf16, why);
+  if (const auto order = order_of_unmarked_utf16(bytes))
+    if (std::string text = utf16_to_utf8(bytes, *order); not_text(text).empty())
+      return decoded(std::move(text), kUtf16, why);
   why = not_text(bytes);
   if (!why.empty()) return std::nullopt;
   if (bytes.ends_with('\x1A')) bytes.remove_suffix(1);  // the end mark of a DOS text
@@ -213,6 +225,12 @@ std::optional<DecodedText> decode(std::string_view bytes, std::string& why) {
   if (marked || is_nearly_utf8(bytes)) return DecodedText{repaired(bytes), std::string(kUtf8)};
   const std::string_view encoding = guess_8_bit(bytes);
   return decoded(to_utf8(bytes, *find_code_page(encoding)), encoding, why);
+}
+
+std::optional<std::string> read_decoded(const FileSource& files, const std::string& path, std::string& why) {
+  const auto bytes = files.read(path, why);
+  auto text = bytes ? decode(*bytes, why) : std::nullopt;
+  return text ? std::optional(std::move(text->text)) : std::nullopt;
 }
 
 std::optional<std::string> encode(std::string_view utf8, std::string_view encoding, std::string& why) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "interpreter/base/file_source.hpp"
+
 namespace s7200::stl {
 
 struct DecodedText {
@@ -16,6 +18,9 @@ struct DecodedText {
 /// Guesses the encoding of a source file and converts it. Returns nothing for a file that is not text (NUL bytes, a picture,
 /// an archive) and says in `why` what it looks like.
 std::optional<DecodedText> decode(std::string_view bytes, std::string& why);
+
+/// The text of a file, decoded; spreadsheets write tables in the code page of their Windows. Nothing as decode() and read().
+std::optional<std::string> read_decoded(const FileSource& files, const std::string& path, std::string& why);
 
 /// The text in one of the encodings that decode() names. Returns nothing and sets `why` if the text has a character that the
 /// encoding lacks, or if there is no such encoding.

@@ -44,6 +44,19 @@ TEST(Why, ACharacterWhoseEventIsNotAttachedLeadsToTheInstructionThatDetachedIt) 
 TEST(Why, AnEventThatWasNeverAttachedIsNamed) {
   AtPrompt session("LD SM0.1\nMOVB 9, SMB30\nMEND\n");
   session("continue 50ms; break unanswered; send 41; continue");
+  const std::string why = session("why");
+  EXPECT_TRUE(
+      has(why,
+          "event 8 is not attached; no instruction has attached it since power-up, and the program has no ATCH for event "
+          "8 and no RCV; SMB30, which puts the port in Freeport mode, was set at "));
+  EXPECT_TRUE(has(why, " by MOVB 9, SMB30 in line 2\n"));
+  session("rwhy");
+  EXPECT_EQ(session.line(), 2u);
+}
+
+TEST(Why, AnEventThatAnInstructionCouldHaveAttachedIsNoMissingInstruction) {
+  AtPrompt session("LD SM0.1\nMOVB 9, SMB30\nLD I0.0\nATCH 0, 8\nENI\nMEND\nINT 0\nRETI\n");
+  session("continue 50ms; break unanswered; send 41; continue");
   EXPECT_TRUE(has(session("why"), "event 8 is not attached; no instruction has attached it since power-up\n"));
 }
 
@@ -770,8 +783,7 @@ TEST(Why, AnOutputOfACallThatWasNotExecutedNamesTheCallThatCould) {
   AtPrompt session(with_blocks(test::changed(std::string(kWithParameters), "LD SM0.0\n", "LD I0.6\n")));
   session("continue 50ms");
   const std::string text = session("why M0.0");
-  EXPECT_TRUE(has(text, "nothing has written it since power-up; CALL 0, I0.0, M0.0 in line 5 could, which had no "))
-      << text;
+  EXPECT_TRUE(has(text, "nothing has written it since power-up; CALL 0, I0.0, M0.0 in line 5 could, which had no ")) << text;
 }
 
 TEST(Why, WhatIsAskedAboutAnAddressMayHaveBeenSetFromOutside) {

@@ -46,6 +46,12 @@ TEST(Encoding, ReadsUtf16OfBothByteOrders) {
   EXPECT_EQ(decoded("\xFF\xFEN\0"s).encoding, "UTF-16");
 }
 
+TEST(Encoding, ReadsUtf16WithoutItsMarkWhereEveryOtherByteIs0) {
+  EXPECT_EQ(decoded("N\0O\0T\0 \0\xFC\0"s).text, "NOT ü");
+  EXPECT_EQ(decoded("\0N\0O\0T\0 \0\xFC"s).text, "NOT ü");
+  EXPECT_EQ(decoded("N\0O\0T\0"s).encoding, "UTF-16");
+}
+
 TEST(Encoding, RecognisesWindows1252) {
   const DecodedText result = decoded("LD I0.0 // St\xF6rung l\xF6schen, T\xFCr auf\nA I0.1 // gr\xFCn\n");
   EXPECT_EQ(result.encoding, "Windows-1252");
@@ -118,7 +124,8 @@ TEST(Encoding, NamesWhatIsNotText) {
             std::string::npos);
   EXPECT_NE(refused("\xD0\xCF\x11\xE0\xA1"s).find("OLE"), std::string::npos);
   EXPECT_NE(refused("NOT and then\0"s).find("NUL"), std::string::npos);
-  EXPECT_NE(refused("N\0O\0T\0"s).find("UTF-16"), std::string::npos);
+  EXPECT_NE(refused("N\0O\0\0T"s).find("NUL"), std::string::npos);
+  EXPECT_NE(refused("\x01\0\x02\0\x03\0"s).find("NUL"), std::string::npos);
   EXPECT_NE(refused("\xFF\xFE\0\0N\0\0\0"s).find("UTF-32"), std::string::npos);
   EXPECT_NE(refused("\x01\x02\x03\x04").find("control"), std::string::npos);
 }

@@ -100,6 +100,20 @@ TEST(Times, CommentsAreLeftOutAndOneSaysWhoseTimesTheyAre) {
     EXPECT_EQ(read_times(before + kHeader + "MOVB,,60,,,manual\n", "times.csv", errors).cpu, "") << before;
 }
 
+TEST(Times, SpreadsheetsMayWriteSemicolonsOrTabsAndDecimalCommas) {
+  const std::string columns = "mnemonic,form,base_us,per_unit_us,unit,marker,source,uncertainty_percent\n";
+  TimeTable usual, of_semicolons, of_tabs;
+  ASSERT_EQ(usual.add("# CPU 214\n" + columns + "SLW,,80.5,4.25,bit,measured,\"page 9, left\",2.5\n", "t.csv"), Errors{});
+  const auto with = [](std::string text, char separator) { return std::ranges::replace(text, ',', separator), text; };
+  EXPECT_EQ(of_semicolons.add(
+                "# CPU 214;;;;;;;\r\n" + with(columns, ';') + "SLW;;80,5;4,25;bit;measured;page 9, left;2,5\r\n;;;;;;;\r\n",
+                "t.csv"),
+            Errors{});
+  EXPECT_EQ(of_tabs.add(with(columns, '\t') + "SLW\t\t80,5\t4,25\tbit\tmeasured\tpage 9, left\t2,5\n", "t.csv"), Errors{});
+  EXPECT_EQ(to_csv(of_semicolons), to_csv(usual));
+  EXPECT_EQ(to_csv(of_tabs), to_csv(usual));
+}
+
 TEST(Times, OnlyLinesThatGiveATimeAreInUse) {
   TimeTable times = table("LD LDN,I Q,0.8,,,estimate\nMOVB MOVW,,30,,,estimate\nLD,M,1,,,estimate\n");
   EXPECT_EQ(to_csv(in_use(times)), to_csv(times));

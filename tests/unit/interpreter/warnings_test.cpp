@@ -204,6 +204,28 @@ TEST(NoFreeport, IsXmtThatTheFirstScanExecutesBeforeSmb30IsWritten) {
   EXPECT_EQ(warnings_of("LD SM0.1\nCALL 0\nXMT VB0, 0\nMEND\nSBR 0\n" + write + "RET\n"), "") << "a call is between";
 }
 
+// --- unused-freeport ---
+
+TEST(UnusedFreeport, IsAPortInFreeportModeThatNothingHearsOrSpeaksAt) {
+  const std::string interrupt = "ENI\nMEND\nINT 0\nRETI\n";
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 16#09, SMB30\nMEND\n"), "2 unused-freeport\n");
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 10\n" + interrupt), "2 unused-freeport\n");
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB30\nMOVB 9, SMB130\nXMT VB0, 1\nMEND\n", cpu226()), "2 unused-freeport\n");
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB130\nMOVB 9, SMB30\nXMT VB0, 0\nMEND\n", cpu226()), "2 unused-freeport\n");
+}
+
+TEST(UnusedFreeport, IsNotAPortThatIsUsedOrMayBeInAnotherMode) {
+  const std::string interrupt = "ENI\nMEND\nINT 0\nRETI\n";
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 16#09, SMB30\nATCH 0, 8\n" + interrupt), "");
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 16#09, SMB30\nXMT VB0, 0\nMEND\n"), "");
+  EXPECT_EQ(warnings_of("LD I0.0\nMOVB 16#09, SMB30\nRCV VB100, 0\nMEND\n", cpu224()), "");
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 8, SMB30\nMEND\n"), "") << "it leaves the port in PPI mode";
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB VB0, SMB30\nMEND\n"), "") << "who knows what is in VB0";
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB130\nATCH 0, 25\n" + interrupt, cpu226()), "");
+  EXPECT_EQ(warnings_of("LDS 99\nMOVB 16#09, SMB30\nMEND\n").find("unused-freeport"), std::string::npos)
+      << "what could not be read may use the port";
+}
+
 // --- unused-step ---
 
 TEST(UnusedStep, IsAnSBitThatIsSetButThatNothingLoads) {

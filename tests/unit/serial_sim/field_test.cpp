@@ -41,6 +41,31 @@ TEST(FieldScript, RowsBecomeChangesOfBytes) {
   EXPECT_TRUE(script.pulses.empty());
 }
 
+TEST(FieldScript, SpreadsheetsMayWriteSemicolonsOrTabsAndDecimalCommas) {
+  const FieldScript usual = script_of("1.5s,I0.3,1\n2s,AIW0,7\n3s,I0.6,pulses,0.5 Hz,7.5s\n");
+  EXPECT_EQ(script_of("time;address;value;;\r\n1,5s;I0.3;1;;\r\n;;;;\r\n2s;AIW0;7;;\r\n3s;I0.6;pulses;0,5 Hz;7,5s\r\n"),
+            usual);
+  EXPECT_EQ(script_of("time\taddress\tvalue\n1,5s\tI0.3\t1\n2s\tAIW0\t7\n3s\tI0.6\tpulses\t0,5 Hz\t7,5s\n"), usual);
+  EXPECT_EQ(errors_of("1s,\"I0.3,1\n").at(0), "in.csv:1: a double quote is not closed");
+}
+
+TEST(FieldScript, RowsMayNameSymbolsOfTheProgram) {
+  const auto symbol = [](const std::string& name, std::uint32_t number, std::uint8_t bit) {
+    stl::Symbol one;
+    one.name = name;
+    one.value = stl::Address{.area = "I", .size = stl::Size::Bit, .number = number, .bit = bit};
+    return one;
+  };
+  const std::vector<stl::Symbol> symbols{symbol("Start", 0, 3), symbol("Pump #1", 0, 4)};
+  std::vector<std::string> errors;
+  const std::string csv = "10ms,Start,1\n20ms,\"Pump #1\",1 # it runs\n30ms,Stop,1\n";
+  const FieldScript script = serial::parse_field_script(csv, "in.csv", {cpu214(), symbols}, errors);
+  const std::vector<FieldChange> expected{{10 * ms, image::kInputs, 0x08, 0x08}, {20 * ms, image::kInputs, 0x10, 0x10}};
+  EXPECT_EQ(script.changes, expected);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].substr(0, 56), "in.csv:3: 'Stop' is not an address or a symbol of one; w");
+}
+
 TEST(FieldScript, TheCpus221And222HaveOnePotentiometer) {
   for (const CpuModel* model : {&cpu221(), &cpu222(), &cpu224()}) {
     std::vector<std::string> errors;
@@ -185,8 +210,8 @@ TEST(OutputWavesTest, AWireForEachPointAndAVectorForEachAnalogWord) {
   std::ostringstream out;
   OutputWaves waves(out, cpu214());
   const std::size_t head = out.str().size();
-  for (const char* part : {"$comment s7200: outputs of CPU 214 $end\n", "$timescale 1 ns $end\n", "$var wire 1 q7.7 Q7.7 $end\n",
-                           "$var wire 16 a30 AQW30 $end\n", "#0\n$dumpvars\n0q0.0\n"})
+  for (const char* part : {"$comment s7200: outputs of CPU 214 $end\n", "$timescale 1 ns $end\n",
+                           "$var wire 1 q7.7 Q7.7 $end\n", "$var wire 16 a30 AQW30 $end\n", "#0\n$dumpvars\n0q0.0\n"})
     EXPECT_NE(out.str().find(part), std::string::npos) << part;
   EXPECT_EQ(out.str().find("Q8.0"), std::string::npos) << "the CPU has no QB8";
   waves.record({.at = 2 * ms, .kind = TraceKind::OutputChanged, .byte = 0x09, .op = 0});

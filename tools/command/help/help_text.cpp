@@ -94,7 +94,8 @@ std::string paragraphs(const std::vector<std::string>& lines, std::size_t width)
 std::string where_more_is(const CLI::App& verb, const VerbNotes& notes, bool all, std::size_t width) {
   std::string text;
   if (!all) {
-    const auto options = verb.get_options([](const CLI::Option* option) { return !option->get_positional(); });
+    const auto options = verb.get_options(
+        [](const CLI::Option* option) { return !option->get_positional() && option->get_group() != help_group::kNone; });
     text = fmt::format("s7200 {} --help-all shows all {} options", verb.get_name(), options.size());
   }
   if (!notes.topics.empty())
@@ -151,7 +152,8 @@ std::vector<OptionGroup> option_groups(const CLI::App& app) {
   const std::string without_heading = help_group::kMore;
   for (const char* group : help_group::kAll) add(group, group, true);
   for (const std::string& group : app.get_groups())
-    if (group != without_heading && std::ranges::find(help_group::kAll, group) == help_group::kAll.end())
+    if (group != without_heading && group != help_group::kNone &&
+        std::ranges::find(help_group::kAll, group) == help_group::kAll.end())
       add(group, group, false);
   add(without_heading, groups.empty() ? "Options" : "More options", groups.empty());
   return groups;

@@ -11,6 +11,7 @@
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/times/named_times.hpp"
 #include "interpreter/program/checking/warnings.hpp"
+#include "tools/host/serial_device.hpp"
 #include "tools/master/protocol.hpp"
 #include "tools/plan/bridge_kinds.hpp"
 #include "tools/plan/system_keys.hpp"
@@ -26,13 +27,17 @@ namespace {
 std::string bridges() {
   std::string text = "A bridge joins the simulated line to masters outside, in real time; one at a time:\n";
   for (const BridgeRow& row : kBridges)
-    text += fmt::format("  {:<32}{}\n", fmt::format("{} {}", row.option, row.place), row.meaning);
-  return text +
-         "Without ADDRESS a server is for this computer only. All clients of one bridge share the line, as on RS-485.\n"
-         "A pty shows the rate, stop bits and odd parity of its client, but none and even parity only if the client sets "
-         "INPCK, and never 7 data bits: otherwise these are the program's, or what --parity and --data-bits say.\n"
-         "'run' with a bridge serves until Ctrl-C or SIGTERM, unless --for or --scans ends it.\n"
-         "Example: s7200 run stl_programs/modbus_slave.stl --pty plc\n";
+    if (row.kind != BridgeKind::Pty || has_ptys())
+      text += fmt::format("  {:<32}{}\n", fmt::format("{} {}", row.option, row.place), row.meaning);
+  text += "Without ADDRESS a server is for this computer only. All clients of one bridge share the line, as on RS-485.\n";
+  if (has_ptys())
+    text +=
+        "A pty shows the rate, stop bits and odd parity of its client, but none and even parity only if the client sets "
+        "INPCK, and never 7 data bits: otherwise these are the program's, or what --parity and --data-bits say.\n";
+  return text + fmt::format(
+                    "'run' with a bridge serves until Ctrl-C or SIGTERM, unless --for or --scans ends it.\n"
+                    "Example: s7200 run stl_programs/modbus_slave.stl {}\n",
+                    has_ptys() ? "--pty plc" : "--device COM3");
 }
 
 std::string faults() {
@@ -47,11 +52,12 @@ std::string faults() {
 std::string files() {
   return "Files that options name, for run, send, master and debug:\n"
          "  --input FILE    inputs over time, a row of CSV for each change, in the order of time:\n"
-         "                  10ms,I0.3,1               an input point\n"
+         "                  10ms,I0.3,1               an input point, or a symbol of one\n"
          "                  1s,AIW0,6400              an analog input\n"
          "                  1s,I0.6,pulses,5kHz,200ms pulses, for 200 ms\n"
          "                  2s,SMB28,128              a potentiometer, SMB28 or SMB29\n"
          "                  4s,SM0.7,0                the mode switch: 1 RUN, 0 TERM\n"
+         "                  Semicolons or tabs may separate instead, with decimal commas, as spreadsheets write them.\n"
          "  --output FILE   each change of an output (Q, AQ): CSV, or waves if the name ends in .vcd; - is standard output\n"
          "  --memory FILE   retentive memory, EEPROM and clock: read at power-up if the file exists, written at the end; "
          "--power-off says how long power was off, --ram-lost that it was too long\n"

@@ -18,6 +18,9 @@ inline constexpr const char* kResults = "Results";
 /// The group that CLI11 gives to an option: of those that `--help` does not show.
 inline constexpr const char* kMore = "Options";
 
+/// The group of options that no help shows.
+inline constexpr const char* kNone = "";
+
 /// In the order of the help.
 inline constexpr std::array kAll{kProgram, kRun, kCommands, kRequests, kLine, kBridge, kMemory, kResults};
 

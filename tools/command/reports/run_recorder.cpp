@@ -16,12 +16,12 @@ std::vector<Spot> asked_at(const Rig& rig, const Spot& spot) {
 
 }  // namespace
 
-RunRecorder::RunRecorder(Rig& rig, std::string path, const Spot& spot)
+RunRecorder::RunRecorder(Rig& rig, std::string path, const Spot& spot, std::size_t most)
     : rig_(rig),
       path_(std::move(path)),
       spot_(spot),
       seen_(rig, asked_at(rig, spot)),
-      journal_(*seen_.stations().front(), {}, kMostActions) {
+      journal_(*seen_.stations().front(), {}, most) {
   for (serial::HostPort* const port : hosts_of(rig)) port->set_journal(&hosts_.emplace_back(journal_, hosts_.size()));
 }
 

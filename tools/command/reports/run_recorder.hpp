@@ -22,10 +22,13 @@ class RunRecorder final {
 
   /// Of a rig that has just been powered up, which must live as long as this. `path`: of a system its file. `spot`: where a
   /// master asks.
-  RunRecorder(Rig& rig, std::string path, const Spot& spot);
+  RunRecorder(Rig& rig, std::string path, const Spot& spot, std::size_t most = kMostActions);
   ~RunRecorder();
   RunRecorder(const RunRecorder&) = delete;
   RunRecorder& operator=(const RunRecorder&) = delete;
+
+  const Journal& journal() const { return journal_; }
+  const SeenRig& seen() const { return seen_; }
 
   /// Writes down what that master asks.
   void listen_to(SimulatedSlave& slave);

@@ -4,6 +4,7 @@
 
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/tables/symbols.hpp"
 #include "tools/command/exit_code.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
@@ -42,6 +43,12 @@ nlohmann::ordered_json poll_json(const std::string& name, const serial::Poller::
   return json;
 }
 
+/// The symbol that a range is written with: `Level` of `Level`, `"Level"` and `Level:4`; empty for an address alone.
+std::string_view symbol_in(std::string_view range, const std::vector<stl::Symbol>& symbols) {
+  const std::string_view name = range.substr(0, range.find(':', range.starts_with('"') ? range.find('"', 1) : 0));
+  return stl::find_symbol(symbols, name) ? name : std::string_view();
+}
+
 std::string set_to(const SerialFormat& format) { return fmt::format("{} baud {}", format.baud, character_text(format)); }
 
 /// What `of` says of each PLC, under its name if it has one.
@@ -75,12 +82,21 @@ std::string indented(const std::string& lines) {
   return text;
 }
 
+std::string dumps_text(const PlcSettings& settings, const Cpu& cpu) {
+  std::string text;
+  for (std::size_t i = 0; i < settings.dumps.size(); ++i) {
+    const std::string& name = settings.dump_names[i];
+    const std::string dump = dump_text(cpu, settings.dumps[i]);
+    const std::size_t first_line = dump.find('\n');
+    const std::string_view symbol = symbol_in(name, cpu.program().source.symbols);
+    text += dump.substr(0, first_line) + (symbol.empty() ? "" : fmt::format("  {}", stl::printable(symbol))) +
+            dump.substr(first_line);
+  }
+  return text;
+}
+
 std::string dump_text(const Rig& rig) {
-  return by_plc(rig, [&](std::size_t plc) {
-    std::string text;
-    for (const MemoryRange& range : rig.plan().plcs[plc].settings.dumps) text += dump_text(rig.plc(plc).cpu(), range);
-    return text;
-  });
+  return by_plc(rig, [&](std::size_t plc) { return dumps_text(rig.plan().plcs[plc].settings, rig.plc(plc).cpu()); });
 }
 
 std::string errors_text(const Rig& rig) {

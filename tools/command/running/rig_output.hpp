@@ -25,6 +25,8 @@ std::string indented(const std::string& lines);
 
 /// The memory that is to be shown.
 std::string dump_text(const Rig& rig);
+/// The same of one PLC. A range that is written as a symbol has the symbol beside its address.
+std::string dumps_text(const PlcSettings& settings, const Cpu& cpu);
 
 /// Run-time errors and fatal errors.
 std::string errors_text(const Rig& rig);

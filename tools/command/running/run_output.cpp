@@ -10,6 +10,7 @@
 #include "tools/command/running/rig_output.hpp"
 #include "tools/command/terminal/progress.hpp"
 #include "tools/command/terminal/terminal.hpp"
+#include "tools/rig/run.hpp"
 #include "tools/views/report.hpp"
 #include "tools/views/results_json.hpp"
 #include "tools/views/state/memory.hpp"
@@ -46,8 +47,7 @@ void print_system(const Rig& rig, const Ending& ending) {
                state.instructions, plan.plcs[i].program->model->name,
                rig.plc(i).powered() ? fmt::format("in {}", mode_of(rig.plc(i))) : "without power");
     fmt::print("{}", indented(errors_text(rig.plc(i).cpu())));
-    for (const MemoryRange& range : plan.plcs[i].settings.dumps)
-      fmt::print("{}", indented(dump_text(rig.plc(i).cpu(), range)));
+    fmt::print("{}", indented(dumps_text(plan.plcs[i].settings, rig.plc(i).cpu())));
   }
   for (std::size_t i = 0; i < plan.peers.size(); ++i)
     if (const serial::Poller* poller = rig.poller(i))
@@ -89,6 +89,15 @@ void print_json(const Rig& rig, const Ending& ending, Bridges bridges, const nlo
   if (is_program && !bridges.empty()) results["bridge"] = bridges.front()->json();
   results.update(more);
   fmt::print("{}", lines_of(results));
+}
+
+std::string error_at_end(std::string_view reason, const Rig& rig) {
+  if (reason == "endless scan")
+    return fmt::format(
+        "scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "
+        "To run it all the same say how long: --for",
+        rig.cpu().state().scans + 1, format_duration(kEndlessScan));
+  return reason == "run-time error" ? "--strict: the run ended at the first run-time error" : "";
 }
 
 void note_events_to_come(const Rig& rig) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "tools/command/running/system_bridges.hpp"
@@ -28,6 +29,9 @@ struct Ending {
 /// `bridges`: those of the plan, or the one that has joined a PROGRAM's line. `more`: further results of --json.
 void print_text(const Rig& rig, const Ending& ending, Bridges bridges);
 void print_json(const Rig& rig, const Ending& ending, Bridges bridges, const nlohmann::ordered_json& more);
+
+/// The error that a run has ended with; empty if it is none.
+std::string error_at_end(std::string_view reason, const Rig& rig);
 
 /// Says that the run ended before some of the planned events.
 void note_events_to_come(const Rig& rig);

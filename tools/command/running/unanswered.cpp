@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <utility>
 
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/model/ports.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/session/causes/line/unanswered_causes.hpp"
 #include "tools/views/broadcast.hpp"
@@ -15,6 +18,8 @@
 
 namespace s7200::tools {
 namespace {
+
+constexpr Time kHostPatience = kSecond;  // of a master on a bridge, whose own time-out nobody knows
 
 constexpr std::string_view kNotKnown = "the cause is not known: nothing that the program did in between tells it";
 
@@ -81,6 +86,88 @@ UnansweredRequests Unanswered::explained(Time timeout) {
   }
   rig_.system().restore(end);
   return interrupted() ? UnansweredRequests{} : all;
+}
+
+UnansweredOnBridge::UnansweredOnBridge(RecordedRig& rig, const Spot& spot, const RunRecorder& recorder)
+    : rig_(rig), spot_(spot), recorder_(recorder), begin_(rig.system().snapshot()) {}
+
+void UnansweredOnBridge::look() {
+  const Time sent_until = rig_.simulation().host_port().sent_until();
+  if (sent_until != sent_until_) quiet_.reset();
+  sent_until_ = sent_until;
+  if (!quiet_ && rig_.time() >= sent_until_ + kHostPatience) quiet_ = recorder_.journal().now();
+}
+
+Recording UnansweredOnBridge::recording() const {
+  Recording recording = recorder_.journal().recording();
+  if (recorder_.journal().is_over() || !quiet_) return recording;
+  recording.actions.resize(quiet_->actions);
+  recording.stations.resize(quiet_->actions);
+  recording.moments.resize(quiet_->actions);
+  recording.end = recording.now = *quiet_;
+  return recording;
+}
+
+bool UnansweredOnBridge::only_listens() const {
+  const auto has = [&](Effect effect) {
+    return std::ranges::any_of(rig_.plc(spot_.plc).cpu().program().ops,
+                               [&](const Op& op) { return op.instruction->effect == effect && op[1].at == spot_.port; });
+  };
+  const auto is_attached = [&](const Op& op) {
+    return op.instruction->structure == Structure::Attach && op[1].at == kPorts[spot_.port].received;
+  };
+  const bool listens = has(Effect::Receives) || std::ranges::any_of(rig_.plc(spot_.plc).cpu().program().ops, is_attached);
+  return listens && !has(Effect::Transmits);
+}
+
+UnansweredRequests UnansweredOnBridge::explained() const {
+  UnansweredRequests all;
+  if (sent_until_ == 0 || only_listens()) return all;
+  constexpr std::chrono::seconds kLongest{5};  // whoever has ended the run waits
+  rig_.flush_records();
+  for (std::size_t plc = 0; plc < rig_.plan().plcs.size(); ++plc) rig_.plc(plc).unwatch_lines();
+  const serial::System::Snapshot end = rig_.system().snapshot();
+  rig_.system().restore(begin_);
+  {
+    std::atomic<bool> late = false;
+    const auto latest = std::chrono::steady_clock::now() + kLongest;
+    History::Settings settings = history_settings(rig_);
+    settings.hosts = hosts_of(rig_);
+    settings.stop_request = StopToken(late);
+    settings.progress = [&] { late = late || std::chrono::steady_clock::now() > latest; };
+    History history(recorder_.seen().stations(), std::move(settings));
+    if (history.replay(recording())) explain(history, StopToken(late), all);
+  }
+  rig_.system().restore(end);
+  return all;
+}
+
+void UnansweredOnBridge::explain(History& history, StopToken stop, UnansweredRequests& all) const {
+  constexpr Time kTooSoon = 200 * kMillisecond;  // before the end of the run: an answer might have come yet
+  const std::vector<SentByHost> frames = history.sent_by_host(0, 0);
+  const Time end = history.newest().time;
+  DifferentCauses causes;
+  std::size_t unanswered = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const SentByHost& frame = frames[i];
+    const bool last = i + 1 == frames.size();
+    const Time given_up = std::min(last ? end : frames[i + 1].from - 1, frame.to + kHostPatience);
+    if (given_up <= frame.to + (last ? kTooSoon : 0) || is_broadcast(frame.bytes)) continue;
+    if (!history.go_to(given_up)) return;
+    const serial::Plc& plc = history.station(spot_.plc).plc();
+    const bool ppi = !plc.cpu().state().port[spot_.port].active && !is_rtu_frame(frame.bytes);
+    if (ppi || plc.state().uart.at(spot_.port).send_end > frame.to) continue;
+    if (unanswered++ >= Unanswered::kMostExplained) {
+      ++all.not_explained;
+      continue;
+    }
+    auto why = causes_of_no_answer(history, spot_.plc, frame.bytes, kHostPatience, stop);
+    if (!why) return;
+    if (why->empty()) continue;
+    const std::size_t number = causes.number_of(*why);
+    if (number == all.causes.size()) all.causes.push_back({.first = frame.bytes, .at = frame.from, .why = std::move(*why)});
+    ++all.causes[number].requests;
+  }
 }
 
 std::string note_on_unknown_causes(const std::string& slave, bool is_simulated) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/command/reports/run_recorder.hpp"
 #include "tools/rig/files/recorded_rig.hpp"
 #include "tools/session/past/actions/journal.hpp"
 #include "tools/session/past/seen_rig.hpp"
@@ -60,6 +61,34 @@ class Unanswered {
   std::optional<Recording> recording_{};  ///< up to the last of those that are to be explained
   std::vector<Request> unanswered_{};
   std::size_t not_explained_ = 0;
+};
+
+/// What masters on a bridge have asked in vain, while a run follows the clock.
+class UnansweredOnBridge {
+ public:
+  static constexpr std::size_t kMostActions = 10'000;  ///< of what comes in: an hour of a master that asks every second
+
+  /// Of a rig that has just been powered up, with an S7-200 at `spot`, where the bridge has joined; all must live as long.
+  UnansweredOnBridge(RecordedRig& rig, const Spot& spot, const RunRecorder& recorder);
+
+  /// The simulation has caught up with the clock. What comes after the last request need not be played again.
+  void look();
+
+  /// The rig stands where it stood. Left out are what has no cause that is known, and programs that listen and never speak.
+  /// It takes a few seconds at most.
+  UnansweredRequests explained() const;
+
+ private:
+  void explain(History& history, StopToken stop, UnansweredRequests& all) const;
+  Recording recording() const;
+  bool only_listens() const;
+
+  RecordedRig& rig_;
+  Spot spot_;
+  const RunRecorder& recorder_;
+  serial::System::Snapshot begin_;
+  Time sent_until_ = 0;            // by whoever is on the bridge
+  std::optional<Moment> quiet_{};  // when the last request had waited for long enough
 };
 
 /// Why the causes of missing answers are not told of somebody who is outside the simulation, or of a PLC of another make.

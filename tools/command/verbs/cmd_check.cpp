@@ -14,6 +14,7 @@
 #include "tools/command/options/plc/program_options.hpp"
 #include "tools/command/options/plc/stand_in_options.hpp"
 #include "tools/command/options/plc/tables_by_cpu.hpp"
+#include "tools/command/reading/unread_symbols.hpp"
 #include "tools/command/terminal/progress.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/verbs/commands.hpp"
@@ -49,7 +50,9 @@ int run_check(const CheckOptions& options) {
   int exit_code = kFine;
   TablesByCpu tables(options.cpu);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (auto& [path, text] : read_programs(options.paths, exit_code)) {
+  auto programs = read_programs(options.paths, exit_code);
+  const bool all_read = exit_code == kFine;
+  for (auto& [path, text] : programs) {
     if (interrupted()) break;
     if (!repair(text, options.cpu.repairs)) {
       exit_code = kUnusable;
@@ -62,6 +65,7 @@ int run_check(const CheckOptions& options) {
       continue;
     }
     const CheckResult result = check_with(options, text, *model, *times);
+    if (!all_read && note_unread_symbols(path, result)) continue;
     if (!result.program) exit_code = std::max<int>(exit_code, kCheckFailed);
     const auto others = options.cpu.no_stand_ins ? std::vector<const CpuModel*>{} : fine_for(text, result, *model);
     if (options.json) {

@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "tools/command/exit_code.hpp"
 #include "tools/command/options/choices.hpp"
+#include "tools/command/options/help_groups.hpp"
 #include "tools/command/usage.hpp"
 #include "tools/command/verbs/derived_verbs.hpp"
 
@@ -24,7 +26,8 @@ Candidates verbs_of(CLI::App& app) {
 
 Candidates options_of(CLI::App& verb) {
   Candidates found;
-  for (const CLI::Option* option : verb.get_options())
+  const auto is_shown = [](const CLI::Option* option) { return option->get_group() != help_group::kNone; };
+  for (const CLI::Option* option : std::as_const(verb).get_options(is_shown))
     for (const std::string& name : option->get_lnames()) found.push_back({"--" + name, option->get_description()});
   return found;
 }

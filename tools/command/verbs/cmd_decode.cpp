@@ -12,6 +12,7 @@
 #include "tools/command/reading/decode_results.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/verbs/commands.hpp"
+#include "tools/host/serial_device.hpp"
 #include "tools/recordings/decoded.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -60,8 +61,9 @@ int run_file(const DecodeOptions& options) {
   const auto read = read_file(options.recording);
   if (!read) return kUnusable;
   DecodeResults results(head_of(options, read->recording.form, read->line), options.json, options.report);
-  const auto answered =
-      results.marks_unanswered() ? answered_requests(read->recording, options.recording.spoken(), read->stamps) : std::vector<bool>{};
+  const auto answered = results.marks_unanswered()
+                            ? answered_requests(read->recording, options.recording.spoken(), read->stamps)
+                            : std::vector<bool>{};
   std::size_t number = 0;
   tell_frames(*read, options.recording, [&](const ReadFrame& frame) {
     const bool is_open = frame.direction == Direction::Request && !frame.needs_no_answer;
@@ -91,8 +93,8 @@ void add_decode(CLI::App& app, int& exit_code) {
   verb->footer(std::string(kEndOfListening) +
                "Exit code 1 too if there were frames and none of them was right.\n"
                "Topics: recordings, protocols\n"
-               "Example: s7200 decode tests/recordings/plant.log\n"
-               "Example: s7200 decode /dev/ttyUSB0 --protocol ppi");
+               "Example: s7200 decode tests/recordings/plant.log\n" +
+               fmt::format("Example: s7200 decode {} --protocol ppi", example_of_serial_device()));
   verb->callback([options, &exit_code] {
     try {
       exit_code = run_decode(*options);

@@ -11,6 +11,7 @@
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/verbs/commands.hpp"
 #include "tools/host/interruption.hpp"
+#include "tools/host/serial_device.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -61,11 +62,12 @@ void add_master(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("master", "ask a program, a device or a server, as a master of Modbus or others");
   options->add_to(*verb);
   verb->footer(
-      "menu, alone and on a terminal, is a screen to try a Modbus slave by hand: a key for each function, slave, port, "
-      "loopbacks and a test without end, with statistics.\n"
-      "Topics: protocols, targets, faults, files, systems, times, westinghouse\n"
-      "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2\n"
-      "Example: s7200 master /dev/ttyUSB0 --station 3 read 40001:4 --every 1s");
+      std::string(
+          "menu, alone and on a terminal, is a screen to try a Modbus slave by hand: a key for each function, slave, port, "
+          "loopbacks and a test without end, with statistics.\n"
+          "Topics: protocols, targets, faults, files, systems, times, westinghouse\n"
+          "Example: s7200 master stl_programs/modbus_slave.stl write 40011=1234,-5 read 40011:2\n") +
+      fmt::format("Example: s7200 master {} --station 3 read 40001:4 --every 1s", example_of_serial_device()));
   verb->callback([options, verb, &exit_code] {
     try {
       exit_code = run_master(*verb, *options);

@@ -10,6 +10,7 @@
 #include "tools/command/running/run_observers.hpp"
 #include "tools/command/running/run_output.hpp"
 #include "tools/command/running/run_source.hpp"
+#include "tools/command/running/unanswered.hpp"
 #include "tools/command/terminal/progress.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/command/verbs/commands.hpp"
@@ -34,7 +35,8 @@ std::string_view run_with_clock(LiveRun& live, RecordedRig& rig, const RunLimits
   return !live.failure().empty() ? "bridge" : halt == serial::Halt::Time ? "time" : "interrupted";
 }
 
-Ending run_to_end(RecordedRig& rig, const RunBridges& bridges, bool serves, const RunOptions& options) {
+Ending run_to_end(RecordedRig& rig, const RunBridges& bridges, bool serves, UnansweredOnBridge* unanswered,
+                  const RunOptions& options) {
   RunLimits limits{options.end(serves), options.scans, options.rig.strict()};
   if (!rig.record_sizes().empty()) limits.slice = kSecond;  // so that a full record ends it soon
   if (!serves && !options.bridge.realtime())
@@ -46,7 +48,10 @@ Ending run_to_end(RecordedRig& rig, const RunBridges& bridges, bool serves, cons
                                  .messages = print_live_messages(),
                                  .stop = interruption(),
                                  .in_stop_too = to_ppi,
-                                 .before_wait = [&rig] { rig.flush_records(); }});
+                                 .before_wait = [&rig, unanswered] {
+                                   rig.flush_records();
+                                   if (unanswered) unanswered->look();
+                                 }});
   std::string why;
   if (!live->start(why)) return print_error(why), Ending{};
   const std::string_view reason = run_with_clock(*live, rig, limits, to_ppi);
@@ -56,16 +61,6 @@ Ending run_to_end(RecordedRig& rig, const RunBridges& bridges, bool serves, cons
   Ending ending{reason, live->pace()};
   for (std::size_t i = 0; i < rig.plan().lines.size(); ++i) ending.collisions[&rig.line(i)] = live->collisions(&rig.line(i));
   return ending;
-}
-
-/// The error that a run has ended with; empty if it is none.
-std::string error_at_end(std::string_view reason, const Rig& rig) {
-  if (reason == "endless scan")
-    return fmt::format(
-        "scan {} has lasted {} and is not over: the program loops in it, and WDR keeps it going. "
-        "To run it all the same say how long: --for",
-        rig.cpu().state().scans + 1, format_duration(kEndlessScan));
-  return reason == "run-time error" ? "--strict: the run ended at the first run-time error" : "";
 }
 
 int run_run(const CLI::App& verb, RunOptions& options) {
@@ -80,19 +75,25 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   options.profile.claim(files);
   const RunObservers observers(*rig, options);
   rig->power_up();
-  const auto recorder =
-      options.report.wanted() ? std::make_unique<RunRecorder>(*rig, options.rig.system_path(), options.rig.spot()) : nullptr;
+  const bool asked = bridges->joined != nullptr && rig->has_simulation() && !options.rig.without_s7200();
+  const std::size_t most = options.report.wanted() ? RunRecorder::kMostActions : UnansweredOnBridge::kMostActions;
+  const auto recorder = options.report.wanted() || asked
+                            ? std::make_unique<RunRecorder>(*rig, options.rig.system_path(), options.rig.spot(), most)
+                            : nullptr;
+  const auto unanswered = asked ? std::make_unique<UnansweredOnBridge>(*rig, options.rig.spot(), *recorder) : nullptr;
   if (is_of_one_program(rig->plan())) rig->simulation().cpu().pause_at_error(options.rig.strict());
   std::vector<Bridge*> served = bridges->of_plan;
   if (bridges->joined) served.push_back(bridges->joined);
-  const Ending ending = run_to_end(*rig, *bridges, !served.empty(), options);
+  const Ending ending = run_to_end(*rig, *bridges, !served.empty(), unanswered.get(), options);
   if (ending.reason.empty()) return kUnusable;
   const bool report_written = write_report(options.report, "run", recorder.get(), options.program.repairs);
   const bool all_written = finish(*rig) && report_written;
+  const UnansweredRequests why_none = unanswered ? unanswered->explained() : UnansweredRequests{};
   if (options.json)
-    print_json(*rig, ending, served, observers.json(options));
+    print_json(*rig, ending, served, with_why(observers.json(options), why_none));
   else
     print_text(*rig, ending, served);
+  if (!options.json) fmt::print("{}", why_text(why_none));
   print_notes(line_notes(*rig, [&](const serial::SharedLine* line) { return ending.collisions_on(line); }));
   if (ending.reason == "time") note_events_to_come(*rig);
   if (!all_written) return kUnusable;

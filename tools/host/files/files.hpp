@@ -12,8 +12,7 @@ namespace s7200::tools {
 /// MB or is a device: naming a serial port instead of a program fails at once.
 std::optional<std::string> read_file(const std::string& path, std::string& why);
 
-/// A text in UTF-8, without the byte order mark that some editors put before it. Returns nothing and sets `why` as
-/// read_file().
+/// A text as FileSource::read_text() has it. Returns nothing and sets `why` as read_file().
 std::optional<std::string> read_text(const std::string& path, std::string& why);
 
 /// The bytes of standard input up to its end. Returns nothing and sets `why` if they are more than 64 MB or cannot be read.

@@ -50,7 +50,9 @@ bool names_serial_device(const std::string& word) {
   return word.starts_with("/dev/tty") || std::filesystem::is_character_file(word, none);
 }
 
-std::string_view example_of_serial_device() { return "/dev/ttyUSB0, or a pty by its link"; }
+std::string_view example_of_serial_device() { return "/dev/ttyUSB0"; }
+
+bool has_ptys() { return true; }
 
 struct SerialDevice::System {
   explicit System(int descriptor) : fd(descriptor) {}

@@ -82,6 +82,8 @@ bool names_serial_device(const std::string& word) { return !port_named(word).emp
 
 std::string_view example_of_serial_device() { return "COM3"; }
 
+bool has_ptys() { return false; }
+
 /// A thread reads: it waits for one character, and takes what else has come in by then. Writing is overlapped, one stretch
 /// at a time.
 struct SerialDevice::System {

@@ -231,7 +231,7 @@ class PlcReader {
 
   void read_inputs(const YamlNode& map, PlcPlan& plc) {
     std::vector<std::string> problems;
-    auto field = read_field(plc.settings.input, *plc.program->model, reading_.files, problems);
+    auto field = read_field(plc.settings.input, *plc.program, reading_.files, problems);
     if (field)
       plc.field = std::move(*field);
     else

@@ -221,7 +221,7 @@ class HeadReader {
 
   void read_inputs(const YamlNode& node, Scenario& scenario) {
     std::vector<std::string> problems;
-    if (auto field = read_field(scenario.plc.input, *find_cpu(scenario.cpu), host_files(), problems))
+    if (auto field = read_field(scenario.plc.input, scenario.addresses(), host_files(), problems))
       scenario.field = std::move(*field);
     else
       values_.wrong(node, problems.front(),

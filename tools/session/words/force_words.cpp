@@ -75,12 +75,16 @@ std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const 
 }
 
 /// Potentiometers and the mode switch are turned by hand.
-std::string not_settable(const MemoryRange& place) {
-  const bool read_only = place.area == Area::SM && place.at < sm::byte(kReadOnlySpecialMemory);
+bool is_from_field(const MemoryRange& place) {
   const bool potentiometer =
       place.width == Width::Byte && std::ranges::find(sm::kPotentiometer, place.at) != sm::kPotentiometer.end();
   const bool mode_switch = place.width == Width::Bit && place.at == sm::kScanStatus && 1U << place.bit == sm::kModeSwitchRun;
-  if (!read_only || potentiometer || mode_switch) return {};
+  return place.area == Area::I || place.area == Area::AI || potentiometer || mode_switch;
+}
+
+std::string not_settable(const MemoryRange& place) {
+  const bool read_only = place.area == Area::SM && place.at < sm::byte(kReadOnlySpecialMemory);
+  if (!read_only || is_from_field(place)) return {};
   return fmt::format("{} cannot be set: only the CPU writes SM0.0 to SM{}.7", place.name_of(0), kReadOnlySpecialMemory - 1);
 }
 

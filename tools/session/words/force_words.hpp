@@ -16,6 +16,9 @@ std::optional<Force> force_of(const std::vector<std::string>& assignments, const
 /// `VW10`, or `all`; nothing, and `why`, if one of them is not forced.
 std::optional<Unforce> unforce_of(const std::vector<std::string>& places, const Cpu& cpu, std::string& why);
 
+/// Whether the field drives it: input points, analog inputs, the potentiometers, the mode switch.
+bool is_from_field(const MemoryRange& place);
+
 /// What is wrong with setting that place; empty if it may be set.
 std::string not_settable(const MemoryRange& place);
 

@@ -12,6 +12,7 @@
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/terminal/terminal.hpp"
+#include "tools/host/serial_device.hpp"
 
 namespace s7200::tools {
 
@@ -44,7 +45,7 @@ void BridgeOptions::add_bridges(CLI::App& app) {
   for (const BridgeRow& row : kBridges) {
     app.add_option(std::string(row.option), where_[static_cast<std::size_t>(row.kind)], std::string(row.meaning))
         ->type_name(std::string(row.place))
-        ->group(help_group::kBridge);
+        ->group(row.kind == BridgeKind::Pty && !has_ptys() ? help_group::kNone : help_group::kBridge);
   }
 }
 
@@ -63,7 +64,7 @@ void BridgeOptions::add_pace(CLI::App& app) {
 void BridgeOptions::add_to(CLI::App& app) {
   add_pace(app);
   add_bridges(app);
-  add_line_options(app, line_, "the program's; with --pty its client's");
+  add_line_options(app, line_, has_ptys() ? "the program's; with --pty its client's" : "the program's");
   add_duration(app, "--timeout", timeout_, "how long --modbus-tcp and --rtu-over-tcp wait for an answer to start [400ms]");
 }
 

@@ -13,6 +13,7 @@
 #include "tools/command/options/number_option.hpp"
 #include "tools/command/options/plc/line_options.hpp"
 #include "tools/host/console.hpp"
+#include "tools/host/files/files.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -184,8 +185,18 @@ void MasterOptions::refuse_what_a_peer_does_not_take(Kind kind) const {
   refuse_options(refused, "a PROGRAM to run in simulation");
 }
 
+/// Other verbs take the files of a project one after the other; here actions follow the PROGRAM.
+void MasterOptions::refuse_file_as_action() const {
+  if (words.empty() || words.front().find('.') == std::string::npos || !host_files().exists(words.front())) return;
+  throw std::invalid_argument(
+      fmt::format("'{0}' is a file, and an action is expected here; another file of the program's project is given with "
+                  "--with {0}",
+                  words.front()));
+}
+
 std::vector<MasterAction> MasterOptions::actions(bool over_tcp) const {
   if (wants_menu()) return {};
+  refuse_file_as_action();
   return protocol->actions(words, use(over_tcp));
 }
 

@@ -64,6 +64,7 @@ struct MasterOptions {
  private:
   void add_protocol_options(CLI::App& app);
   void refuse_what_a_peer_does_not_take(SlaveTarget::Kind kind) const;
+  void refuse_file_as_action() const;
   std::uint64_t rounds() const;
 
   std::optional<std::uint8_t> station_;

@@ -28,21 +28,12 @@ std::optional<LastTurn> turn_before(Inquiry& inquiry, Time until, const std::fun
   }
 }
 
-/// As far as nothing has changed it: what was written last, though it was so before.
-Keeper what_attached_nothing(Inquiry& inquiry, std::uint8_t event) {
-  const AttachmentSearch search = find_last_attachment(inquiry.history(), inquiry.station(), event, inquiry.stop_request());
-  inquiry.answers.interrupted |= search.interrupted;
-  if (search.interrupted) return {};
-  if (!search.attachment) return {.text = "; no instruction has attached it " + since_oldest_text(inquiry.history())};
-  return inquiry.kept_by(search.attachment->moment, search.attachment->by, "detached");
-}
-
-Keeper what_detached(Inquiry& inquiry, std::uint8_t event, Time until) {
-  const auto turn = turn_before(inquiry, until, [&](const State& state) { return state.attached[event] == kNotAttached; });
-  if (inquiry.answers.interrupted) return {};
-  if (!turn) return what_attached_nothing(inquiry, event);
-  if (!turn->by) return {.text = "; the CPU has been in STOP since it was"};
-  return inquiry.kept_by(turn->moment, *turn->by, "detached");
+/// Whether an instruction may attach the receive event of a port, or receive there with RCV.
+bool may_hear(const Program& program, std::size_t port) {
+  return std::ranges::any_of(program.ops, [&](const Op& op) {
+    const bool attaches = op.instruction->structure == Structure::Attach && op[1].at == kPorts[port].received;
+    return attaches || (op.instruction->effect == Effect::Receives && op[1].at == port);
+  });
 }
 
 /// A write that is over later than `until` is none of it.
@@ -53,6 +44,33 @@ WriteSearch write_before(Inquiry& inquiry, const MemoryRange& range, Time until)
     if (!search.write || search.write->at <= until) return search;
     inquiry.history().go_to(search.write->moment);
   }
+}
+
+/// As far as nothing has changed it: what was written last, though it was so before.
+Keeper what_attached_nothing(Inquiry& inquiry, std::uint8_t event, Time until) {
+  const AttachmentSearch search = find_last_attachment(inquiry.history(), inquiry.station(), event, inquiry.stop_request());
+  inquiry.answers.interrupted |= search.interrupted;
+  if (search.interrupted) return {};
+  if (search.attachment) return inquiry.kept_by(search.attachment->moment, search.attachment->by, "detached");
+  Keeper keeper{.text = "; no instruction has attached it " + since_oldest_text(inquiry.history())};
+  const auto port = std::ranges::find_if(kPorts, [&](const PortInfo& one) { return one.received == event; });
+  if (port == kPorts.end() || may_hear(inquiry.program(), static_cast<std::size_t>(port - kPorts.begin()))) return keeper;
+  keeper.text += fmt::format(", and the program has no ATCH for event {} and no RCV", event);
+  const MemoryRange control = range_at(port->control, Width::Byte, *inquiry.program().model).value();
+  const WriteSearch freeport = write_before(inquiry, control, until);
+  if (!freeport.write || !freeport.write->by) return keeper;
+  Keeper setter = inquiry.kept_by(freeport.write->moment, *freeport.write->by,
+                                  fmt::format("{}, which puts the port in Freeport mode, was set", control.name_of(0)));
+  setter.text.insert(0, keeper.text);
+  return setter;
+}
+
+Keeper what_detached(Inquiry& inquiry, std::uint8_t event, Time until) {
+  const auto turn = turn_before(inquiry, until, [&](const State& state) { return state.attached[event] == kNotAttached; });
+  if (inquiry.answers.interrupted) return {};
+  if (!turn) return what_attached_nothing(inquiry, event, until);
+  if (!turn->by) return {.text = "; the CPU has been in STOP since it was"};
+  return inquiry.kept_by(turn->moment, *turn->by, "detached");
 }
 
 Keeper what_wrote_ppi_mode(Inquiry& inquiry, const MemoryRange& control, Time until) {
@@ -115,7 +133,8 @@ void find_characters_untaken(Inquiry& inquiry) {
   for (const auto& [first, characters, end] : inquiry.witness().line.untaken()) {
     if (first.at < inquiry.since()) continue;
     const Keeper kept = what_kept(inquiry, first);
-    inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = kept.text}), kept);
+    inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = kept.text}),
+                kept);
   }
   if (!inquiry.has_unanswered() || !inquiry.answers.unanswered.empty()) return;
   if (!inquiry.history().go_to(inquiry.request()->end)) return void(inquiry.answers.interrupted = true);

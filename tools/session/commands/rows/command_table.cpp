@@ -320,7 +320,8 @@ memory that 'display' names, or the registers. Below: the prompt.)",
        "writes.",
        commands::set, Takes::Addresses},
       {"input", "i", "input I0.3=1…", "switch input points; edges of I0.0 to I0.3 cause events 0 to 7",
-       "The program finds the new level when the inputs are next read, or at once with an immediate instruction.",
+       "The program finds the new level when the inputs are next read, or at once with an immediate instruction.\n"
+       "Analog inputs, the potentiometers SMB28 and SMB29 and the mode switch SM0.7 too: input AIW0=6400.",
        commands::input, Takes::Addresses},
       {"force", "", "force [ADDRESS=VALUE…]", "hold points of I and Q, V and M memory, AI and AQ at a value; alone: list",
        R"(As a programming device forces: force I0.3=1 Q0.0=0 VW100=5. Inputs have the value when they are read, outputs

@@ -50,9 +50,10 @@ Reply assign_all(Session& session, const Words& arguments, bool inputs_only) {
     const auto assignment = parse_assignment(text, session.program(), why);
     if (!assignment) return wrong(why);
     if (std::string refused = not_settable(assignment->place); !refused.empty()) return wrong(refused);
-    if (inputs_only && assignment->place.area != Area::I)
-      return wrong(fmt::format("'{}' is not an input; 'input' expects for example I0.3=1, and 'set' writes other memory",
-                               stl::shortened(text)));
+    if (inputs_only && !is_from_field(assignment->place))
+      return wrong(
+          fmt::format("'{}' is not an input; 'input' expects for example I0.3=1 or AIW0=6400, and 'set' writes other memory",
+                      stl::shortened(text)));
     assignments.push_back(*assignment);
   }
   act(session, SetMemory{assignments});
