@@ -1,5 +1,5 @@
-// Warnings that need the whole program. If it has errors, what they are in is unread (program/loading/unread.hpp). Each
-// function finds one warning of warnings.hpp.
+// Warnings that need the whole program. If it has errors, what they are in is unread (program/loading/unread.hpp). Each function
+// finds one warning of warnings.hpp.
 //
 // A wrong warning is worse than none. So two coils, or two executions of a timer, are reported only if no pass through the
 // program does one without the other; not if JMP, CRET, END, FOR or a conditional CALL may leave one out.
@@ -50,7 +50,8 @@ void find_missing_freeport(const Facts& facts, stl::Diagnostics& diagnostics);
 void find_missing_receive_event(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// In Freeport mode the CPU answers nothing by itself: a port that no RCV, no XMT and no routine of event 8 or 25 uses is
-/// dead.
+/// dead. It is left out where another warning names what is missing: it comes after find_missing_freeport() and
+/// find_missing_receive_event().
 void find_unused_freeport(const Facts& facts, stl::Diagnostics& diagnostics);
 
 /// RCV receives one message each time it is executed.

@@ -220,21 +220,37 @@ void find_missing_receive_event(const Facts& facts, stl::Diagnostics& diagnostic
   }
 }
 
+namespace {
+
+/// The first instruction that puts a port in Freeport mode. Interrupt routines cannot (error 009A).
+std::optional<std::uint32_t> first_freeport(const Program& program, const PortInfo& port) {
+  bool in_interrupt = false;
+  for (std::uint32_t i = 0; i < program.ops.size(); ++i) {
+    const Structure structure = program.ops[i].instruction->structure;
+    if (structure == Structure::InterruptHead || structure == Structure::SubroutineHead)
+      in_interrupt = structure == Structure::InterruptHead;
+    const auto control = control_written(program, program.ops[i], port);
+    if (control && is_freeport(*control) && !in_interrupt) return i;
+  }
+  return {};
+}
+
+}  // namespace
+
 void find_unused_freeport(const Facts& facts, stl::Diagnostics& diagnostics) {
   const Program& program = facts.program;
-  if (has_unread(program)) return;
+  const auto names_what_is_missing = [](const stl::Diagnostic& diagnostic) {
+    return diagnostic.name == "no-freeport" || diagnostic.name == "no-receive-event";
+  };
+  if (has_unread(program) || std::ranges::any_of(diagnostics, names_what_is_missing)) return;
   for (std::size_t number = 0; number < program.model->ports; ++number) {
     const PortInfo& port = kPorts[number];
     const auto uses_it = [&](const Op& op) { return uses_port(op) && op[1].at == number; };
     if (std::ranges::any_of(program.ops, uses_it) || attaches(program, port.received)) continue;
-    const auto sets_freeport = [&](const Op& op) {
-      const auto control = control_written(program, op, port);
-      return control && is_freeport(*control);
-    };
-    const auto found = std::ranges::find_if(program.ops, sets_freeport);
-    if (found == program.ops.end()) continue;
+    const auto found = first_freeport(program, port);
+    if (!found) continue;
     diagnostics.push_back(warn(
-        Warning::UnusedFreeport, place(program, static_cast<std::uint32_t>(found - program.ops.begin())),
+        Warning::UnusedFreeport, place(program, *found),
         fmt::format("port {} is in Freeport mode and the program neither listens nor speaks there: no ATCH attaches event "
                     "{}, and no RCV or XMT is for this port",
                     number, std::uint8_t{port.received}),

@@ -222,6 +222,10 @@ TEST(UnusedFreeport, IsNotAPortThatIsUsedOrMayBeInAnotherMode) {
   EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 8, SMB30\nMEND\n"), "") << "it leaves the port in PPI mode";
   EXPECT_EQ(warnings_of("LD SM0.1\nMOVB VB0, SMB30\nMEND\n"), "") << "who knows what is in VB0";
   EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB130\nATCH 0, 25\n" + interrupt, cpu226()), "");
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 5, SMB34\nATCH 0, 10\nENI\nMEND\nINT 0\nMOVB 9, SMB30\nRETI\n"), "")
+      << "an interrupt routine cannot";
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB30\nXMT VB0, 1\nMEND\n", cpu226()), "3 no-freeport\n") << "it says enough";
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB30\nMOVB SMB2, VB0\nMEND\n"), "3 no-receive-event\n") << "it says enough";
   EXPECT_EQ(warnings_of("LDS 99\nMOVB 16#09, SMB30\nMEND\n").find("unused-freeport"), std::string::npos)
       << "what could not be read may use the port";
 }
@@ -330,9 +334,9 @@ TEST(NoReceiveEvent, IsACharacterThatNothingPutsIntoSmb2) {
 }
 
 TEST(NoReceiveEvent, IsNotOneWhereAnAtchMayAttachIt) {
-  const std::string begin = "LD SM0.1\nMOVB 9, SMB30\nMOVB 9, SMB130\n";
-  EXPECT_EQ(warnings_of(begin + "ATCH 0, 8\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, VB0\nRETI\n", cpu226()), "");
-  EXPECT_EQ(warnings_of(begin + "ATCH 0, 25\nENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, VB0\nRETI\n", cpu226()), "");
+  const std::string reads = "ENI\nMEND\nINT 0\nLD SM0.0\nMOVB SMB2, VB0\nRETI\n";
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB30\nATCH 0, 8\n" + reads, cpu226()), "");
+  EXPECT_EQ(warnings_of("LD SM0.1\nMOVB 9, SMB130\nATCH 0, 25\n" + reads, cpu226()), "");
   EXPECT_EQ(warnings_of("LD SM0.0\nMOVD SMD0, VD0\nBMB SMB0, VB4, 6\nMEND\n"), "") << "whoever copies all of it";
 }
 

@@ -33,7 +33,7 @@ TEST(SimulatedSlave, AnswersTheFirstRequestAtEveryRate) {
 
 /// Freeport mode at 300 baud only after 15 ms, when a master that thinks of 9600 baud would begin 3 ms later.
 TEST(SimulatedSlave, IsReadyAfterTheSilenceOfTheRateThatIsSetByThen) {
-  serial::Simulation simulation(test::compile("LD SM0.0\nTON T32, +15\nLD T32\nEU\nMOVB 16#5D, SMB30\nMEND\n"));
+  serial::Simulation simulation(test::compile("LD SM0.0\nTON T32, +15\nLD T32\nEU\nMOVB 16#5D, SMB30\nLD I0.0\nXMT VB0, 0\nMEND\n"));
   simulation.power_up();
   SimulatedSlave slave(simulation, {}, "slave");
   std::string why;
