@@ -131,12 +131,14 @@ UnansweredRequests UnansweredOnBridge::explained() const {
   {
     std::atomic<bool> late = false;
     const auto latest = std::chrono::steady_clock::now() + kLongest;
+    rig_.system().stop_when(StopToken(late));  // Ctrl-C has ended the run, not this
     History::Settings settings = history_settings(rig_);
     settings.hosts = hosts_of(rig_);
     settings.stop_request = StopToken(late);
     settings.progress = [&] { late = late || std::chrono::steady_clock::now() > latest; };
     History history(recorder_.seen().stations(), std::move(settings));
     if (history.replay(recording())) explain(history, StopToken(late), all);
+    rig_.system().stop_when(interruption());
   }
   rig_.system().restore(end);
   return all;
