@@ -79,7 +79,8 @@ class FieldScriptReader {
   void error(std::string_view what) { errors_.push_back(fmt::format("{}:{}: {}", name_, line_, what)); }
 
   void read_row(std::vector<std::string> field) {
-    while (field.back().empty()) field.pop_back();  // spreadsheets fill rows up
+    constexpr std::size_t kFewest = 3;
+    while (field.size() > kFewest && field.back().empty()) field.pop_back();  // spreadsheets fill rows up
     for (std::size_t i = 0; i < field.size(); ++i)
       if (i != kAddress) field[i] = with_decimal_point(std::move(field[i]), separator_);
     const bool pulses = field.size() == 5 && field[2] == "pulses";

@@ -783,7 +783,8 @@ TEST(Why, AnOutputOfACallThatWasNotExecutedNamesTheCallThatCould) {
   AtPrompt session(with_blocks(test::changed(std::string(kWithParameters), "LD SM0.0\n", "LD I0.6\n")));
   session("continue 50ms");
   const std::string text = session("why M0.0");
-  EXPECT_TRUE(has(text, "nothing has written it since power-up; CALL 0, I0.0, M0.0 in line 5 could, which had no ")) << text;
+  EXPECT_TRUE(has(text, "nothing has written it since power-up; CALL 0, I0.0, M0.0 in line 5 could, which had no "))
+      << text;
 }
 
 TEST(Why, WhatIsAskedAboutAnAddressMayHaveBeenSetFromOutside) {

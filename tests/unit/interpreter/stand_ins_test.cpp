@@ -62,13 +62,11 @@ TEST(StandIns, AreNoSymbolTableThatTheUserHasGiven) {
       check_with(exported(std::string(kSlave) + "NETWORK 3\nLD Pump_Start\n= Q0.0\n"), "Pump_On\tI0.0\nValve\tI0.1\n");
   ASSERT_EQ(errors(with_table).size(), 1U);
   EXPECT_EQ(with_table.diagnostics.front().hint,
-            "symbols.txt does not have it; the nearest are Pump_On; add it there, or write the address itself");
+            "symbols.txt does not have it; the nearest is Pump_On; add it there, or write the address itself");
 }
 
 TEST(StandIns, ThatNothingSwitchesOnAreNamed) {
-  const auto note = [](const std::string& calls) {
-    return to_text(stand_ins(listing("NETWORK 1\nLD SM0.0\n" + calls)).front());
-  };
+  const auto note = [](const std::string& calls) { return to_text(stand_ins(listing("NETWORK 1\nLD SM0.0\n" + calls)).front()); };
   EXPECT_TRUE(note("CALL MBUS_SLAVE, M0.2, MB2\n").ends_with("; nothing calls its MBUS_INIT, which switches it on"));
   EXPECT_TRUE(note("CALL MBUS_MSG, SM0.5, 1, 0, 40001, 2, &VB100, M0.0, MB2\n")
                   .ends_with("; nothing calls its MBUS_CTRL, which switches it on"));

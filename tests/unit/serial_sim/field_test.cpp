@@ -63,7 +63,7 @@ TEST(FieldScript, RowsMayNameSymbolsOfTheProgram) {
   const std::vector<FieldChange> expected{{10 * ms, image::kInputs, 0x08, 0x08}, {20 * ms, image::kInputs, 0x10, 0x10}};
   EXPECT_EQ(script.changes, expected);
   ASSERT_EQ(errors.size(), 1u);
-  EXPECT_EQ(errors[0].substr(0, 56), "in.csv:3: 'Stop' is not an address or a symbol of one; w");
+  EXPECT_TRUE(errors[0].starts_with("in.csv:3: 'Stop' is not an address or a symbol; ")) << errors[0];
 }
 
 TEST(FieldScript, TheCpus221And222HaveOnePotentiometer) {
@@ -210,8 +210,8 @@ TEST(OutputWavesTest, AWireForEachPointAndAVectorForEachAnalogWord) {
   std::ostringstream out;
   OutputWaves waves(out, cpu214());
   const std::size_t head = out.str().size();
-  for (const char* part : {"$comment s7200: outputs of CPU 214 $end\n", "$timescale 1 ns $end\n",
-                           "$var wire 1 q7.7 Q7.7 $end\n", "$var wire 16 a30 AQW30 $end\n", "#0\n$dumpvars\n0q0.0\n"})
+  for (const char* part : {"$comment s7200: outputs of CPU 214 $end\n", "$timescale 1 ns $end\n", "$var wire 1 q7.7 Q7.7 $end\n",
+                           "$var wire 16 a30 AQW30 $end\n", "#0\n$dumpvars\n0q0.0\n"})
     EXPECT_NE(out.str().find(part), std::string::npos) << part;
   EXPECT_EQ(out.str().find("Q8.0"), std::string::npos) << "the CPU has no QB8";
   waves.record({.at = 2 * ms, .kind = TraceKind::OutputChanged, .byte = 0x09, .op = 0});

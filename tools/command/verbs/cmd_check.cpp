@@ -54,11 +54,7 @@ int run_check(const CheckOptions& options) {
   const bool all_read = exit_code == kFine;
   for (auto& [path, text] : programs) {
     if (interrupted()) break;
-    if (!repair(text, options.cpu.repairs)) {
-      exit_code = kUnusable;
-      continue;
-    }
-    const CpuModel* model = options.cpu.model_for(text, path);
+    const CpuModel* model = repair(text, options.cpu.repairs) ? options.cpu.model_for(text, path) : nullptr;
     const TimeTable* times = model ? tables.of(*model) : nullptr;
     if (!times) {
       exit_code = kUnusable;

@@ -61,9 +61,8 @@ int run_file(const DecodeOptions& options) {
   const auto read = read_file(options.recording);
   if (!read) return kUnusable;
   DecodeResults results(head_of(options, read->recording.form, read->line), options.json, options.report);
-  const auto answered = results.marks_unanswered()
-                            ? answered_requests(read->recording, options.recording.spoken(), read->stamps)
-                            : std::vector<bool>{};
+  const auto answered =
+      results.marks_unanswered() ? answered_requests(read->recording, options.recording.spoken(), read->stamps) : std::vector<bool>{};
   std::size_t number = 0;
   tell_frames(*read, options.recording, [&](const ReadFrame& frame) {
     const bool is_open = frame.direction == Direction::Request && !frame.needs_no_answer;

@@ -96,9 +96,8 @@ int run_run(const CLI::App& verb, RunOptions& options) {
   if (!options.json) fmt::print("{}", why_text(why_none));
   print_notes(line_notes(*rig, [&](const serial::SharedLine* line) { return ending.collisions_on(line); }));
   if (ending.reason == "time") note_events_to_come(*rig);
-  if (!all_written) return kUnusable;
+  if (!all_written || ending.reason == "bridge") return kUnusable;
   if (const std::string error = error_at_end(ending.reason, *rig); !error.empty()) return print_error(error), kCheckFailed;
-  if (ending.reason == "bridge") return kUnusable;
   if (ending.reason == "interrupted" && options.has_end(!served.empty())) return kCheckFailed;
   return observers.show(options, exit_code_of(*rig));
 }

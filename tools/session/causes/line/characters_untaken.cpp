@@ -133,8 +133,7 @@ void find_characters_untaken(Inquiry& inquiry) {
   for (const auto& [first, characters, end] : inquiry.witness().line.untaken()) {
     if (first.at < inquiry.since()) continue;
     const Keeper kept = what_kept(inquiry, first);
-    inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = kept.text}),
-                kept);
+    inquiry.add(first.at, inquiry.left_text({.characters = characters, .since = first.since, .decided_by = kept.text}), kept);
   }
   if (!inquiry.has_unanswered() || !inquiry.answers.unanswered.empty()) return;
   if (!inquiry.history().go_to(inquiry.request()->end)) return void(inquiry.answers.interrupted = true);
