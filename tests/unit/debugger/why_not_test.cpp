@@ -156,6 +156,24 @@ TEST(WhyNot, ACounterSaysHowManyEdgesItsInputNeeds) {
   EXPECT_TRUE(has(session("input I0.7=1; scan 3; why not C5"), "its reset input must be off: I0.7=1\n"));
 }
 
+TEST(WhyNot, AComparisonWithATimerOrACounterSaysHowItGetsThere) {
+  AtPrompt session(
+      on_cpu224("LD I0.0\nTON T37, 100\nLD I0.1\nTOF T38, 50\nLD I0.2\nLD I0.3\nCTU C1, 10\nLD I0.4\nLD I0.5\nLD I0.6\n"
+                "CTUD C2, 10\nLDW> T37, 29\n= Q0.0\nLDW<= 20, T38\n= Q0.1\nLDW>= C1, 3\n= Q0.2\nLDW< C2, 0\n= Q0.3\n"
+                "LDW> T38, 50\n= Q0.4\nMEND\n"));
+  session("continue 20ms");
+  EXPECT_TRUE(has(session("why not Q0.0"), "TON T37, 100 in line 2 must have power for 3 s: I0.0=0"));
+  EXPECT_TRUE(has(session("input I0.0=1; continue 1s; why not Q0.0"), "in 2 s (1 s of 3 s have passed)"));
+  EXPECT_TRUE(
+      has(session("input I0.1=1; scan 3; why not Q0.1"), "TOF T38, 50 in line 4 must have no power for 2 s: I0.1=1"));
+  EXPECT_TRUE(has(session("input I0.1=0; scan 3; why not Q0.1"), "in 2 s (0 s of 2 s have passed)"));
+  EXPECT_TRUE(has(session("why not Q0.2"), "CTU C1, 10 in line 7 needs 3 more rising edges of its count input: I0.2=0"));
+  EXPECT_TRUE(has(session("input I0.2=1; scan 3; why not Q0.2"),
+                  "needs 2 more rising edges of its count input: I0.2=1, which is on already: it has to go off first"));
+  EXPECT_TRUE(has(session("why not Q0.3"), "CTUD C2, 10 in line 11 needs 1 more rising edge of its count input: I0.5=0"));
+  EXPECT_FALSE(has(session("why not Q0.4"), "in line 4 must")) << "a TOF stops at its preset";
+}
+
 TEST(WhyNot, AnEdgeOfWhatIsOnAlreadyHasToGoOffFirst) {
   AtPrompt session("LD I0.0\nEU\n= Q0.0\nMEND\n");
   session("continue 20ms");

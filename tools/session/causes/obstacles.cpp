@@ -34,8 +34,6 @@ bool is_bits_of_counter(const Bits& bit) { return bit.first / 8 - image::kCBits 
 
 Bits bit_at(const Operand& operand) { return {std::uint64_t{operand.at} * 8 + operand.bit, 1}; }
 
-std::string timed_text(std::int64_t ticks, Time base) { return ticks == 0 ? "0 s" : format_duration(ticks * base); }
-
 }  // namespace
 
 Obstacles::Obstacles(const Cpu& cpu, const Facts& facts, const LatelyExecuted& lately, Time fresh_since)
@@ -232,12 +230,16 @@ Obstacle Obstacles::of_contact(const Condition& condition) {
   return found;
 }
 
-void Obstacles::add_value_of(Obstacle& to, std::uint32_t number, std::size_t operand) {
-  const Operand& of = op(number)[operand];
+/// A timer or a counter says how it gets to where the comparison is as wanted, if it can by going on.
+void Obstacles::add_value_of(Obstacle& to, const Condition& condition, std::size_t operand) {
+  const Operand& of = op(condition.op)[operand];
   const auto place = cpu_.place_of(of);
   if (!place || *place >= image::kConstants) return;
-  const OperandRule& rule = op(number).instruction->operand[operand];
-  to.because.push_back(of_value(as_named({std::uint64_t{*place} * 8, std::uint64_t{bytes_of(rule.width)} * 8})));
+  const OperandRule& rule = op(condition.op).instruction->operand[operand];
+  const Bits bits = as_named({std::uint64_t{*place} * 8, std::uint64_t{bytes_of(rule.width)} * 8});
+  Obstacle value = of_value(bits);
+  if (const auto goal = goal_of(condition, operand); goal && value.same_as == 0) count_to(value, bits, *goal);
+  to.because.push_back(std::move(value));
 }
 
 Obstacle Obstacles::of_comparison(const Condition& condition) {
@@ -247,7 +249,7 @@ Obstacle Obstacles::of_comparison(const Condition& condition) {
                  .text = fmt::format("{} {} {} must {}hold ({})", operand_text(condition.op, 0), relation,
                                      operand_text(condition.op, 1), condition.on ? "" : "not ", place_text(condition.op)),
                  .op = condition.op};
-  for (std::size_t i = 0; i < 2; ++i) add_value_of(found, condition.op, i);
+  for (std::size_t i = 0; i < 2; ++i) add_value_of(found, condition, i);
   return found;
 }
 
@@ -258,13 +260,17 @@ Obstacle Obstacles::of_edge(std::uint32_t number) {
   found.text =
       fmt::format("{} needs a {} edge of ({})", place_text(number), rising ? "rising" : "falling", rung_text(number, 0));
   if (rung.inputs.empty()) return found;
-  const std::vector<Conditions> ways = ways_.input(number, 0, rising);
+  add_ways_of_edge(found, ways_.input(number, 0, rising), rising);
+  return found;
+}
+
+/// `ways` make what has the edge on, of a falling one off.
+void Obstacles::add_ways_of_edge(Obstacle& to, const std::vector<Conditions>& ways, bool rising) {
   const std::vector<Conditions> fewest = ways_.fewest_changes(ways);
   if (!fewest.empty() && fewest.front().empty())
-    found.text += fmt::format(", which is {} already: it has to go {} first", rising ? "on" : "off", rising ? "off" : "on");
+    to.text += fmt::format(", which is {} already: it has to go {} first", rising ? "on" : "off", rising ? "off" : "on");
   else
-    add_ways(found, ways);
-  return found;
+    add_ways(to, ways);
 }
 
 Obstacle Obstacles::of_interrupt(std::uint32_t head) {
@@ -286,84 +292,6 @@ Obstacle Obstacles::of_interrupt(std::uint32_t head) {
       found.because.push_back(std::move(by));
     }
   return found;
-}
-
-Obstacle Obstacles::of_timer(const Bits& bit, bool wanted) {
-  Obstacle found = about("timer", bit, wanted);
-  const auto number = static_cast<std::uint32_t>(bit.first - std::uint64_t{image::kTBits} * 8);
-  const Time base = timer_base(number).base;
-  const TimerState& state = cpu_.state().timer[number];
-  const auto& image = cpu_.state().image;
-  const auto now = static_cast<std::int16_t>(image[image::kT + 2 * number] << 8 | image[image::kT + 2 * number + 1]);
-  bool any = false;
-  for (std::uint32_t by = 0; by < program().ops.size(); ++by) {
-    const Instruction& instruction = *op(by).instruction;
-    if (instruction.hidden != Hidden::Number || instruction.operand[0].areas != set_of(Area::T) || op(by)[2].at != number)
-      continue;
-    any = true;
-    const bool off_delay = instruction.mnemonic == "TOF";
-    const auto preset = static_cast<std::int16_t>(contacts_.value(by, 1).value_or(0));
-    const std::vector<Conditions> fewest = ways_.fewest_changes(ways_.to(by, true));
-    const bool starts = !has_run_ && !off_delay && wanted && now < preset && !fewest.empty() && fewest.front().empty();
-    const bool counts =
-        starts || (off_delay ? state.enabled && !state.input && !wanted : state.enabled && wanted && now < preset);
-    const std::string times = fmt::format("{} of {} have passed", timed_text(now, base), timed_text(preset, base));
-    if (counts) {
-      found.text = fmt::format("in {} ({})", timed_text(preset - now, base), times);
-      return found;
-    }
-    const std::string after = wanted == off_delay ? "" : fmt::format(" for {}", timed_text(preset, base));
-    Obstacle rung{
-        .kind = "rung",
-        .text = fmt::format("{} must {} power{}: {}", place_text(by), wanted ? "have" : "have no", after, rung_text(by, 0)),
-        .op = by};
-    add_ways(rung, ways_.to(by, wanted));
-    found.text = wanted && !off_delay ? fmt::format("a timer, {}", times)
-                                      : fmt::format("a timer, {} of {}", instruction.mnemonic, format_duration(base));
-    found.because.push_back(std::move(rung));
-  }
-  if (!any) found.text = "no instruction times it";
-  if (!wanted) add_resets(found, bit);
-  return found;
-}
-
-Obstacle Obstacles::of_counter(const Bits& bit, bool wanted) {
-  Obstacle found = about("counter", bit, wanted);
-  const auto number = static_cast<std::uint32_t>(bit.first - std::uint64_t{image::kCBits} * 8);
-  const auto& image = cpu_.state().image;
-  const auto now = static_cast<std::int16_t>(image[image::kC + 2 * number] << 8 | image[image::kC + 2 * number + 1]);
-  found.text = "no instruction counts it";
-  for (std::uint32_t by = 0; by < program().ops.size(); ++by) {
-    const Instruction& instruction = *op(by).instruction;
-    if (instruction.hidden != Hidden::Number || instruction.operand[0].areas != set_of(Area::C) || op(by)[2].at != number)
-      continue;
-    const auto preset = static_cast<std::int16_t>(contacts_.value(by, 1).value_or(0));
-    const bool down = instruction.mnemonic == "CTD";
-    const std::size_t count_level = instruction.mnemonic == "CTUD" ? 2 : 1;
-    const int left = down ? now : preset - now;
-    found.text = fmt::format("a counter at {} of {}", now, preset);
-    if (wanted) {
-      found.because.push_back(
-          of_input(by, count_level, true,
-                   fmt::format("{} needs {} of its count input", place_text(by),
-                               counted(static_cast<std::uint64_t>(std::max(left, 0)), "more rising edge"))));
-      const std::vector<Conditions> quiet = ways_.fewest_changes(ways_.input(by, 0, false));
-      if (!quiet.empty() && !quiet.front().empty())
-        found.because.push_back(of_input(by, 0, false, fmt::format("its {} input must be off", down ? "load" : "reset")));
-    } else {
-      found.because.push_back(
-          of_input(by, 0, true, fmt::format("{} must have power at its {} input", place_text(by), down ? "load" : "reset")));
-    }
-  }
-  if (!wanted) add_resets(found, bit);
-  return found;
-}
-
-/// R is one more way to reset a timer or a counter.
-void Obstacles::add_resets(Obstacle& to, const Bits& bit) {
-  Writers resets = writers_of(bit, false, {});
-  resets.others.clear();
-  if (!resets.deciding.empty()) add_ways_of_bit(to, resets, bit, false);
 }
 
 std::optional<Obstacle> Obstacles::told_before(const Bits& bits, bool wanted) const {

@@ -64,12 +64,18 @@ class Obstacles {
   Writers writers_of(const Bits& bits, bool wanted, std::optional<std::uint32_t> routine) const;
   void note_writer(std::uint32_t op, const Bits& bits, bool wanted, Writers& writers) const;
   void add_ways(Obstacle& to, const std::vector<Conditions>& ways);
+  void add_ways_of_edge(Obstacle& to, const std::vector<Conditions>& ways, bool rising);
   void add_ways_of_bit(Obstacle& to, const Writers& writers, const Bits& bit, bool wanted);
   void add_rungs(Obstacle& to, const std::vector<std::uint32_t>& writers) const;
   void add_resets(Obstacle& to, const Bits& bit);
   void add_arguments(Obstacle& to, const Bits& local, bool wanted, std::uint32_t routine);
   void add_indirect(Obstacle& to, const Writers& writers, const Bits& bits) const;
-  void add_value_of(Obstacle& to, std::uint32_t op, std::size_t operand);
+  void add_value_of(Obstacle& to, const Condition& condition, std::size_t operand);
+  void add_edges(Obstacle& to, std::uint32_t counter, std::size_t level, std::int64_t edges);
+  void add_timing(Obstacle& to, std::uint32_t by, std::uint32_t number, std::int64_t goal);
+  void add_counting(Obstacle& to, std::uint32_t by, std::int64_t away);
+  std::optional<std::int64_t> goal_of(const Condition& condition, std::size_t operand) const;
+  void count_to(Obstacle& value, const Bits& bits, std::int64_t goal);
 
   std::string operand_text(std::uint32_t op, std::size_t operand) const;
   std::string rung_text(std::uint32_t op, std::size_t level) const;
