@@ -512,6 +512,12 @@ TEST(ScenarioReader, ALoopThatCannotBeCountedDoesNotMakeTheOthersDeeper) {
     EXPECT_EQ(diagnostic.message, "'0' is not a number from 1 to 4096");
 }
 
+TEST(ScenarioReader, SaysHowMemoryIsExpected) {
+  const auto file = read("steps:\n  - expect: {Q0.0: 1}\n");
+  ASSERT_EQ(file.diagnostics.size(), 1U);
+  EXPECT_EQ(file.diagnostics[0].hint, "of memory it is - memory: {Q0.0: 1}; of an answer it stands beside the request");
+}
+
 TEST(ScenarioReader, TellsAllMistakesAtOnceAndThoseOfLoopsOnce) {
   const ScenarioFile file =
       read("frob: 1\nsteps:\n  - wait: 5\n  - repeat: 50\n    steps:\n      - memory: {VB9999: 1}\n  - mode: x\n");

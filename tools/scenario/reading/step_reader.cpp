@@ -78,7 +78,9 @@ const YamlNode* StepReader::find_action(const YamlNode& node) {
       return row.key == key.text && (makes_a_step(row) || row.where == ScenarioKey::Where::Modifier);
     });
   });
-  const std::string hint = fmt::format("it has one of: {}", fmt::join(known, ", "));
+  const bool expects = !node.keys.empty() && node.keys[0].text == "expect";
+  const std::string hint = expects ? "of memory it is - memory: {Q0.0: 1}; of an answer it stands beside the request"
+                                   : fmt::format("it has one of: {}", fmt::join(known, ", "));
   if (unknown != node.keys.end())
     values_.wrong(*unknown, fmt::format("there is no step '{}'", stl::shortened(unknown->text)), hint);
   else
