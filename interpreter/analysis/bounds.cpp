@@ -163,18 +163,14 @@ class BoundsBuilder {
   }
 
   std::optional<Time> period(std::uint8_t number) const {
+    const auto found = std::ranges::find_if(kPorts, [&](const PortInfo& port) {
+      return number == port.received || number == port.sent || number == port.received_message;
+    });
+    if (found != kPorts.end()) return character_time(static_cast<std::size_t>(found - kPorts.begin()));
     switch (number) {
       case event::kTimed0:
       case event::kTimed1:
         return timed_period(number - event::kTimed0);
-      case event::kPort0Received:
-      case event::kPort0Sent:
-      case event::kPort0Message:
-        return character_time(0);
-      case event::kPort1Received:
-      case event::kPort1Sent:
-      case event::kPort1Message:
-        return character_time(1);
       case event::kT32Reached:
       case event::kT96Reached:
         return kMillisecond;

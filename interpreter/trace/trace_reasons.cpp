@@ -62,14 +62,14 @@ bool reads_character(const Program& program, std::uint32_t head) {
   return false;
 }
 
-constexpr std::uint8_t kPort0 = 1, kPort1 = 2, kBothPorts = 3;
+constexpr std::uint8_t kAllPorts = (1u << kPorts.size()) - 1;
 
 /// To which ports some of the instructions [first, end) send, a bit each.
 std::uint8_t transmits(const Program& program, std::uint32_t first, std::uint32_t end) {
   std::uint8_t ports = 0;
   for (std::uint32_t op = first; op < end; ++op)
     if (program.ops[op].instruction->effect == Effect::Transmits)
-      ports = static_cast<std::uint8_t>(ports | (program.ops[op][1].at == 1 ? kPort1 : kPort0));
+      ports = static_cast<std::uint8_t>(ports | 1u << program.ops[op][1].at);
   return ports;
 }
 
@@ -87,7 +87,7 @@ std::uint32_t end_of_routine(const Program& program, std::uint32_t op) {
 std::uint8_t transmits_when_called(const Program& program, std::uint32_t head) {
   const std::uint32_t end = end_of_routine(program, head);
   for (std::uint32_t op = head; op < end; ++op)
-    if (program.ops[op].instruction->structure == Structure::Call) return kBothPorts;
+    if (program.ops[op].instruction->structure == Structure::Call) return kAllPorts;
   return transmits(program, head, end);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "interpreter/base/split_mix.hpp"
 #include "interpreter/cpu/cpu.hpp"
@@ -58,8 +59,10 @@ std::optional<SeenTimes> seen_times(const Inspection& inspection) {
   SeenTimes seen{kRun, 0, {}};
   Watcher watcher(seen);
   EventQueue queue;
-  TimedPort port(queue, 0), port1(queue, 1);
-  Cpu cpu(inspection.program, queue, kCpuOwner, {&port, &port1});
+  std::deque<TimedPort> ports;
+  Ports of_cpu{};
+  for (std::uint8_t number = 0; number < kPorts.size(); ++number) of_cpu[number] = &ports.emplace_back(queue, number);
+  Cpu cpu(inspection.program, queue, kCpuOwner, of_cpu);
   cpu.set_sink(&watcher);
   cpu.power_up();
   std::uint64_t chance = 1;
@@ -77,8 +80,8 @@ std::optional<SeenTimes> seen_times(const Inspection& inspection) {
     cpu.set_input(1, static_cast<std::uint8_t>(drawn >> 8), cpu.time());
     const ReceivedCharacter character{
         .byte = static_cast<std::uint8_t>(drawn >> 16), .start = cpu.time(), .end = cpu.time()};
-    if (port.receives()) cpu.character_received(character, 0);
-    if (port1.receives()) cpu.character_received(character, 1);
+    for (std::uint8_t number = 0; number < kPorts.size(); ++number)
+      if (ports[number].receives()) cpu.character_received(character, number);
     next += kBetween;
   }
   seen.scan = cpu.state().longest_scan;

@@ -40,7 +40,7 @@ struct Interrupt {
 
 class Machine {
  public:
-  explicit Machine(std::shared_ptr<const Program> program) : cpu_(std::move(program), queue_, kOwner, {&port_, &port1_}) {
+  explicit Machine(std::shared_ptr<const Program> program) : cpu_(std::move(program), queue_, kOwner, all_the(port_)) {
     cpu_.use_steady_scans(SteadyScansUse::Off);
   }
 
@@ -102,8 +102,14 @@ class Machine {
     while (queue_.next() <= cpu_.time()) queue_.pop();
   }
 
+  static Ports all_the(QuietPort& port) {
+    Ports ports{};
+    ports.fill(&port);
+    return ports;
+  }
+
   EventQueue queue_;
-  QuietPort port_, port1_;
+  QuietPort port_;
   Cpu cpu_;
 };
 

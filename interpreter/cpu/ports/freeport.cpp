@@ -166,7 +166,7 @@ void follow_control(Core& core) {
 
 /// All transmitters are idle, and so is that of a port that the CPU does not have. The ports speak PPI.
 void power_up(Core& core, const RetentiveMemory*) {
-  core.put_mask(sm::kInterruptStatus, sm::kPort0Idle | sm::kPort1Idle, true);
+  for (const PortInfo& port : kPorts) core.put_mask(sm::kInterruptStatus, port.idle, true);
   for (std::uint8_t number = 0; number < core.port_count(); ++number) ppi::begin(core, number, core.s.time);
 }
 

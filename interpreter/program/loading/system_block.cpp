@@ -78,7 +78,8 @@ std::optional<RetentiveRange> parse_retentive_range(std::string_view text, const
 
 template <class Each>
 std::string ports_text(const std::array<Each, kPorts.size()>& ports) {
-  return ports[0] == ports[1] ? fmt::format("{}", ports[0]) : fmt::format("{},{}", ports[0], ports[1]);
+  const bool alike = std::ranges::all_of(ports, [&](const Each& port) { return port == ports[0]; });
+  return alike ? fmt::format("{}", ports[0]) : fmt::format("{}", fmt::join(ports, ","));
 }
 
 }  // namespace
