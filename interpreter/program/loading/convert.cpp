@@ -214,8 +214,14 @@ class Printable {
       : parsed_(parsed), notation_(notation), blocks_(notation == Notation::MicroWin) {}
 
   bool check() {
-    for (const stl::Line& line : parsed_.source.lines)
-      if (const auto* statement = std::get_if<stl::Statement>(&line)) check(*statement);
+    const stl::Statement* before = nullptr;
+    for (const stl::Line& line : parsed_.source.lines) {
+      const auto* statement = std::get_if<stl::Statement>(&line);
+      if (!statement) continue;
+      check(*statement);
+      if (blocks_ && before && is_among(before->mnemonic, {"SBR", "INT"})) check_first(*statement);
+      before = statement;
+    }
     return !has_errors(parsed_.diagnostics);
   }
 
@@ -236,6 +242,15 @@ class Printable {
           fmt::format("{} is a routine of a library: {} has no CALL with a name and parameters", stl::shortened(name.text),
                       name_of(notation_)),
           "use --to microwin: Micro/WIN has the library", "routines of libraries");
+  }
+
+  /// A routine begins with 1 on the logic stack, and a network of Micro/WIN with none.
+  void check_first(const stl::Statement& statement) {
+    const Instruction* const instruction = find_instruction(statement.mnemonic);
+    if (!instruction || instruction->rung.stack.needs == 0) return;
+    error(statement.position,
+          fmt::format("{} stands first in its routine: a network of Micro/WIN begins with a contact", statement.mnemonic),
+          "write LD SM0.0 in front of it");
   }
 
   /// Micro/WIN knows the routines of its libraries by their names.

@@ -165,6 +165,17 @@ TEST(Convert, ARoutineOfALibraryIsSaidToNeedANotationWithBlocks) {
   }
 }
 
+/// A routine begins with 1 on the logic stack, and a network of Micro/WIN with none.
+TEST(Convert, ARoutineThatBeginsWithoutAContactHasNoNetworkOfMicroWin) {
+  constexpr std::string_view kListing = "LD SM0.1\nCALL 1\nMEND\nSBR 1\nINCW VW2\nRET\n";
+  SourceText source = file(std::string(kListing));
+  EXPECT_FALSE(convert(source.parsed, Notation::MicroWin));
+  ASSERT_EQ(source.parsed.diagnostics.size(), 1U);
+  EXPECT_EQ(source.parsed.diagnostics[0].message,
+            "INCW stands first in its routine: a network of Micro/WIN begins with a contact");
+  EXPECT_NE(printed(std::string(kListing), Notation::Iec).find("INCW"), std::string::npos);
+}
+
 TEST(Convert, UndefinedNamesAreNotPrinted) {
   SourceText source = file("LD Pump\n= Q0.0\nMEND\n");
   EXPECT_FALSE(convert(source.parsed, Notation::MicroWin));

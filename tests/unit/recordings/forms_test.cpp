@@ -442,6 +442,11 @@ TEST(Forms, WhatStraceCutOffIsNamed) {
       std::vector<std::string>{"line 2: left out: strace printed the beginning of its bytes only; trace with -s 1000"});
 }
 
+TEST(Forms, WhatIsLeftOutOfATraceIsSafeToPrint) {
+  EXPECT_EQ(recording_of("write(3, \"\\1\\\xC5v\", 2) = 2\nread(3, \"\\1\\3\", 260) = 2\n").notes.at(0),
+            "line 1: left out: '3, \"\\1\\\uFFFDv\", 2) = 2' is not understood");
+}
+
 TEST(Forms, TimesOfStraceMayBeSinceTheLineBefore) {
   const LineRecording relative = recording_of(
       "     0.000000 write(3, \"\\1\\3\\0\\n\\0\\2\\344\\t\", 8) = 8\n     0.020000 ioctl(3, FIONREAD, [9]) = 0\n"

@@ -262,7 +262,7 @@ class StraceReader {
     if (finished && (!result || *result == 0)) return;  // an error, or the end of the file
     Moved moved{.descriptor = descriptor.number, .kind = kind, .number = number_};
     if (!literals.bytes)
-      moved.doubt = fmt::format("'{}' is not understood", stl::shortened(stl::trim(call.rest)));
+      moved.doubt = not_understood(stl::trim(call.rest));
     else if (literals.cut || (finished && literals.bytes->size() < *result))
       moved.doubt = "strace printed the beginning of its bytes only; trace with -s 1000";
     else
