@@ -201,6 +201,8 @@ TEST_F(SavedSession, ThatIsAsNoneIsWrittenIsRefusedThoughItsCheckSumIsRight) {
       {"a number that it cannot have", [](Json& json) { json["stops"][0]["number"] = 2147483647; }},
       {"more was done than it has", [](Json& json) { json["end"][1] = 5; }},
       {"more was done than it has", [](Json& json) { json["now"][1] = 5; }},
+      {"it stands after its own end", [](Json& json) { json["now"][4] = 156'444'294'967'296'000; }},
+      {"something was done after its end", [](Json& json) { json["actions"][0]["at"][4] = 156'440'004'294'967'296; }},
       {"an unknown action", [](Json& json) { json["actions"][0].erase("send"); }},
       {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][0] = 0; }},
       {"a format of characters that there is not", [](Json& json) { json["actions"][0]["format"][1] = 77; }},

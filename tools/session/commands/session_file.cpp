@@ -75,6 +75,9 @@ Recording recording_from(const Json& json, Models models) {
   recording.now = moment_from(json.at("now"));
   for (const Moment& moment : {recording.end, recording.now})
     if (moment.actions > recording.actions.size()) throw std::runtime_error("more was done than it has");
+  if (recording.now.time > recording.end.time) throw std::runtime_error("it stands after its own end");
+  const auto is_late = [&](const Moment& moment) { return moment.time > recording.end.time; };
+  if (std::ranges::any_of(recording.moments, is_late)) throw std::runtime_error("something was done after its end");
   return recording;
 }
 
