@@ -179,6 +179,20 @@ bool is_xml(std::string_view bytes) {
   return end > 1 && stl::is_letter(text[1]) && text.ends_with(fmt::format("</{}>", text.substr(1, end - 1)));
 }
 
+/// A binary file that is no capture, by its first bytes, and what to do.
+struct Binary {
+  std::string_view begin, why;
+};
+constexpr std::array kBinaries{
+    Binary{"\x1F\x8B", "it is compressed with gzip: gunzip it first"},
+    Binary{"BZh", "it is compressed with bzip2: bunzip2 it first"},
+    Binary{"\xFD"
+           "7zXZ",
+           "it is compressed with xz: unxz it first"},
+    Binary{"\x28\xB5\x2F\xFD", "it is compressed with zstd: unzstd it first"},
+    Binary{"RIFF", "it is sound, not levels; record the line with a logic analyser, or with a serial port"},
+};
+
 /// A text that is no recording of a line, and what to say of it.
 struct OtherText {
   bool (*is_it)(std::string_view bytes);
@@ -204,7 +218,10 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   if (plain) bytes = plain->text;
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
   if (form == kForms.end()) {
-    why = "it is binary, and not a capture that decode knows; for recorded bytes alone, decode what xxd prints of it";
+    const auto packed = std::ranges::find_if(kBinaries, [&](const Binary& each) { return bytes.starts_with(each.begin); });
+    why = packed != kBinaries.end()
+              ? std::string(packed->why)
+              : "it is binary, and not a capture that decode knows; for recorded bytes alone, decode what xxd prints of it";
     return {};
   }
   if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos) return why = "the file is empty", std::nullopt;

@@ -296,6 +296,100 @@ TEST(AsWritten, NamesOfDirectionsHaveBase64AndEscapes) {
             kConversation);
 }
 
+// --- bytes that other languages and tools write ---
+
+std::string log(const std::string& request, const std::string& answer) {
+  return "10:00:00.100 TX " + request + "\n10:00:00.140 RX " + answer + "\n";
+}
+
+/// The bytes of a frame in a notation: `before`, the digits as `form` has them, `between`.
+std::string written(const std::string& hex, fmt::format_string<int> form, const std::string& between) {
+  std::string text;
+  for (std::size_t i = 0; i < hex.size(); i += 3)
+    text += (i == 0 ? "" : between) + fmt::format(form, std::stoi(hex.substr(i, 2), nullptr, 16));
+  return text;
+}
+
+TEST(AsWritten, TheFirstByteOfAListInALanguageIsOne) {
+  const auto in_go = [](const std::string& hex) { return "[]byte{" + written(hex, "0x{:x}", ", ") + "}"; };
+  EXPECT_EQ(texts(log(in_go(kRequest), in_go(kAnswer))), kConversation);
+  const auto in_slice = [](const std::string& hex) { return "slice{" + written(hex, "0x{:02x}", ", ") + "}"; };
+  EXPECT_EQ(texts(log(in_slice(kRequest), in_slice(kAnswer))), kConversation);
+}
+
+TEST(AsWritten, NotationsOfLanguagesAreRead) {
+  for (const auto& between : {":", "_", ".", "/", "|"})
+    EXPECT_EQ(texts(log(written(kRequest, "{:02X}", between), written(kAnswer, "{:02X}", between))), kConversation)
+        << between;
+  EXPECT_EQ(texts(log(written(kRequest, "x{:02X}", " "), written(kAnswer, "x{:02X}", " "))), kConversation);
+  EXPECT_EQ(texts(log(written(kRequest, "%{:02X}", ""), written(kAnswer, "%{:02X}", ""))), kConversation);
+  EXPECT_EQ(texts(log(written(kRequest, "\\u{:04X}", ""), written(kAnswer, "\\u{:04X}", ""))), kConversation);
+  EXPECT_EQ(texts(log('"' + written(kRequest, "\\{:03o}", "") + '"', '"' + written(kAnswer, "\\{:03o}", "") + '"')),
+            kConversation);
+  EXPECT_EQ(texts(log("{length = 8, bytes = 0x0103000a0002e409}", "{length = 9, bytes = 0x010304123456788107}")),
+            kConversation);
+}
+
+TEST(AsWritten, CharactersOfJsonAreBytesUpToFF) {
+  EXPECT_EQ(texts(R"({"t":1.1,"dir":"tx","data":"\u0001\u0003\u0000\n\u0000\u0002\u00e4\t"})"
+                  "\n"
+                  R"({"t":1.14,"dir":"rx","data":"\u0001\u0003\u0004\u00124Vx\u0081\u0007"})"
+                  "\n"),
+            kConversation);
+  EXPECT_NE(refusal_of(R"({"t":1.1,"dir":"tx","data":"\u0001\u0003\ufffd\u0007"})"
+                       "\n"),
+            "");
+}
+
+TEST(AsWritten, PartsOfAFrameInFieldsOrColumnsOfTheirOwnAreOneFrame) {
+  EXPECT_EQ(
+      texts(
+          "10:00:00.100 TX addr=01 fc=03 data=000A0002 crc=E409\n10:00:00.140 RX addr=01 fc=03 data=0412345678 crc=8107\n"),
+      kConversation);
+  EXPECT_EQ(texts("Time,Dir,Addr,Func,Data,CRC\n10:00:00.100,TX,01,03,00 0A 00 02,E4 09\n10:00:00.140,RX,01,03,04 12 34 56 "
+                  "78,81 07\n"),
+            kConversation);
+  EXPECT_EQ(texts(log("01 03 00 0A 00 02 CRC: E4 09", "01 03 04 12 34 56 78 CRC: 81 07")), kConversation);
+  EXPECT_EQ(texts(log(kRequest + " CRC: E4 09", kAnswer + " CRC: 81 07")), kConversation) << "once more";
+}
+
+TEST(AsWritten, ARowOfATableMayHaveTheRequestAndItsAnswer) {
+  EXPECT_EQ(texts("Time,Request,Response\n10:00:00.100," + kRequest + "," + kAnswer + "\n"), kConversation);
+}
+
+TEST(AsWritten, ARowWithTwoFramesIsNotOneOfThem) {
+  for (const ReadFrame& frame : read(kRequest + "  ->  " + kAnswer + "\n10:00:00 TX " + kRequest + "\n"))
+    EXPECT_NE(frame.text, "an answer without its request");
+  EXPECT_NE(refusal_of(kRequest + "  ->  " + kAnswer + "\n").find("'->'"), std::string::npos);
+}
+
+TEST(AsWritten, NumbersAndNamesBesideFramesAreNoBytes) {
+  EXPECT_EQ(texts(log(kRequest, kAnswer) + "uuid 123e4567-e89b-12d3-a456-426614174000\nValue 0: 4660\n"), kConversation);
+  const auto recording = recording_of(log(kRequest, kAnswer) + "10:00:00.200 state AB CD\n");
+  ASSERT_EQ(recording.frames.size(), 3U);
+  EXPECT_TRUE(recording.frames[2].doubt);
+  EXPECT_EQ(texts(log("8B " + kRequest, "9B " + kAnswer)), kConversation);
+  EXPECT_EQ(texts("#1 TX " + kRequest + "\n#2 RX " + kAnswer + "\n# a comment\n"), kConversation);
+}
+
+TEST(AsWritten, WhatASpreadsheetHasKeptAsTextIsReadAndWhatItHasRoundedIsNot) {
+  EXPECT_EQ(texts("Time;Dir;Data\n10:00:00.100;TX;'0103000A0002E409\n10:00:00.140;RX;=\"010304123456788107\"\n"),
+            kConversation);
+  EXPECT_NE(refusal_of("Time;Dir;Data\n10:00:00.100;TX;1,03E+11\n").find("as text"), std::string::npos);
+}
+
+TEST(AsWritten, DumpsOfEspIdfAndArraysOfWiresharkHaveTheirFrames) {
+  EXPECT_EQ(texts("I (1100) MB_TX: 0x3ffb1234   01 03 00 0a 00 02 e4 09                           |........|\n"
+                  "I (1140) MB_RX: 0x3ffb1234   01 03 04 12 34 56 78 81 07                        |....4Vx..|\n"),
+            kConversation);
+  EXPECT_EQ(
+      texts("/* Packet 1 */\nstatic const unsigned char peer0_0[] = { /* Packet 1 */\n0x00, 0x01, 0x00, 0x00, 0x00, 0x06, "
+            "0x01, 0x03, \n0x00, 0x0a, 0x00, 0x02 };\nchar peer1_0[] = { /* Packet 2 */\n0x00, 0x01, 0x00, 0x00, 0x00, "
+            "0x07, 0x01, 0x03, \n0x04, 0x12, 0x34, 0x56, 0x78 };\n"),
+      kConversation);
+  EXPECT_EQ(refusal_of("\x1F\x8B\x08" + std::string(3, '\0')), "it is compressed with gzip: gunzip it first");
+}
+
 // --- what frames are called ---
 
 TEST(AsWritten, ACutAnswerIsNoRequestAndARepeatedRequestNoAnswer) {

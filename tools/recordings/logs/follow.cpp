@@ -19,7 +19,7 @@
 namespace s7200::tools {
 namespace {
 
-constexpr std::string_view kArray = "char peer", kBinary = "data: !!binary";
+constexpr std::string_view kArray = "char peer", kComment = "/*", kBinary = "data: !!binary";
 
 Direction direction_of_peer(bool second) { return second ? Direction::Answer : Direction::Request; }
 
@@ -82,8 +82,8 @@ void read_arrays(std::string_view text, StopToken stop, LineRecording& recording
   std::size_t number = 0;
   for (std::string_view line : Lines(text, stop)) {
     ++number;
-    if (line.starts_with(kArray)) {
-      recording.frames.push_back(frame_of_peer(line.substr(kArray.size()).starts_with('1'), number));
+    if (const std::size_t array = line.find(kArray); array != std::string_view::npos) {
+      recording.frames.push_back(frame_of_peer(line.substr(array + kArray.size()).starts_with('1'), number));
       line.remove_prefix(std::min(line.find('{'), line.size()));
     }
     if (recording.frames.empty()) continue;
@@ -139,7 +139,12 @@ bool read_packets(std::string_view text, StopToken stop, LineRecording& recordin
   return end_packet();
 }
 
-bool has_followed_arrays(std::string_view text) { return text.starts_with(kArray); }
+/// Whether the first line that is no comment begins an array: `static const unsigned char peer0_0[] = {`
+bool has_followed_arrays(std::string_view text) {
+  for (const std::string_view line : Lines(beginning_of(text)))
+    if (!stl::trim(line).empty() && !line.starts_with(kComment)) return line.find(kArray) != std::string_view::npos;
+  return false;
+}
 
 bool has_followed_packets(std::string_view text) {
   return text.find("peers:") != std::string_view::npos && text.find("packets:") != std::string_view::npos &&

@@ -56,12 +56,15 @@ bool has_named_character(std::string_view text) {
   return false;
 }
 
-/// Whether a text has an escape: `\r`, `\n`, `\x02`.
+bool is_octal_digit(char c) { return c >= '0' && c <= '7'; }
+
+/// Whether a text has an escape: `\r`, `\n`, `\x02`, `\u0002`, `\002`.
 bool has_escape(std::string_view text) {
   for (std::size_t at = text.find('\\'); at != std::string_view::npos; at = text.find('\\', at + 1)) {
     const std::string_view after = text.substr(at + 1, 3);
     if (after.starts_with('r') || after.starts_with('n')) return true;
     if (after.size() == 3 && after[0] == 'x' && is_hex_digit(after[1]) && is_hex_digit(after[2])) return true;
+    if (after == "u00" || (after.size() == 3 && after[0] <= '3' && std::ranges::all_of(after, is_octal_digit))) return true;
   }
   return false;
 }

@@ -29,6 +29,7 @@ struct Columns {
   std::optional<std::size_t> time{}, direction{}, data{};
   std::optional<std::size_t> sent{}, received{};  ///< instead of direction and data
   std::size_t byte_columns = 0;  ///< from `data` on, each with a byte of the frame; 0: the bytes stand in one
+  bool parts = false;            ///< each of them has a part of the frame: station, function, data, CRC
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
   bool base64 = false;         ///< the name of the data says so
@@ -100,12 +101,33 @@ void find_columns_of_bytes(const std::vector<std::string>& names, Columns& colum
   }
 }
 
+/// Finds columns with the parts of a frame, side by side: `Addr,Func,Data,CRC`
+void find_columns_of_parts(const std::vector<std::string>& names, Columns& columns) {
+  static constexpr std::array<std::string_view, 7> kStations{"ADDR", "ADDRESS", "STATION", "SLAVE", "UNIT", "ID", "DEVICE"};
+  static constexpr std::array<std::string_view, 5> kFunctions{"FUNC", "FUNCTION", "FC", "FUNCTION CODE", "CODE"};
+  static constexpr std::array<std::string_view, 5> kSums{"CRC", "CRC16", "CHECKSUM", "CHK", "LRC"};
+  const auto is_any = [&](std::size_t i, const auto& words) {
+    return std::ranges::find(words, stl::upper_case(stl::trim(names[i]))) != words.end();
+  };
+  for (std::size_t i = 0; i + 3 < names.size(); ++i) {
+    if (!is_any(i, kStations) || !is_any(i + 1, kFunctions)) continue;
+    std::size_t sum = i + 2;
+    while (sum < names.size() && !is_any(sum, kSums)) ++sum;
+    if (sum == names.size()) continue;
+    columns.data = i;
+    columns.byte_columns = sum + 1 - i;
+    columns.parts = true;
+    return;
+  }
+}
+
 Columns columns_of(std::string_view line) {
   Columns columns{.separator = separator_of(line)};
   if (columns.separator == 0) return columns;
   const auto names = fields_of(line, columns.separator);
   if (std::ranges::any_of(names, [](const std::string& name) { return leading_time(name).has_value(); })) return columns;
   find_columns_of_bytes(names, columns);
+  if (columns.byte_columns == 0) find_columns_of_parts(names, columns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (columns.byte_columns > 0 && i >= *columns.data && i < *columns.data + columns.byte_columns) continue;
     if (contains(names[i], {"ERROR"})) {
@@ -227,10 +249,17 @@ bool has_bytes_below(TableRows rows, const Columns& columns) {
   return *columns.data < fields.size() && bytes_of_text(fields[*columns.data]);
 }
 
+/// Bytes without the mark that keeps them a text in a spreadsheet: `'0103000A`, `="0103000A"`
+std::string_view without_mark_of_text(std::string_view cell) {
+  constexpr std::size_t kFewest = 8;  // digits
+  if (cell.size() <= kFewest || !is_any_of(cell.front(), "'=") || !bytes_of_text(cell.substr(1))) return cell;
+  return cell.substr(1);
+}
+
 /// The content of a cell without blanks around it. A blank or a line end alone is a recorded character, unless the row has a
 /// column for each direction: then the cell is empty.
 std::string_view content_of(std::string_view field, const Columns& columns) {
-  return field.size() == 1 && !columns.sent ? field : stl::trim(field);
+  return field.size() == 1 && !columns.sent ? field : without_mark_of_text(stl::trim(field));
 }
 
 /// The cell with the bytes. Those of a column each are joined, in `joined`, up to the first that is empty.
@@ -240,6 +269,7 @@ std::string_view cell_of(const std::vector<std::string>& fields, std::size_t col
   joined.clear();
   for (std::size_t i = column; i < std::min(fields.size(), column + columns.byte_columns); ++i) {
     const std::string_view cell = stl::trim(fields[i]);
+    if (cell.empty() && columns.parts) continue;  // a function without data
     if (cell.empty()) break;
     joined.append(joined.empty() ? "" : " ").append(cell);
   }
@@ -315,10 +345,6 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
     const std::string_view cell = content_of(data_column ? cell_of(fields, *data_column, columns, joined) : "", columns);
     const WrittenCharacter written = without_error(cell);
     auto data = notation->read(written.cell);
-    if (columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
-      why = fmt::format("line {}: bytes in both directions; write them in two lines", row->number);
-      return {};
-    }
     if (time && !time->of_day && !columns.unknown_unit.empty()) {
       why = fmt::format("line 1: '{}' names no unit; write [s], [ms], [us] or [ns]", stl::shortened(columns.unknown_unit));
       return {};
@@ -328,8 +354,12 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
       left_out.without_bytes(row->number);
       continue;
     }
-    if (no_time || !data) {
-      why = fmt::format("line {}: '{}' is not {}", row->number, stl::shortened(no_time ? field(columns.time) : cell),
+    const std::string_view other_cell =  // of a row with a request and its answer
+        columns.sent && !is_received ? content_of(stl::trim(field(columns.received)), columns) : std::string_view();
+    auto answer = other_cell.empty() ? std::nullopt : notation->read(other_cell);
+    if (no_time || !data || (!other_cell.empty() && !answer)) {
+      const std::string_view wrong = no_time ? field(columns.time) : data ? other_cell : cell;
+      why = fmt::format("line {}: '{}' is not {}", row->number, stl::shortened(wrong),
                         no_time ? "a time" : fmt::format("bytes in {}", notation->name));
       return {};
     }
@@ -350,6 +380,9 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
       joiner.add(frame, recording.frames);
     else
       recording.frames.push_back(std::move(frame));
+    if (answer)  // the row has one time, that of the request
+      recording.frames.push_back(
+          {.direction = Direction::Answer, .bytes = std::move(*answer), .place = fmt::format("line {}", row->number)});
   }
   count_from_first(recording);
   left_out.tell(recording);

@@ -318,14 +318,38 @@ bool has_date(std::string_view word) {
   return false;
 }
 
+/// Whether a word is the identifier of something: `123e4567-e89b-12d3-a456-426614174000`
+bool is_uuid(std::string_view word) {
+  constexpr std::string_view kForm = "xxxxxxxx-xxxx-xxxx-xxxx-xxxxxxxxxxxx";
+  const std::size_t begin = word.find_first_not_of("{(\"");
+  if (begin == std::string_view::npos) return false;
+  const auto fits = [](char c, char form) { return form == '-' ? c == form : is_hex_digit(c); };
+  return std::ranges::equal(word.substr(begin, kForm.size()), kForm, fits);
+}
+
+/// Appends pairs of digits with one sign between them: `01:03:00:0A:00`, `01_03_00_0A_00`. Fewer may be a time, a date or
+/// the address of a host, and six with colons that of a network card.
+bool append_pairs_with_sign(Bytes& bytes, std::string_view word) {
+  constexpr std::size_t kPlace = 3, kFewest = 5, kOfNetworkCard = 6;  // two digits and a sign
+  const std::size_t pairs = (word.size() + 1) / kPlace;
+  if (pairs < kFewest || word.size() % kPlace != kPlace - 1 || !is_any_of(word[2], ":._|/")) return false;
+  if (word[2] == ':' && pairs == kOfNetworkCard) return false;
+  for (std::size_t i = 0; i < word.size(); ++i)
+    if (i % kPlace == kPlace - 1 ? word[i] != word[2] : !is_hex_digit(word[i])) return false;
+  for (std::size_t i = 0; i < word.size(); i += kPlace)
+    bytes.push_back(static_cast<std::uint8_t>(hex_number(word.substr(i, 2))));
+  return true;
+}
+
 /// Appends the bytes of `01`, `0103`, `0x1`, `01-03`, `[01][03]`, `0x01,`. Returns false and appends nothing for anything
-/// else; a date is not a byte.
+/// else; a date is not a byte, nor is an identifier.
 bool append_bytes(Bytes& bytes, std::string_view word) {
   constexpr std::string_view kOpening = "[<({\"", kBetween = ",;-[]<>(){}\"";
   if (word.size() == 2 && is_hex_digit(word[0]) && is_hex_digit(word[1])) {
     bytes.push_back(static_cast<std::uint8_t>(value_of_digit(word[0]) << 4 | value_of_digit(word[1])));
     return true;
   }
+  if (append_pairs_with_sign(bytes, word)) return true;
   const std::size_t before = bytes.size();
   std::size_t at = std::min(word.find_first_not_of(kOpening), word.size());
   while (at < word.size()) {
@@ -343,7 +367,7 @@ bool append_bytes(Bytes& bytes, std::string_view word) {
       bytes.push_back(static_cast<std::uint8_t>(value_of_digit(word[i]) << 4 | value_of_digit(word[i + 1])));
     at = next;
   }
-  if (has_date(word)) bytes.resize(before);
+  if (has_date(word) || is_uuid(word)) bytes.resize(before);
   return bytes.size() > before;
 }
 
@@ -393,7 +417,7 @@ bool is_letter_of_any_language(char c) { return is_letter(c) || (c & 0x80) != 0;
 bool ends_name(std::string_view word, std::size_t end) {
   constexpr unsigned char kThreeBytes = 0xE0, kFourBytes = 0xF0;
   const auto lead = static_cast<unsigned char>(end >= 3 ? word[end - 3] : 0);
-  return is_any_of(word[end - 1], ":;>,])-|") || (lead >= kThreeBytes && lead < kFourBytes);
+  return is_any_of(word[end - 1], ":;>,])-|{") || (lead >= kThreeBytes && lead < kFourBytes);
 }
 
 /// Whether a name and numbers are a sentence with commas, not bytes after a name: `$GPGGA,12,34`, `T;21;35`.
@@ -493,6 +517,14 @@ bool counts_bytes_before(Words words, std::string_view inner) {
   return bytes > 1 && parse_decimal<std::size_t>(inner) == bytes;
 }
 
+/// Whether the first word is where a dump of memory begins: `0x3ffb1234   01 03 …`, as ESP-IDF logs it
+bool is_address_before_bytes(Words words) {
+  constexpr std::size_t kAddress = 10;
+  if (words.size() < 3 || words[0].text.size() != kAddress || !is_marked(words[0].text)) return false;
+  const std::size_t gap = words[1].begin - (words[0].begin + kAddress);
+  return words[0].bytes > 0 && gap > 1 && words[1].bytes == 1 && !is_marked(words[1].text);
+}
+
 /// Marks numbers that are not bytes, by the words beside them: `length 12`, `12 bytes`, `18 (0X12)`. A number with bytes
 /// after it may be the first of them.
 void take_numbers_out(std::vector<Word>& words) {
@@ -508,6 +540,10 @@ void take_numbers_out(std::vector<Word>& words) {
       continue;
     }
     if (text.size() == 2 && i > 0 && words[i - 1].bytes > 0) continue;  // a pair of digits after bytes is one
+    if (is_address_before_bytes(Words(words).subspan(i))) {
+      is_number(words[i]);
+      continue;
+    }
     if (i > 0 && is_decimal(inner) && say_the_same(inner, words[i - 1].text)) is_number(words[i]);
     if (i > 0 && is_marked(inner) && say_the_same(words[i - 1].text, inner)) is_number(words[i - 1]);
     const std::size_t begin = std::min(text.find_first_not_of(kAround), text.size());
@@ -552,8 +588,9 @@ bool ends_with_fraction(std::string_view text) {
 /// Whether a word ends with digits that may be bytes: `:010300C80002`, of Modbus ASCII. A clock, a decimal and `len=09` do
 /// not.
 bool ends_with_digits(const Word& word) {
-  const std::size_t end = word.text.find_last_not_of("0123456789ABCDEFabcdef");
-  if (end == std::string_view::npos || end + 1 == word.text.size()) return false;
+  const std::string_view text = word.text.substr(0, word.text.find_last_not_of(',') + 1);  // `slice{0x1,`
+  const std::size_t end = text.find_last_not_of("0123456789ABCDEFabcdef");
+  if (end == std::string_view::npos || end + 1 == text.size()) return false;
   if ((word.text[end] & 0x80) != 0 && !stl::is_valid_utf8(word.text)) return true;  // of another encoding
   return std::ispunct(static_cast<unsigned char>(word.text[end])) != 0 && !has_clock(word.text) &&
          !ends_with_fraction(word.text) && word.text.find('=') == std::string_view::npos &&
@@ -630,6 +667,24 @@ bool ends_with_name_after_arrow(Words words) {
          std::ranges::any_of(words.back().text, is_letter);
 }
 
+/// Whether two or three pairs of digits, fewer than most frames have, stand after words that do not say what they are:
+/// `state AB CD`
+bool is_short_after_words(Words before, Words run) {
+  constexpr std::size_t kMost = 3;
+  const auto is_pair = [](const Word& word) { return word.bytes == 1 && word.text.size() == 2; };
+  return run.size() > 1 && run.size() <= kMost && std::ranges::all_of(run, is_pair) && !before.empty() &&
+         before.back().bytes == 0 && before.back().text.size() > 2 && std::ranges::all_of(before.back().text, is_letter) &&
+         std::ranges::none_of(before, names_bytes) && !is_in_or_out(before.back().text);
+}
+
+/// Whether as many pairs of digits as a frame has stand before other bytes: `01 03 … -> 01 03 …`
+bool may_be_a_frame(Words words, std::size_t from) {
+  constexpr std::size_t kFewest = 4;
+  std::size_t pairs = 0;
+  for (std::size_t i = from; i < words.size() && words[i].bytes == 1; ++i) ++pairs;
+  return pairs >= kFewest;
+}
+
 /// A word before or after the bytes that makes them doubtful; null if there is none. Bytes before them may be a number or a
 /// date in front of the direction.
 const Word* what_is_doubtful(Words before, Words run, Words after) {
@@ -639,12 +694,13 @@ const Word* what_is_doubtful(Words before, Words run, Words after) {
   const auto other = std::ranges::find_if(before, [](const Word& word) { return word.bytes > 0; });
   if (other != before.end()) {
     const bool after_direction = std::any_of(before.begin(), other, names_a_direction);
-    const bool named = names_a_direction(before.back()) ||
-                       std::string_view(":>-)]|").find(before.back().text.back()) != std::string_view::npos;
-    if (after_direction || !named)
+    const auto is_number = [](const Word& word) { return word.number == Word::Number::Yes; };
+    const auto name = std::find_if_not(before.rbegin(), before.rend(), is_number);
+    const bool named = name != before.rend() && (names_a_direction(*name) || is_any_of(name->text.back(), ":>-)]|"));
+    if (after_direction || !named || may_be_a_frame(before, static_cast<std::size_t>(other - before.begin())))
       return &*std::find_if(other, before.end(), [](const Word& word) { return word.bytes == 0; });
   }
-  if (is_assigned(before, run)) return &before.back();
+  if (is_assigned(before, run) || is_short_after_words(before, run)) return &before.back();
   if (const Word* const no_byte = what_is_no_byte(run)) return no_byte;
   if (after.empty() || after.front().number == Word::Number::Yes) return nullptr;
   if (has_both_cases(run)) return &run.back();
@@ -668,12 +724,13 @@ bool is_a_number(const Word& word, Words run) {
   return word.bytes == 0 || is_decimal(digits) || (is_marked(digits) && !has_mark(run.front()));
 }
 
-/// Whether a word is the number of bytes after it: `8 01 03`
+/// Whether a word is the number of bytes after it: `8 01 03`, `8B 01 03`
 bool counts_bytes(const Word& word, Words after) {
   constexpr std::size_t kMostDigits = 3;
-  if (after.empty() || word.text.size() > kMostDigits || !is_decimal(word.text)) return false;
+  const std::string_view number = word.text.substr(0, word.text.size() - (word.text.ends_with('B') ? 1 : 0));
+  if (after.empty() || number.size() > kMostDigits || !is_decimal(number)) return false;
   const std::size_t bytes = after.back().first_byte + after.back().bytes - after.front().first_byte;
-  return static_cast<std::size_t>(decimal_number(word.text)) == bytes;
+  return static_cast<std::size_t>(decimal_number(number)) == bytes;
 }
 
 /// The words of a run that are bytes for sure if any of them are: without those of another form at its end.
@@ -692,6 +749,8 @@ std::vector<Words> possible_runs(Words words) {
   const auto first = std::ranges::find_if(words, has_bytes);
   const auto last = std::find_if_not(first, words.end(), has_bytes);
   const Words before{words.begin(), first}, run{first, last}, after{last, words.end()};
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (may_be_a_frame(after, i)) return {};
   if (run.empty() || !std::ranges::all_of(after, [&](const Word& word) { return is_a_number(word, run); })) return {};
   const bool is_counted = !before.empty() && counts_bytes(before.back(), run);
   if (!is_counted && !before.empty() && (may_be_a_damaged_byte(before.back()) || ends_with_digits(before.back()))) return {};
@@ -777,7 +836,10 @@ bool is_value(Words before, Words run) {
   if (is_assigned(before, run)) return true;
   const std::string_view text = run.front().text, name = before.back().text;
   const bool is_number = is_decimal(text) || is_marked(text);
-  return is_number && (is_plain_word(before.back()) || is_name_with_colon(name) || (before.size() > 1 && has_clock(name)));
+  const bool numbered = before.size() > 1 && name.ends_with(':') && is_decimal(name.substr(0, name.size() - 1)) &&
+                        is_plain_word(before[before.size() - 2]);  // `value 0: 4660`
+  return is_number &&
+         (numbered || is_plain_word(before.back()) || is_name_with_colon(name) || (before.size() > 1 && has_clock(name)));
 }
 
 /// Whether the bytes are a number at the end of words, or one of the words: `slave 10`, `waiting for 50`, `warte ab`, `de
@@ -1137,6 +1199,7 @@ std::optional<BytesInLine> BytesOfLines::in(std::string_view line) {
 
 std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
   take_apart(without_comment(line));
+  if (auto labelled = bytes_with_name_of_crc()) return labelled;
   const std::size_t end_of_row = end_of_hex(line);
   if (end_of_row < line.size()) take_apart(without_comment(line.substr(0, end_of_row)));
   const auto run = last_run(words_);
@@ -1156,6 +1219,29 @@ std::optional<BytesInLine> BytesOfLines::among_words(std::string_view line) {
     found.not_understood = other->without;
     found.readings = {{found.bytes, false}, {bytes_of(other->words), true}};
   }
+  return found;
+}
+
+/// Bytes of which the last two have a name: `01 03 … CRC: E4 09`. They may be those of the frame once more.
+std::optional<BytesInLine> BytesOfLines::bytes_with_name_of_crc() const {
+  constexpr std::array<std::string_view, 5> kNames{"CRC", "CRC16", "LRC", "CHECKSUM", "CHK"};
+  const auto is_name = [&](const Word& word) {
+    const std::string_view name = word.text.substr(0, word.text.find_last_not_of(":=([") + 1);
+    return word.bytes == 0 && is_any_of(word.text.front(), "CcLl") &&
+           std::ranges::find(kNames, stl::upper_case(name)) != kNames.end();
+  };
+  const auto name = std::ranges::find_if(words_, is_name);
+  if (name == words_.end() || name == words_.begin()) return {};
+  const Words all(words_), before = all.first(static_cast<std::size_t>(name - words_.begin()));
+  const Words sum = all.subspan(before.size() + 1);
+  const auto run = last_run(before);
+  const std::size_t bytes = sum.empty() ? 0 : sum.back().first_byte + sum.back().bytes - sum.front().first_byte;
+  if (!run || run->before.size() + run->words.size() != before.size() || (bytes != 1 && bytes != 2)) return {};
+  if (std::ranges::any_of(sum, [](const Word& word) { return word.bytes == 0; })) return {};
+  Bytes whole = bytes_of(run->words), last = bytes_of(sum);
+  BytesInLine found{.begin = run->words.front().begin, .not_understood = name->text};
+  found.readings = {{whole, true}, {whole, true}};
+  found.readings[0].bytes.insert(found.readings[0].bytes.end(), last.begin(), last.end());
   return found;
 }
 
@@ -1201,7 +1287,7 @@ void BytesOfLines::take_apart(std::string_view line) {
       }
     word.bytes = any ? bytes_.size() - word.first_byte : 0;
     in_pairs = word.bytes == 1;
-    has_others = has_others || !any || word.text.front() == '(' || word.text.front() == '[';
+    has_others = has_others || !any || is_any_of(word.text.front(), "([") || is_marked(word.text);
     words_.push_back(word);
   }
   if (has_others) take_numbers_out(words_);

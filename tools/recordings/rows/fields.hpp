@@ -97,6 +97,7 @@ class BytesOfLines {
   void take_apart(std::string_view line);
   std::size_t end_of_hex(std::string_view line) const;
   std::optional<BytesInLine> bytes_in_comment(std::string_view line);
+  std::optional<BytesInLine> bytes_with_name_of_crc() const;
   Bytes bytes_of(std::span<const Word> run) const;
   void take_readings(BytesInLine& found) const;
 

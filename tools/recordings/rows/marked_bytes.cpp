@@ -24,10 +24,11 @@ struct ByteMark {
   std::size_t digits;
 };
 constexpr std::array kByteMarks{
-    ByteMark{"", "h", 16, 2},    ByteMark{"", "H", 16, 2},  ByteMark{"$", "", 16, 2},      ByteMark{"&H", "", 16, 2},
-    ByteMark{"16#", "", 16, 2},  ByteMark{"#", "", 16, 2},  ByteMark{"B#16#", "", 16, 2},  ByteMark{"b#16#", "", 16, 2},
-    ByteMark{"\\x", "", 16, 2},  ByteMark{"0b", "", 2, 8},  ByteMark{"2#", "", 2, 8},      ByteMark{"", "", 2, 8},
-    ByteMark{"'0x", "'", 16, 2}, ByteMark{"'", "'", 16, 2}, ByteMark{"\"0x", "\"", 16, 2}, ByteMark{"\"", "\"", 16, 2},
+    ByteMark{"", "h", 16, 2},      ByteMark{"", "H", 16, 2},    ByteMark{"$", "", 16, 2},     ByteMark{"&H", "", 16, 2},
+    ByteMark{"16#", "", 16, 2},    ByteMark{"#", "", 16, 2},    ByteMark{"B#16#", "", 16, 2}, ByteMark{"b#16#", "", 16, 2},
+    ByteMark{"\\x", "", 16, 2},    ByteMark{"%", "", 16, 2},    ByteMark{"x", "", 16, 2},     ByteMark{"0b", "", 2, 8},
+    ByteMark{"2#", "", 2, 8},      ByteMark{"", "", 2, 8},      ByteMark{"'0x", "'", 16, 2},  ByteMark{"'", "'", 16, 2},
+    ByteMark{"\"0x", "\"", 16, 2}, ByteMark{"\"", "\"", 16, 2},
 };
 
 struct PlainSign {
@@ -53,14 +54,17 @@ std::optional<std::uint8_t> byte_of(std::string_view word, const ByteMark& mark)
 
 bool is_between_words(char c) { return std::string_view(" \t,;[]()<>").find(c) != std::string_view::npos; }
 
-/// Calls `see` with each word of a line. An escape begins a word: `\x0B\x03` are two.
+/// The signs that begin an escape without a blank before it: `\x0B\x03` and `%0B%03` are two words each.
+bool begins_escape(char c) { return c == '\\' || c == '%'; }
+
+/// Calls `see` with each word of a line. An escape begins a word.
 template <typename See>
 void for_each_word(std::string_view line, See see) {
   for (std::size_t begin = 0; begin < line.size();) {
     std::size_t end = begin;
-    while (end < line.size() && !is_between_words(line[end]) && !(end > begin && line[end] == '\\')) ++end;
+    while (end < line.size() && !is_between_words(line[end]) && !(end > begin && begins_escape(line[end]))) ++end;
     if (end > begin) see(line.substr(begin, end - begin));
-    begin = end < line.size() && line[end] == '\\' ? end : end + 1;
+    begin = end < line.size() && begins_escape(line[end]) ? end : end + 1;
   }
 }
 
@@ -106,11 +110,30 @@ std::string with_plain_bytes(std::string_view text, const ByteMark& mark) {
       const auto byte = byte_of(word, mark);
       if (!byte) return;
       copy_to(word.data());
-      plain += fmt::format("{}{:02X}", mark.before.starts_with('\\') ? " " : "", *byte);
+      plain += fmt::format("{}{:02X}", !mark.before.empty() && begins_escape(mark.before.front()) ? " " : "", *byte);
       copied = word.data() + word.size();
     });
   copy_to(text.data() + text.size());
   return plain;
+}
+
+/// The text with the bytes of NSData alone: `{length = 8, bytes = 0x0103000a0002e409}`, as programs on Apple's systems log
+/// it; nothing if there are none. Long ones have dots for a part of their bytes, and stay as they are.
+std::optional<std::string> without_heads_of_nsdata(std::string_view text) {
+  constexpr std::string_view kHead = "{length = ", kBytes = ", bytes = 0x";
+  std::string plain;
+  const char* copied = text.data();
+  for (std::size_t at = text.find(kHead); at != std::string_view::npos; at = text.find(kHead, at + 1)) {
+    Scan scan(text.substr(at + kHead.size()));
+    const std::string_view count = scan.take_digits(4);
+    if (!scan.take_word(kBytes)) continue;
+    const std::string_view digits = scan.take_hex(std::string_view::npos);
+    if (scan.next() != '}' || parse_decimal<std::size_t>(count) != digits.size() / 2) continue;
+    plain.append(copied, text.data() + at).append(digits);
+    copied = digits.data() + digits.size() + 1;
+  }
+  if (copied == text.data()) return {};
+  return plain.append(copied, text.data() + text.size());
 }
 
 /// A byte that a line has in decimal and in hex: `11 (0x0B)`, `11(0x0B)`, `11 0x0B`, `0x0B (11)`.
@@ -196,6 +219,7 @@ std::optional<std::string> in_plain_hex(std::string_view text) {
       kPlainSigns, [&](const PlainSign& each) { return beginning_of(text).find(each.sign) != std::string_view::npos; });
   std::optional<std::string> plain = has_signs ? std::optional(with_plain_signs(text)) : std::nullopt;
   const auto so_far = [&] { return plain ? std::string_view(*plain) : text; };
+  if (auto bytes = without_heads_of_nsdata(so_far())) plain = std::move(bytes);
   if (auto in_hex = without_decimal(so_far())) plain = std::move(in_hex);
   if (const ByteMark* const mark = mark_of(so_far())) plain = with_plain_bytes(so_far(), *mark);
   return plain;

@@ -155,11 +155,65 @@ Direction direction_in(const NamedFields& fields) {
   return Direction::Unknown;
 }
 
-/// The text itself, of a field that is called as bytes are.
+/// The characters of a text as bytes, if none is beyond U+00FF; nothing otherwise.
+std::optional<Bytes> in_latin_1(std::string_view text) {
+  Bytes bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    if (lead < 0x80) {
+      bytes.push_back(lead);
+    } else {
+      if ((lead != 0xC2 && lead != 0xC3) || i + 1 == text.size()) return {};
+      bytes.push_back(static_cast<std::uint8_t>((lead & 0x03) << 6 | (text[++i] & 0x3F)));
+    }
+  }
+  return bytes;
+}
+
+/// Whether a text is of bytes, not for people: it has control characters other than tab and line end.
+bool is_binary(std::string_view text) {
+  return std::ranges::any_of(text, [](char c) {
+    return static_cast<unsigned char>(c) < ' ' && std::string_view("\t\r\n").find(c) == std::string_view::npos;
+  });
+}
+
+/// The text itself, of a field that is called as bytes are. Of bytes each is a character from U+0000 to U+00FF; nothing if
+/// the logger has put another in place of one, U+FFFD.
 std::optional<Bytes> characters_in(const NamedField& field, const FieldMeaning& meaning) {
   if (field.bytes) return field.bytes;
-  const bool holds = meaning.holds == Holds::Data && !field.value.empty();
-  return holds ? std::optional(Bytes(field.value.begin(), field.value.end())) : std::nullopt;
+  if (meaning.holds != Holds::Data || field.value.empty()) return {};
+  if (field.value.find("\uFFFD") != std::string::npos) return {};
+  if (is_binary(field.value) && stl::is_valid_utf8(field.value)) return in_latin_1(field.value);
+  return Bytes(field.value.begin(), field.value.end());
+}
+
+/// The parts of a frame that have fields of their own: `addr=01 fc=03 data=000A0002 crc=E409`
+struct Parts {
+  Bytes station{}, function{}, sum{};
+
+  bool any() const { return !sum.empty() && station.empty() == function.empty(); }
+  Bytes around(const Bytes& data) const {
+    Bytes whole = station;
+    for (const Bytes* part : {&function, &data, &sum}) whole.insert(whole.end(), part->begin(), part->end());
+    return whole;
+  }
+};
+Parts parts_in(const NamedFields& fields) {
+  const auto take = [](const NamedField& field, std::size_t most, Bytes& part) {
+    auto bytes = field.bytes ? field.bytes : bytes_of_text(field.value);
+    if (bytes && bytes->size() <= most) part = *std::move(bytes);
+  };
+  Parts parts;
+  for (const NamedField& field : fields) {
+    const std::string name = stl::lower_case(field.name);
+    if (name == "addr" || name == "address" || name == "slave" || name == "station" || name == "unit")
+      take(field, 1, parts.station);
+    else if (name == "fc" || name == "func" || name == "function")
+      take(field, 1, parts.function);
+    else if (name == "crc" || name == "crc16" || name == "checksum")
+      take(field, 2, parts.sum);
+  }
+  return parts;
 }
 
 /// A time of day with or without a date, a number in the unit of its name, or seconds since 1970; milliseconds and finer
@@ -244,6 +298,7 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
   const bool base64 = in_base64_ || names_base64(fields);
   std::size_t frames = 0;
   bool has_data = false;
+  const Parts parts = parts_in(fields);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const NamedField& field = fields[i];
     const FieldMeaning& meaning = meaning_of(i, field.name);
@@ -256,10 +311,15 @@ void NamedFieldsReader::take(const NamedFields& fields, std::string_view before,
             row_not_read(number, not_understood(fmt::format("{}: {}", field.name, field.value)), at, said));
       continue;
     }
-    recording_.frames.push_back({.at = frames++ == 0 ? at : std::nullopt,  // a request with its answer has one time
-                                 .direction = meaning.direction != Direction::Unknown ? meaning.direction : said,
-                                 .bytes = std::move(*bytes),
-                                 .place = fmt::format("line {}", number)});
+    RecordedFrame frame{.at = frames++ == 0 ? at : std::nullopt,  // a request with its answer has one time
+                        .direction = meaning.direction != Direction::Unknown ? meaning.direction : said,
+                        .bytes = std::move(*bytes),
+                        .place = fmt::format("line {}", number)};
+    if (parts.any())
+      frame.doubt = std::make_shared<Doubt>(Doubt{.why = "its CRC stands in a field of its own",
+                                                  .word = "crc",
+                                                  .readings = {{parts.around(frame.bytes), false}, {frame.bytes, true}}});
+    recording_.frames.push_back(std::move(frame));
   }
   if (frames > 0 && !at && !time_like.empty() && without_time_++ == 0)
     first_without_time_ =

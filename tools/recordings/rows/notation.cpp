@@ -110,6 +110,13 @@ std::optional<std::uint8_t> take_number(std::string_view& text, int base, std::s
   return byte;
 }
 
+/// Whether a spreadsheet has made a number of the digits of bytes: `1,03E+11`
+bool is_rounded_number(std::string_view cell) {
+  const std::size_t e = cell.find("E+");
+  return e != std::string_view::npos && e > 1 && std::ranges::all_of(cell.substr(e + 2), stl::is_digit) &&
+         std::ranges::all_of(cell.substr(0, e), [](char c) { return stl::is_digit(c) || c == ',' || c == '.'; });
+}
+
 }  // namespace
 
 WrittenCharacter without_error(std::string_view cell) {
@@ -138,6 +145,8 @@ std::optional<Bytes> bytes_of_literal(std::string_view text) {
       const std::size_t known = kEscapes.find(escape);
       if (escape == 'x')
         byte = take_number(text, 16, 2);
+      else if (escape == 'u' && text.starts_with("00"))  // a character beyond U+00FF is no byte
+        text.remove_prefix(2), byte = take_number(text, 16, 2);
       else if (known != std::string_view::npos)
         byte = static_cast<std::uint8_t>(kEscaped[known]);
       else if (escape == '\\' || escape == '"' || escape == '\'')
@@ -187,6 +196,7 @@ const Notation* NotationFinder::found(std::string& why) const {
   if (all != candidates_.end()) return all->notation;
   why = fmt::format("line {}: '{}' is not bytes in {}", nearest->line, stl::shortened(nearest->wrong),
                     nearest->notation->name);
+  if (is_rounded_number(nearest->wrong)) why += ": a spreadsheet has rounded it; give it the column as text, and save again";
   return nullptr;
 }
 

@@ -201,6 +201,14 @@ bool has_durations(std::string_view text) {
   return false;
 }
 
+/// Whether a line is a comment. `#1 TX 01 03` has a number and a direction, and is a row.
+bool is_remark_line(std::string_view line) {
+  Scan scan(line);
+  if (scan.take("#") == '\0') return false;
+  if (scan.take_digits(kLongestHead).empty() || scan.skip(kAllBlanks) == 0) return true;
+  return direction_of(scan.take_while([](char c) { return !is_any_of(c, kAllBlanks); })) == Direction::Unknown;
+}
+
 /// Whether a text has a word: three letters, one of them beyond F. A damaged byte has none.
 bool is_of_words(std::string_view text) {
   constexpr std::ptrdiff_t kFewestLetters = 3;
@@ -243,7 +251,7 @@ class LogReader {
   void take(std::string_view line) {
     ++number_;
     if (line.empty()) return;
-    if (const std::string_view rest = stl::trim(line); rest.empty() || rest.front() == '#') return;
+    if (const std::string_view rest = stl::trim(line); rest.empty() || is_remark_line(rest)) return;
     if (ends_dump(line)) return;
     if (const auto character = character_of_interceptty(line)) return take(*character);
     line.remove_prefix(length_of_index(line));
