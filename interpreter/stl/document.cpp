@@ -194,7 +194,8 @@ bool is_page_number(const std::vector<std::string_view>& words) {
   constexpr std::array<std::string_view, 6> kPages{"PAGE", "SEITE", "P\u00E1GINA", "PAGINA", "FOLIO", "SHEET"};
   constexpr std::array<std::string_view, 5> kOf{"OF", "VON", "DE", "SUR", "DI"};
   const bool named = std::ranges::find(kPages, upper_case(words.front())) != kPages.end();
-  if (!named) return words.size() == 1 && is_page_number(words.front());
+  if (!named)  // `2`, `2 / 3`
+    return words.size() <= 3 && std::ranges::all_of(words, [](std::string_view word) { return is_page_number(word); });
   if (words.size() == 2) return is_page_number(words[1]);
   return words.size() == 4 && is_page_number(words[1]) && is_page_number(words[3]) &&
          std::ranges::find(kOf, upper_case(words[2])) != kOf.end();
@@ -229,6 +230,7 @@ struct LineReading {
   Verdict verdict = Verdict::Prose;
   bool candidate = false;  // begins with a mnemonic
   bool inside = false;     // stands between the statements of a routine
+  bool in_rung = false;    // may be a statement, as the line with code above it or below it
   bool debris = false;     // unreadable characters inside it
   std::string mnemonic;    // as written; of a line that is not a candidate, the first word
   std::size_t operands = 0;
@@ -248,8 +250,9 @@ class DocumentReader {
       : instructions_(instructions), text_(split_lines(text)) {
     for (const std::string& line : text_) readings_.push_back(first_look(line));
     parse_candidates();
+    find_rungs();
     in_capitals_ = std::none_of(readings_.begin(), readings_.end(), [](const LineReading& reading) {
-      return is_certain(reading) && has_small_letters(reading.mnemonic);
+      return is_certain(reading) && has_small_letters(reading.mnemonic) && upper_case(reading.mnemonic) != "NETWORK";
     });
     judge(false);
   }
@@ -273,7 +276,8 @@ class DocumentReader {
     const auto [first, last] = statements();
     std::vector<std::uint32_t> lines;
     for (auto i = readings_.begin(); first != readings_.end() && i != readings_.end(); ++i)
-      if ((i < first || i >= last || names_a_page(*i)) && i->verdict == Verdict::Prose && (is_text(*i) || ends_a_sentence(*i)) &&
+      if ((i < first || i >= last || names_a_page(*i)) && i->verdict == Verdict::Prose &&
+          (is_text(*i) || ends_a_sentence(*i) || (i < first && is_title(*i))) &&
           advice_on(*i).what.empty())  // NETZWERK has a message of its own
         lines.push_back(static_cast<std::uint32_t>(i - readings_.begin()) + 1);
     return lines;
@@ -421,6 +425,18 @@ class DocumentReader {
 
   LineReading& at(std::uint32_t line) { return readings_[line - 1]; }
 
+  /// Marks lines that may be statements with symbols, one after the other: `LD Start`, `= Pump`. A single one may be text.
+  void find_rungs() {
+    LineReading* above = nullptr;
+    for (LineReading& reading : readings_) {
+      if (!has_code(reading)) continue;
+      const bool may_be = reading.well_formed && reading.verdict != Verdict::Drawing && reading.operands > 0 &&
+                          !has_small_letters(reading.mnemonic);
+      if (may_be && above != nullptr) reading.in_rung = above->in_rung = true;
+      above = may_be ? &reading : nullptr;
+    }
+  }
+
   void judge(bool all_listing) {
     std::vector<bool> above_stl(readings_.size());  // the next line with code is a statement, as far as that can be said
     bool stl = false;
@@ -459,7 +475,7 @@ class DocumentReader {
   /// A statement wherever it is. `Not` or `End` may begin a sentence, and so may `CALL pump`.
   static bool is_certain(const LineReading& reading) {
     if (!reading.well_formed || reading.verdict == Verdict::Drawing) return false;
-    if (reading.some_solid) return true;
+    if (reading.some_solid || reading.in_rung) return true;
     const std::string& mnemonic = reading.mnemonic;
     const bool one_case =
         std::none_of(mnemonic.begin(), mnemonic.end(), is_lower) || std::none_of(mnemonic.begin(), mnemonic.end(), is_upper);
@@ -531,6 +547,14 @@ class DocumentReader {
     if (reading.address) return false;
     return words.size() == 1 ? words.front().size() > 2 && first.heading
                              : first.heading || (!reading.some_solid && all >= 2);
+  }
+
+  /// A line above a program that can be no statement: `SIMATIC S7-200 Example`, the name of the language.
+  static bool is_title(const LineReading& reading) {
+    constexpr std::array<std::string_view, 4> kLanguages{"STL", "AWL", "LAD", "FBD"};
+    constexpr std::size_t kLongestMnemonic = 6;
+    if (reading.operands == 0) return std::ranges::find(kLanguages, reading.mnemonic) != kLanguages.end();
+    return !reading.address && !reading.some_solid && reading.words > 0 && reading.mnemonic.size() > kLongestMnemonic;
   }
 
   /// `This is it:`, `Thanks!`

@@ -453,5 +453,13 @@ TEST_F(Tip41, ACutInTheListingIsNoticed) {
   EXPECT_FALSE(noticed(end));
 }
 
+TEST(Document, StatementsWithSymbolsOneAfterTheOtherAreStatements) {
+  const std::string around = "This is an example of a small pump control that we used in our plant for many years.\n\n";
+  EXPECT_EQ(to_text(read(around + "LD Start\nAN Stop\n= Pump\nLD I0.1\n= Q0.1\nMEND\n\n" + around).source),
+            "LD      Start\nAN      Stop\n=       Pump\nLD      I0.1\n=       Q0.1\nMEND\n");
+  const ParseResult apart = read(around + "LD I0.1\n= Q0.1\n\n" + around + "LD Start\nAN Stop\n= Pump\nMEND\n\n" + around);
+  EXPECT_EQ(statements(apart.source).size(), 6U) << "a rung between paragraphs";
+}
+
 }  // namespace
 }  // namespace s7200::stl
