@@ -2,6 +2,8 @@
 // controllers, or mistyped.
 //
 // A hint says what does the same. It never names an instruction that does something else, however alike the letters are.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -143,6 +145,11 @@ constexpr ForeignRow kForeignRows[] = {
     {"SOTTOPROGRAMMA",    kSubroutineHeading, "write SBR_0 for subroutine 0"},
     {"INTERRUPTPROGRAMM", kInterruptHeading,  "write INT_0 for interrupt routine 0"},
     {"INTERRUPTROUTINE",  kInterruptHeading,  "write INT_0 for interrupt routine 0"},
+    {"CU",    kStep7,      "write CTU, with its count and its reset loaded before it"},
+    {"ADDI",  kOther,      "write +I IN1, OUT: it adds IN1 to OUT"},
+    {"SUBI",  kOther,      "write -I IN1, OUT: it takes IN1 from OUT"},
+    {"MULI",  kOther,      "write *I IN1, OUT: it multiplies OUT by IN1"},
+    {"DIVI",  kOther,      "write /I IN1, OUT: it divides OUT by IN1"},
     {"NETWERK",  kHeading, "write NETWORK"},
     {"REDE",     kHeading, "write NETWORK"},
     {"RESEAU",   kHeading, "write NETWORK"},
@@ -281,8 +288,29 @@ bool is_instruction_of_smart(std::string_view mnemonic) {
   return row != std::end(kForeignRows) && row->what == kSmart;
 }
 
+namespace {
+
+/// `LD>`, `AI<=`: a comparison that does not say how wide it is, or says it as STEP 7 does.
+std::optional<UnknownMnemonic> comparison_of_others(std::string_view mnemonic) {
+  const std::size_t sign = std::min(mnemonic.find_first_of("<>="), mnemonic.size());
+  const std::string_view base = mnemonic.substr(0, sign), relation = mnemonic.substr(sign);
+  if (sign == mnemonic.size()) return std::nullopt;
+  for (const std::string_view contact : {"LD", "A", "O"}) {
+    if (base == contact)
+      return UnknownMnemonic{
+          "a comparison that does not say what it compares",
+          fmt::format("write {0}B{1}, {0}W{1}, {0}D{1} or {0}R{1}, as wide as its operands", contact, relation)};
+    if (base.starts_with(contact) && base.substr(contact.size()) == "I")
+      return UnknownMnemonic{"a comparison of integers in another form", fmt::format("write {}W{}", contact, relation)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 UnknownMnemonic unknown_mnemonic(std::string_view mnemonic) {
   if (auto foreign = foreign_mnemonic(mnemonic)) return *std::move(foreign);
+  if (auto comparison = comparison_of_others(mnemonic)) return *std::move(comparison);
   return {"", question_about(nearest_mnemonics(mnemonic))};
 }
 

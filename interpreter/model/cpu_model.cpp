@@ -156,8 +156,10 @@ const std::vector<const CpuModel*>& all_cpus() {
 }
 
 const CpuModel* find_cpu(std::string_view name) {
+  std::string type = stl::upper_case(name);
+  if (type.starts_with("CPU")) type = stl::trim(std::string_view(type).substr(3));  // `CPU 224`
   const auto found = std::find_if(all_cpus().begin(), all_cpus().end(),
-                                  [&](const CpuModel* m) { return stl::upper_case(m->name) == stl::upper_case(name); });
+                                  [&](const CpuModel* m) { return stl::upper_case(m->name) == type; });
   return found == all_cpus().end() ? nullptr : *found;
 }
 

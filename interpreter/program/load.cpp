@@ -192,6 +192,23 @@ std::string why_not_stl(std::string_view text) {
          "Q0.0";
 }
 
+/// What stands around a program so that it cannot be read, and what to do; empty if nothing does.
+std::string_view why_wrapped(std::string_view text) {
+  bool minus = false, plus = false, mail = false;
+  while (!text.empty()) {
+    const std::string_view line = stl::take_line(text);
+    minus |= line.starts_with("--- ");
+    plus |= line.starts_with("+++ ");
+    if (minus && plus && line.starts_with("@@ -"))
+      return "it is a patch (unified diff), not a program: apply it with patch, and give the program that comes out";
+    const std::string lower = line.size() < 80 ? stl::lower_case(line) : "";
+    mail |= lower.starts_with("content-transfer-encoding: quoted-printable");
+    if (lower.starts_with("content-transfer-encoding: base64") || mail || line.starts_with("=3D"))
+      return "it is a mail as it was sent, in quoted-printable or base64: open it in a mail program, and save its text";
+  }
+  return {};
+}
+
 bool is_code(const stl::Line& line) {
   return std::holds_alternative<stl::Statement>(line) || std::holds_alternative<stl::NetworkHead>(line);
 }
@@ -247,6 +264,10 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
       why = "it is a Micro/WIN project; open it in Micro/WIN and export each block (File, Export) as .awl";
     return {};
   }
+  if (const std::string_view wrapped = why_wrapped(decoded->text); !wrapped.empty()) {
+    why = wrapped;
+    return {};
+  }
   const stl::PlainText plain(decoded->text);
   const auto cpu_line = place_of_cpu_line(plain.text());
   auto source = cpu_line ? read_plain(std::string(plain.text()).insert(*cpu_line, "// "), name, force_document)
@@ -256,6 +277,9 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
     return {};
   }
   if (source->kind == SourceKind::Listing || source->as_document()) stl::name_drawings(source->parsed, instruction_set());
+  if (!plain.symbols().empty() && kind_of_table(plain.symbols()) == SourceKind::SymbolTable)
+    std::ranges::move(stl::read_symbol_table(plain.symbols(), name).source.symbols,
+                      std::back_inserter(source->parsed.source.symbols));
   plain.restore(source->parsed);
   source->encoding = decoded->encoding;
   return source;

@@ -366,24 +366,6 @@ bool is_comparison_without_relation(std::string_view mnemonic) {
   return std::ranges::find(kTypes, word) != kTypes.end();
 }
 
-/// The STL constant for `0x10`, `10h`, `&H10`, `$10`, `0b101` and `#5`; empty for anything else.
-std::string constant_here(std::string_view word) {
-  const std::string upper = upper_case(word);
-  const auto digits_after = [&](std::string_view mark, std::string_view digits) -> std::string {
-    if (!upper.starts_with(mark) || upper.size() == mark.size()) return {};
-    const std::string rest = upper.substr(mark.size());
-    return rest.find_first_not_of(digits) == rest.npos ? rest : std::string();
-  };
-  constexpr std::string_view kHex = "0123456789ABCDEF", kDecimal = "0123456789";
-  for (const std::string_view mark : {"0X", "&H", "$", "H'", "#16#"})
-    if (const std::string digits = digits_after(mark, kHex); !digits.empty()) return "16#" + digits;
-  if (const std::string digits = digits_after("0B", "01"); !digits.empty()) return "2#" + digits;
-  if (const std::string digits = digits_after("#", kDecimal); !digits.empty()) return digits;
-  const bool ends_with_h = upper.size() > 1 && upper.back() == 'H' && is_digit(upper.front()) &&
-                           upper.find_first_not_of(kHex) == upper.size() - 1;
-  return ends_with_h ? "16#" + upper.substr(0, upper.size() - 1) : std::string();
-}
-
 constexpr const char* kNetworkTakes = "NETWORK takes a number and nothing else";
 constexpr const char* kTitleOfNetwork = "a title is written as a comment: NETWORK 1 // title";
 
@@ -874,7 +856,8 @@ class LineReader {
   void report_unexpected(Place where, std::string expected) {
     if (report_heading() || report_time(where) || report_semicolon_comment(where) || report_assignment() ||
         report_look_alike(where) || report_foreign_constant(where) || report_comparison() ||
-        report_blank_in_address(where) || report_title_of_network(where) || report_second_statement(where))
+        report_blank_in_address(where) || report_title_of_network(where) || report_label(where) ||
+        report_parentheses(where) || report_data_block(where) || report_second_statement(where))
       return;
     const std::string_view rest(where, static_cast<std::size_t>(end() - where));
     const bool at_start = text_.substr(0, text_.size() - rest.size()).find_first_not_of(" \t\f") == std::string_view::npos;
@@ -885,6 +868,47 @@ class LineReader {
     const bool numbered = at_start && !rest.empty() && is_digit(rest.front());
     report(places_.position(where, 1), std::move(message), hint_for(expected, rest),
            numbered ? "a number at the beginning of the line" : "");
+  }
+
+  /// Reports `L2:` and `LBL_1: LD I0.0`. Returns true after a message.
+  bool report_label(Place where) {
+    const std::string_view line = trim(text_);
+    const std::string_view name = line.substr(0, line.find(':'));
+    if (where == end() || *where != ':' || name.data() + name.size() != where) return false;
+    const std::string_view after = trim(std::string_view(where + 1, static_cast<std::size_t>(end() - where) - 1));
+    const std::string_view mnemonic = after.substr(0, after.find_first_of(" \t"));
+    if (name.find_first_of(" \t,=") != name.npos || std::ranges::any_of(mnemonic, is_lower)) return false;
+    if (!after.empty() && std::ranges::none_of(after, is_digit)) return false;  // `Example: Transmit`
+    const std::size_t digits = std::min(name.find_last_not_of("0123456789") + 1, name.size());
+    const std::string_view number = name.substr(digits).empty() ? "1" : name.substr(digits);
+    report(position(Range(name.data(), name.data() + name.size())),
+           fmt::format("{}: is a label of another language", shortened(name)),
+           fmt::format("write LBL {0} in a line of its own; JMP {0} jumps there", number), "labels of another language");
+    return true;
+  }
+
+  /// Reports `CALL Init(I0.0, 5)`. Returns true after a message.
+  bool report_parentheses(Place where) {
+    const auto words = split_words(text_.substr(0, static_cast<std::size_t>(where - begin())));
+    if (where == end() || *where != '(' || words.size() != 2 || upper_case(words[0]) != "CALL") return false;
+    report(places_.position(where, 1), "the parameters of a call stand without parentheses",
+           fmt::format("write CALL {0}, or CALL {0}, IN, OUT with its parameters", shortened(words[1])));
+    return true;
+  }
+
+  /// Reports `DB1.DBX10.0`, `DB1.DBW10`. Returns true after a message.
+  bool report_data_block(Place where) {
+    std::string_view word = word_at(text_, static_cast<std::size_t>(where - begin()));
+    word = word.substr(0, word.find_last_not_of(",;") + 1);
+    const std::string upper = upper_case(word);
+    if (!upper.starts_with("DB1.DB") || upper.size() < 8) return false;
+    const std::string meant = "V" + upper.substr(upper[6] == 'X' ? 7 : 6);
+    report(
+        position(Range(word.data(), word.data() + word.size())),
+        fmt::format("{} is an address as other systems have it: the data block of the S7-200 is V memory", shortened(word)),
+        fmt::format("write {}", meant), "addresses in a data block");
+    read_as_meant(word, meant);
+    return true;
   }
 
   /// Reports `RÉSEAU 1`, `NETZWERK 1: Start`. Returns true after a message. Headings in ASCII with nothing unexpected in

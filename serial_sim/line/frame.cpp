@@ -29,7 +29,8 @@ bool has_wrong_parity(std::span<const FrameCharacter> frame) {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
+/// What stands between bytes: blanks, and the signs that other tools write there.
+bool is_between(char c) { return std::string_view(" \t,;:-").find(c) != std::string_view::npos; }
 
 }  // namespace
 
@@ -43,12 +44,16 @@ ParsedFrame parse_hex_frame(std::string_view text) {
   std::size_t place = 0;
   while (place < text.size()) {
     const std::size_t first = place++;
-    if (is_blank(at(first))) continue;
+    if (is_between(at(first)) && (first > 0 || at(first) == ' ' || at(first) == '\t')) continue;
+    if (at(first) == '0' && (at(place) == 'x' || at(place) == 'X') && hex_digit(at(place + 1))) {  // `0x01`
+      ++place;
+      continue;
+    }
     const auto high = hex_digit(at(first));
     const auto low = hex_digit(at(place));
     if (!high) {
       error(first, fmt::format("'{}' is not a hex digit", at(first)));
-    } else if (is_blank(at(place))) {
+    } else if (is_between(at(place))) {
       error(first, fmt::format("a byte is two hex digits, 0{} for {}", at(first), at(first)));
     } else if (low) {
       ++place;

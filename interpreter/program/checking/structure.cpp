@@ -135,6 +135,14 @@ class StructureCheck {
     });
   }
 
+  /// Whether an ATCH with a mistake in another operand says its routine all the same.
+  static bool names_a_routine(const CheckedStatement& s) {
+    constexpr std::int64_t kLast = 127;
+    if (s.statement->operands.size() != 2) return false;
+    const auto* const number = std::get_if<stl::Integer>(&s.statement->operands.front().value);
+    return number != nullptr && number->value >= 0 && number->value <= kLast;
+  }
+
   /// Notes what a statement means for the structure of its routine.
   void note(std::uint32_t i, const CheckedStatement& s) {
     some_read_ = true;
@@ -154,10 +162,8 @@ class StructureCheck {
           all_calls_known_ = false;
         return;
       case Structure::Attach:
-        if (s.operands_good)
-          attachments_.push_back({i, routine_});
-        else
-          all_attachments_known_ = false;
+        if (s.operands_good || names_a_routine(s)) attachments_.push_back({i, routine_});
+        if (!s.operands_good) all_attachments_known_ = false;
         return;
       case Structure::For:
         return begin_loop(i);

@@ -113,6 +113,11 @@ bool assigns(const CodeLine& line) {
          std::ranges::count(line.text, '(') == std::ranges::count(line.text, ')');
 }
 
+/// `START AT %I0.0 : BOOL;`, of which the % may be left out already.
+bool declares_at_address(const CodeLine& line) {
+  return line.semicolon && line.word(1) == "AT" && line.text.find(':') != std::string::npos;
+}
+
 bool is_condition(const CodeLine& line) {
   return (is_among(line.word(0), {"IF", "ELSIF"}) && line.text.ends_with(" THEN")) ||
          (line.word(0) == "CASE" && line.text.ends_with(" OF")) ||
@@ -170,6 +175,7 @@ constexpr DialectSign kSigns[] = {
     {Dialect::Step7, has_blank_in_address, 2},
     {Dialect::Step7, has_step7_operand, 2},
     {Dialect::Step7, compares_accumulators, 2},
+    {Dialect::Il, declares_at_address, 2},
     {Dialect::Scl, assigns, 4},
     {Dialect::Scl, is_condition, 2},
     {Dialect::Melsec, has_melsec_output, 4},

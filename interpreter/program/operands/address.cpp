@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "interpreter/program/operands/operands.hpp"
 #include "interpreter/stl/parser.hpp"
 #include "interpreter/stl/tables/symbols.hpp"
+#include "interpreter/stl/text/look_alikes.hpp"
 
 namespace s7200 {
 namespace {
@@ -26,6 +28,23 @@ std::optional<stl::Address> find_address(std::string_view text, const AddressSpa
   if (const auto* address = symbol && symbol->value ? std::get_if<stl::Address>(&*symbol->value) : nullptr) return *address;
   const auto* address = operand ? std::get_if<stl::Address>(&operand->value) : nullptr;
   return address ? std::optional(*address) : std::nullopt;
+}
+
+/// An address as other systems write it: with a % before it, blanks in it, or as one of the data block that V memory is,
+/// `%VW10`, `VW 10`, `DB1.DBW10`, `DB1.DBX10.0`.
+std::string in_own_form(std::string_view text) {
+  constexpr std::string_view kDataBlock = "DB1.DB";
+  std::string plain(stl::trim(text));
+  if (plain.starts_with('%')) plain.erase(0, 1);
+  const auto letters = static_cast<std::size_t>(std::ranges::find_if_not(plain, stl::is_letter) - plain.begin());
+  const std::size_t number = plain.find_first_of(" \t");
+  if (number == letters && number < 4) {
+    const std::size_t digit = plain.find_first_not_of(" \t", number);
+    if (digit != plain.npos && stl::is_digit(plain[digit])) plain.erase(number, digit - number);
+  }
+  if (stl::upper_case(plain).starts_with(kDataBlock))
+    plain.replace(0, kDataBlock.size() + (stl::upper_case(plain).starts_with("DB1.DBX") ? 1 : 0), "V");
+  return plain;
 }
 
 /// Why a text names no memory, and what to write.
@@ -65,6 +84,13 @@ std::pair<std::int64_t, std::int64_t> values_of(Width width) {
   return {-(std::int64_t{1} << (bits - 1)), (std::int64_t{1} << bits) - 1};
 }
 
+/// The value that a word for a switch stands for: `on`, `false`.
+std::optional<std::uint32_t> bit_of_word(std::string_view text) {
+  const std::string word = stl::upper_case(text);
+  if (word == "ON" || word == "TRUE") return 1;
+  return word == "OFF" || word == "FALSE" ? std::optional(0U) : std::nullopt;
+}
+
 bool is_integer(std::string_view text) {
   std::string why;
   const auto operand = stl::parse_operand(text, why);
@@ -99,6 +125,8 @@ std::vector<std::uint8_t> MemoryRange::bytes_in(std::span<const std::uint8_t> im
 }
 
 std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace& space, std::string& why) {
+  const std::string own = text.starts_with('"') ? std::string(text) : in_own_form(text);
+  text = own;
   const std::size_t colon = text.find(':', text.starts_with('"') ? text.find('"', 1) : 0);
   if (const auto address = beside_symbol(text, colon, space)) return parse_range(*address, space.model, why);
   const auto address = find_address(text.substr(0, colon), space);
@@ -134,15 +162,20 @@ std::optional<MemoryRange> parse_range(std::string_view text, const AddressSpace
 std::optional<std::uint32_t> parse_pointer(std::string_view text, const AddressSpace& space, std::string& why) {
   const auto target = parse_range(text.substr(1), space, why);
   if (!target) return {};
-  const auto pointer =
-      target->count == 1 && !target->real ? pointer_to(space.model, target->area, target->width, target->number) : std::nullopt;
+  const auto pointer = target->count == 1 && !target->real
+                           ? pointer_to(space.model, target->area, target->width, target->number)
+                           : std::nullopt;
   if (!pointer) why = fmt::format("'{}': {}", stl::shortened(text), pointer_targets_text(space.model));
   return pointer;
 }
 
 std::optional<Assignment> parse_value(const MemoryRange& place, std::string_view text) {
   std::string why;
-  const auto value = stl::parse_operand(text, why);
+  text = stl::trim(text);
+  if (place.width == Width::Bit && place.count == 1)
+    if (const auto bit = bit_of_word(text)) return Assignment{place, *bit};
+  const std::string here = stl::constant_here(text);  // `0x10`, `10h`
+  const auto value = stl::parse_operand(here.empty() ? text : std::string_view(here), why);
   if (!value || place.count != 1) return {};
   if (const auto* real = std::get_if<stl::Real>(&value->value); real && place.width == Width::Double) {
     Assignment assignment{place, std::bit_cast<std::uint32_t>(real->value)};
@@ -169,7 +202,7 @@ std::optional<Assignment> parse_assignment(std::string_view text, const AddressS
   const std::size_t equals = text.find('=', text.starts_with('"') ? text.find('"', 1) : 0);
   const auto place = parse_range(text.substr(0, equals), space, why);
   if (!place) return {};
-  const std::string_view value = equals == std::string_view::npos ? "" : text.substr(equals + 1);
+  const std::string_view value = equals == std::string_view::npos ? "" : stl::trim(text.substr(equals + 1));
   if (value.starts_with('&') && place->count == 1 && place->width == Width::Double && !place->real) {
     const auto pointer = parse_pointer(value, space, why);
     return pointer ? std::optional(Assignment{*place, *pointer}) : std::nullopt;

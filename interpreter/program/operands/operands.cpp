@@ -235,6 +235,9 @@ class Placing {
   }
 
   Result real(const stl::Real& constant) {
+    if (!rule_.constant && rule_.width == Width::Bit && constant.value >= 0 && constant.value < 20)
+      return error(fmt::format("{} cannot be the constant {}", of_instruction(), text()),
+                   "an address has a letter before it: I0.1 is an input, Q0.1 an output; a scanner reads I as 1 and Q as 0");
     if (!rule_.constant) return constant_refused();
     if (!rule_.real)
       return error(fmt::format("{} is an integer {}, {} is a real number", of_instruction(), name_of(rule_.width), text()),

@@ -119,7 +119,7 @@ class Resolver {
  public:
   explicit Resolver(ParseResult& result) : result_(result), source_(result.source) {
     for (const Symbol& symbol : source_.symbols)
-      if (const Symbol* first = symbols_.add(symbol.name, symbol))
+      if (const Symbol* first = symbols_.add(symbol.name, symbol); first != nullptr && first->value != symbol.value)
         defined_twice(symbol.name, symbol.position, first->position);
     for (const Block& block : source_.blocks) {
       locals_.emplace_back();
@@ -329,8 +329,9 @@ std::vector<Symbol> names_beside_addresses(const Source& source) {
 std::string symbol_of_smart(const Source& source) {
   const auto defines = [&](std::string_view name) {
     const auto has_name = [&](const auto& thing) { return upper_case(thing.name) == upper_case(name); };
-    return std::ranges::any_of(source.symbols, has_name) ||
-           std::ranges::any_of(source.blocks, [&](const Block& block) { return std::ranges::any_of(block.variables, has_name); });
+    return std::ranges::any_of(source.symbols, has_name) || std::ranges::any_of(source.blocks, [&](const Block& block) {
+             return std::ranges::any_of(block.variables, has_name);
+           });
   };
   for (const Line& line : source.lines) {
     const auto* statement = std::get_if<Statement>(&line);
@@ -338,7 +339,8 @@ std::string symbol_of_smart(const Source& source) {
     for (const Operand& operand : statement->operands) {
       const auto* unresolved = std::get_if<Name>(&operand.value);
       const WrittenName written(unresolved ? unresolved->text : operand.symbol);
-      if (!written.name.empty() && is_only_of_smart(written.name) && !defines(written.name)) return std::string(written.name);
+      if (!written.name.empty() && is_only_of_smart(written.name) && !defines(written.name))
+        return std::string(written.name);
     }
   }
   return {};

@@ -105,4 +105,21 @@ std::optional<LookAlike> look_alike_mnemonic(std::string_view word) {
   return latin && !latin->wrong.empty() ? latin : std::nullopt;
 }
 
+std::string constant_here(std::string_view word) {
+  const std::string upper = upper_case(word);
+  const auto digits_after = [&](std::string_view mark, std::string_view digits) -> std::string {
+    if (!upper.starts_with(mark) || upper.size() == mark.size()) return {};
+    const std::string rest = upper.substr(mark.size());
+    return rest.find_first_not_of(digits) == rest.npos ? rest : std::string();
+  };
+  constexpr std::string_view kHex = "0123456789ABCDEF", kDecimal = "0123456789";
+  for (const std::string_view mark : {"0X", "&H", "$", "H'", "#16#"})
+    if (const std::string digits = digits_after(mark, kHex); !digits.empty()) return "16#" + digits;
+  if (const std::string digits = digits_after("0B", "01"); !digits.empty()) return "2#" + digits;
+  if (const std::string digits = digits_after("#", kDecimal); !digits.empty()) return digits;
+  const bool ends_with_h = upper.size() > 1 && upper.back() == 'H' && is_digit(upper.front()) &&
+                           upper.find_first_not_of(kHex) == upper.size() - 1;
+  return ends_with_h ? "16#" + upper.substr(0, upper.size() - 1) : std::string();
+}
+
 }  // namespace s7200::stl

@@ -27,4 +27,7 @@ std::optional<LookAlike> look_alike_number(std::string_view word);
 /// The word of ASCII letters and digits that a mistaken mnemonic becomes: `АN` with a Cyrillic А.
 std::optional<LookAlike> look_alike_mnemonic(std::string_view word);
 
+/// The STL constant for `0x10`, `10h`, `&H10`, `$10`, `0b101` and `#5`; empty for anything else.
+std::string constant_here(std::string_view word);
+
 }  // namespace s7200::stl

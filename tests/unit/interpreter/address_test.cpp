@@ -81,6 +81,29 @@ TEST(Address, AValueThatDoesNotFitIsRefusedWithWhatThePlaceHolds) {
   }
 }
 
+TEST(Address, AddressesAreReadAsOtherSystemsWriteThem) {
+  std::string why;
+  for (const char* text : {"%VW10", "VW 10", "DB1.DBW10", "db1.dbw10"}) {
+    const auto range = parse_range(text, cpu214(), why);
+    ASSERT_TRUE(range) << text << ": " << why;
+    EXPECT_EQ(range->name_of(0), "VW10") << text;
+  }
+  EXPECT_EQ(parse_range("DB1.DBX10.3", cpu214(), why)->name_of(0), "V10.3");
+  EXPECT_EQ(parse_range("%VW10:4", cpu214(), why)->count, 4U);
+  EXPECT_EQ(refusal("DB2.DBW10"), "'DB2.DBW10' is not an address; write for example VB100, VW100:4, M31.7, AC0, VD20:real");
+}
+
+TEST(Address, ValuesAreReadAsOtherLanguagesWriteThem) {
+  for (const char* text : {"VW10=0x10", "VW10=10h", "VW10=$10", "VW10 = 16#10", "%VW10=&H10"}) {
+    const auto read = assignment(text);
+    ASSERT_TRUE(read) << text;
+    EXPECT_EQ(read->value, 16U) << text;
+  }
+  for (const char* text : {"I0.0=on", "I0.0=TRUE", "M0.1=1"}) EXPECT_EQ(assignment(text)->value, 1U) << text;
+  for (const char* text : {"I0.0=off", "I0.0=false"}) EXPECT_EQ(assignment(text)->value, 0U) << text;
+  for (const char* text : {"VW10=on", "VB10=0x100", "VW10=0xG"}) EXPECT_FALSE(assignment(text)) << text;
+}
+
 TEST(Address, AnalogValuesAreAtEvenAddresses) {
   std::string why;
   EXPECT_TRUE(parse_range("AIW2", cpu214(), why));

@@ -321,10 +321,9 @@ TEST(PlainText, TheTimesAndNamesOfAChatAreLeftOutWithWhatIsNoStatement) {
         "14:02 <hans> LD I0.0\n14:02 <hans> AN I0.1\n14:02 <hans> = Q0.0\n14:02 <jo> hm\n14:03 <hans> LD Q0.0\n"
         "14:03 <hans> TON T37, 50\n"})
     EXPECT_EQ(without_blank_lines(program(chat)), expected) << chat;
-  EXPECT_EQ(
-      note("14:02 <hans> LD I0.0\n14:02 <jo> hm\n14:02 <hans> = Q0.0\n"),
-      "page.txt: read as plain text: marks in the margin; the first in line 1; left out "
-      "around the program: line 2");
+  EXPECT_EQ(note("14:02 <hans> LD I0.0\n14:02 <jo> hm\n14:02 <hans> = Q0.0\n"),
+            "page.txt: read as plain text: marks in the margin; the first in line 1; left out "
+            "around the program: line 2");
 }
 
 TEST(PlainText, TheMarksOfAForumAroundCodeAreFences) {
@@ -342,8 +341,8 @@ TEST(PlainText, ATableAndASentenceAreNoStatements) {
 
 TEST(PlainText, SentencesAroundAListingAreLeftOutAndNamed) {
   const std::string listing = "NETWORK 1\nLD I0.0\n= Q0.0\nNETWORK 2\nLD SM0.1\nMOVW 3, VW0\n";
-  for (const char* above : {"The following example shows the program.\n", "This is my program:\n", "See Fig. 3.\n", "Code:\n",
-                            "Hi, here is my code for the S7-200:\n"}) {
+  for (const char* above : {"The following example shows the program.\n", "This is my program:\n", "See Fig. 3.\n",
+                            "Code:\n", "Hi, here is my code for the S7-200:\n"}) {
     const SourceText text = read(above + listing + "Regards\nJohn Doe\n");
     EXPECT_TRUE(text.parsed.diagnostics.empty()) << above << stl::render(text.parsed.diagnostics, text.parsed.source, false);
     EXPECT_EQ(text.parsed.left_out.front(), 1U) << above;
@@ -355,22 +354,134 @@ TEST(PlainText, SentencesAroundAListingAreLeftOutAndNamed) {
 
 TEST(PlainText, AQuotedMailMayHaveHeadsAndAGreeting) {
   const std::string program = "NETWORK 1\nLD      I0.0\n=       Q0.0\n";
-  EXPECT_EQ(stl::to_text(read("From: Klaus B. <k.b@example.de>\nTo: forum\nSubject: Re: pump, please help\n\n"
-                              "On Tue, 12 Mar 2019 at 10:12, John wrote:\n> Hi, here is the program of the S7-200 CPU 224:\n>\n"
-                              "> NETWORK 1\n> LD I0.0\n> = Q0.0\n")
-                             .parsed.source),
-            program);
+  EXPECT_EQ(
+      stl::to_text(read("From: Klaus B. <k.b@example.de>\nTo: forum\nSubject: Re: pump, please help\n\n"
+                        "On Tue, 12 Mar 2019 at 10:12, John wrote:\n> Hi, here is the program of the S7-200 CPU 224:\n>\n"
+                        "> NETWORK 1\n> LD I0.0\n> = Q0.0\n")
+                       .parsed.source),
+      program);
 }
 
 TEST(PlainText, RowsOfATableAreStatements) {
   EXPECT_EQ(program("|NETWORK|1||\n|LD|I0.0|start|\n|MOVW|100|VW0|\n|LPS|||\n|A|I0.1||\n|=|Q0.0|\n"),
             program("NETWORK 1\nLD I0.0 //start\nMOVW 100, VW0\nLPS\nA I0.1\n= Q0.0\n"));
-  EXPECT_EQ(program("| No | Instruction | Operand | Comment |\n|---:|---|---|---|\n| 1 | LD | Start_Button | the button |\n| 2 | MOVB | 1, VB0 |  |\n"),
+  EXPECT_EQ(program("| No | Instruction | Operand | Comment |\n|---:|---|---|---|\n| 1 | LD | Start_Button | the button "
+                    "|\n| 2 | MOVB | 1, VB0 |  |\n"),
             program("LD Start_Button // the button\nMOVB 1, VB0\n"));
   EXPECT_EQ(program("| Instruction | Operand |\n|---|---|\n| LD | I0.0 |\n| = | Q0.0 |\n"), program("LD I0.0\n= Q0.0\n"));
   EXPECT_EQ(program("| LD I0.0 | start |\n| = Q0.0 | lamp |\n"), program("LD I0.0 // start\n= Q0.0 // lamp\n"));
   EXPECT_EQ(note("|LD|I0.0|\n|=|Q0.0|\n"), "page.txt: read as plain text: cells of a table; the first in line 1");
   EXPECT_NE(diagnostics(checked("|LD|I0.0|\n|LD|I0.1|\n|MOVW|VB0|VW2|\n")).find("page.txt:3:"), std::string::npos);
+}
+
+TEST(PlainText, RowsWithOtherSignsBetweenTheirCellsAreStatements) {
+  const std::string plain = program("LD SM0.1 // first scan\nMOVB 16#09, SMB30 // port\nLD I0.0\n= Q0.0 // motor\n");
+  EXPECT_EQ(program("Network;Instruction;Operand;Comment\n1;LD;SM0.1;first scan\n1;MOVB;16#09, SMB30;port\n2;LD;I0.0;\n"
+                    "2;=;Q0.0;motor\n"),
+            plain);
+  EXPECT_EQ(program("LD,SM0.1,,first scan\nMOVB,16#09,SMB30,port\nLD,I0.0,,\n=,Q0.0,,motor\n"), plain);
+  EXPECT_EQ(program("LD,SM0.1,first scan\nMOVB,\"16#09, SMB30\",\"port\"\nLD,I0.0,\n=,Q0.0,\"motor\"\n"), plain);
+  EXPECT_EQ(program("1\tLD\tSM0.1\tfirst scan\n2\tMOVB\t16#09, SMB30\tport\n3\tLD\tI0.0\t\n4\t=\tQ0.0\tmotor\n"), plain);
+  EXPECT_EQ(program("MOVB\t16#09,\tSMB30\tport\n=\tQ0.0\tmotor\n"), program("MOVB 16#09, SMB30 // port\n= Q0.0 // motor\n"));
+}
+
+TEST(PlainText, ARowOfATableWithTwoOperandsIsAStatementWithoutACoil) {
+  EXPECT_EQ(program("| LD | SM0.1 |\n| S | Q0.0, 1 |\n"), program("LD SM0.1\nS Q0.0, 1\n"));
+  EXPECT_EQ(program("| Instruction | Operand |\n|---|---|\n| LD | SM0.1 |\n| MOVB | 16#09, SMB30 |\n"),
+            program("LD SM0.1\nMOVB 16#09, SMB30\n"));
+}
+
+TEST(PlainText, TablesOfSymbolsWithAnySignsStayTables) {
+  for (const char* table :
+       {"Symbol;Address;Comment\nPump;Q0.0;main\nStart;I0.0;green\n", "Pump,Q0.0,main\nStart,I0.0,green\n",
+        "Pump\tQ0.0\tmain\nPUMP2\tQ0.1\tspare\n", "| Operation | Q0.0 |\n| Command | VW10 |\n"}) {
+    EXPECT_EQ(read(table).parsed.source.symbols.size(), 2U) << table;
+    EXPECT_TRUE(read(table).parsed.source.lines.empty()) << table;
+  }
+}
+
+TEST(PlainText, HeadingsOfNetworksInOtherLanguagesAreRead) {
+  const std::string plain = program("NETWORK 1 // Start\nLD I0.0\n= Q0.0\nNETWORK 2\nLD I0.1\n= Q0.1\n");
+  for (const auto& [first, second] : {std::pair("Netzwerk 1: Start", "Netzwerk 2"),
+                                      {"Réseau 1 // Start", "Réseau 2"},
+                                      {"网络1：Start", "网络 2"},
+                                      {"Сеть 1 - Start", "Сеть 2"},
+                                      {"SEGMENTO 1: Start", "SEGMENTO 2"},
+                                      {"Rung 1: Start", "Rung 2"},
+                                      {"Sieć 1: Start", "Sieć 2"},
+                                      {"Ağ 1: Start", "Ağ 2"},
+                                      {"Network #1: Start", "Network #2"},
+                                      {"NW 1: Start", "NW 2"},
+                                      {"Network 1    Start", "Network 2"}})
+    EXPECT_EQ(program(std::string(first) + "\nLD I0.0\n= Q0.0\n" + second + "\nLD I0.1\n= Q0.1\n"), plain) << first;
+  EXPECT_EQ(note("Réseau 1\nLD I0.0\n= Q0.0\n"), "page.txt: read as plain text: headings of networks; the first in line 1");
+  EXPECT_NE(diagnostics(checked("Netzwerk 1\nLD I0.8\n= Q0.0\n")).find("page.txt:2:"), std::string::npos);
+}
+
+TEST(PlainText, AnInstructionBesideAHeadingIsNoTitle) {
+  for (const char* line : {"NETWORK 1  NOT", "NETWORK 1 LD I0.0", "network 1  not", "NETWORK 1: Start"})
+    EXPECT_TRUE(stl::has_errors(checked(std::string(line) + "\nLD I0.0\n= Q0.0\n").diagnostics)) << line;
+}
+
+TEST(PlainText, MarksOfEditorsAndPagesAroundCodeAreFences) {
+  for (const auto& [before, after] : {std::pair("{code:title=x}", "{code}"),
+                                      {"{noformat}", "{noformat}"},
+                                      {"#+BEGIN_SRC stl", "#+END_SRC"},
+                                      {"\\begin{verbatim}", "\\end{verbatim}"},
+                                      {"\\begin{lstlisting}[language=STL]", "\\end{lstlisting}"},
+                                      {"[source,stl]\n----", "----"},
+                                      {"<syntaxhighlight lang=\"text\">", "</syntaxhighlight>"}}) {
+    const auto source = read("Some text before it:\n" + std::string(before) + "\nLD I0.0\n= Q0.0\n" + after + "\nThanks!\n");
+    EXPECT_TRUE(source.parsed.diagnostics.empty()) << before;
+    EXPECT_NE(stl::to_text(source.parsed.source).find("LD      I0.0\n=       Q0.0\n"), std::string::npos) << before;
+  }
+}
+
+TEST(PlainText, FileAndLineOfGrepAreLeftOut) {
+  EXPECT_EQ(program("main.stl:1:LD I0.0\nmain.stl:2:= Q0.0\n"), program("LD I0.0\n= Q0.0\n"));
+}
+
+TEST(PlainText, ASemicolonBetweenOperandsIsAComma) {
+  EXPECT_EQ(program("LD SM0.0\nmovw 5; vw8\nMOVW 5;VW10 // set\n"), program("LD SM0.0\nmovw 5, vw8\nMOVW 5, VW10 // set\n"));
+  EXPECT_EQ(program("LD I0.0;\n= Q0.0;\n"), program("LD I0.0\n= Q0.0\n"));
+}
+
+TEST(PlainText, TheTextOfAPageOfAManualHasItsHeadingsDownTheMargin) {
+  EXPECT_EQ(program("M\nA\nI\nN\nNETWORK 1\nLD SM0.1\nATCH 0, 23\nI\nN\nT\n0\nNETWORK 1\nLD SM0.0\nCRETI\n"),
+            program("MAIN\n\n\n\nNETWORK 1\nLD SM0.1\nATCH 0, 23\nINT0\n\n\n\nNETWORK 1\nLD SM0.0\nCRETI\n"));
+  EXPECT_EQ(program("LD SM0.1\nMOVB 16#09, SMB30\n//Select 9600 baud, con-\ntrol by the user\nLD I0.0\n= Q0.0\n"),
+            program("LD SM0.1\nMOVB 16#09, SMB30\n//Select 9600 baud, con-\n// trol by the user\nLD I0.0\n= Q0.0\n"));
+}
+
+TEST(PlainText, TheSymbolInformationOfAPrintoutIsRead) {
+  const auto result = checked(
+      "Network 1   Pump\nLD     Start\n=      Pump\n\nSymbol   Address   Comment\nPump     Q0.0      main pump\n"
+      "Start    I0.0      green\n\nNetwork 2   Timer\nLD     Pump\nTON    T37, 50\n\nSymbol   Address   Comment\n"
+      "Pump     Q0.0      main pump\n");
+  EXPECT_FALSE(stl::has_errors(result.diagnostics)) << diagnostics(result);
+}
+
+TEST(PlainText, APatchAndAMailSayWhatToDo) {
+  for (const auto& [text, says] :
+       {std::pair("--- a/m.awl\n+++ b/m.awl\n@@ -1,3 +1,3 @@\n LD I0.0\n-A I0.1\n+AN I0.1\n = Q0.0\n",
+                  "apply it with patch"),
+        {"Content-Transfer-Encoding: quoted-printable\n\nLD I0.0\n=3D Q0.0\n", "save its text"},
+        {"LD I0.0\n=3D Q0.0\n", "save its text"}}) {
+    std::string why;
+    EXPECT_FALSE(read_source(text, "page.txt", why)) << text;
+    EXPECT_NE(why.find(says), std::string::npos) << why;
+  }
+}
+
+TEST(PlainText, EntitiesInCommentsOfAPageAreRead) {
+  EXPECT_EQ(program("LD I0.0 // &quot;Start&quot; &amp; go\nLDW&gt;= VW0, 5\n= Q0.0\n"),
+            program("LD I0.0 // \"Start\" & go\nLDW>= VW0, 5\n= Q0.0\n"));
+  EXPECT_EQ(program("LD I0.0 // &quot;\n= Q0.0\n"), program("LD I0.0 // &quot;\n= Q0.0\n")) << "no page";
+}
+
+TEST(PlainText, TitlesAboveAListingAndPageNumbersAreLeftOut) {
+  EXPECT_EQ(program("SIMATIC S7-200 Example\nUsing the Freeport\nSTL\nNetwork 1\nLD SM0.1\n= Q0.0\n1 / 3\n"),
+            program("\n\n\nNetwork 1\nLD SM0.1\n= Q0.0\n"));
 }
 
 TEST(PlainText, ATableOfSymbolsIsNoTableOfStatements) {
@@ -383,8 +494,9 @@ TEST(PlainText, QuotesAroundEachLineAreLeftOut) {
   EXPECT_EQ(program("“NETWORK 1”\n“LD I0.0”\n“= Q0.0”\n"), program("NETWORK 1\nLD I0.0\n= Q0.0\n"));
   EXPECT_EQ(program("\"LD I0.0\",\n\"= Q0.0\"\n"), program("LD I0.0\n= Q0.0\n"));
   EXPECT_EQ(program("'LD I0.0';\n\n'= Q0.0';\n"), program("LD I0.0\n\n= Q0.0\n"));
-  EXPECT_EQ(program("Hi all,\nthis does not work:\n\n“LD SM0.1”\n“ENI”\n\nINT_0:\n“LD SM0.0”\n“MOVB SMB2, VB100”\n\nAny ideas?\n"),
-            program("\n\n\nLD SM0.1\nENI\n\nINT_0:\nLD SM0.0\nMOVB SMB2, VB100\n"));
+  EXPECT_EQ(
+      program("Hi all,\nthis does not work:\n\n“LD SM0.1”\n“ENI”\n\nINT_0:\n“LD SM0.0”\n“MOVB SMB2, VB100”\n\nAny ideas?\n"),
+      program("\n\n\nLD SM0.1\nENI\n\nINT_0:\nLD SM0.0\nMOVB SMB2, VB100\n"));
   EXPECT_EQ(note("“LD I0.0”\n“= Q0.0”\n"),
             "page.txt: read as plain text: typographic quotes, quotes around each line; the first in line 1");
 }
@@ -411,6 +523,22 @@ TEST(Hints, StatementsInOneLineAreAllNamed) {
   const CheckResult result = checked("NETWORK 1 LD I0.0\n= Q0.0\n");
   EXPECT_NE(diagnostics(result).find("two statements in one line"), std::string::npos);
   EXPECT_NE(diagnostics(result).find("begin a new line with LD"), std::string::npos);
+}
+
+TEST(Hints, NotationsOfOtherSystemsAreNamed) {
+  EXPECT_EQ(only_error("LD I0.0\nJMP 2\nL2: LD I0.1\n= Q0.0\nLBL 2\n").substr(0, 55),
+            "L2: is a label of another language: write LBL 2 in a li");
+  EXPECT_NE(only_error("LD I0.0\nMOVW DB1.DBW10, VW20\n").find("write VW10"), std::string::npos);
+  EXPECT_NE(only_error("LD DB1.DBX0.3\n= Q0.0\n").find("write V0.3"), std::string::npos);
+  EXPECT_NE(only_error("LD> VW0, 5\n= Q0.0\n").find("LDW>"), std::string::npos);
+  EXPECT_NE(only_error("LD 10.1\n= Q0.0\n").find("I0.1 is an input"), std::string::npos);
+  EXPECT_NE(only_error("LDI>= VW0, 5\n= Q0.0\n").find("write LDW>="), std::string::npos);
+}
+
+TEST(Hints, BothMistakesOfAnAttachmentAreNamed) {
+  const std::string said = diagnostics(checked("LD SM0.1\nATCH 1, 99\nENI\n"));
+  EXPECT_NE(said.find("event 99 does not exist"), std::string::npos) << said;
+  EXPECT_NE(said.find("interrupt routine 1 is missing"), std::string::npos) << said;
 }
 
 TEST(Hints, ABlankInAnAddressIsNamed) {

@@ -15,6 +15,13 @@ TEST(HexFrame, BlanksAndCaseAreFree) {
   EXPECT_EQ(hex("aB\tCd"), (Bytes{0xAB, 0xCD}));
 }
 
+TEST(HexFrame, SignsOfOtherToolsMayStandBetweenBytes) {
+  for (const char* text : {"01-03-0a", "01:03:0A", "01,03,0a", "01, 03; 0a", "0x01 0x03 0x0A", "0x01,0x03,0x0a", "0x01030a"})
+    EXPECT_EQ(hex(text), (Bytes{0x01, 0x03, 0x0A})) << text;
+  EXPECT_FALSE(parse_hex_frame(":01030a").ok()) << "a frame of Modbus ASCII is text";
+  EXPECT_FALSE(parse_hex_frame("0x1").ok());
+}
+
 TEST(HexFrame, PMeansWrongParity) {
   const ParsedFrame parsed = parse_hex_frame("01 03p0A 0bP");
   ASSERT_TRUE(parsed.ok());
