@@ -1454,7 +1454,7 @@ TEST(Debugger, CommandsMayBeCutShortWhileTheyStayClear) {
 TEST(Debugger, EveryWrongCommandTellsWhatIsExpected) {
   AtPrompt session(kNested);
   const std::pair<std::string_view, std::string_view> wrong[] = {
-      {"jump", "unknown command 'jump'; 'help' lists them"},
+      {"jump", "unknown command 'jump'; 'until' runs to a line; no command skips instructions"},
       {"step x", "step expects how many"},
       {"step 0", "step expects how many"},
       {"scan -1", "scan expects how many"},

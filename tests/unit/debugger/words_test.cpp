@@ -31,7 +31,8 @@ TEST(Words, AVariableOfABlockIsItsLocalMemoryWhereTheProgramStands) {
   EXPECT_TRUE(has(session.out.str(), "7"));
   EXPECT_TRUE(has(session("print #ratio"), "1.5"));
   EXPECT_EQ(session.error_of("expect #raw = 7 and #result = 7"), "no error");
-  EXPECT_TRUE(has(session.error_of("print #row"), "#row is no variable of SBR 0, which is executed now; did you mean #raw?"));
+  EXPECT_TRUE(
+      has(session.error_of("print #row"), "#row is no variable of SBR 0, which is executed now; did you mean #raw?"));
 }
 
 TEST(Words, AConditionOfABreakpointKnowsTheVariablesOfItsPlace) {
@@ -86,6 +87,33 @@ TEST(Words, ACommandThatIsNearlyOneIsOffered) {
   EXPECT_EQ(session.error_of("xyzzyplugh"), "unknown command 'xyzzyplugh'; 'help' lists them");
 }
 
+TEST(Words, WordsOfOtherDebuggersAndOfProgramsAreExplained) {
+  AtPrompt session(kNested);
+  EXPECT_EQ(session.error_of("run"), "unknown command 'run'; 'continue' runs");
+  EXPECT_EQ(session.error_of("next"), "unknown command 'next'; 'over' executes a CALL with all that it calls");
+  EXPECT_EQ(session.error_of("x/4 VB0"), "unknown command 'x/4'; 'print VB0:16' shows memory");
+  EXPECT_EQ(session.error_of("movw 5, VW10"),
+            "unknown command 'movw'; MOVW is an instruction: 'set' changes memory, 'print' shows it");
+  EXPECT_EQ(session.error_of("VW10=5"), "unknown command 'VW10=5'; 'set VW10=5' changes memory");
+}
+
+TEST(Words, RelationsOfOtherLanguagesAreRead) {
+  AtPrompt session(kNested);
+  session("set VW10=5");
+  EXPECT_TRUE(has(session("print VW10 == 5"), "= 1"));
+  EXPECT_TRUE(has(session("print VW10 != 5"), "= 0"));
+}
+
+TEST(Words, ABreakpointStopsWhereSomebodyHasMadeItsConditionHold) {
+  AtPrompt session(kNested);
+  session("break VW10 > 3; set VW10=5; continue 100ms");
+  EXPECT_TRUE(has(session.out.str(), "breakpoint 1, VW10 > 3"));
+  EXPECT_TRUE(has(session.out.str(), "by 'set VW10', from outside"));
+  EXPECT_EQ(session.state().instructions, 0U);
+  EXPECT_TRUE(has(session("continue 100ms"), "passed with nothing to stop for")) << "once";
+  EXPECT_TRUE(has(session("set VW10=0; continue 1ms; set VW10=7; continue 1ms"), "breakpoint 1, VW10 > 3"));
+}
+
 TEST(Words, ContinueSaysThatItStandsWithinAScanAndGoesToItsEnd) {
   std::string program = "LD SM0.0\n";
   for (int i = 0; i < 60; ++i) program += "INCW VW0\n";
@@ -93,8 +121,9 @@ TEST(Words, ContinueSaysThatItStandsWithinAScanAndGoesToItsEnd) {
   session("continue 20ms");
   bool within = false;
   for (int i = 0; i < 20 && !within; ++i)
-    within = session("continue 1001us").find("; it stands within a scan; 'continue 1.001 ms scan' goes on to the end of it") !=
-             std::string::npos;
+    within =
+        session("continue 1001us").find("; it stands within a scan; 'continue 1.001 ms scan' goes on to the end of it") !=
+        std::string::npos;
   EXPECT_TRUE(within) << session.out.str();
   const auto scans = session.state().scans;
   session("continue 10ms scan");

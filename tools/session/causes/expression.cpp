@@ -132,8 +132,8 @@ using Node = Expression::Node;
 using NodePtr = std::shared_ptr<const Node>;
 
 /// From the weakest to the strongest.
-constexpr std::array<std::array<std::string_view, 6>, 5> kLevels{
-    {{"or"}, {"and"}, {"<=", ">=", "<>", "=", "<", ">"}, {"+", "-"}, {"*", "/"}}};
+constexpr std::array<std::array<std::string_view, 8>, 5> kLevels{
+    {{"or"}, {"and"}, {"<=", ">=", "<>", "==", "!=", "=", "<", ">"}, {"+", "-"}, {"*", "/"}}};
 
 constexpr std::size_t kComparisons = 2;  // level of
 
@@ -189,8 +189,10 @@ class ExpressionReader {
     std::size_t left_at = at_;
     NodePtr left = binary(level + 1);
     while (left) {
-      const std::string_view op = take_operator(level);
+      std::string_view op = take_operator(level);
       if (op.empty()) break;
+      if (op == "==") op = "=";  // as other languages write them
+      if (op == "!=") op = "<>";
       if (++operators_ > kMostOperators) return fail(fmt::format("more than {} operators", kMostOperators));
       skip_blanks();
       const std::size_t right_at = at_;
@@ -251,7 +253,7 @@ class ExpressionReader {
     if (text_.substr(at_).starts_with('&')) ++at_;
     if (text_.substr(at_).starts_with('"')) at_ = std::min(text_.find('"', at_ + 1), text_.size() - 1) + 1;
     while (at_ < text_.size() && (at_ == begin || text_[at_] != '*') &&
-           std::string_view(" \t+-/()=<>").find(text_[at_]) == std::string_view::npos)
+           std::string_view(" \t+-/()=<>!").find(text_[at_]) == std::string_view::npos)
       ++at_;
     const std::string_view word = text_.substr(begin, at_ - begin);
     if (word.empty() || word == "*") return fail("an address or a number is missing");

@@ -52,6 +52,7 @@ Stop Stepper::run(const Goal& goal, Time limit, bool stop_at_answer) {
   begin_watching();
   const serial::Halt halt = history_.run(*this);
   listened_to_ = history_.now();
+  look_at_conditions();
   if (halt == serial::Halt::Stopped) stop_.reason = StopReason::CpuStopped;
   if (halt == serial::Halt::Request) stop_.reason = StopReason::Request;
   if (halt == serial::Halt::Time) end_idle();
@@ -95,6 +96,7 @@ Stop Stepper::run_back_past_stops(const Goal& goal) {
 
 void Stepper::begin_search(const Goal& goal, std::uint64_t count, bool stop_at_answer) {
   count_hits();
+  held_at_.reset();
   for (StopPoint& stop : stops_) stop.skipped = stop.unknown = 0;
   goal_ = goal;
   limit_ = kNever;
@@ -195,7 +197,25 @@ void Stepper::begin_watching() {
   requests_.await_masters();
   if (!backwards_)
     for (StopPoint& stop : stops_) stop.skipped = stop.unknown = 0;
+  note_set_since();
   read_values();
+}
+
+/// Conditions that hold because somebody has set memory since the last run, which ended at this moment.
+void Stepper::note_set_since() {
+  const Moment now = history_.now();
+  const bool stands = held_at_ && held_at_->instructions == now.instructions && held_at_->time == now.time;
+  if (backwards_ || !stands || now.actions <= held_at_->actions) return;
+  for (SetStop& stop : stops_)
+    if (stop.on == On::Becomes && stop.from_hit == 1 && stop.log.empty() && has_come_to_hold(stop))
+      stop_.hits.push_back({.stop = stop, .action = now.actions - 1});
+}
+
+/// Looks at the conditions of stops, for note_set_since().
+void Stepper::look_at_conditions() {
+  held_at_ = history_.now();
+  for (StopPoint& stop : stops_)
+    if (stop.on == On::Becomes) stop.held = holds(stop);
 }
 
 /// What comes from outside ends a row of such scans by itself. A time that has come is looked for here.
@@ -428,6 +448,11 @@ void Stepper::instruction(const InstructionRecord& record) {
 void Stepper::add(StopPoint stop) {
   stops_.push_back({std::move(stop), {}});
   count_hits();
+  const Moment now = history_.now();
+  if (!held_at_ || held_at_->instructions != now.instructions || held_at_->time != now.time)
+    look_at_conditions();
+  else if (stops_.back().on == On::Becomes)
+    stops_.back().held = holds(stops_.back());
 }
 
 bool Stepper::remove(int number) {

@@ -140,6 +140,8 @@ class Stepper final : public Observer {
   const serial::Simulation& station(std::size_t number) const { return history_.station(number); }
   bool is_turn_of(std::size_t station) const;
   void begin_watching();
+  void note_set_since();
+  void look_at_conditions();
   void read_values();
   Instruction instruction_of(std::size_t station, std::uint32_t op) const;
   bool stops_before_action();
@@ -201,6 +203,7 @@ class Stepper final : public Observer {
   OpenRequests requests_;
   History::BranchPtr counted_on_;      ///< the branch on which hits were counted last
   std::optional<Moment> listened_to_;  ///< where the last run ended: one from there goes on listening
+  std::optional<Moment> held_at_{};    // when the conditions of stops were looked at
   Time executing_since_ = kNever;      ///< the start of the instruction being executed; kNever: none is
   Search search_;                      ///< backwards
   Progress progress_;

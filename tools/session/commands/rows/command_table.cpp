@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "interpreter/base/text/nearest.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/base/text/wrapped.hpp"
+#include "interpreter/model/instruction.hpp"
 #include "tools/session/commands/memory_words.hpp"
 #include "tools/session/commands/rows/commands.hpp"
 #include "tools/session/words/print_forms.hpp"
@@ -359,6 +361,46 @@ std::vector<std::string> command_names() {
   return names;
 }
 
+/// What other debuggers call a command, and the words that are no command here.
+struct OtherWord {
+  std::string_view word, hint;
+};
+constexpr std::array kOtherWords{
+    OtherWord{"run", "'continue' runs"},
+    OtherWord{"go", "'continue' runs"},
+    OtherWord{"start", "'restart' powers up again, 'continue' runs"},
+    OtherWord{"stop", "'mode stop' switches the CPU to STOP; Ctrl-C ends a run"},
+    OtherWord{"reset", "'restart' powers up again"},
+    OtherWord{"next", "'over' executes a CALL with all that it calls"},
+    OtherWord{"finish", "'out' runs to the end of the routine"},
+    OtherWord{"up", "'regs' shows the calls"},
+    OtherWord{"bt", "'regs' shows the calls"},
+    OtherWord{"where", "'regs' shows the place and the calls"},
+    OtherWord{"backtrace", "'regs' shows the calls"},
+    OtherWord{"info", "'break', 'watch' and 'display' alone list theirs, 'regs' shows the rest"},
+    OtherWord{"clear", "'delete' removes breakpoints"},
+    OtherWord{"goto", "'at' goes to a moment, 'until' to a line"},
+    OtherWord{"jump", "'until' runs to a line; no command skips instructions"},
+    OtherWord{"tbreak", "'until' stops once"},
+    OtherWord{"wait", "'continue TIME' lets time pass"},
+    OtherWord{"sleep", "'continue TIME' lets time pass"},
+    OtherWord{"exit", "'quit' ends"},
+    OtherWord{"x", "'print VB0:16' shows memory"},
+    OtherWord{"?", "'help' lists the commands"},
+};
+
+/// The hint for a word that is no command: of another debugger, or of a program.
+std::string hint_for_word(std::string_view word, std::string_view meant) {
+  const std::string lower = stl::lower_case(word);
+  const std::string_view name = std::string_view(lower).substr(0, lower.find('/'));
+  const auto other = std::ranges::find(kOtherWords, name, &OtherWord::word);
+  if (other != kOtherWords.end()) return std::string(other->hint);
+  if (find_instruction(stl::upper_case(word)))
+    return fmt::format("{} is an instruction: 'set' changes memory, 'print' shows it", stl::upper_case(word));
+  if (word.find('=') != std::string_view::npos) return fmt::format("'set {}' changes memory", stl::shortened(word));
+  return meant.empty() ? "'help' lists them" : fmt::format("did you mean {}?", meant);
+}
+
 const CommandRow* find_command(std::string_view word, std::string& why) {
   const std::string name = stl::lower_case(word);
   std::vector<const CommandRow*> found;
@@ -366,13 +408,13 @@ const CommandRow* find_command(std::string_view word, std::string& why) {
     if (name == command.name || name == command.short_form) return &command;
     if (command.name.starts_with(name)) found.push_back(&command);
   }
-  if (found.size() == 1) return found[0];
-  if (found.empty()) {
+  const bool of_others = std::ranges::find(kOtherWords, name, &OtherWord::word) != kOtherWords.end();
+  if (found.size() == 1 && !of_others) return found[0];
+  if (found.empty() || of_others) {
     std::vector<std::string_view> names;
     for (const CommandRow& command : command_table()) names.push_back(command.name);
     const std::string_view meant = nearest(name, names);
-    why = meant.empty() ? fmt::format("unknown command '{}'; 'help' lists them", stl::shortened(word))
-                        : fmt::format("unknown command '{}'; did you mean {}?", stl::shortened(word), meant);
+    why = fmt::format("unknown command '{}'; {}", stl::shortened(word), hint_for_word(word, meant));
     return nullptr;
   }
   why = fmt::format("'{}' may be", stl::shortened(word));
