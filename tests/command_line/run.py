@@ -211,6 +211,23 @@ class Verbs(Case):
         echo = self.program(Json.ECHO)
         self.assertNotIn("quotes", self.ends(FINE, "send", echo, "ab", "cd").stderr, "frames of one byte have their answers")
 
+    def test_frames_may_be_written_as_other_tools_have_them(self):
+        for frame in ("01 03 00 0a 00 02 crc", "01-03-00-0a-00-02-e4-09", "0x01 0x03 0x00 0x0a 0x00 0x02 0xe4 0x09", "01:03:00:0A:00:02:E4:09"):
+            self.assertIn("request  01 03 00 0a 00 02 e4 09\n", self.ends(FINE, "send", SLAVE, frame).stdout)
+        for frame, hint in ((":0103000A0002F0", "--text"), ("crc", "in quotes"), ("read 40011:2", "s7200 master")):
+            self.assertIn(hint, self.ends(UNUSABLE, "send", SLAVE, frame).stderr)
+
+    def test_a_launch_takes_further_files_and_values_by_their_places(self):
+        def message(number, command, **arguments):
+            body = json.dumps({"seq": number, "type": "request", "command": command, "arguments": arguments})
+            return f"Content-Length: {len(body)}\r\n\r\n{body}"
+        stream = message(1, "initialize", adapterID="s7200") + message(2, "launch", program=str(EXPORTS / "pump.awl"),
+            **{"with": [str(EXPORTS / "pump_symbols.txt")], "set": {"VW10": "0x10"}, "cpu": "CPU 224"}, stopOnEntry=True)
+        stream += message(3, "configurationDone") + message(4, "evaluate", expression="Pump") + message(5, "evaluate", expression="VW10")
+        said = s7200("dap", stdin=None, input=stream + message(6, "disconnect")).stdout
+        self.assertIn('"result":"0"', said)
+        self.assertIn('"result":"16#0010 (16)"', said)
+
     def test_polling_in_simulation_says_how_often(self):
         for options in (["--every", "1s"], ["--every", "1s", "--json"], ["--continuous", "--json"], ["--continuous", "-v"]):
             done = self.ends(UNUSABLE, "master", SLAVE, "read", "40001", *options)

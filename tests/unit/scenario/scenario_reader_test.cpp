@@ -357,6 +357,15 @@ struct Mistake {
   const char* message;
 };
 
+TEST(ScenarioReader, StepsOfOtherToolsHaveTheirHints) {
+  const auto hint_of = [](const char* text) { return read(text).diagnostics.at(0).hint; };
+  EXPECT_TRUE(hint_of("steps:\n  - input: {I0.0: 1}\n").starts_with("'set' switches inputs"));
+  EXPECT_TRUE(hint_of("steps:\n  - sleep: 1s\n").starts_with("'wait' lets time pass"));
+  EXPECT_TRUE(hint_of("steps:\n  - expect: {Q0.0: 1}\n").starts_with("of memory it is"));
+  EXPECT_EQ(hint_of("steps:\n  - {send: 01 03 crc}\n"), "crc: true beside it appends the CRC");
+  EXPECT_EQ(hint_of("steps:\n  - {send: 01 03, expect: none}\n"), "write silence");
+}
+
 TEST(ScenarioReader, EveryMistakeIsToldAtItsPlace) {
   const Mistake mistakes[] = {
       {"", 0, 0, "nothing in it"},

@@ -91,7 +91,9 @@ class RigDebuggee final : public dap::Debuggee {
 
 namespace fs = std::filesystem;
 
-bool is_option(const std::string& key) { return dap::use_of(key) == dap::AttributeUse::Program && key != "program"; }
+bool is_option(const std::string& key) {
+  return dap::use_of(key) == dap::AttributeUse::Program && key != "program" && key != "with";
+}
 
 /// `--modbus-tcp` for `modbusTcp`
 std::string option_of_attribute(const std::string& key) {
@@ -140,7 +142,11 @@ void give(CLI::Option& option, const Json& value, const std::string& folder) {
   }
   if (value == false) return;
   const std::string type = option.get_type_name();
-  const Json values = value.is_array() ? value : Json::array({value});
+  Json values = value.is_array() ? value : Json::array({value});
+  if (value.is_object() && type.starts_with("ADDRESS=")) {  // `"set": {"VW10": 5}`
+    values = Json::array();
+    for (const auto& [place, one] : value.items()) values.push_back(fmt::format("{}={}", place, word_of(one, type)));
+  }
   if (values.size() > 1 && option.get_items_expected_max() == 1 &&
       option.get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
     throw WrongValue(fmt::format("{} is not one {}", shown(value), type));
@@ -161,6 +167,7 @@ std::vector<std::string> take_attributes(const Json& arguments, CLI::App& app) {
   }
   std::vector<std::string> files = texts_at(arguments, "program");
   if (files.empty()) throw dap::Refused("launch: 'program' is missing: the file of the program to debug");
+  std::ranges::move(texts_at(arguments, "with"), std::back_inserter(files));
   for (std::string& file : files) {
     file = as_written(file, "FILE", folder);
     app.get_option("PROGRAM")->add_result(file);

@@ -23,6 +23,24 @@ std::string without_comment(const std::string& line) {
   return line.substr(0, std::min(line.find('#', begin + quotation), line.find('\r', begin + quotation)));
 }
 
+bool is_crc(std::string_view word) { return stl::lower_case(word) == "crc"; }
+
+/// A frame in hex; `crc` as its last word appends the Modbus CRC, as in the debugger.
+serial::ParsedFrame parse_hex_with_crc(std::string_view text) {
+  const std::string_view whole = stl::trim(text);
+  const std::size_t last = whole.find_last_of(" \t");
+  const bool crc = last != whole.npos && is_crc(whole.substr(last + 1));
+  serial::ParsedFrame parsed = serial::parse_hex_frame(crc ? whole.substr(0, last) : text);
+  if (crc && parsed.ok()) modbus::append_crc(parsed.frame);
+  if (parsed.ok()) return parsed;
+  std::string& message = parsed.errors[0].message;
+  if (is_crc(whole)) message = "crc is the last word of a frame, which stands in quotes: '01 03 00 0a 00 02 crc'";
+  if (whole.starts_with(':')) message += R"(; a frame of Modbus ASCII is text: --text ':0103000A0002F0\r\n')";
+  if (whole == "read" || whole == "write" || whole.starts_with("read ") || whole.starts_with("write "))
+    message += "; 's7200 master' asks with read and write";
+  return parsed;
+}
+
 }  // namespace
 
 void FrameOptions::add_to(CLI::App& app) {
@@ -52,7 +70,7 @@ std::optional<std::vector<serial::Frame>> FrameOptions::read(std::string& why) c
     const bool is_text = option == text_;
     const std::string& next = is_text ? *text++ : *frame++;
     written.push_back({next, fmt::format("{} '{}'", is_text ? "--text" : "frame", stl::shortened(next)),
-                       is_text ? parse_text : serial::parse_hex_frame});
+                       is_text ? parse_text : parse_hex_with_crc});
   }
   if (!file_.empty()) {
     std::string reason;

@@ -20,6 +20,7 @@ constexpr AttributeRow kAttributes[] = {
     {"token", AttributeUse::Session},
     {"cwd", AttributeUse::Session},
     {"program", AttributeUse::Program},
+    {"with", AttributeUse::Program},
     // Those of VS Code, Zed (adapter, label, build) and nvim-dap
     {"name", AttributeUse::Editor},
     {"type", AttributeUse::Editor},

@@ -43,9 +43,12 @@ std::optional<Expected> read_expected(ValueReader& values, const YamlNode& node)
   std::string why;
   auto pattern = parse_pattern(*written, why);
   if (!pattern) {
-    values.wrong(node, fmt::format("'{}' is not an answer: {}", stl::shortened(*written), why),
-                 "write hex such as 01 03 .. .., {text: 'OK\\r'}, any, silence, echo, accepted, refused, exception 2, or "
-                 "values such as [16#1234, 0]");
+    values.wrong(
+        node, fmt::format("'{}' is not an answer: {}", stl::shortened(*written), why),
+        word == "none" || word == "nothing"
+            ? "write silence"
+            : "write hex such as 01 03 .. .., {text: 'OK\\r'}, any, silence, echo, accepted, refused, exception 2, or "
+              "values such as [16#1234, 0]");
     return {};
   }
   return Expected{.kind = Kind::Frame, .frame = std::move(*pattern)};

@@ -1,12 +1,33 @@
 #include "tools/scenario/reading/step_reader.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "tools/scenario/steps/expected/reception.hpp"
 #include "tools/scenario/steps/steps.hpp"
 
 namespace s7200::tools {
 namespace {
+
+/// What other tools for tests call a step, or part of one.
+struct OtherStep {
+  std::string_view word, hint;
+};
+constexpr std::array kOtherSteps{
+    OtherStep{"input", "'set' switches inputs: set: {I0.0: 1}"},
+    OtherStep{"inputs", "'set' switches inputs: set: {I0.0: 1}"},
+    OtherStep{"expect", "of memory it is - memory: {Q0.0: 1}; of an answer it stands beside the request"},
+    OtherStep{"assert", "'memory' expects values: memory: {Q0.0: 1}"},
+    OtherStep{"check", "'memory' expects values: memory: {Q0.0: 1}"},
+    OtherStep{"output", "'memory' expects values: memory: {Q0.0: 1}"},
+    OtherStep{"outputs", "'memory' expects values: memory: {Q0.0: 1}"},
+    OtherStep{"run", "'wait' lets time pass: wait: 100ms"},
+    OtherStep{"sleep", "'wait' lets time pass: wait: 100ms"},
+    OtherStep{"delay", "'wait' lets time pass: wait: 100ms"},
+    OtherStep{"advance", "'wait' lets time pass: wait: 100ms"},
+    OtherStep{"answer", "'expect' beside a request expects its answer"},
+    OtherStep{"response", "'expect' beside a request expects its answer"},
+};
 
 constexpr int kLargestLoop = 4096;
 
@@ -78,9 +99,11 @@ const YamlNode* StepReader::find_action(const YamlNode& node) {
       return row.key == key.text && (makes_a_step(row) || row.where == ScenarioKey::Where::Modifier);
     });
   });
-  const bool expects = !node.keys.empty() && node.keys[0].text == "expect";
-  const std::string hint = expects ? "of memory it is - memory: {Q0.0: 1}; of an answer it stands beside the request"
-                                   : fmt::format("it has one of: {}", fmt::join(known, ", "));
+  const YamlNode* const written = unknown != node.keys.end() ? &*unknown : node.keys.empty() ? nullptr : &node.keys.front();
+  const auto other = std::ranges::find_if(
+      kOtherSteps, [&](const OtherStep& each) { return written != nullptr && each.word == written->text; });
+  const std::string hint =
+      other == kOtherSteps.end() ? fmt::format("it has one of: {}", fmt::join(known, ", ")) : std::string(other->hint);
   if (unknown != node.keys.end())
     values_.wrong(*unknown, fmt::format("there is no step '{}'", stl::shortened(unknown->text)), hint);
   else

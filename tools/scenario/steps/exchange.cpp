@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "interpreter/base/text/text.hpp"
 #include "tools/scenario/reading/answer_reader.hpp"
 #include "tools/views/text_frame.hpp"
 
@@ -93,7 +94,9 @@ serial::Frame hex_frame(ValueReader& values, const YamlNode& node) {
   if (!written) return {};
   serial::ParsedFrame parsed = serial::parse_hex_frame(*written);
   if (parsed.ok()) return std::move(parsed.frame);
-  values.wrong(node, parsed.errors[0].message, "write a frame in hex, such as 01 03 00 0a");
+  const bool crc = stl::lower_case(*written).find("crc") != std::string::npos;
+  values.wrong(node, parsed.errors[0].message,
+               crc ? "crc: true beside it appends the CRC" : "write a frame in hex, such as 01 03 00 0a");
   return {};
 }
 
