@@ -44,8 +44,8 @@ struct ParsedFrame {
   bool ok() const { return errors.empty(); }
 };
 
-/// Reads `01 03 00 0a`: two hex digits a byte in either case, blanks or the signs of other tools between bytes as you like
-/// (`01-03`, `01:03`, `01,03`, `0x01 0x03`), `p` after a byte to send it with wrong parity. From one to 1024 bytes.
+/// Reads `01 03 00 0a`, `01-03`, `0x01,0x03`: two hex digits a byte, blanks or signs between bytes as you like, `p` after a
+/// byte to send it with wrong parity. From one to 1024 bytes.
 ParsedFrame parse_hex_frame(std::string_view text);
 
 /// Bytes in hex: `01 03 00 0a`
