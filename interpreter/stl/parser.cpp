@@ -878,7 +878,8 @@ class LineReader {
     const std::string_view after = trim(std::string_view(where + 1, static_cast<std::size_t>(end() - where) - 1));
     const std::string_view mnemonic = after.substr(0, after.find_first_of(" \t"));
     if (name.find_first_of(" \t,=") != name.npos || std::ranges::any_of(mnemonic, is_lower)) return false;
-    if (!after.empty() && std::ranges::none_of(after, is_digit)) return false;  // `Example: Transmit`
+    if (!after.empty() && (std::ranges::none_of(after, is_digit) || std::ranges::none_of(name, is_digit)))
+      return false;  // `Example: Transmit`, `LD: I0.0`
     const std::size_t digits = std::min(name.find_last_not_of("0123456789") + 1, name.size());
     const std::string_view number = name.substr(digits).empty() ? "1" : name.substr(digits);
     report(position(Range(name.data(), name.data() + name.size())),
