@@ -455,9 +455,9 @@ TEST_F(Tip41, ACutInTheListingIsNoticed) {
 
 TEST(Document, StatementsWithSymbolsOneAfterTheOtherAreStatements) {
   const std::string around = "This is an example of a small pump control that we used in our plant for many years.\n\n";
-  EXPECT_EQ(to_text(read(around + "LD Start\nAN Stop\n= Pump\nLD I0.1\n= Q0.1\nMEND\n\n" + around).source),
-            "LD      Start\nAN      Stop\n=       Pump\nLD      I0.1\n=       Q0.1\nMEND\n");
-  const ParseResult apart = read(around + "LD I0.1\n= Q0.1\n\n" + around + "LD Start\nAN Stop\n= Pump\nMEND\n\n" + around);
+  EXPECT_EQ(to_text(read(around + "LD Start\nA Stop\n= Pump\nLD I0.1\n= Q0.1\nMEND\n\n" + around).source),
+            "LD      Start\nA       Stop\n=       Pump\nLD      I0.1\n=       Q0.1\nMEND\n");
+  const ParseResult apart = read(around + "LD I0.1\n= Q0.1\n\n" + around + "LD Start\nA Stop\n= Pump\nMEND\n\n" + around);
   EXPECT_EQ(statements(apart.source).size(), 6U) << "a rung between paragraphs";
 }
 

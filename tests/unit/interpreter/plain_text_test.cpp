@@ -375,14 +375,14 @@ TEST(PlainText, RowsOfATableAreStatements) {
 }
 
 TEST(PlainText, RowsWithOtherSignsBetweenTheirCellsAreStatements) {
-  const std::string plain = program("LD SM0.1 // first scan\nMOVB 16#09, SMB30 // port\nLD I0.0\n= Q0.0 // motor\n");
+  const std::string plain = program("LD SM0.1 //first scan\nMOVB 16#09, SMB30 //port\nLD I0.0\n= Q0.0 //motor\n");
   EXPECT_EQ(program("Network;Instruction;Operand;Comment\n1;LD;SM0.1;first scan\n1;MOVB;16#09, SMB30;port\n2;LD;I0.0;\n"
                     "2;=;Q0.0;motor\n"),
             plain);
   EXPECT_EQ(program("LD,SM0.1,,first scan\nMOVB,16#09,SMB30,port\nLD,I0.0,,\n=,Q0.0,,motor\n"), plain);
-  EXPECT_EQ(program("LD,SM0.1,first scan\nMOVB,\"16#09, SMB30\",\"port\"\nLD,I0.0,\n=,Q0.0,\"motor\"\n"), plain);
+  EXPECT_EQ(program("LD,SM0.1,first scan\nMOVB,\"16#09, SMB30\",port\nLD,I0.0,\n=,\"Q0.0\",motor\n"), plain);
   EXPECT_EQ(program("1\tLD\tSM0.1\tfirst scan\n2\tMOVB\t16#09, SMB30\tport\n3\tLD\tI0.0\t\n4\t=\tQ0.0\tmotor\n"), plain);
-  EXPECT_EQ(program("MOVB\t16#09,\tSMB30\tport\n=\tQ0.0\tmotor\n"), program("MOVB 16#09, SMB30 // port\n= Q0.0 // motor\n"));
+  EXPECT_EQ(program("MOVB\t16#09,\tSMB30\tport\n=\tQ0.0\tmotor\n"), program("MOVB 16#09, SMB30 //port\n= Q0.0 //motor\n"));
 }
 
 TEST(PlainText, ARowOfATableWithTwoOperandsIsAStatementWithoutACoil) {

@@ -30,6 +30,7 @@ struct Columns {
   std::optional<std::size_t> sent{}, received{};  ///< instead of direction and data
   std::size_t byte_columns = 0;  ///< from `data` on, each with a byte of the frame; 0: the bytes stand in one
   bool parts = false;            ///< each of them has a part of the frame: station, function, data, CRC
+  bool of_exchanges = false;     ///< a row has a request and its answer: `Time,Request,Response`
   std::vector<std::size_t> errors{};
   Time unit = kSecond;
   bool base64 = false;         ///< the name of the data says so
@@ -62,6 +63,7 @@ void find_one_for_each_direction(const std::vector<std::string>& names, Columns&
   if (!sent || !received || sent == received) return;
   columns.sent = sent;
   columns.received = received;
+  columns.of_exchanges = contains(names[*sent], {"REQ", "QUERY", "ANFRAGE", "SOLICITUD", "PEDIDO", "RICHIESTA"});
   columns.data = columns.direction = std::nullopt;
 }
 
@@ -353,6 +355,10 @@ std::optional<LineRecording> read_csv(std::string_view bytes, const ReadingChoic
     if (!no_time && cell.empty()) {  // sniffers note reads that brought nothing
       left_out.without_bytes(row->number);
       continue;
+    }
+    if (!columns.of_exchanges && columns.sent && !is_received && !stl::trim(field(columns.received)).empty()) {
+      why = fmt::format("line {}: bytes in both directions; write them in two lines", row->number);
+      return {};
     }
     const std::string_view other_cell =  // of a row with a request and its answer
         columns.sent && !is_received ? content_of(stl::trim(field(columns.received)), columns) : std::string_view();
