@@ -464,6 +464,7 @@ class PageReader {
     std::vector<Row> read = rows_;
     std::set<std::string> first_words;
     bool of_symbols = true, says_so = false, has_comment = false, has_coil = false;
+    constexpr std::size_t kMostCells = 20;  // of a row of a listing
     std::size_t in_table = 0, statements = 0, others = 0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const std::string_view text = rows_[i].text;
@@ -476,7 +477,7 @@ class PageReader {
         others += !stands_without_mark(text) ? 1U : 0U;
         continue;
       }
-      if (in_strokes && is_drawn(text)) return false;
+      if (cells.size() > kMostCells || (in_strokes && is_drawn(text))) return false;
       if ((in_strokes && is_rule(text)) || is_head_of_table(text, cells)) {
         says_so |= names_instructions(text, cells);
         read[i].leave_out(kTable);
