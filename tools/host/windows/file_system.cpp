@@ -20,6 +20,9 @@ namespace s7200::tools {
 std::string why_not_to_be_written(const std::string& path) {
   if (is_null_device(path)) return {};
   if (is_device_name(path)) return "it is the name of a device of Windows; name another";
+  const DWORD attributes = GetFileAttributesW(native_path(path).c_str());  // of a folder they do not protect what is in it
+  const bool is_file = attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY) == 0;
+  if (is_file && (attributes & FILE_ATTRIBUTE_READONLY) != 0) return "it is write-protected; name another";
   const Handle file(CreateFileW(native_path(path).c_str(), GENERIC_READ,
                                 FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr, OPEN_EXISTING, 0, nullptr));
   return !file && GetLastError() == ERROR_SHARING_VIOLATION ? words_of(ERROR_SHARING_VIOLATION) : "";
