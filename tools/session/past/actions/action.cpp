@@ -19,6 +19,7 @@ struct Doer {
     for (const Assignment& assignment : set.assignments) assign(simulation.cpu(), assignment);
   }
   void operator()(const SendFrame& send) const {
+    if (simulation.master().busy()) return;  // only a changed session file can ask for it: it runs another way then
     simulation.configure_master(send.format);
     simulation.master().start(send.request, std::max(simulation.time(), simulation.master_uart().state().send_end));
   }
