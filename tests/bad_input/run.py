@@ -24,6 +24,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -281,7 +282,8 @@ def expect_no_program_of_that_size(s7200, path):
 def expect_wait_for_the_writer(s7200, path):
     os.mkfifo(path)
     checking = subprocess.Popen([s7200, "check", str(path)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    path.write_text("LD SM0.0\nMEND\n")
+    # A command that does not open the pipe lets its writer wait for ever.
+    threading.Thread(target=path.write_text, args=("LD SM0.0\nMEND\n",), daemon=True).start()
     output, _ = checking.communicate(timeout=60)
     if checking.returncode != 0:
         raise Failure(f"exit code {checking.returncode}: {output}")
