@@ -508,10 +508,12 @@ class PageReader {
 
   /// Makes `MAIN` of four rows with a letter each, as the text of a page has it that prints the heading down its margin.
   void join_letters() {
+    constexpr std::size_t kLongest = 6;  // letters of a heading
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       std::string joined;
       std::size_t end = i;
-      while (end < rows_.size() && is_only_letter(rows_[end].text)) joined += trim(rows_[end++].text);
+      while (end < rows_.size() && joined.size() <= kLongest && is_only_letter(rows_[end].text))
+        joined += trim(rows_[end++].text);
       if (joined.size() < 4 || !routine_heading(joined)) continue;
       rows_[i].replace(0, rows_[i].text.size(), joined, kLetters);
       for (std::size_t k = i + 1; k < end; ++k) rows_[k].leave_out(kLetters);
