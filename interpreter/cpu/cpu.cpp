@@ -1,6 +1,7 @@
 #include "interpreter/cpu/cpu.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "interpreter/cpu/execute.hpp"
@@ -14,6 +15,22 @@
 #include "interpreter/cpu/units/power.hpp"
 
 namespace s7200 {
+namespace {
+
+/// Lets a program be learnt that somebody watches: what it does then is undone, and what can be learnt works on the state
+/// alone. After that the program is executed.
+void learn_unseen(Core& core, SteadyScans& scans) {
+  const auto before = std::make_unique<State>(core.s);
+  const Loop loop = core.loop;
+  TraceSink* const sink = core.sink();
+  core.set_sink(nullptr);
+  scans.learn(core);
+  core.set_sink(sink);
+  core.loop = loop;
+  core.s = *before;
+}
+
+}  // namespace
 
 Cpu::Cpu(std::shared_ptr<const Program> program, EventQueue& queue, EventOwner owner, const Ports& ports)
     : core_(std::move(program), queue, owner, ports) {}
@@ -50,11 +67,11 @@ void Cpu::run(Time limit, Time work) {
       if (s.phase != Phase::Program) continue;
     }
     const bool learns = steady_scans_.learns(s);
-    if (core_.sink() && core_.sink()->wants_instructions())
+    const bool observed = core_.sink() && core_.sink()->wants_instructions();
+    if (learns) observed ? learn_unseen(core_, steady_scans_) : steady_scans_.learn(core_);
+    if (observed)
       execute_observed(core_.sink()->watcher());
-    else if (learns)
-      steady_scans_.learn(core_);
-    else
+    else if (!learns)
       execute_plain();
   }
 }

@@ -86,6 +86,27 @@ TEST(IdleScans, WhoWatchesInstructionsIsToldOfWholeProgramsOnly) {
   EXPECT_GT(plc.cpu.passed_over(), before + 400 * ms);
 }
 
+/// A session watches from power-up on.
+TEST(IdleScans, AreLearntWhereInstructionsAreWatchedFromTheBeginning) {
+  struct Watcher final : TraceSink {
+    void instruction(const InstructionRecord&) override { ++instructions; }
+    bool wants_instructions() const override { return true; }
+    bool wants_scans() const override { return false; }
+    std::uint64_t instructions = 0;
+  } watcher;
+  const std::string text = with_interrupt("LD M0.0\n= Q0.0\nLD SM0.0\nMOVW VW0, VW10\n", "INCW VW0\nMOVB SMB2, VB2\n");
+  PlcThat watched(SteadyScansUse::On, text), plain(SteadyScansUse::Off, text);
+  watched.cpu.set_sink(&watcher);
+  for (PlcThat* const plc : {&watched, &plain}) {
+    for (int i = 0; i < 20; ++i) plc->character_at(kSecond + i * 700 * ms, static_cast<std::uint8_t>(i));
+    plc->run_until(20 * kSecond);
+  }
+  EXPECT_EQ(watched.cpu.state(), plain.cpu.state());
+  EXPECT_EQ(watched.value("VW10"), 20);
+  EXPECT_GT(watched.cpu.passed_over(), 18 * kSecond);
+  EXPECT_LT(watcher.instructions, watched.cpu.state().instructions / 10);
+}
+
 TEST(IdleScans, AnInterruptThatWritesWhatTheProgramReadsIsSeenInTheNextScan) {
   Both both(with_interrupt("LDW>= VW0, 50\n= Q0.0\nLDB= SMB2, 77\nEU\nINCW VW4\n", "INCW VW0\n"));
   characters(both, 200);
