@@ -31,6 +31,9 @@ from modbus_crc import framed  # noqa: E402
 S7200, SOURCE, GROUP = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 SLAVE = str(SOURCE / "stl_programs/modbus_slave.stl")
 LOG = str(SOURCE / "tests/recordings/plant.log")
+FAST_SLAVE = (SOURCE / "stl_programs/modbus_slave.stl").read_text(encoding="utf-8").replace(  # loses characters with some tables of times
+    "MOVB    6, SMB34 ", "MOVB    5, SMB34 ").replace("MOVB    16#49, SMB30", "MOVB    16#41, SMB30")
+LONG_REQUEST = "0110000000" + "3c78" + "5a" * 120
 MEASURE = str(SOURCE / "stl_programs/measure_times.stl")
 EXPORTS = SOURCE / "tests/exports"
 TIP = SOURCE.parent / "shared/seeds/tip41_modbus_rtu_slave.txt"
@@ -625,11 +628,13 @@ class Verbs(Case):
         return out
 
     def test_test_that_is_interrupted_while_it_reads_writes_json_and_junit_without_a_scenario(self):
-        scenario, junit, recorded = self.folder / "long.yaml", self.folder / "junit.xml", self.folder / "recorded.yaml"
+        scenario, junit, recorded, marked = (self.folder / name for name in ("long.yaml", "junit.xml", "recorded.yaml", "out.md"))
         said = json.loads(self.interrupted_while_reading("long.yaml", b"steps:\n", "test", scenario, "--json", "--junit", junit))
         self.assertEqual((said["scenarios"], said["passed"], said["failed"]), ([], 0, 0))
         (case,) = xml.etree.ElementTree.parse(junit).getroot().iter("testcase")
         self.assertEqual(case.find("error").get("message"), "interrupted before anything was run")
+        self.interrupted_while_reading("long.yaml", b"steps:\n", "test", scenario, "--markdown", marked)
+        self.assertIn("- interrupted before anything was run\n", marked.read_text(encoding="utf-8"))
         self.assertEqual(self.interrupted_while_reading("long.yaml", b"steps:\n", "test", scenario, "--record", recorded), b"")
         self.assertFalse(recorded.exists())
 
@@ -1675,7 +1680,7 @@ class Scenarios(Case):
                           [good, "--ignore-timing"], [good, "--tolerance", "1ms"], [good, "--conformance", good],
                           [good, "--with", wrong], [good, "--with", self.program("frob: 1\n", "with.yaml")],
                           [good, "--target", broken], [good, "--target", "missing.stl"], [good, "--against", "tcp://nohost"],
-                          [good, "--record", "no/such/folder/file"], [good, "--junit", "no/such/folder/file"],
+                          [good, "--record", "no/such/folder/file"], [good, "--junit", "no/such/folder/file"], [good, "--markdown", "no/such/folder/file"],
                           [good, "--target", "/dev/ttyNoSuchDevice"],
                           ["--conformance", self.program("functions: [3]\n", "slave.yaml"), "--target", "modbus-tcp://localhost"]):
             with self.subTest(arguments):
@@ -1711,6 +1716,23 @@ class Scenarios(Case):
         self.assertIn("exception 2: illegal data address", cases[1].find("failure").text)
         self.assertIsNone(cases[0].find("failure"))
         self.assertIn("<file> is not there", cases[2].find("skipped").get("message"))
+
+    def test_markdown(self):
+        good, bad, out = self.program(self.GOOD, "good.yaml"), self.program(self.BAD, "bad.yaml"), self.folder / "out.md"
+        skipped = self.program(self.GOOD + "skip_without: no_file\n", "skipped.yaml")
+        self.ends(FAILED, "test", good, bad, skipped, "--markdown", out)
+        text = out.read_text(encoding="utf-8")
+        self.assertTrue(text.startswith("<!-- Results of s7200 test -->\n## ✗ 3 scenarios: 1 passed, 1 failed, 1 skipped\n\n| file |"), text)
+        self.assertIn(f"| {bad} | 0 | 1 | 0 | 0 |\n".replace("_", "\\_"), text)
+        self.assertIn('### ✗ \\<bad\\> \\& "ugly"\n', text, "names are text")
+        self.assertRegex(text, r"\n- line 5: .*exception 2: illegal data address")
+        self.assertRegex(text, r"\n    s7200 debug \S*bad\.yaml --only ")
+        self.assertRegex(text, r"\n- good: \S*/no\\_file is not there\n")
+        self.ends(FINE, "test", good, "--markdown", out)
+        self.assertIn("## ✓ 1 scenario: 1 passed\n", out.read_text(encoding="utf-8"))
+        self.ends(UNUSABLE, "test", self.program("steps:\n  - {wait: 5}\n", "wrong.yaml"), "--markdown", out)
+        self.assertRegex(out.read_text(encoding="utf-8"), r"## ✗ nothing was run: 1 mistake\n\n- \S*wrong\.yaml:2:\d+: ")
+        self.assertIn("--against neither records nor writes JUnit or Markdown", self.ends(UNUSABLE, "test", good, "--markdown", out, "--against", SLAVE).stderr)
 
     def test_junit_has_what_its_readers_show(self):
         """Jenkins: class and name, message, text. GitLab: file. GitHub: file and line, message."""
@@ -1842,15 +1864,15 @@ class Scenarios(Case):
     def test_only_earlier_results_are_overwritten(self):
         good, pipe, xml = self.program(self.GOOD, "good.yaml"), self.folder / "pipe", self.folder / "out.xml"
         os.mkfifo(pipe)
-        for arguments, why in ((["--junit", good], "is not a JUnit file of s7200 test"), (["--record", good, "--force"], "is not a transcript"),
+        for arguments, why in ((["--junit", good], "is not a JUnit file of s7200 test"), (["--markdown", good], "is not a Markdown file of s7200 test"), (["--record", good, "--force"], "is not a transcript"),
                                (["--junit", pipe], "not a file"), (["--record", pipe, "--force"], "not a file"),
-                               (["--junit", "-"], "'-' is none"), (["--record", "-"], "'-' is none")):
+                               *([[option, "-"], "'-' is none"] for option in ("--junit", "--markdown", "--record"))):
             with self.subTest(arguments):
                 self.assertIn(why, self.ends(UNUSABLE, "test", good, *arguments).stderr)
         self.assertEqual(good.read_text(encoding="utf-8"), self.GOOD)
         self.assertTrue(pipe.is_fifo())
-        self.ends(FINE, "test", good, "--junit", xml)
-        self.ends(FINE, "test", good, "--junit", xml)
+        for _ in range(2):
+            self.ends(FINE, "test", good, "--junit", xml, "--markdown", self.folder / "out.md")
 
     def test_a_missing_program_fails_its_scenario_and_the_others_run(self):
         good, out = self.program(self.GOOD, "good.yaml"), self.folder / "out.xml"
@@ -3609,6 +3631,11 @@ class Files(Case):
         self.assertIn("times", of_band["options"], "which is not that of the CPU")
         self.assertRegex(of_band["findings"][1]["text"], r"latency.*; with ")
         self.assertEqual(of_band["findings"][1]["recording"], 0)
+        fast = self.program(FAST_SLAVE, "fast.stl")
+        for verb in (["send", SLAVE, "--crc", "0103000a0002"], ["master", SLAVE, "read", "40011"], ["send", fast, "--crc", LONG_REQUEST]):
+            (of_band,) = run(*verb, "--times-band", "20")["runs"]
+            self.assertEqual([list(one)[0] for one in of_band["recordings"][0]["actions"]], ["send"])
+            self.assertEqual("times" in of_band["options"], fast in verb, "the first table that failed, else the one in use")
         plant = SOURCE / "tests/recordings/plant.log"
         report = run("decode", plant)
         printed = json.loads(subprocess.run([command, "decode", plant, "--json"], capture_output=True, check=False, timeout=120).stdout)
@@ -3631,7 +3658,8 @@ class Files(Case):
         (self.folder / "CMakeCache.txt").write_text("", encoding="utf-8")
         self.assertIn(f"make it with: cmake --build {self.folder} --target page_file", refused("run", SLAVE))
         self.assertIn("share/s7200/page.html", refused("run", SOURCE / "stl_programs/systems/gateway.yaml"))
-        self.assertRegex(refused("send", SLAVE, "01", "--times-band", "2"), "--report excludes --times-band|--times-band excludes --report")
+        for verb in (["send", SLAVE, "01"], ["master", SLAVE, "read", "40001"]):
+            self.assertIn("share/s7200/page.html", refused(*verb, "--times-band", "2"))
 
     def test_signals_over_time_are_written_as_waves_and_tables(self):
         program = self.program("LD SM0.0\nINCW VW10\nLDW>= VW10, 3\n= Q0.0\nMEND\n")
@@ -4199,10 +4227,7 @@ class Times(Case):
                                                    "--times-band", "2").stderr)
 
     def test_characters_that_are_lost_with_some_tables_are_counted(self):
-        fast = self.program((SOURCE / "stl_programs/modbus_slave.stl").read_text(encoding="utf-8").replace(
-            "MOVB    6, SMB34 ", "MOVB    5, SMB34 ").replace("MOVB    16#49, SMB30", "MOVB    16#41, SMB30"), "fast.stl")
-        long_request = "0110000000" + "3c78" + "5a" * 120
-        done = self.ends(FAILED, "send", fast, "--crc", long_request, "--times-band", "50")
+        done = self.ends(FAILED, "send", self.program(FAST_SLAVE, "fast.stl"), "--crc", LONG_REQUEST, "--times-band", "50")
         self.assertRegex(done.stdout, r"answered: \d+ of 52 tables; no answer: \d+ of 52; characters or events lost: \d+ of 52")
 
     def interrupted(self, *arguments):

@@ -70,6 +70,12 @@ class GitHub(Service):
         self.assertIn("FAIL", done.stdout)
         self.assertEqual(self.results("results.xml")[1], 1)
 
+    def test_the_summary_of_the_job_says_what_failed(self):
+        summary = self.folder / "step summary"
+        summary.touch()
+        self.run_step(FAILED, f"{FAILS}\n", environment={**ENVIRONMENT, "GITHUB_STEP_SUMMARY": str(summary)})
+        self.assertRegex(summary.read_text(encoding="utf-8"), r"## ✗ 1 scenario: 0 passed, 1 failed\n(?s:.*)\n- line \d+: ")
+
     def test_scenarios_and_options_may_have_blanks_in_them(self):
         folder = self.folder / "pump station"
         folder.mkdir()

@@ -108,7 +108,7 @@ class Case(unittest.TestCase):
                    "memory.json": "--memory"}
         return {"run": records, "send": records, "master": records, "debug": records, "dap": records, "import": {"listing.stl": "-o"},
                 "convert": {"converted.stl": "-o"}, "inspect": {"ladder.svg": "--svg"}, "calibrate": {"times.csv": "-o"}, "import-capture": {"plant.yaml": "-o"},
-                "test": {"junit.xml": "--junit", "transcript.yaml": "--record"}}.get(verb, {})
+                "test": {"junit.xml": "--junit", "summary.md": "--markdown", "transcript.yaml": "--record"}}.get(verb, {})
 
     # Files about a result, which tests/command_line has, and this file does not: they are written once, at the end.
     RESULTS = {"compare": {"--write"}, "run": {"--coverage-html", "--coverage-lcov", "--profile-folded"},
@@ -813,7 +813,7 @@ class Files(Case):
         return s7200(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
 
     def test_a_result_on_a_full_disk_is_absent_or_as_it_was(self):
-        for option, name, verb in (("-o", "listing.stl", "import"), ("--junit", "junit.xml", "test"),
+        for option, name, verb in (("-o", "listing.stl", "import"), ("--junit", "junit.xml", "test"), ("--markdown", "summary.md", "test"),
                                    ("--record", "transcript.yaml", "test"), ("--memory", "memory.json", "run")):
             with self.subTest(option):
                 path = self.folder / name
@@ -861,6 +861,21 @@ class Files(Case):
                 self.assertEqual(cut.stat().st_size, 2000)
                 self.ends(FINE, *command, cut)  # it has its mark
                 self.assertEqual(cut.read_bytes(), whole.read_bytes())
+
+    def test_a_record_at_its_limit_is_whole_up_to_there(self):
+        for name, option in self.outputs("run").items():
+            if option == "--memory":
+                continue
+            for streams in ({}, {2: "closed"}, {2: "full"}):
+                with self.subTest(name=name, streams=streams):
+                    whole, cut = self.folder / f"whole.{name}", self.folder / f"cut.{name}"
+                    command = ["send", self.echo, *["ab"] * 5000, option]
+                    self.ends(FINE, *command, whole)
+                    self.assertEqual(run_with(streams, [*command, cut, "--record-limit", "10KB"]).returncode, UNUSABLE)
+                    self.assertTrue(whole.read_bytes().startswith(cut.read_bytes()))
+                    self.assertTrue(9000 < cut.stat().st_size <= 10000, cut.stat().st_size)
+                    self.ends(FINE, *command, cut)  # it has its mark
+                    self.assertEqual(cut.read_bytes(), whole.read_bytes())
 
     def test_a_record_whose_first_line_cannot_be_written_is_absent(self):
         for name, option in self.outputs("run").items():

@@ -96,8 +96,9 @@ int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>&
       .verb = "master", .key = "action", .labels = {}, .good = verdict_name(serial::Verdict::Right), .run = {}};
   for (const MasterAction& action : actions)
     if (action.request) exchanges.labels.push_back({action.text, action.text});
-  exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost) {
+  exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost, RunRecorder* recorder) {
     SimulatedSlave slave(rig.simulation(), options.master, name, !options.protocol->wants_freeport);
+    if (recorder) recorder->listen_to(slave);
     MasterSession session(slave, actions, options.session(true));
     std::vector<BandOutcome> outcomes;
     std::string why;
@@ -110,7 +111,7 @@ int run_on_program_band(MasterOptions& options, const std::vector<MasterAction>&
     session.run({add, [] {}}, [] { return false; });
     return outcomes;
   };
-  return run_band(options.band, options.program, options.rig, options.json, exchanges);
+  return run_band(options.band, options.program, options.rig, options.report, options.json, exchanges);
 }
 
 /// A line of a system where all PLCs are of another make.

@@ -107,8 +107,8 @@ struct Turn {
 
 }  // namespace
 
-int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions& rig_options, bool json,
-             const BandExchanges& exchanges) {
+int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions& rig_options, ReportOption& report,
+             bool json, const BandExchanges& exchanges) {
   rig_options.refuse_what_is_of_one_run("--times-band makes many");
   int exit_code = kFine;
   const auto programs = band.load(program, exit_code);
@@ -116,7 +116,9 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
   const auto tip41 = band.tip41().empty() ? std::nullopt : read_tip41(band.tip41());
   if (!tip41 && !band.tip41().empty()) return kUnusable;
   if (!rig_options.take(programs->program(0)) || !rig_options.assemble(json)) return rig_options.exit_code_without_rig();
-  const auto with_table = [&](std::size_t table) {
+  if (!report.prepare()) return kUnusable;
+  bool report_written = true;
+  const auto with_table = [&](std::size_t table, bool reported) {
     const auto checked = programs->program(table);
     const auto of_table = program.every_scan ? with_every_scan(*checked) : checked;
     std::vector<std::string> problems;
@@ -125,17 +127,23 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
     LostEvents lost;
     rig->sinks().add(&lost);
     rig->power_up();
-    auto outcomes = exchanges.run(*rig, of_table->source.name, lost);
+    const auto recorder = reported ? std::make_unique<RunRecorder>(*rig, "", rig_options.spot()) : nullptr;
+    auto outcomes = exchanges.run(*rig, of_table->source.name, lost, recorder.get());
+    if (recorder) report_written = recorder->write(report, exchanges.verb, program.repairs);
     outcomes.resize(exchanges.labels.size(), {.verdict = "not sent", .stop = stop_text(rig->cpu())});
     return Turn{std::move(outcomes), tip41 && agrees(programs->model(), programs->times(table), *tip41)};
   };
   Results results{band_title(programs->model(), program.times_table, band.settings()),
                   std::vector<OneExchange>(exchanges.labels.size()), tip41.has_value()};
   BandProgress progress(programs->size());
-  ParallelRun<Turn> run(programs->size(), band.jobs(), with_table);
+  ParallelRun<Turn> run(programs->size(), band.jobs(), [&](std::size_t table) { return with_table(table, false); });
+  std::optional<std::size_t> first_bad;
   run.each(
-      [&](std::size_t, const Turn& turn) {
+      [&](std::size_t table, const Turn& turn) {
         if (interrupted()) return false;
+        const bool good = std::ranges::all_of(turn.outcomes,
+                                              [&](const BandOutcome& outcome) { return outcome.verdict == exchanges.good; });
+        if (!good && !first_bad) first_bad = table;
         for (std::size_t i = 0; i < turn.outcomes.size(); ++i) {
           results.exchanges[i].all.add(turn.outcomes[i]);
           if (turn.agrees) results.exchanges[i].agreeing.add(turn.outcomes[i]);
@@ -147,7 +155,12 @@ int run_band(const BandOptions& band, const ProgramOptions& program, RigOptions&
   const std::size_t done = results.exchanges.empty() ? 0 : results.exchanges.front().all.tables();
   if (done < programs->size()) results.title += fmt::format("; {} of these {} tables", done, programs->size());
   (json ? print_json : print_text)(exchanges, results, *programs);
+  if (report.wanted() && !interrupted()) {
+    with_table(first_bad.value_or(0), true);
+    print_note(fmt::format("the report shows the run with {}", programs->table_name(first_bad.value_or(0))));
+  }
   print_interruption();
+  if (!report_written) return kUnusable;
   const bool always = std::ranges::all_of(results.exchanges, [&](const OneExchange& exchange) {
     return exchange.all.count(exchanges.good) == programs->size();
   });

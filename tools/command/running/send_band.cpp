@@ -13,8 +13,9 @@ namespace {
 
 /// The exchanges with one table.
 std::vector<BandOutcome> outcomes(const SendOptions& options, serial::Simulation& simulation, LostEvents& lost,
-                                  const std::vector<serial::Frame>& frames, const std::string& name) {
+                                  const std::vector<serial::Frame>& frames, const std::string& name, RunRecorder* recorder) {
   SimulatedSlave slave(simulation, options.master, name, true);  // in STOP its port speaks PPI
+  if (recorder) recorder->listen_to(slave);
   std::vector<BandOutcome> outcomes;
   std::string why;
   bool going = slave.wait_until_ready(options.after, why);
@@ -48,10 +49,10 @@ int run_send_band(SendOptions& options) {
   BandExchanges exchanges{.verb = "send", .key = "request", .labels = {}, .good = "answered", .run = {}};
   for (const serial::Frame& frame : *frames)
     exchanges.labels.push_back({"request  " + shortened(frame), plain_hex(serial::bytes_of(frame))});
-  exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost) {
-    return outcomes(options, rig.simulation(), lost, *frames, name);
+  exchanges.run = [&](Rig& rig, const std::string& name, LostEvents& lost, RunRecorder* recorder) {
+    return outcomes(options, rig.simulation(), lost, *frames, name, recorder);
   };
-  return run_band(options.band, options.program, options.rig, options.json, exchanges);
+  return run_band(options.band, options.program, options.rig, options.report, options.json, exchanges);
 }
 
 }  // namespace s7200::tools

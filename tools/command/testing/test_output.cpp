@@ -9,7 +9,6 @@
 #include "tools/command/options/plc/program_options.hpp"
 #include "tools/command/terminal/terminal.hpp"
 #include "tools/host/console.hpp"
-#include "tools/scenario/reporting/junit.hpp"
 #include "tools/scenario/reporting/report_json.hpp"
 #include "tools/views/results_json.hpp"
 
@@ -138,12 +137,11 @@ void print_messages(const Messages& messages) {
   }
 }
 
-void end_before_anything_ran(bool json, bool compares, const std::optional<Destination>& junit) {
+void end_before_anything_ran(bool json, bool compares) {
   TestOutput output(0, json, false);
   if (json && compares) output.end(ComparisonResult{});
   if (json && !compares) output.end(SuiteResult{});
   print_interruption();
-  write_result(junit, to_junit(Messages{{.text = "interrupted before anything was run"}}));
 }
 
 bool write_result(const std::optional<Destination>& to, const std::string& text) {

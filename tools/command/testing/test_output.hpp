@@ -54,7 +54,7 @@ void print_list(const std::vector<Scenario>& scenarios, bool json);
 void print_messages(const Messages& messages);
 
 /// After an interruption: results without a scenario. `compares`: two of what is tested.
-void end_before_anything_ran(bool json, bool compares, const std::optional<Destination>& junit);
+void end_before_anything_ran(bool json, bool compares);
 
 /// False after a message. Writes nothing where nothing was asked for.
 bool write_result(const std::optional<Destination>& to, const std::string& text);

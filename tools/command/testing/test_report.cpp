@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <functional>
 #include <variant>
 
+#include "interpreter/base/file_path.hpp"
 #include "tools/command/reports/reported_system.hpp"
 #include "tools/command/testing/test_output.hpp"
 #include "tools/scenario/reporting/junit.hpp"
+#include "tools/scenario/reporting/markdown.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -67,6 +71,19 @@ ReportedRun reported(const Report& report) {
   return run;
 }
 
+/// The address of a file as a document has it that lies elsewhere: `../page%201.html`.
+std::string address_beside(const std::string& path, const std::string& document) {
+  const auto whole = [](const std::string& name) { return std::filesystem::absolute(file_path(name)).lexically_normal(); };
+  const std::u8string found = whole(path).lexically_proximate(whole(document).parent_path()).generic_u8string();
+  std::string address;
+  for (const char8_t c : found) {
+    const bool plain =
+        c >= 0x80 || std::isalnum(c) || std::string_view("/._-").find(static_cast<char>(c)) != std::string_view::npos;
+    address += plain ? std::string(1, static_cast<char>(c)) : fmt::format("%{:02X}", static_cast<unsigned>(c));
+  }
+  return address;
+}
+
 }  // namespace
 
 std::vector<ReportedRun> reported_runs(const std::vector<Report>& reports) {
@@ -75,11 +92,23 @@ std::vector<ReportedRun> reported_runs(const std::vector<Report>& reports) {
   return runs;
 }
 
-bool write_reports(const TestOptions& options, const std::optional<Destination>& junit, const std::vector<Report>& reports) {
-  std::function<std::string(std::size_t)> link{};
-  if (options.report.wanted()) link = [&](std::size_t number) { return link_to_run(options.report.path(), number); };
-  const bool junit_written = !junit || write_result(junit, to_junit(reports, link));
-  return options.report.write("test", reported_runs(reports)) && junit_written;
+bool write_reports(const TestOptions& options, const TestOptions::Destinations& to, const std::vector<Report>& reports) {
+  const std::string& page = options.report.path();
+  const auto link_to = [&](const std::string& address) -> std::function<std::string(std::size_t)> {
+    if (!options.report.wanted()) return {};
+    return [address](std::size_t number) { return link_to_run(address, number); };
+  };
+  bool written = !to.junit || write_result(to.junit, to_junit(reports, link_to(page)));
+  if (to.markdown) {
+    const std::string address = options.report.wanted() ? address_beside(page, to.markdown->path) : "";
+    written &= write_result(to.markdown, to_markdown(reports, link_to(address)));
+  }
+  return options.report.write("test", reported_runs(reports)) && written;
+}
+
+void write_reports(const TestOptions::Destinations& to, const Messages& messages) {
+  if (to.junit) write_result(to.junit, to_junit(messages));
+  if (to.markdown) write_result(to.markdown, to_markdown(messages));
 }
 
 bool show_profile(const TestOptions& options, const SuiteResult& result) {

@@ -14,7 +14,6 @@
 #include "tools/command/verbs/commands.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/scenario/reading/keys.hpp"
-#include "tools/scenario/reporting/junit.hpp"
 #include "tools/slave/slave_target.hpp"
 
 namespace s7200::tools {
@@ -31,10 +30,11 @@ bool write_transcript(const Destination& to, const TestOptions& options, const S
 }
 
 /// Says why nothing was run, and returns the exit code. An interruption explains by itself what could not be read.
-int nothing_run(const Messages& messages, const TestOptions& options, const std::optional<Destination>& junit) {
-  if (interrupted()) return end_before_anything_ran(options.json, !options.against.empty(), junit), kCheckFailed;
+int nothing_run(const Messages& messages, const TestOptions& options, const TestOptions::Destinations& to) {
+  if (interrupted()) end_before_anything_ran(options.json, !options.against.empty());
+  if (interrupted()) return write_reports(to, {{.text = "interrupted before anything was run"}}), kCheckFailed;
   print_messages(messages);
-  write_result(junit, to_junit(messages));
+  write_reports(to, messages);
   return kUnusable;
 }
 
@@ -51,12 +51,12 @@ int run_all(Suite& suite, const TestOptions& options, const TestOptions::Destina
       if (growing) growing->add(so_far, scenario, seen);
     };
   const auto result = suite.run(watcher, messages);
-  if (!result) return nothing_run(messages, options, to.junit);
+  if (!result) return nothing_run(messages, options, to);
   print_messages(messages);
   output.end(*result, options.coverage, options.profile);
   const std::string nothing = result->why_nothing_was_checked();
   if (!nothing.empty() && !to.record) print_note("nothing was checked: " + nothing);
-  bool all_written = write_reports(options, to.junit, result->reports);
+  bool all_written = write_reports(options, to, result->reports);
   all_written &= !options.coverage.wanted() || options.coverage.show(result->coverage, options.json);
   all_written &= show_profile(options, *result);
   if (to.record) all_written &= growing->any() ? growing->complete() : write_transcript(*to.record, options, *result);
@@ -90,7 +90,7 @@ int run_test(TestOptions& options) {
   catch_interruption();  // from here on there is something to complete
   Messages messages;
   auto suite = Suite::collect(options.suite, messages);
-  if (!suite) return nothing_run(messages, options, to.junit);
+  if (!suite) return nothing_run(messages, options, to);
   print_messages(messages);
   if (options.list) return print_list(suite->scenarios(), options.json), kFine;
   if (options.mutants) return run_mutants(*suite, options);

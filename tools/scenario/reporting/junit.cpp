@@ -9,6 +9,7 @@
 #include "interpreter/base/file_path.hpp"
 #include "interpreter/base/text/counted.hpp"
 #include "interpreter/base/text/text.hpp"
+#include "tools/scenario/reporting/mistakes.hpp"
 
 namespace s7200::tools {
 namespace {
@@ -112,7 +113,10 @@ std::string debug_line(const Report& report) {
   return command.empty() ? "" : command + '\n';
 }
 
-std::string outcome_xml(const Report& report) {
+/// A page on which one sees it.
+std::string page_line(const std::string& link) { return link.empty() ? "" : fmt::format("report: {}\n", link); }
+
+std::string outcome_xml(const Report& report, const std::string& link) {
   const ScenarioResult& result = report.result;
   if (result.outcome == Outcome::Skipped || result.outcome == Outcome::ExpectedFailure)
     return fmt::format("{}<skipped{}/>\n", kInCase, attribute("message", reason_text(result)));
@@ -123,7 +127,8 @@ std::string outcome_xml(const Report& report) {
                      failed ? fmt::format("failure{}{}", attribute("message", message),
                                           attribute("type", result.findings.front().of_run ? "run" : "expectation"))
                             : "skipped" + attribute("message", "not done as it should be: " + message),
-                     xml(findings_text(report, false, kFindingsShown) + debug_line(report)), failed ? "failure" : "skipped");
+                     xml(findings_text(report, false, kFindingsShown) + debug_line(report) + page_line(link)),
+                     failed ? "failure" : "skipped");
 }
 
 std::string case_xml(const Report& report, const std::string& link) {
@@ -135,7 +140,7 @@ std::string case_xml(const Report& report, const std::string& link) {
   return fmt::format("{0}<testcase{1}{2}{3}{4}>\n{5}{6}{0}</testcase>\n", kOneCase, attribute("classname", class_name(file)),
                      attribute("name", case_name(scenario)), place,
                      attribute("time", fmt::format("{:.3f}", report.result.host_seconds)), properties_text(report, link),
-                     outcome_xml(report));
+                     outcome_xml(report, link));
 }
 
 /// Of some reports, as readers add them up. Nothing is an error: what could not be run is a failure too.
@@ -168,37 +173,15 @@ std::string to_junit(const std::vector<Report>& reports, const std::function<std
 
 namespace {
 
-/// What kept scenarios from being run, and where it is.
-struct Mistake {
-  std::string file{};
-  stl::Position position{};
-  std::string text{};
-};
-
-std::vector<Mistake> mistakes_in(const Messages& messages) {
-  std::vector<Mistake> all;
-  for (const Message& message : messages) {
-    if (message.kind == Message::Kind::Error) all.push_back({.text = message.text});
-    if (message.kind != Message::Kind::Diagnostics) continue;
-    for (const auto& one : message.diagnostics) {
-      if (one.severity == stl::Severity::Warning) continue;
-      const stl::FileLine place = stl::in_file(*message.source, one.position.line);
-      all.push_back({place.file, {place.line, one.position.column}, one.message});
-    }
-  }
-  return all;
-}
-
 std::string error_xml(const Mistake& mistake) {
   const bool has_place = !mistake.file.empty();
   const std::string name = has_place ? fmt::format("line {}", mistake.position.line) : "s7200 test";
   const std::string place =
       has_place ? attribute("file", mistake.file) + attribute("line", std::to_string(mistake.position.line)) : "";
-  const std::string where =
-      has_place ? fmt::format("{}:{}:{}: ", mistake.file, mistake.position.line, mistake.position.column) : "";
   return fmt::format("{0}<testcase{1}{2}{3} time=\"0.000\">\n{4}<error{5} type=\"unusable\">{6}</error>\n{0}</testcase>\n",
                      kOneCase, attribute("classname", has_place ? class_name(mistake.file) : "s7200"),
-                     attribute("name", name), place, kInCase, attribute("message", mistake.text), xml(where + mistake.text));
+                     attribute("name", name), place, kInCase, attribute("message", mistake.text),
+                     xml(mistake_text(mistake)));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ inline constexpr std::string_view kJunitBeginning =
 
 /// The XML that continuous integration reads: a suite for each file, a case for each scenario. A rule that says should and
 /// is broken counts as skipped there, which has no third way.
-/// `link`: a page about a scenario by its number, a property of its case; none without it.
+/// `link`: a page about a scenario by its number, a property of its case and a line of what failed; none without it.
 std::string to_junit(const std::vector<Report>& reports, const std::function<std::string(std::size_t number)>& link = {});
 
 /// Of what kept scenarios from being run: an error for each mistake in a file, at its place.

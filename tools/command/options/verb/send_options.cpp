@@ -27,7 +27,6 @@ void SendOptions::add_to(CLI::App& app) {
       ->group(help_group::kResults);
   report.add_to(app, "a page for browsers that computes the exchanges again; any moment of it, without s7200");
   app.add_flag("--json", json, "print the exchanges and the results as JSON")->group(help_group::kResults);
-  app.get_option("--report")->excludes(app.get_option("--times-band"));
 }
 
 }  // namespace s7200::tools

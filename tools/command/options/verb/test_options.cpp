@@ -14,6 +14,7 @@
 #include "tools/command/options/plc/stand_in_options.hpp"
 #include "tools/host/interruption.hpp"
 #include "tools/scenario/reporting/junit.hpp"
+#include "tools/scenario/reporting/markdown.hpp"
 #include "tools/scenario/transcripts/transcript.hpp"
 #include "tools/slave/slave_target.hpp"
 
@@ -74,9 +75,13 @@ void TestOptions::add_to(CLI::App& app) {
   add_no_stand_ins_option(app, suite.no_stand_ins);
   add_no_skip_option(app, suite.every_scan);
   app.add_option("--junit", junit, "write the results as JUnit XML, too")->type_name("FILE")->group(help_group::kResults);
+  app.add_option("--markdown", markdown, "write the results as Markdown, too, for the summary of a job")
+      ->type_name("FILE")
+      ->group(help_group::kResults);
   coverage.add_to(app, help_group::kResults);
   profile.add_to(app, help_group::kResults);
-  report.add_to(app, "a page for browsers of the results, that computes each run again; the JUnit file links to it");
+  report.add_to(app,
+                "a page for browsers of the results, that computes each run again; JUnit and Markdown files link to it");
   app.add_flag("--mutants", mutants, "change the program one thing at a time and list what no scenario notices")
       ->group(help_group::kRun);
   app.add_flag("--json", json, "print the results as JSON")->group(help_group::kResults);
@@ -118,14 +123,15 @@ void TestOptions::check() const {
   refuse_if(compared && coverage.wanted(), "--against runs two programs; coverage is of one: leave out --against");
   refuse_if(compared && profile.wanted(), "--against runs two programs; a profile is of one: leave out --against");
   refuse_if(mutants && (compared || coverage.wanted() || profile.wanted() || !record.empty() || !junit.empty() ||
-                        report.wanted() || band.wanted()),
+                        !markdown.empty() || report.wanted() || band.wanted()),
             "--mutants runs changed programs: it neither compares, records nor observes, and has one table of times");
-  refuse_if(compared && (!record.empty() || !junit.empty()), "--against neither records nor writes JUnit");
+  refuse_if(compared && (!record.empty() || !junit.empty() || !markdown.empty()),
+            "--against neither records nor writes JUnit or Markdown");
   refuse_if(band.wanted() && (compared || !record.empty()),
             "--times-band runs scenarios with many tables; --against and --record are about one");
   refuse_if(report.wanted() && (compared || is_random_alone()),
             "--report is about scenarios; --against compares two of them, and --random alone has none");
-  refuse_if(record == "-" || junit == "-", "--record and --junit write files; '-' is none");
+  refuse_if(record == "-" || junit == "-" || markdown == "-", "--record, --junit and --markdown write files; '-' is none");
 }
 
 TestOptions::Destinations TestOptions::claim_files() {
@@ -141,6 +147,7 @@ TestOptions::Destinations TestOptions::claim_files() {
   if (to.record && to.record->replaces_content() && !force)
     throw std::invalid_argument(fmt::format("{} exists; --force overwrites it", record));
   to.junit = claim("--junit", junit, {"a JUnit file of s7200 test", std::string(kJunitBeginning)});
+  to.markdown = claim("--markdown", markdown, {"a Markdown file of s7200 test", std::string(kMarkdownBeginning)});
   coverage.claim(files);
   profile.claim(files);
   return to;

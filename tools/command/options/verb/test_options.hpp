@@ -23,7 +23,7 @@ struct TestOptions {
   SuiteSettings suite;
   OtherPlcOptions other;
   const Protocol* protocol = nullptr;  ///< of other
-  std::string against, record, junit;
+  std::string against, record, junit, markdown;
   BandOptions band;
   CoverageOptions coverage;
   ProfileOptions profile;
@@ -43,9 +43,9 @@ struct TestOptions {
   /// What `suite` has from the other options, and that an interruption ends it.
   void complete_suite();
 
-  /// Where --record and --junit write; the files of coverage and profile are claimed too.
+  /// Where --record, --junit and --markdown write; the files of coverage and profile are claimed too.
   struct Destinations {
-    std::optional<Destination> record{}, junit{};
+    std::optional<Destination> record{}, junit{}, markdown{};
   };
 
   /// Throws std::invalid_argument if one cannot write there.
