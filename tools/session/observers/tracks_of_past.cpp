@@ -79,7 +79,7 @@ class FrameTrack {
     std::string said = serial::to_hex(bytes_);
     if (const std::string words = in_words(answers); !words.empty()) said += ": " + words;
     frame_.text = fmt::format("{} {}", sent_ ? "sent" : "received", said);
-    note_answer(std::move(said));
+    note_answer(std::move(said), answers);
     tracks_.add(TrackKind::Frames, fmt::format("port {} frames", port_), station_, std::exchange(frame_, {}));
     request_ = answers ? Bytes{} : bytes_;
     request_was_sent_ = sent_;
@@ -87,8 +87,11 @@ class FrameTrack {
   }
 
  private:
-  void note_answer(std::string said) {
-    if (!sent_) {
+  /// What a PLC that is a master receives as an answer is no request.
+  void note_answer(std::string said, bool answers) {
+    if (answers && !sent_) {
+      open_.reset();
+    } else if (!sent_) {
       open_ = AnsweredFrame{.station = station_, .at = frame_.at, .end = frame_.end, .text = std::move(said)};
     } else if (open_) {
       open_->answer_at = frame_.at;

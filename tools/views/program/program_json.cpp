@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -105,15 +106,28 @@ Json operands_json(const stl::Statement& statement) {
   return operands;
 }
 
+/// The inputs and outputs that operands name bit by bit: `I0.0`, `Q1.2`.
+Json points_json(const Program& program) {
+  std::set<std::string> points;
+  for (const stl::Statement& statement : program.statements)
+    for (const stl::Operand& operand : statement.operands) {
+      const std::string address = address_of(operand);
+      const bool is_point = (address.starts_with('I') || address.starts_with('Q')) && address.find('.') != std::string::npos;
+      if (is_point) points.insert(address);
+    }
+  return points;
+}
+
 }  // namespace
 
 Json outline_json(const Program& program, const Listing& listing) {
   Json files = Json::array({{{"line", 1}, {"name", program.source.name}}});
   for (const stl::FurtherFile& file : program.source.further_files)
     files.push_back({{"line", file.first_line}, {"name", file.name}});
-  return {{"program", program.source.name},      {"files", std::move(files)}, {"cpu", program.model->name},
-          {"lines", program.source.text.size()}, {"ops", program.ops.size()}, {"routines", routines_json(program, listing)},
-          {"symbols", symbols_json(program)}};
+  return {{"program", program.source.name},   {"files", std::move(files)},
+          {"cpu", program.model->name},       {"lines", program.source.text.size()},
+          {"ops", program.ops.size()},        {"routines", routines_json(program, listing)},
+          {"symbols", symbols_json(program)}, {"points", points_json(program)}};
 }
 
 Json lines_json(const Program& program, std::uint32_t from, std::uint32_t to) {
