@@ -1,5 +1,8 @@
 // The status chart: values in formats, new values, force, switches and lamps.
 import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { browser, end, open, picture, view } from './support.mjs';
 
@@ -75,6 +78,30 @@ test('a push button is on as long as it is pressed', async () => {
   await page.waitForSelector('[aria-label^="Input I0.7"][aria-checked=true]');
   await page.mouse.up();
   await page.waitForSelector('[aria-label^="Input I0.7"][aria-checked=false]');
+});
+
+test('the inputs and outputs of the program are there, and what keeps a valve off is switched', async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 's7200-'));
+  writeFileSync(path.join(folder, 'valve.stl'), 'LD I0.0\nAN M5.0\nA I1.2\n= Q1.0\nMEND\n');
+  const plant = await view(path.join(folder, 'valve.stl'));
+  const other = await open(chrome, plant.address);
+  await other.click('#do-scan');
+  await other.click('.point-name:has-text("Q1.0")');
+  await other.click('text=What keeps it so?');
+  await other.waitForSelector('.obstacle [title="Switch the input I1.2"]');
+  assert.match(await other.textContent('.obstacles'), /Q1\.0 is 0 since power-up, must be 1/);
+  for (const address of ['I0.0', 'I1.2']) {
+    await other.click(`.obstacle [title="Switch the input ${address}"]`);
+    await other.waitForSelector(`.obstacle [title="Switch the input ${address}"]`, { state: 'detached' });
+  }
+  await other.click('#tab-chart');
+  await other.waitForSelector('[aria-label="Input I1.2"][aria-checked=true]');
+  for (let i = 0; i < 2; ++i) await other.click('#do-scan');
+  await other.waitForSelector('[aria-label="Output Q1.0 on"]');
+  assert.deepEqual(other.troubles, []);
+  await other.close();
+  await end(plant.server);
+  rmSync(folder, { recursive: true });
 });
 
 test('a pulse train counts in simulated time, whatever the pace', async () => {

@@ -90,6 +90,17 @@ test('a program is typed, run as fast as it goes, and paused', async () => {
   await page.close();
 });
 
+test('a system that is dropped is refused, and nothing else is lost', async () => {
+  const page = await open();
+  await drop(page, { name: 'lamp.stl', text: 'LD     I0.0\n=      Q0.0\nMEND\n' });
+  await page.waitForSelector('.row');
+  await drop(page, { name: 'plant.yaml', text: 'plcs: {pump: {program: lamp.stl}}\n' });
+  await page.waitForSelector('.notice.error:has-text("s7200 view plant.yaml shows it")');
+  assert.equal(await page.locator('.row').count() > 0, true);
+  assert.deepEqual(page.troubles, []);
+  await page.close();
+});
+
 test('the licences of what the engine is linked with are in About', async () => {
   const page = await open();
   await page.click('.program-name');

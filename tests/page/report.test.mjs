@@ -106,6 +106,8 @@ test('the longest answer of a long run is gone to, and what it waited for is sai
   await page.click('text=Longest answer');
   await page.waitForSelector('.notice:has-text("The longest of 3600 answers: after 16.")');
   assert.match(await page.textContent('.trail li'), /wait for\?.*until event 10/);
+  await page.waitForSelector('.readout:text-matches("^[\\d.]+ ms in view")');
+  await page.waitForSelector('.track-name:has-text("networks")');
   await picture(page, 'report_longest');
   await page.end();
 });
@@ -176,6 +178,49 @@ test('a failed scenario opens where it failed, the others by a click', async () 
 test('a link of the JUnit file leads to its scenario', async () => {
   const page = await open('test.html', { hash: '#run=1' });
   await page.waitForSelector('.run.passed.open');
+  await page.end();
+});
+
+test('the links of the Markdown file lead to the failed step, in a page that is open too', async () => {
+  s7200(1, 'test', file('both.yaml'), '--report', file('a report.html'), '--markdown', file('summary.md'));
+  const markdown = readFileSync(file('summary.md'), 'utf8');
+  assert.match(markdown, /^<!-- Results of s7200 test -->\n## ✗ 2 scenarios: 1 passed, 1 failed\n/);
+  assert.match(markdown, /### ✗ \[\\<img src=x onerror=alert\(1\)\\> \\& "quoted"\]\(a%20report\.html#run=2\)/);
+  const [, link, ns] = /- \[line 10\]\((a%20report\.html#run=2&t=(\d+)ns)\): /.exec(markdown);
+  const page = await open('a report.html', { hash: '#run=1' });
+  await page.waitForSelector('.run.passed.open');
+  await page.evaluate((hash) => { location.hash = hash; }, link.split('#')[1]);
+  await page.waitForSelector('.run.failed.open');
+  await stands_at(page, Number(ns) / 1e6, 1e-3);
+  await page.end();
+  const fresh = await open('a report.html', { hash: `#${link.split('#')[1]}` });
+  await fresh.waitForSelector('.run.failed.open');
+  await stands_at(fresh, Number(ns) / 1e6, 1e-3);
+  await fresh.end();
+});
+
+test('what is sent with many tables of times has the run of the first with which it failed', async () => {
+  s7200(0, 'send', kSlave, '--crc', '0103000a0002', '--times-band', '5', '--report', file('band.html'));
+  const page = await open('band.html');
+  await page.click('#tab-line');
+  await page.waitForSelector('.exchanges tbody tr');
+  assert.equal(await page.locator('.exchanges tbody tr').count(), 1);
+  await page.end();
+});
+
+test('a PLC that is a master asks, and is answered', async () => {
+  s7200(0, 'run', 'stl_programs/systems/gateway.yaml', '--for', '2s', '--report', file('gateway.html'));
+  const page = await open('gateway.html');
+  assert.match(await page.textContent('.report-pane'), /PLCsgateway, pump/);
+  await page.click('#tab-line');
+  await page.waitForSelector('.exchanges tbody tr');
+  const rows = await page.locator('.exchanges tbody tr').allTextContents();
+  for (const who of ['gateway is asked', 'gateway asks', 'pump is asked']) assert.ok(rows.some((row) => row.includes(`${who}05 03 00 00 00 02 c5 8f: station 5: `)), who);
+  for (const row of rows) assert.match(row, /05 03 04 12 34 00 00 fb 45: 2 registers: .* ms$|under way …$/);
+  await page.click('text=Longest answer');
+  await page.waitForSelector('.notice:has-text("The longest of ")');
+  assert.match(await page.textContent('.notice'), /after 4\d\.\d+ ms, to 05 03 00 00 00 02 c5 8f: station 5/);
+  await picture(page, 'gateway_longest');
   await page.end();
 });
 
@@ -250,6 +295,27 @@ test('a report can be read in the dark, on a phone and on paper', async () => {
   await phone.emulateMedia({ media: 'print' });
   await picture(phone, 'report_printed');
   await phone.end();
+});
+
+test('what is printed is light, whole, and as wide as the paper', async () => {
+  const page = await open('gateway.html', { colorScheme: 'dark' });
+  await page.waitForSelector('.track-name:has-text("pump port 0 sent")');
+  const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
+  assert.equal(await theme(), 'dark');
+  await page.emulateMedia({ media: 'print' });
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  assert.equal(await theme(), 'light');
+  const { canvas, tracks, overlapping } = await page.evaluate(() => {
+    const tops = [...document.querySelectorAll('.row')].map((row) => row.getBoundingClientRect().top);
+    const box = (name) => document.querySelector(name).getBoundingClientRect();
+    return { canvas: box('#timeline'), tracks: box('.track-names'), overlapping: tops.filter((top, i) => i > 0 && top < tops[i - 1] + 19).length };
+  });
+  assert.ok(canvas.right < 720 && Math.abs(canvas.height - tracks.height) < 2, `${canvas.right}, ${canvas.height}, ${tracks.height}`);
+  assert.equal(overlapping, 0);
+  await picture(page, 'report_on_paper');
+  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+  assert.equal(await theme(), 'dark');
+  await page.end();
 });
 
 test('the commands of the page about it are fine', () => {

@@ -67,9 +67,10 @@ async function copy_link(): Promise<void> {
 
 const kPrefersDark = matchMedia('(prefers-color-scheme: dark)');
 
-function apply_theme(): void {
-  const system = kPrefersDark.matches ? 'dark' : 'light';
-  document.documentElement.dataset['theme'] = state.theme === 'system' ? system : state.theme;
+/** Paper is light. */
+export function apply_theme(): void {
+  const system = kPrefersDark.matches && !state.printing ? 'dark' : 'light';
+  document.documentElement.dataset['theme'] = state.theme === 'system' || state.printing ? system : state.theme;
   changed();
 }
 

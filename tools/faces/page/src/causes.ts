@@ -1,6 +1,6 @@
 // Why and who: each answer is a step of a trail that one walks back to the cause.
 import { changed, show_pane, state } from './state';
-import { command, go_to, query, Seen } from './session';
+import { command, go_to, look_at, query, Seen } from './session';
 import type { Exchange } from './exchanges';
 import type { Cause, Done, Past, Value } from './protocol';
 
@@ -45,17 +45,24 @@ function in_short(frame: string): string {
   return bytes.length <= kShownBytes ? frame : `${bytes.slice(0, kShownBytes).join(' ')} …${parts![2]}`;
 }
 
+/** In a system the PLC that it is about is asked. */
+async function look_from(station: string): Promise<void> {
+  if (station !== '' && station !== state.past?.station) await look_at(station);
+}
+
 const kAfterRequest = 100e6;  // ns after a request, when the program has made up its mind about it
 
 /** Why a request had no answer, as it is known a little after it and before the next one. */
 export async function ask_why_unanswered(one: Exchange, next: Exchange | undefined): Promise<void> {
   const newest = state.past?.newest_ns ?? 0;
+  await look_from(one.station);
   await go_to(Math.min(one.end_ns + kAfterRequest, next?.at_ns ?? Infinity, newest));
   await ask(`Why has ${in_short(one.request)} no answer?`, 'why');
 }
 
-/** What an answer has waited for, as it is known at its end. */
-export async function ask_why_latency(request: string, answer_end_ns: number): Promise<void> {
+/** What an answer of a PLC has waited for, as it is known at its end. */
+export async function ask_why_latency(request: string, answer_end_ns: number, station = ''): Promise<void> {
+  await look_from(station);
   await go_to(answer_end_ns);
   await ask(`What did the answer to ${in_short(request)} wait for?`, 'why latency');
 }

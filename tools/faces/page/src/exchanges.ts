@@ -5,6 +5,8 @@ export interface Exchange {
   at_ns: number;
   end_ns: number;
   station: string;
+  /** The PLC is the master. */
+  sent: boolean;
   request: string;
   answer?: string;
   error?: string;
@@ -25,15 +27,24 @@ function words_of(frame: Span): string {
   return frame.text.replace(/^(sent|received) /, '');
 }
 
-/** A frame that the PLC receives is a request; the next one that it sends, before another request, is the answer. */
+/** A request of Modbus RTU names its station. */
+function asks(frame: Span): boolean {
+  return /: station \d+: /.test(frame.text);
+}
+
+/**
+ * A frame that the PLC receives is a request, and the next one that it sends, before another request, is the answer. A PLC
+ * that is a master sends requests of Modbus and receives their answers.
+ */
 export function exchanges_of(spans: Spans | null, now_ns: number): Exchange[] {
   const all: Exchange[] = [];
   for (const track of spans?.tracks ?? []) {
     if (track.kind !== 'frames') continue;
     let open: Exchange | undefined;
     for (const frame of track.spans) {
-      if (!is_sent(frame)) {
-        open = { at_ns: frame.at_ns, end_ns: frame.end_ns, station: track.station ?? '', request: words_of(frame) };
+      const sent = is_sent(frame), answers = open !== undefined && open.sent !== sent && !(sent && asks(frame));
+      if (!answers && (!sent || asks(frame))) {
+        open = { at_ns: frame.at_ns, end_ns: frame.end_ns, station: track.station ?? '', sent, request: words_of(frame) };
         if (frame.error !== undefined) open.error = frame.error;
         all.push(open);
       } else if (open) {

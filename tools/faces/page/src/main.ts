@@ -3,7 +3,7 @@ import { h, render, type Part } from './dom';
 import { SocketEngine, WorkerEngine, type Engine, type Onlooker } from './engine';
 import { notified } from './session';
 import { changed, on_change, state, use_engine } from './state';
-import { begin_theme, on_key } from './actions';
+import { apply_theme, begin_theme, on_key } from './actions';
 import { toolbar } from './panes/toolbar';
 import { notice_bar, status_bar } from './panes/status_bar';
 import { program_pane } from './panes/program';
@@ -16,7 +16,7 @@ import { dialogs } from './panes/dialogs';
 import { menu } from './panes/menu';
 import { start_timeline } from './timeline/view';
 import { accept_drops, open_from_address } from './playground';
-import { open_report } from './report';
+import { open_report, opens_another_run } from './report';
 import { moment_of_link } from './words';
 import { go_to } from './session';
 
@@ -39,6 +39,17 @@ function page(): (Part | null)[] {
   ];
 }
 
+function show(): void {
+  render(document.body, page());
+}
+
+/** What is drawn for paper is drawn at once: the browser takes it as it is. */
+function print(on: boolean): void {
+  state.printing = on;
+  apply_theme();
+  show();
+}
+
 /** The playground has its worker in the page itself; the page of `s7200 view` has a socket beside it. */
 function engine(): Engine {
   const worker = document.querySelector('#worker');
@@ -53,10 +64,13 @@ function start(): void {
   begin_theme();
   load_chart();
   start_timeline();
-  on_change(() => render(document.body, page()));
+  on_change(show);
+  addEventListener('beforeprint', () => print(true));
+  addEventListener('afterprint', () => print(false));
   addEventListener('keydown', on_key);
   addEventListener('resize', changed);
   addEventListener('hashchange', () => {
+    if (opens_another_run()) return;
     const ns = moment_of_link(location.hash);
     if (ns !== undefined && ns !== state.past?.now_ns) void go_to(ns);
   });

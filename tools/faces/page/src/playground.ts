@@ -25,7 +25,15 @@ export async function open_program(): Promise<void> {
   changed();
 }
 
-export function use_sources(sources: Source[]): void {
+/** What the command alone opens: a system or a file of scenarios names further files. */
+function names_other_files(one: Source): boolean {
+  return /\.ya?ml$/i.test(one.name);
+}
+
+export function use_sources(given: Source[]): void {
+  const refused = given.find(names_other_files), sources = given.filter((one) => !names_other_files(one));
+  if (refused) notice(`A system or a file of scenarios names other files, which this page cannot read: s7200 view ${refused.name} shows it`, 'error');
+  if (sources.length === 0) return;
   const names = new Set(sources.map((one) => one.name));
   const is_program = (one: Source): boolean => /\.(awl|stl)$/i.test(one.name);
   const replaces_program = sources.some(is_program);

@@ -150,6 +150,8 @@ export interface Outline {
   ops: number;
   routines: Routine[];
   symbols: ProgramSymbol[];
+  /** The inputs and outputs that it names bit by bit. */
+  points: string[];
 }
 
 export interface Operand {

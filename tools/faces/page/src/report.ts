@@ -25,10 +25,16 @@ function what_ran(report: Report, run: ReportedRun): Openable {
   return { sources: report.programs[run.program!]!, options: run.options ?? {} };
 }
 
+/** The number of the run that the address names; null if it names none. */
+function run_of_link(report: Report): number | null {
+  const asked = Number(/[#&]run=(\d+)/.exec(location.hash)?.[1] ?? 0) - 1;
+  return report.runs[asked] ? asked : null;
+}
+
 /** The run that the address names, else the first that failed, else the first one. */
 function first_run(report: Report): number {
-  const asked = Number(/[#&]run=(\d+)/.exec(location.hash)?.[1] ?? 0) - 1;
-  if (report.runs[asked]) return asked;
+  const asked = run_of_link(report);
+  if (asked !== null) return asked;
   const failed = report.runs.findIndex((one) => one.outcome === 'failed' && can_be_opened(one));
   return failed >= 0 ? failed : Math.max(0, report.runs.findIndex(can_be_opened));
 }
@@ -71,6 +77,14 @@ export async function open_report(): Promise<boolean> {
 export function choose_run(number: number, recording?: number, at_ns?: number): void {
   history.replaceState(null, '', `#run=${number + 1}`);
   void open_run(number, recording, at_ns);
+}
+
+/** Opens the run that the address has come to name, at the moment in it. Returns whether it is another one. */
+export function opens_another_run(): boolean {
+  const asked = state.report ? run_of_link(state.report) : null;
+  if (asked === null || asked === state.run) return false;
+  void open_run(asked);
+  return true;
 }
 
 /** `&run=3`: which run an address is about; nothing if there is but one. */

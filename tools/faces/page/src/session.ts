@@ -198,13 +198,15 @@ async function follow_link(): Promise<void> {
   if (asked !== undefined && asked !== state.past?.now_ns) await go_to(asked);
 }
 
-/** The inputs and outputs that the program's symbols or the first bytes of the CPU have, as switches and lamps. */
+/** The inputs and outputs of the program, its symbols and the first bytes of the CPU, as switches and lamps. */
 function propose_points(outline: Outline): void {
   if (state.inputs.length > 0 || state.outputs.length > 0) return;
   const first_byte = (area: string): string[] => Array.from({ length: 8 }, (_, bit) => `${area}0.${bit}`);
-  const named = (area: string): string[] =>
-    outline.symbols.map((one) => one.address.toUpperCase()).filter((address) => new RegExp(`^${area}\\d+\\.\\d$`).test(address));
-  const points = (area: string): string[] => [...new Set([...first_byte(area), ...named(area)])];
+  const named = [...outline.points, ...outline.symbols.map((one) => one.address.toUpperCase())];
+  const points = (area: string): string[] => {
+    const all = named.filter((address) => new RegExp(`^${area}\\d+\\.\\d$`).test(address));
+    return [...new Set([...first_byte(area), ...all])].sort((a, b) => Number(a.slice(1)) - Number(b.slice(1)));
+  };
   state.inputs = points('I').map((address) => ({ address, kind: 'switch', hertz: 10 }));
   state.outputs = points('Q');
 }

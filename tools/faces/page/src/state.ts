@@ -53,6 +53,8 @@ export interface State {
   dialog: 'help' | 'about' | 'measurement' | null;
   menu: Menu | null;
   theme: Theme;
+  /** The page is being drawn for paper. */
+  printing: boolean;
   /** Which pane a narrow window shows. */
   pane: PaneName;
   /** Which of those that share the right side is in front. */
@@ -124,6 +126,7 @@ export const state: State = {
   dialog: null,
   menu: null,
   theme: 'system',
+  printing: false,
   pane: 'program',
   side: 'chart',
   outline: null,

@@ -2,7 +2,7 @@
 import { h, type Child, type Part } from '../dom';
 import { ask_effect, ask_who, ask_why, ask_why_not, forget_trail, see_done } from '../causes';
 import { go_to, move } from '../session';
-import { switch_to } from '../switches';
+import { switch_to, terminal_level } from '../switches';
 import { state, type TrailStep } from '../state';
 import { moment_text } from '../words';
 import type { Obstacle } from '../protocol';
@@ -31,14 +31,19 @@ export function linked(line: string): Child[] {
 
 const kOpen = 2;  // levels of the tree that are seen at once
 
+function since(one: Obstacle): Child[] {
+  if (one.since_ns === 0) return [' since power-up'];
+  const ns = one.since_ns ?? one.since_before_ns;
+  return ns === undefined ? [] : [` since ${one.since_ns === undefined ? 'before ' : ''}`, ...linked(`${(ns / 1e6).toFixed(6)} ms`)];
+}
+
 /** What is in the way, with what in turn is in its way below; an input can be switched there. */
 function obstacle(one: Obstacle, depth: number, key: number): Part {
-  const since = one.since_ns ?? one.since_before_ns;
   const head = one.name === undefined ? linked(one.text ?? '') : [
-    ...linked(`${one.name} is ${one.value}`), h('strong', {}, one.wanted === undefined ? '' : `, must be ${one.wanted}`),
+    ...linked(`${one.name} is ${one.value}`), h('span', { class: 'hint' }, since(one)),
+    h('strong', {}, one.wanted === undefined ? '' : `, must be ${one.wanted}`),
     one.kind === 'input' ? input_button(one) : null,
-    h('span', { class: 'hint' }, since === undefined ? '' : [` since ${one.since_ns === undefined ? 'before ' : ''}`, ...linked(`${(since / 1e6).toFixed(6)} ms`)],
-      one.place === undefined ? '' : ` (${one.place})`, one.text === undefined ? '' : [': ', ...linked(one.text)])];
+    h('span', { class: 'hint' }, one.place === undefined ? '' : ` (${one.place})`, one.text === undefined ? '' : [': ', ...linked(one.text)])];
   if (!one.because?.length) return h('div', { class: 'obstacle', key }, head);
   return h('details', { class: 'obstacle', key, open: depth < kOpen }, h('summary', {}, head),
     one.because.map((each, i) => obstacle(each, depth + 1, i)));
@@ -47,6 +52,7 @@ function obstacle(one: Obstacle, depth: number, key: number): Part {
 function input_button(one: Obstacle): Part | null {
   const address = /\bI\d+\.[0-7]\b/.exec(one.name ?? '')?.[0], level = Number(one.wanted);
   if (address === undefined || !Number.isInteger(level)) return null;
+  if (terminal_level(address) === level) return h('span', { class: 'hint' }, `, and is ${level} now`);
   return h('button', { class: 'why', title: `Switch the input ${address}`, onclick: (event: Event) => { event.preventDefault(); void switch_to(address, level); } }, `Switch to ${level}`);
 }
 

@@ -24,10 +24,11 @@ function row(one: Exchange, i: number, next: Exchange | undefined): Part {
   const unanswered = is_unanswered(one) || is_overdue(one);
   const result = one.error ?? one.answer ?? (one.pending ? 'under way …' : 'no answer');
   const why = unanswered ? { title: 'What kept the program from an answer', ask: () => void ask_why_unanswered(one, next) }
-    : one.answer_end_ns === undefined ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one.request, one.answer_end_ns!) };
+    : one.answer_end_ns === undefined || one.sent ? null : { title: 'What the answer waited for', ask: () => void ask_why_latency(one.request, one.answer_end_ns!, one.station) };
   return h('tr', { key: i, class: one.error !== undefined || is_unanswered(one) ? 'trouble' : '', onclick: () => void go_to(one.at_ns) },
     h('td', {}, h('button', { class: 'link', title: 'Go to this request' }, moment_text(one.at_ns))),
-    h('td', { class: 'frame' }, h('div', { class: 'frame-text', title: one.request }, one.request)), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),
+    h('td', { class: 'frame' }, one.station === '' ? null : h('div', { class: 'asked' }, `${one.station} ${one.sent ? 'asks' : 'is asked'}`),
+      h('div', { class: 'frame-text', title: one.request }, one.request)), h('td', { class: 'frame' }, result, why ? h('button', { class: 'why', title: why.title, onclick: (event: Event) => { event.stopPropagation(); why.ask(); } }, 'Why?') : null),
     h('td', { class: 'number' }, one.latency_ns === undefined ? '' : duration_text(one.latency_ns)));
 }
 
@@ -41,8 +42,8 @@ function summary(all: Exchange[]): string {
   const latencies = latencies_of(all);
   if (all.length === 0) return '';
   const unanswered = all.filter(is_unanswered).length;
-  const spread = latencies.length === 0 ? ''
-    : `, latency ${duration_text(Math.min(...latencies))} … ${duration_text(Math.max(...latencies))}`;
+  const ends = [...new Set([Math.min(...latencies), Math.max(...latencies)])].map(duration_text).join(' … ');
+  const spread = latencies.length === 0 ? '' : `, latency ${ends}`;
   return `${all.length} ${all.length === 1 ? 'request' : 'requests'}, ${unanswered} without an answer${spread}`;
 }
 

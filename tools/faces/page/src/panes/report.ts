@@ -96,7 +96,7 @@ function summary(report: Report, run: ReportedRun): Part {
   const rows = [
     ['Command', `s7200 ${report.verb}`],
     run.system === undefined ? ['Program', state.sources[0]?.name ?? ''] : ['System', report.systems?.[run.system]?.name ?? ''],
-    ['CPU', state.hello?.cpu ?? ''],
+    run.system === undefined ? ['CPU', state.hello?.cpu ?? ''] : ['PLCs', (state.hello?.stations ?? []).join(', ')],
     ['Simulated time', duration_text(end_ns)],
     ['From outside', actions === 0 ? 'nothing' : `${actions} ${actions === 1 ? 'action' : 'actions'}`],
   ];

@@ -10,8 +10,17 @@ import { compare_futures, difference_text, run_second, shown_spans } from '../fu
 import { icon } from '../icons';
 import { changed, state } from '../state';
 import { duration_text } from '../words';
+import type { SpanTrack } from '../protocol';
 
-const kLabels = 118;
+const kLabels = 118, kLabelsOfSystem = 178;
+const kPaper = { width: 700, height: 840 };
+
+const is_narrow = (): boolean => innerWidth <= 760;
+
+/** The width of the names of the tracks, in a system with their stations. */
+function labels_width(): number {
+  return state.hello?.stations.length && !is_narrow() ? kLabelsOfSystem : kLabels;
+}
 
 let canvas: HTMLCanvasElement | null = null;
 let shown: View | null = null;
@@ -33,7 +42,8 @@ function paint(node: HTMLCanvasElement): void {
   canvas = node;
   const tracks = node.parentElement!.parentElement!;
   const rows = rows_of(shown_spans(), tracks.scrollTop);
-  const width = Math.max(100, tracks.clientWidth - kLabels), height = tracks.clientHeight;
+  const width = Math.max(100, (state.printing ? kPaper.width : tracks.clientWidth) - labels_width());
+  const height = state.printing ? Math.min(height_of(rows), kPaper.height) : tracks.clientHeight;
   const ratio = devicePixelRatio || 1;
   if (node.width !== Math.round(width * ratio) || node.height !== Math.round(height * ratio)) {
     node.width = Math.round(width * ratio);
@@ -110,9 +120,15 @@ function measured(): string {
   return [`B − A = ${duration_text(to - from)}`, ...counts].join(' · ');
 }
 
+function name_of(track: SpanTrack): string {
+  return track.station ? `${track.station} ${track.name}` : track.name;
+}
+
+/** On a phone only the first track of a PLC has its name. */
 function labels(): Part[] {
-  return rows_of(shown_spans(), 0).map((row, i) => h('div', { class: `track-name${row.track.before ? ' before' : ''}`, key: i, style: { top: `${row.top}px`, height: `${row.height}px` }, title: row.track.before ? `${row.track.name}: the first future` : row.track.name },
-    h('span', {}, row.track.before ? 'first future' : row.track.station ? `${row.track.station} ${row.track.name}` : row.track.name),
+  const rows = rows_of(shown_spans(), 0);
+  return rows.map((row, i) => h('div', { class: `track-name${row.track.before ? ' before' : ''}`, key: i, style: { top: `${row.top}px`, height: `${row.height}px` }, title: row.track.before ? `${row.track.name}: the first future` : name_of(row.track) },
+    h('span', {}, row.track.before ? 'first future' : is_narrow() && row.track.station === rows[i - 1]?.track.station ? row.track.name : name_of(row.track)),
     row.track.kind === 'value' && !row.track.before ? h('button', { class: 'plain', 'aria-label': `Remove ${row.track.name}`, onclick: () => timeline.unwatch(watched_as(row.track.name)) }, icon('close')) : null));
 }
 
@@ -144,7 +160,7 @@ export function timeline_pane(): Part {
       state.cursors.a_ns !== null ? h('button', { class: 'plain', 'aria-label': 'Remove cursors', onclick: timeline.clear_cursors }, icon('close')) : null,
       state.spans?.left_out?.length ? h('span', { class: 'small', title: 'Zoom in to 10 s or less' }, `zoom in for ${state.spans.left_out.join(', ')}`) : null),
     h('div', { class: 'tracks', onscroll: changed },
-      h('div', { class: 'track-names', style: { height: `${height_of(rows_of(shown_spans(), 0))}px` } }, labels()),
+      h('div', { class: 'track-names', style: { width: `${labels_width()}px`, height: `${height_of(rows_of(shown_spans(), 0))}px` } }, labels()),
       h('div', { class: 'track-canvas' }, h('canvas', { id: 'timeline', tabindex: '0', role: 'img', 'aria-label': 'Timeline: plus and minus zoom, arrows move, e finds the next error', ref: paint,
         onwheel: on_wheel, onpointerdown: on_down, onpointermove: on_move, onpointerup: on_up, onpointercancel: () => { drag = null; },
         onpointerleave: () => { if (told !== '') { told = ''; changed(); } } }))));

@@ -255,7 +255,7 @@ function draw_ruler(c: CanvasRenderingContext2D, view: View, theme: Theme): void
   c.beginPath();
   for (const { x, text } of marks_of(view.scale)) {
     c.moveTo(x, kRuler - 6); c.lineTo(x, kRuler);
-    c.fillText(text, x + 3, kRuler / 2);
+    if (x + 3 + c.measureText(text).width <= view.scale.right) c.fillText(text, x + 3, kRuler / 2);
   }
   c.stroke();
 }

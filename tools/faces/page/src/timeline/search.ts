@@ -85,8 +85,8 @@ export async function find_longest(): Promise<void> {
     notice('There is no answer yet');
     return;
   }
-  await show_found(longest);
-  await ask_why_latency(longest.text, longest.answer_end_ns);
+  await show_found({ at_ns: longest.at_ns, end_ns: longest.answer_end_ns });
+  await ask_why_latency(longest.text, longest.answer_end_ns, longest.station);
   notice(`The longest of ${answers.count} answers: after ${duration_text(longest.answer_ns - longest.end_ns)}, to ${longest.text}`);
 }
 

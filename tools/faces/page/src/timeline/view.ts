@@ -145,10 +145,13 @@ export function unwatch(address: string): void {
   changed();
 }
 
-/** Goes to what was found; it comes into view. */
+const kWidest = 10e9, kLeastFound = 20e6;  // ns
+
+/** Goes to what was found; it comes into view, and of a window in which it would be less than a pixel near enough to be seen. */
 export async function show_found(found: { at_ns: number; end_ns: number }): Promise<void> {
   goes_along = true;
   await go_to(found.at_ns);
-  const { from_ns, to_ns } = window_of();
-  if (found.at_ns < from_ns || found.end_ns > to_ns) move_to(found.at_ns - (to_ns - from_ns) / 2);
+  const { from_ns, to_ns } = window_of(), length = Math.max(found.end_ns - found.at_ns, kLeastFound);
+  if (to_ns - from_ns > kWidest && length < kWidest) show(found.at_ns - length, found.end_ns + length);
+  else if (found.at_ns < from_ns || found.end_ns > to_ns) move_to(found.at_ns - (to_ns - from_ns) / 2);
 }
