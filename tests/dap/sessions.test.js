@@ -77,7 +77,7 @@ session("a launch takes the options of debug, and says what is wrong with them",
 session("a value of the wrong type is named with what it should be", async (s, program) => {
   const wrong = {
     trace: [true, /^trace: true is not FILE: a text or a number$/], realtime: ["yes", /^realtime: "yes" is not true or false$/],
-    set: [{ VW10: 5 }, /^set: \{"VW10":5\} is not ADDRESS=VALUE: a text or a number$/], cpu: [["214", "224"], /^cpu: \["214","224"\] is not one TYPE$/],
+    set: [{ VW10: { a: 5 } }, /^set: \{"a":5\} is not ADDRESS=VALUE: a text or a number$/], cpu: [["214", "224"], /^cpu: \["214","224"\] is not one TYPE$/],
     program: [5, /^program: 5 is not a text or a list of texts$/], stopOnEntry: [1, /^stopOnEntry: 1 is not true or false$/],
     cwd: [7, /^cwd: 7 is not a text$/], input: ["a\0b", /^input: "a\\u0000b" is not a text without the character NUL$/],
     speed: ["fast", /--speed: 'fast' is not a number/], help: [true, /^launch: there is no attribute 'help'/], memry: ["a", /did you mean 'memory'/],
