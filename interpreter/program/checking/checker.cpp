@@ -88,14 +88,16 @@ class Checker {
   /// Gives each undefined name a cause of its own where there is a symbol table; without one they all have the same, but for
   /// those that are nearly a symbol of Micro/WIN.
   void tell_undefined_symbols_apart() {
+    if (std::ranges::find(diagnostics_, kUndefinedSymbols, &stl::Diagnostic::cause) == diagnostics_.end()) return;
+    const std::vector<stl::Symbol> own = users_symbols();
     for (stl::Diagnostic& diagnostic : diagnostics_) {
       if (diagnostic.cause != kUndefinedSymbols) continue;
       const std::string meant = nearest_symbol(written_at(diagnostic.position));
       if (!meant.empty())
         diagnostic.hint = fmt::format("did you mean {}?", meant);
-      else if (!users_symbols().empty())
-        diagnostic.hint = hint_with_table(written_at(diagnostic.position));
-      if (!meant.empty() || !users_symbols().empty()) diagnostic.cause = diagnostic.message;
+      else if (!own.empty())
+        diagnostic.hint = hint_with_table(written_at(diagnostic.position), own);
+      if (!meant.empty() || !own.empty()) diagnostic.cause = diagnostic.message;
     }
   }
 
@@ -110,12 +112,12 @@ class Checker {
 
   /// The hint for a name that is in no table that was given: `symbols.txt does not have it; the nearest are Pump_1 and
   /// Pump_2`.
-  std::string hint_with_table(std::string_view written) const {
+  std::string hint_with_table(std::string_view written, const std::vector<stl::Symbol>& own) const {
     std::vector<std::string> tables;
-    for (const stl::Symbol& symbol : users_symbols())
+    for (const stl::Symbol& symbol : own)
       if (std::string file = stl::in_file(source_, symbol.position.line).file; tables.empty() || tables.back() != file)
         tables.push_back(std::move(file));
-    const std::vector<std::string> near = symbols_like(written);
+    const std::vector<std::string> near = symbols_like(written, own);
     return fmt::format("{} {} it{}; add it there, or write the address itself", fmt::join(tables, ", "),
                        tables.size() == 1 ? "does not have" : "do not have",
                        near.empty() ? ""
@@ -123,11 +125,11 @@ class Checker {
   }
 
   /// Symbols of the user that have a word in common with a name, the longest such word first.
-  std::vector<std::string> symbols_like(std::string_view written) const {
+  static std::vector<std::string> symbols_like(std::string_view written, const std::vector<stl::Symbol>& own) {
     constexpr std::size_t kLeastCommon = 3, kShown = 3;
     const std::string name = stl::upper_case(written);
     std::vector<std::pair<std::size_t, std::string>> found;
-    for (const stl::Symbol& symbol : users_symbols())
+    for (const stl::Symbol& symbol : own)
       if (const std::size_t common = longest_common(name, stl::upper_case(symbol.name)); common >= kLeastCommon)
         found.emplace_back(common, symbol.name);
     std::ranges::stable_sort(found, std::greater{}, &std::pair<std::size_t, std::string>::first);
