@@ -86,8 +86,8 @@ class SteadyScans {
   void check(const Core& core);
   void move_on(const Core& core, State& s, std::uint64_t pairs) const;
 
-  std::unique_ptr<IdleScans> idle_;
   SteadyScansUse use_ = kUsualUse;
+  std::unique_ptr<IdleScans> idle_;
   Known known_ = Known::Nothing;
   std::unique_ptr<State> before_{};  // the pair
   Time middle_ = 0;                  // when the program of the pair's first scan began

@@ -1,14 +1,19 @@
 // Scans that are all alike are passed over, and nothing shows it but the speed.
 #include "interpreter/cpu/steady_scans.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <new>
 #include <random>
+#include <set>
 #include <utility>
 
 #include "interpreter/cpu/units.hpp"
 #include "tests/support/with_and_without.hpp"
 
-namespace s7200::test {
+namespace s7200::test::steady_scans_test {
 namespace {
 
 constexpr std::string_view kContactsOnly = "LD I0.0\nA M0.0\n= Q0.0\nMEND\n";
@@ -35,6 +40,18 @@ TEST(SteadyScans, AreNotPassedOverIfTheyAreOff) {
   PlcThat plc(SteadyScansUse::Off, kContactsOnly);
   plc.run_until(60 * kSecond);
   EXPECT_EQ(plc.cpu.passed_over(), 0);
+}
+
+TEST(SteadyScans, DoNotDependOnWhatWasInTheirMemoryBefore) {
+  alignas(Plc) std::array<std::byte, sizeof(Plc)> memory{};
+  std::set<Time> passed;
+  for (std::uint8_t rest = 0; rest < 4; ++rest) {
+    memory.fill(std::byte{rest});
+    const std::unique_ptr<Plc, void (*)(Plc*)> plc{new (memory.data()) Plc(kContactsOnly), std::destroy_at};
+    plc->run_until(kSecond);
+    passed.insert(plc->cpu.passed_over());
+  }
+  EXPECT_EQ(passed.size(), 1u);
 }
 
 TEST(SteadyScans, AreNotPassedOverForAWatcherOfScans) {
@@ -659,4 +676,4 @@ TEST(SteadyScans, TheCheckFindsAPredictionThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::steady_scans_test
