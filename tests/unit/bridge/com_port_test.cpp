@@ -5,7 +5,7 @@
 
 #include "serial_sim/line/frame.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::com_port_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -126,4 +126,4 @@ TEST(ComPort, AnEndlessCommandIsRefused) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::com_port_test

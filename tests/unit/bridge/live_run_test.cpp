@@ -5,7 +5,7 @@
 
 #include "interpreter/analysis/warnings/check.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::live_run_test {
 namespace {
 
 /// Has nothing on its other side.
@@ -77,4 +77,4 @@ TEST(LiveRun, ABridgeThatFailsEndsTheRunAndTheNextOneGoesOnWithoutIt) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::live_run_test

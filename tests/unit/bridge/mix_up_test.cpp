@@ -8,7 +8,7 @@
 #include "interpreter/base/ppi_frame.hpp"
 #include "serial_sim/modbus/crc.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::mix_up_test {
 namespace {
 
 std::string note(const Bytes& bytes, const State* state = nullptr) { return mix_up(bytes, state, 0); }
@@ -39,4 +39,4 @@ TEST(MixUp, PpiAtAPortInFreeportModeIsSaidWithItsControlByte) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::mix_up_test

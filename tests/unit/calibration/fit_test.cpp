@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace s7200::tools {
+namespace s7200::tools::fit_test {
 namespace {
 
 const TimeRow& line_of(const char* mnemonic) {
@@ -182,4 +182,4 @@ TEST(FindLoops, EachLoopOfTheProgramConsistsOfWhatIsWrittenInIt) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::fit_test

@@ -15,7 +15,7 @@
 #include "tools/calibration/measure_protocol.hpp"
 #include "tools/host/files/files.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::round_trip_test {
 namespace {
 
 double base_of(const TimeTable& times, std::string_view name, std::optional<Area> area = {}) {
@@ -178,4 +178,4 @@ TEST(RoundTrip, ATableIsReadAsItIsWritten) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::round_trip_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/inspected.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::behaviour_test {
 namespace {
 
 using test::inspected;
@@ -119,4 +119,4 @@ TEST(Behaviour, TheSameSeedFindsTheSame) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::behaviour_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/inspected.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::structure_test {
 namespace {
 
 using test::inspected;
@@ -152,4 +152,4 @@ TEST(Structure, CommonRowsAreTheLongestInTheSameOrder) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::structure_test

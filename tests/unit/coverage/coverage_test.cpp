@@ -14,7 +14,7 @@
 #include "tests/support/plc.hpp"
 #include "tools/coverage/coverage_files.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::coverage_test {
 namespace {
 
 /// A program on a CPU whose coverage is watched.
@@ -317,4 +317,4 @@ TEST(Coverage, SeveralRunsAreMergedByProgram) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::coverage_test

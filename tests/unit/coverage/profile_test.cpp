@@ -10,7 +10,7 @@
 #include "tests/support/plc.hpp"
 #include "tools/coverage/profile_report.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::profile_test {
 namespace {
 
 constexpr std::string_view kProgram =
@@ -164,4 +164,4 @@ TEST(Profile, BinsWidenWithTheDurationsWhereTheyAreFarApart) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::profile_test

@@ -5,7 +5,7 @@
 #include "tools/faces/dap/wire/framing.hpp"
 #include "tools/faces/dap/wire/inbox.hpp"
 
-namespace s7200::tools::dap {
+namespace s7200::tools::dap::admission_test {
 namespace {
 
 Json request(const std::string& command, Json arguments = Json::object()) {
@@ -73,4 +73,4 @@ TEST(Inbox, MessagesThatWaitAreBounded) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::dap
+}  // namespace s7200::tools::dap::admission_test

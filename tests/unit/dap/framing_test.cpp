@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools::dap {
+namespace s7200::tools::dap::framing_test {
 namespace {
 
 std::string why_not(std::string_view bytes) {
@@ -88,4 +88,4 @@ TEST(Framing, APartOfAMessageIsKnownAsOne) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::dap
+}  // namespace s7200::tools::dap::framing_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools::dap {
+namespace s7200::tools::dap::inbox_test {
 namespace {
 
 Json request(int number, const char* command, Json arguments = Json::object()) {
@@ -97,4 +97,4 @@ TEST(Inbox, TheEndOfTheStreamComesAfterAllMessages) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::dap
+}  // namespace s7200::tools::dap::inbox_test

@@ -9,7 +9,7 @@
 #include "tools/json/base64.hpp"
 #include "tools/session/commands/rows/command_table.hpp"
 
-namespace s7200::tools::dap {
+namespace s7200::tools::dap::session_test {
 namespace {
 
 testing::AssertionResult has(const std::string& text, std::string_view part) {
@@ -1362,4 +1362,4 @@ TEST(DapSession, AnAreaThatWasReadUnderTwoNamesIsToldOfUnderBoth) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::dap
+}  // namespace s7200::tools::dap::session_test

@@ -8,7 +8,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/dap/editor.hpp"
 
-namespace s7200::tools::dap {
+namespace s7200::tools::dap::sources_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ TEST_F(Spellings, AClientOfUrisIsToldUris) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::dap
+}  // namespace s7200::tools::dap::sources_test

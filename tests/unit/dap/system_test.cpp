@@ -8,7 +8,7 @@
 #include "tests/unit/debugger/system_bench.hpp"
 #include "tools/faces/dap/session.hpp"
 
-namespace s7200::tools::dap {
+namespace s7200::tools::dap::system_test {
 namespace {
 
 class SystemDebuggee final : public Debuggee {
@@ -250,4 +250,4 @@ TEST(DapSystem, MemoryOfAPlcWithoutPowerIsNotChanged) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::dap
+}  // namespace s7200::tools::dap::system_test

@@ -8,7 +8,7 @@
 #include "tools/session/commands/rows/command_table.hpp"
 #include "tools/session/commands/rows/completion.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::commands_test {
 namespace {
 
 struct Listener final : Onlooker {
@@ -118,4 +118,4 @@ TEST(Commands, OfTwoSessionsKnowNothingOfEachOther) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::commands_test

@@ -14,7 +14,7 @@
 #include "tools/session/observers/call_stack.hpp"
 #include "tools/session/past/past_words.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::debugger_test {
 namespace {
 
 // --- running ---
@@ -1695,4 +1695,4 @@ TEST(Debugger, APeerThatIsLostIsSaidOnceAndTheSessionGoesOn) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::debugger_test

@@ -6,7 +6,7 @@
 #include <memory>
 #include <set>
 
-namespace s7200::tools {
+namespace s7200::tools::digest_test {
 namespace {
 
 TEST(Digest, OfAStateKnowsEachOfItsParts) {
@@ -60,4 +60,4 @@ TEST(Digest, OfWhatDrivesTheInputsKnowsItsValues) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::digest_test

@@ -4,7 +4,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/debugger/system_session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::effect_test {
 namespace {
 
 std::shared_ptr<const Program> for_effects(std::string_view text) {
@@ -217,4 +217,4 @@ TEST(Effect, WhatCannotBeAskedSaysWhy) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::effect_test

@@ -2,7 +2,7 @@
 
 #include "tests/unit/debugger/session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::forcing_test {
 namespace {
 
 constexpr std::string_view kCopy =
@@ -78,4 +78,4 @@ TEST(ForceCommand, IsRedOnATerminalOnly) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::forcing_test

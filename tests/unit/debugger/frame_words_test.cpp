@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::frame_words_test {
 namespace {
 
 std::string frame_of(const std::string& text) {
@@ -46,4 +46,4 @@ TEST(FrameWords, WhatIsWrongWithARequestIsSaid) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::frame_words_test

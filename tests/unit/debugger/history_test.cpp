@@ -20,7 +20,7 @@
 #include "tools/views/program/listing.hpp"
 #include "tools/views/state/machine_text.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::history_test {
 namespace {
 
 using Snapshot = serial::Simulation::Snapshot;
@@ -793,4 +793,4 @@ TEST(History, ALimitEndsARunThatBeganWithAFrameUnderWayAndGoesOverAlikeScansAfte
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::history_test

@@ -12,7 +12,7 @@
 #include "tools/session/observers/track.hpp"
 #include "tools/session/observers/tracks_of_past.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::pages_test {
 namespace {
 
 struct Silent final : Onlooker {
@@ -370,4 +370,4 @@ TEST(Tracks, KeepTheLeastAndTheMostOfValues) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::pages_test

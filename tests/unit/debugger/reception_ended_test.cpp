@@ -4,7 +4,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/debugger/session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::reception_ended_test {
 namespace {
 
 AtPrompt session_of_cpu_224(const std::string& text) {
@@ -176,4 +176,4 @@ TEST(ReceptionEnded, AnXmtThatWasRefusedIsNamedWithWhatHadThePort) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::reception_ended_test

@@ -1,7 +1,7 @@
 #include "interpreter/program/load.hpp"
 #include "tests/unit/debugger/session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::seeing_test {
 namespace {
 
 TEST(Seeing, HistoryListsTheLastInstructionsWithOperandsAndCommentsWithoutGoingThere) {
@@ -385,4 +385,4 @@ TEST(Seeing, AColourMarksTheCurrentLineStopsErrorsAndTroubleInATrace) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::seeing_test

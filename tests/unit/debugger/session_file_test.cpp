@@ -14,7 +14,7 @@
 #include "tests/unit/debugger/session.hpp"
 #include "tools/session/past/digest.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::session_file_test {
 namespace {
 
 class SavedSession : public testing::Test {
@@ -299,4 +299,4 @@ TEST(PowerCommand, WrongWordsTellWhatIsExpected) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::session_file_test

@@ -2,7 +2,7 @@
 #include "interpreter/program/load.hpp"
 #include "tests/unit/debugger/session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::several_files_test {
 namespace {
 
 AtPrompt session_of_two_files() {
@@ -65,4 +65,4 @@ TEST(SeveralFiles, AMessageOfAStopHasTheNumberInTheFile) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::several_files_test

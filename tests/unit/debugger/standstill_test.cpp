@@ -4,7 +4,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/debugger/session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::standstill_test {
 namespace {
 
 /// An endless loop from I0.0 on, which the watchdog ends.
@@ -157,4 +157,4 @@ TEST(Standstill, EveryRequestThatWasUnansweredInStopIsGoneBackToByItself) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::standstill_test

@@ -4,7 +4,7 @@
 #include "tests/unit/debugger/session.hpp"
 #include "tools/session/stops/stop_words.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::stops_test {
 namespace {
 
 TEST(Stops, HitsCountFromTheMomentWhereTheStopWasSetWhateverIsPlayedAgain) {
@@ -262,4 +262,4 @@ TEST(Stops, AConditionOfAnyLengthIsAnsweredOrRefused) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::stops_test

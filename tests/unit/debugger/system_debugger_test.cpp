@@ -12,7 +12,7 @@
 #include "tools/session/past/seen_rig.hpp"
 #include "tools/views/state/machine_text.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::system_debugger_test {
 namespace {
 
 /// Two PLCs; `first` counts its scans, `second` goes to STOP when M0.0 is set.
@@ -818,4 +818,4 @@ TEST(SystemDebugger, TheFieldOfAPlcHasItsLevelsWhenItsPowerComesBack) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::system_debugger_test

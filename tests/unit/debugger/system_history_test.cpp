@@ -12,7 +12,7 @@
 #include "tools/session/stops/goals.hpp"
 #include "tools/session/stops/stepper.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::system_history_test {
 namespace {
 
 using Snapshot = serial::System::Snapshot;
@@ -266,4 +266,4 @@ TEST(SystemHistory, ARunEndsAtItsLimitThoughNoCpuExecutesAProgram) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::system_history_test

@@ -1,7 +1,7 @@
 // What `why not` and `until` say holds a bit off.
 #include "tests/unit/debugger/session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::why_not_test {
 namespace {
 
 std::shared_ptr<const Program> on_cpu224(std::string_view text) {
@@ -500,4 +500,4 @@ TEST(Until, AConditionThatDoesNotComeToHoldIsAnsweredWithWhatBlocksIt) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::why_not_test

@@ -6,7 +6,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/debugger/session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::why_test {
 namespace {
 
 /// Sends each character back. I0.0 detaches event 8, I0.1 leaves Freeport mode.
@@ -812,4 +812,4 @@ TEST(Why, WhatSetThePortAfterTheRequestIsNotToBlame) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::why_test

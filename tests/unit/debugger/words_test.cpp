@@ -2,7 +2,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tests/unit/debugger/session.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::words_test {
 namespace {
 
 TEST(Words, ACommentBeginsWithTwoSlashesOrWithAHashAtTheStartOfALine) {
@@ -133,4 +133,4 @@ TEST(Words, ContinueSaysThatItStandsWithinAScanAndGoesToItsEnd) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::words_test

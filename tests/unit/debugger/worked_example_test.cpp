@@ -7,7 +7,7 @@
 #include "tests/unit/debugger/session.hpp"
 #include "tools/views/state/machine_text.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::worked_example_test {
 namespace {
 
 struct Drop {
@@ -181,4 +181,4 @@ TEST(WorkedExample, WhyKnowsAllOfALongScanAndEveryContactOfALongRung) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::worked_example_test

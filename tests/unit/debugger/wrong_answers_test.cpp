@@ -10,7 +10,7 @@
 #include "tests/unit/debugger/system_session.hpp"
 #include "tools/session/stops/stop_words.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::wrong_answers_test {
 namespace {
 
 /// A slave that is polled twice a second; exchanges of its line have a fault.
@@ -246,4 +246,4 @@ TEST(WrongAnswers, StationListsPeersToo) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::wrong_answers_test

@@ -7,7 +7,7 @@
 #include "tests/support/inspected.hpp"
 #include "tests/support/tip41.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::fuzz_test {
 namespace {
 
 using test::inspected;
@@ -229,4 +229,4 @@ TEST(Fuzz, TheTipIsFoundOutByBlocksOfNothingAndByAPointerBeyondItsOutputs) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::fuzz_test

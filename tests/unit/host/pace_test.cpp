@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace s7200::tools {
+namespace s7200::tools::pace_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -50,4 +50,4 @@ TEST(Pace, FarBehindIsGivenUpAndIsDrift) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::pace_test

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace s7200::tools {
+namespace s7200::tools::pty_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -189,4 +189,4 @@ TEST_F(PtyClients, OneIsServedAlthoughTheSystemHasForgottenHowManyCame) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::pty_test

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace s7200::tools {
+namespace s7200::tools::record_file_test {
 namespace {
 
 class RecordFiles : public testing::Test {
@@ -90,4 +90,4 @@ TEST_F(RecordFiles, WithoutLineEndsGrowAllTheSame) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::record_file_test

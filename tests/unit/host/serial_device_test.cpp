@@ -12,7 +12,7 @@
 
 #include "tools/host/posix/termios2.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::serial_device_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -165,4 +165,4 @@ TEST_F(SerialDeviceTest, WhatIsNoSerialDeviceIsSaid) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::serial_device_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::server_rules_test {
 namespace {
 
 TEST(ServerRules, ARequestOfABrowserIsKnownByItsFirstBytes) {
@@ -28,4 +28,4 @@ TEST(ServerRules, ATokenIsNewEachTimeAndComparedAsAWhole) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::server_rules_test

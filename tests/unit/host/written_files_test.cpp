@@ -11,7 +11,7 @@
 
 #include "tools/host/files/record_file.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::written_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST_F(WrittenFilesTest, ARecordThatIsNotBegunLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::written_files_test

@@ -7,7 +7,7 @@
 
 #include "interpreter/analysis/warnings/check.hpp"
 
-namespace s7200 {
+namespace s7200::address_test {
 namespace {
 
 std::string refusal(std::string_view text) {
@@ -148,4 +148,4 @@ TEST(Address, ASymbolOfTheProgramStandsForItsAddress) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::address_test

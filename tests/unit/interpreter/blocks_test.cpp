@@ -6,7 +6,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/tables/symbols.hpp"
 
-namespace s7200::stl {
+namespace s7200::stl::blocks_test {
 namespace {
 
 constexpr const char* kMain = "ORGANIZATION_BLOCK MAIN:OB1\nTITLE=A lamp\nBEGIN\nNetwork 1 // lamp\nLD I0.0\n= Q0.0\n";
@@ -209,4 +209,4 @@ TEST(Blocks, AStatementOfSymbolsBeforeBeginIsNoComment) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::blocks_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::bounds_test {
 namespace {
 
 Bounds bounds(std::string_view stl) {
@@ -184,4 +184,4 @@ TEST(Bounds, WithoutPatienceLessIsKnownOfPointers) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::bounds_test

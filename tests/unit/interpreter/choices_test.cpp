@@ -1,7 +1,7 @@
 // Choices of "Not documented, modelled so" that belong to no other group of tests.
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::choices_test {
 namespace {
 
 TEST(Choices, SM43StaysUntilTheNextRun) {
@@ -149,4 +149,4 @@ TEST(Choices, All64InputAndOutputPointsExist) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::choices_test

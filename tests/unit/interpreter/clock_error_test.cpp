@@ -1,7 +1,7 @@
 // A CPU whose crystal is off: all that it counts by its clock comes sooner or later. Times: plc.hpp.
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::clock_error_test {
 namespace {
 
 /// Timers of each time base, a timed interrupt of 10 ms, SM0.5 and the time of day, which begins at 10:00:00.
@@ -74,4 +74,4 @@ TEST(ClockError, AScanIsShorterByItsFirstPartAtMost) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::clock_error_test

@@ -1,7 +1,7 @@
 // Real compares with a value that is not a number (facts 5.1, 9.1). Times: plc.hpp.
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::compare_test {
 namespace {
 
 constexpr std::uint32_t kQuietNan = 0x7FC00000, kSignallingNan = 0xFF800001, kInfinity = 0x7F800000;
@@ -45,4 +45,4 @@ TEST(Compare, AContactThatIsJumpedOverMeetsNothing) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::compare_test

@@ -6,7 +6,7 @@
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/printer.hpp"
 
-namespace s7200 {
+namespace s7200::convert_test {
 namespace {
 
 SourceText file(const std::string& text) {
@@ -246,4 +246,4 @@ TEST(Convert, MicroWinTableHasTheNamesWithTheirAddressesInTheText) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::convert_test

@@ -5,7 +5,7 @@
 #include "interpreter/analysis/warnings/check.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::cpu22x_models_test {
 namespace {
 
 const std::vector<const CpuModel*>& cpus22x() {
@@ -230,4 +230,4 @@ TEST(Cpu22x, EnteringAnInterruptTakes47usOnRelease1And24usOnRelease2) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::cpu22x_models_test

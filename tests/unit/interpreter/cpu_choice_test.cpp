@@ -6,7 +6,7 @@
 #include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/program/load.hpp"
 
-namespace s7200 {
+namespace s7200::cpu_choice_test {
 namespace {
 
 stl::ParseResult read(const std::string& text) {
@@ -115,4 +115,4 @@ TEST(FirstCpu, NoEndIsMissingWhereNoLineCouldBeRead) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::cpu_choice_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::cpu_models_test {
 namespace {
 
 using Texts = std::set<std::string, std::less<>>;
@@ -396,4 +396,4 @@ TEST(CpuModels, ConstantsThatAreNoPartOfTheirInstructionCountForTheSizeOfAProgra
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::cpu_models_test

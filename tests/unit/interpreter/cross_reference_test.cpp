@@ -11,7 +11,7 @@
 #include "interpreter/stl/parser.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::cross_reference_test {
 namespace {
 
 /// `VW99+VB100 w1 r2 p3`: its parts, and the ops that read, write and change it; p: what may reach it.
@@ -155,4 +155,4 @@ TEST(Selection, SaysWhatIsNearAnUnknownWord) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::cross_reference_test

@@ -7,7 +7,7 @@
 #include "interpreter/stl/tables/data_block.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200 {
+namespace s7200::data_block_test {
 namespace {
 
 struct Placed {
@@ -166,4 +166,4 @@ TEST(DataBlock, AnAddressWithoutValueIsNamedWithoutTheBlanksAroundIt) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::data_block_test

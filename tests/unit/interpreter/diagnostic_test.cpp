@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::stl {
+namespace s7200::stl::diagnostic_test {
 namespace {
 
 SourceLines text(std::vector<std::string> lines) { return {"a.stl", std::move(lines)}; }
@@ -108,4 +108,4 @@ TEST(Diagnostic, AWarningIsNotAnError) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::diagnostic_test

@@ -10,7 +10,7 @@
 #include "interpreter/model/times/times.hpp"
 #include "interpreter/program/load.hpp"
 
-namespace s7200 {
+namespace s7200::dialect_test {
 namespace {
 
 /// All messages about a text, each in a line.
@@ -116,4 +116,4 @@ TEST(Dialect, InstructionsOfTheSmartAreSaidOnce) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::dialect_test

@@ -12,7 +12,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "tests/support/source_path.hpp"
 
-namespace s7200::stl {
+namespace s7200::stl::document_test {
 namespace {
 
 /// Mnemonics with their number of operands, as many as these tests need.
@@ -462,4 +462,4 @@ TEST(Document, StatementsWithSymbolsOneAfterTheOtherAreStatements) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::document_test

@@ -10,7 +10,7 @@
 #include "interpreter/model/times/times.hpp"
 #include "interpreter/program/load.hpp"
 
-namespace s7200 {
+namespace s7200::drawings_test {
 namespace {
 
 /// The causes of the errors of a text that is read, or why it cannot be read.
@@ -66,4 +66,4 @@ TEST(Drawings, InCommentsAreComments) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::drawings_test

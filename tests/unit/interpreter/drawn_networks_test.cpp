@@ -8,7 +8,7 @@
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/tables/symbols.hpp"
 
-namespace s7200 {
+namespace s7200::drawn_networks_test {
 namespace {
 
 using stl::LadderBranch;
@@ -155,4 +155,4 @@ TEST(DrawnNetworks, HugeNetworksAreRefusedOrDrawnAndNeverCrash) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::drawn_networks_test

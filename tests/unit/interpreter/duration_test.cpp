@@ -2,7 +2,7 @@
 
 #include "interpreter/base/time.hpp"
 
-namespace s7200 {
+namespace s7200::duration_test {
 namespace {
 
 TEST(Duration, ReadsEveryUnit) {
@@ -69,4 +69,4 @@ TEST(Duration, WhatIsFormattedReadsBack) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::duration_test

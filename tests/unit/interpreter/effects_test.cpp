@@ -6,7 +6,7 @@
 #include "interpreter/program/operands/operands.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::effects_test {
 namespace {
 
 const CpuModel& model() { return *find_cpu("224"); }
@@ -188,4 +188,4 @@ TEST(Effects, WhatControlInstructionsChangeIsAmongThem) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::effects_test

@@ -8,7 +8,7 @@
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/stl/text/code_pages.hpp"
 
-namespace s7200::stl {
+namespace s7200::stl::encoding_test {
 namespace {
 
 using namespace std::string_literals;
@@ -189,4 +189,4 @@ TEST(Encoding, ACharacterThatTheEncodingLacksIsNamed) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::encoding_test

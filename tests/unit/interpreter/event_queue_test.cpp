@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace s7200 {
+namespace s7200::event_queue_test {
 namespace {
 
 constexpr EventOwner kFirst{3}, kNext{4}, kLast{700};
@@ -74,4 +74,4 @@ TEST(EventQueue, TwoWithTheSameEventsAreEqualHoweverTheyCameIn) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::event_queue_test

@@ -6,7 +6,7 @@
 #include "interpreter/program/checking/chains.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::fast_loop_test {
 namespace {
 
 /// Makes the CPU execute op by op.
@@ -167,4 +167,4 @@ TEST(FastLoop, NeedsNoMoreStackForMoreInstructions) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::fast_loop_test

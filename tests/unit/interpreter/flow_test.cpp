@@ -3,7 +3,7 @@
 
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::flow_test {
 namespace {
 
 ControlFlow flow(std::string_view text, const CpuModel& model = *find_cpu("224")) {
@@ -72,4 +72,4 @@ TEST(Flow, AnOpBelongsToTheNetworkOfItsFirst) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::flow_test

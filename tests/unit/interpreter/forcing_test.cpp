@@ -2,7 +2,7 @@
 
 #include "tests/support/plc.hpp"
 
-namespace s7200 {
+namespace s7200::forcing_test {
 namespace {
 
 using test::ms;
@@ -172,4 +172,4 @@ TEST(Forcing, SM47OfACpu22xSaysThatSomethingIsForced) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::forcing_test

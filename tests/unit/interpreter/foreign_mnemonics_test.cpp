@@ -10,7 +10,7 @@
 #include "interpreter/model/instruction.hpp"
 #include "interpreter/program/load.hpp"
 
-namespace s7200 {
+namespace s7200::foreign_mnemonics_test {
 namespace {
 
 std::string hint(std::string_view mnemonic) { return unknown_mnemonic(mnemonic).hint; }
@@ -126,4 +126,4 @@ TEST(UnknownMnemonics, OfSeveralThatAreEquallyNearAllAreNamedOrNone) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::foreign_mnemonics_test

@@ -3,7 +3,7 @@
 #include "interpreter/cpu/ports/ppi.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::freeport_test {
 namespace {
 
 using enum TraceKind;
@@ -192,4 +192,4 @@ TEST(Freeport, WithoutFreeportModeCharactersAreIgnored) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::freeport_test

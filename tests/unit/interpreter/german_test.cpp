@@ -5,7 +5,7 @@
 #include "interpreter/analysis/warnings/check.hpp"
 #include "interpreter/stl/printer.hpp"
 
-namespace s7200 {
+namespace s7200::german_test {
 namespace {
 
 std::string read(const std::string& text) {
@@ -69,4 +69,4 @@ TEST(German, AListingInItIsAProgram) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::german_test

@@ -10,7 +10,7 @@
 #include "interpreter/program/loading/slips.hpp"
 #include "interpreter/stl/blocks.hpp"
 
-namespace s7200 {
+namespace s7200::headed_document_test {
 namespace {
 
 // A listing as Micro/WIN shows it, below some text: routines that are called by name, networks that begin at 1 in each.
@@ -181,4 +181,4 @@ TEST(Slips, AreAskedForByNumber) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::headed_document_test

@@ -12,7 +12,7 @@
 #include "interpreter/program/load.hpp"
 #include "interpreter/program/loading/convert.hpp"
 
-namespace s7200 {
+namespace s7200::headings_test {
 namespace {
 
 using stl::Block;
@@ -185,4 +185,4 @@ TEST(Headings, InAnExportNamesAreThoseOfItsBlocks) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::headings_test

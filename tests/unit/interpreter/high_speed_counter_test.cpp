@@ -3,7 +3,7 @@
 #include "interpreter/cpu/units/high_speed_counters.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::high_speed_counter_test {
 namespace {
 
 using enum TraceKind;
@@ -338,4 +338,4 @@ TEST(HighSpeedCounter, Mode12DoesNotCountTheCyclesOfAPwm) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::high_speed_counter_test

@@ -6,7 +6,7 @@
 #include "interpreter/model/memory_alone.hpp"
 #include "tests/support/with_and_without.hpp"
 
-namespace s7200::test {
+namespace s7200::test::idle_scans_test {
 namespace {
 
 constexpr Time kCharacter = 1'145'833;  // of 11 bits at 9600 baud
@@ -433,4 +433,4 @@ TEST(IdleScans, ChangeNothingInRandomProgramsWithCharactersInCloseSuccession) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::idle_scans_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::instructions22x_test {
 namespace {
 
 std::string refusal(const std::string& text, const CpuModel& model = cpu224()) {
@@ -475,4 +475,4 @@ TEST(Pid, ATableBeyondTheEndOfVIsRefused) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::instructions22x_test

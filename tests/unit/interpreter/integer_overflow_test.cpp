@@ -1,7 +1,7 @@
 // What +I, -I, +D, -D, DIV, INC and DEC leave when their result does not fit: a field of the CPU model. Times: plc.hpp.
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::integer_overflow_test {
 namespace {
 
 constexpr int kZero = 1, kOverflow = 2, kNegative = 4, kDivisionByZero = 8;
@@ -100,4 +100,4 @@ TEST(Overflow, IncrementAndDecrementWrapOnEveryCpu) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::integer_overflow_test

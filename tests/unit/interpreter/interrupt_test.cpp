@@ -2,7 +2,7 @@
 #include "interpreter/cpu/interrupts.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::interrupt_test {
 namespace {
 
 using enum TraceKind;
@@ -248,4 +248,4 @@ TEST(TimedInterrupt, DtchStopsIt) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::interrupt_test

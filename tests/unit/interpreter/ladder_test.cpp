@@ -11,7 +11,7 @@
 #include "tests/support/source_path.hpp"
 #include "tools/host/files/files.hpp"
 
-namespace s7200 {
+namespace s7200::ladder_test {
 namespace {
 
 SourceText read(std::string_view page) {
@@ -314,4 +314,4 @@ TEST_F(DrawnTip, ChecksAndIsTheSameProgramOnceThatOperandIsCorrected) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::ladder_test

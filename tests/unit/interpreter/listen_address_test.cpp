@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace s7200 {
+namespace s7200::listen_address_test {
 namespace {
 
 /// As it is understood, or what is wrong.
@@ -82,4 +82,4 @@ TEST(ListenAddress, AddressesAreThoseOfTheSystem) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::listen_address_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200 {
+namespace s7200::load_test {
 namespace {
 
 /// Why a text is not a program; empty if it is read as one.
@@ -47,4 +47,4 @@ TEST(ReadSource, OnlyTheStartOfAFileDecides) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::load_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::looks_test {
 namespace {
 
 Looks looks(std::string_view network, const CpuModel& model = *find_cpu("224")) {
@@ -126,4 +126,4 @@ TEST(Looks, AtTheTimeAreTodrAndTheMillisecondsOfTheCpu) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::looks_test

@@ -6,7 +6,7 @@
 #include "interpreter/model/cpu_model.hpp"
 #include "interpreter/model/ports.hpp"
 
-namespace s7200 {
+namespace s7200::model_names_test {
 namespace {
 
 bool is_modelled(std::uint32_t at) {
@@ -59,4 +59,4 @@ TEST(ModelNames, APortIsARowOfItsSpecialMemoryItsEventsAndItsError) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::model_names_test

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace s7200 {
+namespace s7200::nearest_test {
 namespace {
 
 constexpr std::array<std::string_view, 4> kWords{"check", "run", "send", "master"};
@@ -25,4 +25,4 @@ TEST(Nearest, NothingIsSuggestedForASingleLetterOrALongText) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::nearest_test

@@ -2,7 +2,7 @@
 #include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/ppi_master.hpp"
 
-namespace s7200::test {
+namespace s7200::test::network_test {
 namespace {
 
 using namespace ppi;
@@ -342,4 +342,4 @@ TEST(Network, TheTraceSaysWhatBecameOfAJob) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::network_test

@@ -9,7 +9,7 @@
 #include "interpreter/program/checking/warnings.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200 {
+namespace s7200::operand_rules_test {
 namespace {
 
 const TimeTable& times_of(const CpuModel& model) {
@@ -359,4 +359,4 @@ TEST(OperandRules, WhatPassesTheCheckCausesNoRangeOrCountErrorAtRunTime) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::operand_rules_test

@@ -4,7 +4,7 @@
 #include "interpreter/trace/text/instruction_lines.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::parameters_test {
 namespace {
 
 /// A main program with one network, and a subroutine with declarations and one network.
@@ -176,4 +176,4 @@ TEST(Parameters, AWrongCallMayMeanAnySubroutine) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::parameters_test

@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-namespace s7200::stl {
+namespace s7200::stl::parser_test {
 namespace {
 
 const Statement& only_statement(const ParseResult& result) {
@@ -466,4 +466,4 @@ TEST(Parser, NetworkMayHaveItsNumberWithoutABlank) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::parser_test

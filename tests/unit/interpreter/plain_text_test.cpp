@@ -12,7 +12,7 @@
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/printer.hpp"
 
-namespace s7200 {
+namespace s7200::plain_text_test {
 namespace {
 
 SourceText read(const std::string& text) {
@@ -573,4 +573,4 @@ TEST(Hints, ASlipInASymbolTableIsTheOnlyError) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::plain_text_test

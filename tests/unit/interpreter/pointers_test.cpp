@@ -2,7 +2,7 @@
 #include "interpreter/analysis/warnings/check.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::pointers_test {
 namespace {
 
 std::string pointed(std::string_view rest) { return fmt::format("LD SM0.0\n{}MEND\n", rest); }
@@ -68,4 +68,4 @@ TEST(Pointers, FirstEditionsAndCpus21xRefuseThem) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::pointers_test

@@ -4,7 +4,7 @@
 #include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::port1_test {
 namespace {
 
 using enum TraceKind;
@@ -84,7 +84,7 @@ TEST(Port1, StopGivesItBackToPpi) {
   Plc plc("LD SM0.1\nMOVB 9, SMB130\nMOVB 5, VB100\nXMT VB100, 1\nLD I0.0\nSTOP\nMEND\n", cpu226());
   plc.input_at(2 * ms, "I0.0", true);
   plc.run_until(20 * ms);
-  EXPECT_EQ(plc.port1.format, ppi::kFormat);
+  EXPECT_EQ(plc.port1.format, s7200::ppi::kFormat);
   EXPECT_EQ(plc.value("SM4.6"), 1);
   EXPECT_LT(plc.port1.sent.size(), 5u);
 }
@@ -144,4 +144,4 @@ TEST(Port1, ATraceNamesIt) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::port1_test

@@ -8,7 +8,7 @@
 #include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/ppi_master.hpp"
 
-namespace s7200::test {
+namespace s7200::test::ppi_test {
 namespace {
 
 using namespace ppi;
@@ -1144,4 +1144,4 @@ TEST(S7Services, RandomRequestsGetAWholeAnswerOrNone) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::ppi_test

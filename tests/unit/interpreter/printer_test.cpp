@@ -4,7 +4,7 @@
 
 #include "interpreter/stl/parser.hpp"
 
-namespace s7200::stl {
+namespace s7200::stl::printer_test {
 namespace {
 
 Source source(std::string_view text) {
@@ -76,4 +76,4 @@ TEST(SameProgram, LooksAtTheProgramAndNotAtItsNotation) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::printer_test

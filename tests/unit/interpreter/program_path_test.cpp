@@ -3,7 +3,7 @@
 
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::program_path_test {
 namespace {
 
 /// The ways that a program is seen to take.
@@ -98,4 +98,4 @@ TEST(ProgramPath, ACallThatIsTooDeepIsNotOneThatReturns) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::program_path_test

@@ -2,7 +2,7 @@
 #include "interpreter/cpu/units/pulse_outputs.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::pulse_output_test {
 namespace {
 
 using enum TraceKind;
@@ -262,4 +262,4 @@ TEST(PulseOutput, ASynchronousChangeOfPwmWaitsForTheEndOfTheCycle) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::pulse_output_test

@@ -7,7 +7,7 @@
 #include "interpreter/base/text/joined.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::races_test {
 namespace {
 
 /// `KIND MEMORY FIRST-LAST`, with ops of the main program counted from the one after ENI.
@@ -85,4 +85,4 @@ TEST(Races, SubroutinesOfBothSidesCount) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::races_test

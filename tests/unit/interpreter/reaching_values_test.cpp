@@ -9,7 +9,7 @@
 #include "interpreter/base/text/joined.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::reaching_values_test {
 namespace {
 
 const CpuModel& cpu() { return *find_cpu("224"); }
@@ -237,4 +237,4 @@ TEST(ReachingValues, OfWhatTakesTooMuchMemoryNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::reaching_values_test

@@ -8,7 +8,7 @@
 #include "interpreter/cpu/ports/message_receiver.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::receive_test {
 namespace {
 
 using enum TraceKind;
@@ -646,4 +646,4 @@ TEST(Receive, RandomStreamsAreReceivedAsASecondModelSays) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::receive_test

@@ -2,7 +2,7 @@
 #include "interpreter/program/loading/system_block.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::retentive_test {
 namespace {
 
 std::string read_as(std::string_view text, const CpuModel& model = cpu224()) {
@@ -69,4 +69,4 @@ TEST(RetentiveRanges, AreThoseOfTheCpuIfTheSystemBlockSaysNothing) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::retentive_test

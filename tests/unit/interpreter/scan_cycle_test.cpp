@@ -1,7 +1,7 @@
 // The scan: its parts, SMB0, scan times, watchdog, END and STOP. Times: plc.hpp.
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::scan_cycle_test {
 namespace {
 
 /// The same instruction `count` times.
@@ -205,4 +205,4 @@ TEST(ScanCycle, InStopTheProgramDoesNotRunAndInputsAreStillRead) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::scan_cycle_test

@@ -1,7 +1,7 @@
 // Segments of sequence control relays: LSCR, SCRT, SCRE (facts 9.1).
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::segment_test {
 namespace {
 
 // Three steps in a ring, as in the manual's cyclic example: each holds its own outputs with `=` and a timer starts the next.
@@ -137,4 +137,4 @@ TEST(Segment, AScanThatBeginsAfterAStopInASegmentHasPower) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::segment_test

@@ -8,7 +8,7 @@
 #include "interpreter/program/load.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::stand_ins_test {
 namespace {
 
 constexpr const char* kSlave =
@@ -379,4 +379,4 @@ TEST(StandIns, MbusMsgOneAtATime) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::stand_ins_test

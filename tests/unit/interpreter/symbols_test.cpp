@@ -7,7 +7,7 @@
 #include "interpreter/stl/printer.hpp"
 #include "interpreter/stl/tables/symbol_table.hpp"
 
-namespace s7200::stl {
+namespace s7200::stl::symbols_test {
 namespace {
 
 bool is_mnemonic(std::string_view word) { return word == "LD" || word == "="; }
@@ -408,4 +408,4 @@ TEST(Symbols, NamesThatBeginLikeAnAddressMayHaveTheirAddressBesideThem) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::symbols_test

@@ -15,7 +15,7 @@
 #include "tests/support/source_path.hpp"
 #include "tests/vectors/vector_file.hpp"
 
-namespace s7200 {
+namespace s7200::table_test {
 namespace {
 
 const TimeTable& times() {
@@ -260,4 +260,4 @@ TEST_P(InstructionsOf, StatementsPrintAndReadBackToThemselves) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::table_test

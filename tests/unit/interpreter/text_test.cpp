@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::stl {
+namespace s7200::stl::text_test {
 namespace {
 
 using namespace std::string_view_literals;
@@ -49,4 +49,4 @@ TEST(Printable, BytesThatAreNotUtf8AreOneCharacterEach) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::text_test

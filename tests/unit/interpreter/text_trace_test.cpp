@@ -5,7 +5,7 @@
 
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::text_trace_test {
 namespace {
 
 constexpr std::string_view kProgram = "LD SM0.0\nMOVW VW0, *VD2\nMEND\n";
@@ -130,4 +130,4 @@ TEST(TextTrace, ADoubleWordThatTheProgramUsesAsARealIsAlsoShownAsOne) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::text_trace_test

@@ -4,7 +4,7 @@
 #include "interpreter/cpu/scan.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::timer_test {
 namespace {
 
 bool timer_bit(const Plc& plc, std::uint32_t number) {
@@ -311,4 +311,4 @@ TEST(Counter, CtudCountsBothWaysAndWraps) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::timer_test

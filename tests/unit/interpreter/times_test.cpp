@@ -14,7 +14,7 @@
 #include "interpreter/program/loading/load_times.hpp"
 #include "tools/host/files/files.hpp"
 
-namespace s7200 {
+namespace s7200::times_test {
 namespace {
 
 const std::string kHeader = "mnemonic,form,base_us,per_unit_us,unit,marker,source\n";
@@ -331,4 +331,4 @@ TEST(Times, ATextThatIsNotATableIsRefused) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::times_test

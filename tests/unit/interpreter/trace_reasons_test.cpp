@@ -6,7 +6,7 @@
 #include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::trace_reasons_test {
 namespace {
 
 /// The trace of a program whose I0.0 and I0.1 rise when they are told to.
@@ -212,4 +212,4 @@ TEST(TraceReasons, ALongInstructionInFrontOfTheRoutineThatRanFirstIsNamedToo) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::trace_reasons_test

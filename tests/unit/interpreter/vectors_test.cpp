@@ -16,7 +16,7 @@
 #include "tests/support/source_path.hpp"
 #include "tests/vectors/vector_file.hpp"
 
-namespace s7200 {
+namespace s7200::vectors_test {
 namespace {
 
 using vectors::Vector;
@@ -78,7 +78,7 @@ std::uint16_t bits_of(const vectors::Levels& levels) {
   return bits;
 }
 
-const TimeTable& times_of(const CpuModel& model) {
+const TimeTable& default_times_of(const CpuModel& model) {
   static std::map<std::string_view, TimeTable> tables;
   const auto found = tables.find(model.name);
   return found != tables.end() ? found->second : tables.emplace(model.name, default_times(model)).first->second;
@@ -101,7 +101,7 @@ class Execution {
   explicit Execution(const Vector& vector) : vector_(vector) {
     const std::string text = program_text();
     const CpuModel& model = *find_cpu(vector.cpu);
-    checked_ = check_text(text, "vector", model, times_of(model));
+    checked_ = check_text(text, "vector", model, default_times_of(model));
   }
 
   /// What is wrong; empty if nothing is.
@@ -334,4 +334,4 @@ std::string test_name(const testing::TestParamInfo<std::string>& file) {
 INSTANTIATE_TEST_SUITE_P(Vectors, VectorFile, testing::ValuesIn(vector_files()), test_name);
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::vectors_test

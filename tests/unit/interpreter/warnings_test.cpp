@@ -14,7 +14,7 @@
 #include "tests/support/source_path.hpp"
 #include "tools/host/files/files.hpp"
 
-namespace s7200 {
+namespace s7200::warnings_test {
 namespace {
 
 std::string shown(const CheckResult& result) {
@@ -457,4 +457,4 @@ TEST(PpiStations, AreKeptByProgramsThatLeavePortsInPpiMode) {
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::warnings_test

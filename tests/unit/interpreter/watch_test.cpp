@@ -2,7 +2,7 @@
 #include "interpreter/trace/fan_out.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::watch_test {
 namespace {
 
 /// Keeps what it is told of instructions.
@@ -102,4 +102,4 @@ TEST(WatchTest, TheOnlyOneThatWantsInstructionsIsToldOfThemDirectly) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::watch_test

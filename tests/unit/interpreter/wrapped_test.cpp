@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::stl {
+namespace s7200::stl::wrapped_test {
 namespace {
 
 TEST(Wrapped, ALineThatFitsStaysAsItIs) {
@@ -40,4 +40,4 @@ TEST(Wrapped, ControlSequencesOfColoursTakeNoRoom) {
 }
 
 }  // namespace
-}  // namespace s7200::stl
+}  // namespace s7200::stl::wrapped_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::base64_test {
 namespace {
 
 TEST(Base64, BytesComeBackAndAreAsTheStandardSays) {
@@ -18,4 +18,4 @@ TEST(Base64, BytesComeBackAndAreAsTheStandardSays) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::base64_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::json_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -94,4 +94,4 @@ TEST(OutsideJson, AMemberThatIsOfAnotherKindIsNamed) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::json_test

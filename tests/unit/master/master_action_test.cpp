@@ -11,7 +11,7 @@
 #include "tools/master/protocol.hpp"
 #include "tools/master/statistics.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::master_action_test {
 namespace {
 
 std::vector<MasterAction> parsed(const std::string& text, const ProtocolUse& use = {},
@@ -365,4 +365,4 @@ TEST(ExchangeStatistics, CountsVerdictsAndMeasuresWhatAnswered) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::master_action_test

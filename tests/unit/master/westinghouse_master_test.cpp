@@ -7,7 +7,7 @@
 #include "serial_sim/line/frame.hpp"
 #include "tools/master/protocol.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::westinghouse_master_test {
 namespace {
 
 std::vector<MasterAction> parsed(const Protocol& protocol, const std::string& text,
@@ -210,4 +210,4 @@ TEST(WestinghouseMaster, ActionsOfAnHppcAreItsOpcodes) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::westinghouse_master_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace s7200::tools {
+namespace s7200::tools::written_values_test {
 namespace {
 
 using Registers = std::vector<std::uint16_t>;
@@ -39,4 +39,4 @@ TEST(WrittenValues, CoilsAreOnOrOff) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::written_values_test

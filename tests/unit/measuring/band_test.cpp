@@ -11,7 +11,7 @@
 #include "interpreter/model/times/times_file.hpp"
 #include "tools/host/files/files.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::band_test {
 namespace {
 
 TEST(TimesBand, EachFigureIsWithinItsUncertaintyAndTheSameSeedGivesTheSameTable) {
@@ -157,4 +157,4 @@ TEST(ExchangeBand, CountsVerdictsAndLosersAndKeepsTheShortestAndLongestLatency) 
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::band_test

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace s7200::tools {
+namespace s7200::tools::measure_test {
 namespace {
 
 const std::atomic<bool> kGoesOn = false, kStopped = true;
@@ -22,4 +22,4 @@ TEST(Measure, ACommandThatPrintsNothingHasNoFirstOutput) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::measure_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::parallel_run_test {
 namespace {
 
 TEST(ParallelRun, SaysHowFarItIsThoughEachPieceIsQuick) {
@@ -26,4 +26,4 @@ TEST(ParallelRun, SaysHowFarItIsThoughEachPieceIsQuick) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::parallel_run_test

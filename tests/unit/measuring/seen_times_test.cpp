@@ -9,7 +9,7 @@
 #include "tests/support/source_path.hpp"
 #include "tools/host/files/files.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::seen_times_test {
 namespace {
 
 TEST(SeenTimes, AreWithinTheBoundsOfOurPrograms) {
@@ -51,4 +51,4 @@ TEST(SeenTimes, TheSlowestTableTakesEachFigureAtTheEndOfItsRange) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::seen_times_test

@@ -4,7 +4,7 @@
 #include "tests/support/inspected.hpp"
 #include "tools/views/inspection/races_view.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::worst_instant_test {
 namespace {
 
 std::string races_of(std::string_view main, std::string_view interrupt) {
@@ -36,4 +36,4 @@ TEST(WorstInstant, IsNotThereIfWhatIsWrittenIsRightEitherWay) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::worst_instant_test

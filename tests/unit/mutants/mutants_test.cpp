@@ -9,7 +9,7 @@
 #include "tools/mutants/mutants_report.hpp"
 #include "tools/scenario/reading/reader.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::mutants_test {
 namespace {
 
 /// The changes of a program that make another one: `1: LDN for LD`, by instruction.
@@ -97,4 +97,4 @@ TEST(Mutants, AProgramThatLoopsForEverIsNoticed) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::mutants_test

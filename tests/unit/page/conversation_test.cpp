@@ -12,7 +12,7 @@
 #include "serial_sim/system/simulation.hpp"
 #include "tools/json/json_text.hpp"
 
-namespace s7200::tools::page {
+namespace s7200::tools::page::conversation_test {
 namespace {
 
 constexpr std::string_view kCounts = "LD SM0.0\nINCW VW10\nLD I0.0\n= Q0.0\nMEND\n";
@@ -151,4 +151,4 @@ TEST(Page, EndsWithQuit) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::page
+}  // namespace s7200::tools::page::conversation_test

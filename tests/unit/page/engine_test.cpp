@@ -21,7 +21,7 @@
 #include "tools/session/past/seen_rig.hpp"
 #include "tools/views/state/memory.hpp"
 
-namespace s7200::tools::page {
+namespace s7200::tools::page::engine_test {
 namespace {
 
 /// An engine with a program, and what it said last.
@@ -254,4 +254,4 @@ TEST(Engine, RefusesASystemThatIsDamaged) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::page
+}  // namespace s7200::tools::page::engine_test

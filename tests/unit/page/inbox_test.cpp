@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools::page {
+namespace s7200::tools::page::inbox_test {
 namespace {
 
 struct Waiting {
@@ -78,4 +78,4 @@ TEST(PageInbox, EndsWhateverWaits) {
 }
 
 }  // namespace
-}  // namespace s7200::tools::page
+}  // namespace s7200::tools::page::inbox_test

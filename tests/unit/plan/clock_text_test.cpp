@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::clock_text_test {
 namespace {
 
 TEST(ClockText, ADateHasItsDayOfTheWeek) {
@@ -28,4 +28,4 @@ TEST(ClockText, AClockErrorIsInMillionthsWithItsUnit) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::clock_text_test

@@ -10,7 +10,7 @@
 #include "interpreter/analysis/warnings/check.hpp"
 #include "tools/plan/system_plan.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::plc_keys_test {
 namespace {
 
 std::shared_ptr<const Program> program() {
@@ -108,4 +108,4 @@ TEST(PlanOfAProgram, IsOnePlcOnALineOfItsOwnWithoutNames) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::plc_keys_test

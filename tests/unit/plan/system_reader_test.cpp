@@ -11,7 +11,7 @@
 #include "tools/plan/reading/event_reader.hpp"
 #include "tools/plan/system_keys.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::system_reader_test {
 namespace {
 
 SystemFile read(const std::string& text) {
@@ -461,4 +461,4 @@ TEST(SystemKeys, EachRowHasAReader) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::system_reader_test

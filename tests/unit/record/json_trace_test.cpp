@@ -14,7 +14,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tools/record/trace_formats.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::json_trace_test {
 namespace {
 
 using nlohmann::json;
@@ -141,4 +141,4 @@ TEST(TraceRows, AreThoseOfThePage) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::json_trace_test

@@ -9,7 +9,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tools/record/chrome_trace.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::signal_trace_test {
 namespace {
 
 constexpr const char* kProgram =
@@ -161,4 +161,4 @@ TEST(TraceFormats, SayWhatTheyMakeOfSignals) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::signal_trace_test

@@ -8,7 +8,7 @@
 #include "tools/recordings/conversation.hpp"
 #include "tools/recordings/decoded.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::as_written_test {
 namespace {
 
 const std::string kAsked = "station 1, read holding registers 40011, 2 of them", kSaid = "2 registers: 16#1234 16#5678";
@@ -414,4 +414,4 @@ TEST(AsWritten, AnEchoInTheRowOfItsAnswerTakesNoTimeAfterTheRequest) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::as_written_test

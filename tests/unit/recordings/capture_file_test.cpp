@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <utility>
 
-namespace s7200::tools {
+namespace s7200::tools::capture_file_test {
 namespace {
 
 /// Numbers in an order of bytes: {4, 1} is 1 in four bytes.
@@ -148,4 +148,4 @@ TEST(CaptureFile, WhatABrokenPcapngSaysIsNotBelieved) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::capture_file_test

@@ -12,7 +12,7 @@
 #include "tools/recordings/rows/notation.hpp"
 #include "tools/recordings/rows/table_rows.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::forms_test {
 namespace {
 
 constexpr Time ms = kMillisecond;
@@ -1122,4 +1122,4 @@ TEST(OtherNotations, MillisecondsSince1970AreTimes) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::forms_test

@@ -5,7 +5,7 @@
 
 #include "tools/recordings/conversation.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::markup_test {
 namespace {
 
 /// The request and its answer after 40 ms, if `table` has times.
@@ -114,4 +114,4 @@ TEST(Markup, ATextWithoutItIsLeftAlone) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::markup_test

@@ -5,7 +5,7 @@
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/playback.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::modbus_ascii_test {
 namespace {
 
 const RecordedProtocol& modbus() { return *find_recorded_protocol("modbus"); }
@@ -97,4 +97,4 @@ TEST(ModbusAscii, AScenarioSendsAndExpectsItsCharacters) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::modbus_ascii_test

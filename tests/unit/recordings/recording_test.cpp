@@ -21,7 +21,7 @@
 #include "tools/recordings/playback.hpp"
 #include "tools/recordings/rows/fields.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::recording_test {
 namespace {
 
 constexpr Time ms = kMillisecond;
@@ -2110,4 +2110,4 @@ TEST(Conversation, AScenarioSaysWhichFramesItLeavesOutBecauseTheyAreNoRequests) 
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::recording_test

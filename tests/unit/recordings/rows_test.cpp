@@ -8,7 +8,7 @@
 #include "tools/recordings/decoded.hpp"
 #include "tools/recordings/playback.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::rows_test {
 namespace {
 
 const std::string kAsked = "station 1, read holding registers 40011, 2 of them", kSaid = "2 registers: 16#1234 16#5678";
@@ -923,4 +923,4 @@ TEST(WrongFrames, AFrameOfAnotherKindIsNamed) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::rows_test

@@ -9,7 +9,7 @@
 #include "serial_sim/line/character.hpp"
 #include "tools/recordings/conversation.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::volts_test {
 namespace {
 
 const Bytes kRequest{0x01, 0x03, 0x00, 0x0A, 0x00, 0x02, 0xE4, 0x09};
@@ -161,4 +161,4 @@ TEST(Volts, ATableOfOtherNumbersHasNone) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::volts_test

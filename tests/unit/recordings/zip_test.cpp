@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::zip_test {
 namespace {
 
 // `a.txt` is stored, `b.txt` and `empty` are deflated.
@@ -76,4 +76,4 @@ TEST(Zip, ReadingEndsWhenNoMoreIsWanted) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::zip_test

@@ -4,7 +4,7 @@
 #include "tests/support/plc.hpp"
 #include "tools/rig/memory_json.hpp"
 
-namespace s7200::test {
+namespace s7200::test::memory_file_test {
 namespace {
 
 using tools::memory_from_json, tools::memory_to_json;
@@ -249,4 +249,4 @@ TEST(MemoryFile, AClockThatAProgramHasSetToNoDateReadsBackAsItself) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::memory_file_test

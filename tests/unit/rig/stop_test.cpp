@@ -9,7 +9,7 @@
 #include "tools/rig/files/recorded_rig.hpp"
 #include "tools/rig/run.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::stop_test {
 namespace {
 
 std::unique_ptr<Rig> rig_with(StopToken stop) {
@@ -44,4 +44,4 @@ TEST(Stop, ThatIsAskedForBeforehandLeavesNothingToRun) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::stop_test

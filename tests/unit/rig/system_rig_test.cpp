@@ -12,7 +12,7 @@
 #include "tools/plan/reading/system_reader.hpp"
 #include "tools/rig/files/recorded_rig.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::system_rig_test {
 namespace {
 
 std::string example(const std::string& name) { return test::source_path("stl_programs/systems/" + name); }
@@ -867,4 +867,4 @@ TEST(SystemRig, WhoJoinsAtAPlcIsOnItsPartOfACutLine) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::system_rig_test

@@ -12,7 +12,7 @@
 #include "tools/scenario/reporting/report_json.hpp"
 #include "tools/scenario/runner.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::explanation_test {
 namespace {
 
 std::shared_ptr<const Program> program_of(const std::string& text) {
@@ -205,4 +205,4 @@ TEST(Explanation, AMistakeInAFileIsAnErrorInJunit) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::explanation_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace s7200::tools {
+namespace s7200::tools::name_pattern_test {
 namespace {
 
 TEST(NamePattern, StarsQuestionMarksAndSetsMatchAsInAShell) {
@@ -39,4 +39,4 @@ TEST(NamePattern, ManyStarsTakeNoTime) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::name_pattern_test

@@ -14,7 +14,7 @@
 #include "tools/scenario/transcripts/transcript.hpp"
 #include "tools/yaml/yaml.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::scenario_reader_test {
 namespace {
 
 ScenarioFile read(const std::string& text, const GivenParameters* given = nullptr) {
@@ -715,4 +715,4 @@ TEST(ScenarioReader, WhatASystemFileWouldRecordIsLeftAside) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::scenario_reader_test

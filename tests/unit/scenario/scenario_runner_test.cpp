@@ -18,7 +18,7 @@
 #include "tools/scenario/steps/random_traffic.hpp"
 #include "tools/scenario/transcripts/transcript.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::scenario_runner_test {
 namespace {
 
 using Outcome = ScenarioResult::Outcome;
@@ -733,4 +733,4 @@ TEST(ScenarioRunner, ARuleThatCannotBeJudgedAsAWholeIsNotKept) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::scenario_runner_test

@@ -13,7 +13,7 @@
 #include "tools/scenario/reporting/report_json.hpp"
 #include "tools/scenario/suite.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::scenario_suite_test {
 namespace {
 
 using Outcome = ScenarioResult::Outcome;
@@ -242,4 +242,4 @@ TEST_F(ScenarioSuite, ComparesTwoProgramsAndOneThatIsBrokenIsADifference) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::scenario_suite_test

@@ -6,7 +6,7 @@
 #include "serial_sim/line/frame.hpp"
 #include "serial_sim/modbus/crc.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::answer_change_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -67,4 +67,4 @@ TEST(AnswerChange, ASilentStationSendsNothing) { EXPECT_EQ(sent("answer:silent",
 TEST(AnswerChange, AnAnswerThatIsOnlyLateIsUnchanged) { EXPECT_EQ(sent("answer:delay=1s", kAnswer), hex(kAnswer)); }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::answer_change_test

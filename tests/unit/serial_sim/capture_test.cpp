@@ -7,7 +7,7 @@
 #include "serial_sim/record/pcap_capture.hpp"
 #include "serial_sim/record/vcd_capture.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::capture_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -103,4 +103,4 @@ TEST(PcapCapture, AQuietLineIsACaptureToo) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::capture_test

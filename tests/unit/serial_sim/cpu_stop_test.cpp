@@ -5,7 +5,7 @@
 #include "interpreter/base/bytes.hpp"
 #include "serial_sim/system/simulation.hpp"
 
-namespace s7200 {
+namespace s7200::cpu_stop_test {
 namespace {
 
 std::shared_ptr<const Program> program_of(std::string_view text) {
@@ -42,4 +42,4 @@ TEST(CpuStop, ARunThatPausesAtErrorsEndsAfterTheInstructionAndGoesOnWhenItIsRunA
 }
 
 }  // namespace
-}  // namespace s7200
+}  // namespace s7200::cpu_stop_test

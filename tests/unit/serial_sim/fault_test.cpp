@@ -7,7 +7,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tests/support/source_path.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::fault_test {
 namespace {
 
 Fault fault_of(const std::string& text) {
@@ -164,4 +164,4 @@ TEST(Fault, ReadmeHasTheTables) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::fault_test

@@ -12,7 +12,7 @@
 #include "serial_sim/peers/host_port.hpp"
 #include "serial_sim/peers/requester.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::faults_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -671,4 +671,4 @@ TEST(Faults, ClearedOnesLeaveNothing) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::faults_test

@@ -9,7 +9,7 @@
 #include "serial_sim/system/simulation.hpp"
 #include "tests/support/plc.hpp"
 
-namespace s7200::test {
+namespace s7200::test::field_test {
 namespace {
 
 using serial::FieldChange, serial::FieldPulses, serial::FieldScript;
@@ -257,4 +257,4 @@ TEST(FanOutTest, EverySinkHearsWhatItWantsAndOneIsEnoughToStop) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::field_test

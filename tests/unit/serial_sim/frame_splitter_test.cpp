@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace s7200::serial {
+namespace s7200::serial::frame_splitter_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -232,4 +232,4 @@ TEST(FrameSplitter, ALineThatIsNeverSilentIsCut) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::frame_splitter_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace s7200::serial {
+namespace s7200::serial::frame_test {
 namespace {
 
 Bytes hex(std::string_view text) { return bytes_of(parse_hex_frame(text).frame); }
@@ -61,4 +61,4 @@ TEST(HexFrame, WhatIsPrintedReadsBackTheSame) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::frame_test

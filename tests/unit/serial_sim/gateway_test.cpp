@@ -6,7 +6,7 @@
 
 #include "serial_sim/modbus/request.hpp"
 
-namespace s7200::modbus {
+namespace s7200::modbus::gateway_test {
 namespace {
 
 using serial::to_hex;
@@ -272,4 +272,4 @@ TEST(Gateway, TheLongestPduFitsBothWays) {
 }
 
 }  // namespace
-}  // namespace s7200::modbus
+}  // namespace s7200::modbus::gateway_test

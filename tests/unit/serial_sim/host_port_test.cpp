@@ -4,7 +4,7 @@
 
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::host_port_test {
 namespace {
 
 using Fault = HostCharacter::Fault;
@@ -263,4 +263,4 @@ TEST(HostPort, CallsOfABreakCanBeRepeated) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::host_port_test

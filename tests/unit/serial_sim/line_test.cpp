@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace s7200::serial {
+namespace s7200::serial::line_test {
 namespace {
 
 TEST(Line, IdlesAtMark) {
@@ -449,4 +449,4 @@ TEST(DisturbedLine, IsAtTheLevelThatAllDisturbancesTogetherLeaveAndFallsWhereTha
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::line_test

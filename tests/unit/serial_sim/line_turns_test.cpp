@@ -4,7 +4,7 @@
 
 #include "serial_sim/modbus/request.hpp"
 
-namespace s7200::modbus {
+namespace s7200::modbus::line_turns_test {
 namespace {
 
 const Bytes kAnswer = rtu_frame(1, Bytes{3, 2, 0, 7});
@@ -139,4 +139,4 @@ TEST(LineTurns, ALateAnswerIsWaitedForThoughNoOneWantsIt) {
 }
 
 }  // namespace
-}  // namespace s7200::modbus
+}  // namespace s7200::modbus::line_turns_test

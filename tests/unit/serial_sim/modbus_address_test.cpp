@@ -2,7 +2,7 @@
 
 #include "serial_sim/modbus/address.hpp"
 
-namespace s7200::modbus {
+namespace s7200::modbus::modbus_address_test {
 namespace {
 
 std::optional<DataAddress> parsed(std::string_view text) {
@@ -82,4 +82,4 @@ TEST(ModbusAddress, TheAreaSelectsTheFunctions) {
 }
 
 }  // namespace
-}  // namespace s7200::modbus
+}  // namespace s7200::modbus::modbus_address_test

@@ -6,7 +6,7 @@
 #include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/request.hpp"
 
-namespace s7200::modbus {
+namespace s7200::modbus::modbus_request_test {
 namespace {
 
 using serial::to_hex;
@@ -300,4 +300,4 @@ TEST(ModbusAnswer, WhatIsWrongWithDiagnosisAndFiles) {
 }
 
 }  // namespace
-}  // namespace s7200::modbus
+}  // namespace s7200::modbus::modbus_request_test

@@ -6,7 +6,7 @@
 #include "serial_sim/pc_protocol/answer.hpp"
 #include "serial_sim/pc_protocol/command.hpp"
 
-namespace s7200::pc_protocol {
+namespace s7200::pc_protocol::pc_protocol_test {
 namespace {
 
 using serial::Verdict;
@@ -149,4 +149,4 @@ TEST(PcAnswer, ToWhatIsNotACommandIsJudgedByItsForm) {
 }
 
 }  // namespace
-}  // namespace s7200::pc_protocol
+}  // namespace s7200::pc_protocol::pc_protocol_test

@@ -7,7 +7,7 @@
 
 #include "serial_sim/modbus/request.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::requester_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -478,4 +478,4 @@ TEST(MasterListening, WhatIsKeptHasAnEnd) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::requester_test

@@ -6,7 +6,7 @@
 
 #include "serial_sim/modbus/request.hpp"
 
-namespace s7200::modbus {
+namespace s7200::modbus::rtu_stream_test {
 namespace {
 
 using serial::to_hex;
@@ -85,4 +85,4 @@ TEST(RtuStream, AWrongCrcMakesNoRequest) {
 }
 
 }  // namespace
-}  // namespace s7200::modbus
+}  // namespace s7200::modbus::rtu_stream_test

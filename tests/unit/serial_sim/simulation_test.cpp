@@ -7,7 +7,7 @@
 #include "interpreter/trace/text/text_trace.hpp"
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::simulation_test {
 namespace {
 
 constexpr const char* kSilent = "LD SM0.0\nMEND\n";
@@ -153,4 +153,4 @@ TEST(SimulationScans, EventsOfTheMasterThatAreHandledAheadOfAnIdleCpuChangeNothi
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::simulation_test

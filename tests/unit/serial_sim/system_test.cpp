@@ -9,7 +9,7 @@
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::system_test {
 namespace {
 
 using test::changed;
@@ -711,4 +711,4 @@ TEST(System, SomethingScheduledComesWithinAnExchange) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::system_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace s7200::serial {
+namespace s7200::serial::uart_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -658,4 +658,4 @@ TEST(Uart, ItsOwnCharactersAreNotMissedWhileItSends) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::uart_test

@@ -5,7 +5,7 @@
 #include "serial_sim/westinghouse/hppc_plc.hpp"
 #include "tests/unit/serial_sim/westinghouse_bench.hpp"
 
-namespace s7200::westinghouse {
+namespace s7200::westinghouse::westinghouse_hppc_test {
 namespace {
 
 const std::string kReference = "../shared/reference/westinghouse_vectors.txt";
@@ -293,4 +293,4 @@ TEST(HppcMessage, AnAnswerIsJudgedByLengthCheckAddressAndOpcode) {
 }
 
 }  // namespace
-}  // namespace s7200::westinghouse
+}  // namespace s7200::westinghouse::westinghouse_hppc_test

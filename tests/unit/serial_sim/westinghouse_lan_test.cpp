@@ -5,7 +5,7 @@
 #include "serial_sim/westinghouse/messages/block_message.hpp"
 #include "tests/unit/serial_sim/westinghouse_bench.hpp"
 
-namespace s7200::westinghouse {
+namespace s7200::westinghouse::westinghouse_lan_test {
 namespace {
 
 const std::string kReference = "../shared/reference/westinghouse_vectors.txt";
@@ -283,4 +283,4 @@ TEST(BlockMessage, TheBeginningOfAnAnswerSaysHowLongItIs) {
 }
 
 }  // namespace
-}  // namespace s7200::westinghouse
+}  // namespace s7200::westinghouse::westinghouse_lan_test

@@ -5,7 +5,7 @@
 #include "serial_sim/westinghouse/loader_plc.hpp"
 #include "tests/unit/serial_sim/westinghouse_bench.hpp"
 
-namespace s7200::westinghouse {
+namespace s7200::westinghouse::westinghouse_loader_test {
 namespace {
 
 using serial::Verdict;
@@ -201,4 +201,4 @@ TEST(LoaderSteps, AnAnswerThatStopsOrDoesNotFitIsNamedByItsStep) {
 }
 
 }  // namespace
-}  // namespace s7200::westinghouse
+}  // namespace s7200::westinghouse::westinghouse_loader_test

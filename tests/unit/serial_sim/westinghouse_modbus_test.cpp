@@ -18,7 +18,7 @@
 #include "serial_sim/westinghouse/westnet_plc.hpp"
 #include "tests/unit/serial_sim/westinghouse_bench.hpp"
 
-namespace s7200::westinghouse {
+namespace s7200::westinghouse::westinghouse_modbus_test {
 namespace {
 
 const std::string kReference = "../shared/reference/westinghouse_vectors.txt";
@@ -407,4 +407,4 @@ TEST(WestinghouseSetting, AModelThatDoesNotSpeakTheProtocolIsNamedWithThoseThatD
 }
 
 }  // namespace
-}  // namespace s7200::westinghouse
+}  // namespace s7200::westinghouse::westinghouse_modbus_test

@@ -5,7 +5,7 @@
 #include "serial_sim/westinghouse/westnet_plc.hpp"
 #include "tests/unit/serial_sim/westinghouse_bench.hpp"
 
-namespace s7200::westinghouse {
+namespace s7200::westinghouse::westinghouse_westnet_test {
 namespace {
 
 const std::string kReference = "../shared/reference/westinghouse_vectors.txt";
@@ -200,4 +200,4 @@ TEST(Westnet, ASnapshotGoesOnAsItWouldHave) {
 }
 
 }  // namespace
-}  // namespace s7200::westinghouse
+}  // namespace s7200::westinghouse::westinghouse_westnet_test

@@ -11,7 +11,7 @@
 #include "serial_sim/line/uart.hpp"
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::serial {
+namespace s7200::serial::wire_tap_test {
 namespace {
 
 constexpr SerialFormat k8E1{9600, 8, Parity::Even, 1};
@@ -234,4 +234,4 @@ TEST(WireTap, HowOftenTheSimulationComesBackChangesNothing) {
 }
 
 }  // namespace
-}  // namespace s7200::serial
+}  // namespace s7200::serial::wire_tap_test

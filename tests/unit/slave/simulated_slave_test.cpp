@@ -6,7 +6,7 @@
 #include "serial_sim/peers/quiet_time.hpp"
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::simulated_slave_test {
 namespace {
 
 std::vector<test::RateSetting> every_rate() {
@@ -65,4 +65,4 @@ TEST(SimulatedSlave, IsReadyInStopOnlyIfSomebodyAnswersThere) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::simulated_slave_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace s7200::tools {
+namespace s7200::tools::slave_target_test {
 namespace {
 
 using Kind = SlaveTarget::Kind;
@@ -76,4 +76,4 @@ TEST(SlaveTarget, WhatIsNoAddressIsRefused) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::slave_target_test

@@ -6,7 +6,7 @@
 #include "tools/trials/trial_bench.hpp"
 #include "tools/trials/vocabulary.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::trials_test {
 namespace {
 
 using test::inspected;
@@ -142,4 +142,4 @@ TEST(Shortened, AFrameKeepsItsCrcWhereThatMatters) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::trials_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/inspected.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::calls_view_test {
 namespace {
 
 using test::inspected;
@@ -62,4 +62,4 @@ TEST(CallsView, SaysIfNothingEnablesInterrupts) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::calls_view_test

@@ -4,7 +4,7 @@
 #include "tests/support/inspected.hpp"
 #include "tools/views/inspection/inspect_views.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::document_view_test {
 namespace {
 
 bool has(const std::string& page, std::string_view text) { return page.find(text) != std::string::npos; }
@@ -48,4 +48,4 @@ TEST(DocumentView, TheSameProgramGivesTheSamePage) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::document_view_test

@@ -4,7 +4,7 @@
 
 #include "tools/views/results_json.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::escapes_test {
 namespace {
 
 TEST(Escapes, CommandsToATerminalAreWrittenAndAllElseStays) {
@@ -22,4 +22,4 @@ TEST(Escapes, JsonHasNoneAndMeansTheSame) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::escapes_test

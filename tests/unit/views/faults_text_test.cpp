@@ -4,7 +4,7 @@
 #include "interpreter/base/event_queue.hpp"
 #include "tools/views/state/faults.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::faults_text_test {
 namespace {
 
 struct Bench {
@@ -67,4 +67,4 @@ TEST(FaultsText, AnAnswerThatWasNotChangedHasOneReason) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::faults_text_test

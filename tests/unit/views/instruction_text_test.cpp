@@ -5,7 +5,7 @@
 
 #include "interpreter/analysis/warnings/check.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::instruction_text_test {
 namespace {
 
 /// The example in a rung with as much on the logic stack as it needs.
@@ -57,4 +57,4 @@ TEST(InstructionText, SaysWhatIsNotModelledAndWhichCpuHasIt) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::instruction_text_test

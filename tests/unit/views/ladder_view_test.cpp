@@ -15,7 +15,7 @@
 #include "tools/views/ladder/ladder_svg.hpp"
 #include "tools/views/ladder/ladder_text.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::ladder_view_test {
 namespace {
 
 using test::inspected;
@@ -271,4 +271,4 @@ TEST(LadderView, RungsOfEveryShapeReadBack) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::ladder_view_test

@@ -6,7 +6,7 @@
 #include "interpreter/program/load.hpp"
 #include "tools/views/program/execution_text.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::listing_test {
 namespace {
 
 std::shared_ptr<const Program> project() {
@@ -48,4 +48,4 @@ TEST(Listing, AnExecutedInstructionNamesItsFileToo) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::listing_test

@@ -6,7 +6,7 @@
 
 #include "interpreter/analysis/warnings/check.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::machine_text_test {
 namespace {
 
 std::string ports_of(const CpuModel& model, std::string_view text, std::uint8_t port = 0) {
@@ -73,4 +73,4 @@ TEST(MachineText, AProgramThatReceivesWithRcvIsToldWhetherOneWaits) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::machine_text_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/inspected.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::map_view_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -79,4 +79,4 @@ TEST(MapView, KeepsToTheAreaOfAnAddress) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::map_view_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/inspected.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::overview_view_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -47,4 +47,4 @@ TEST(OverviewView, NamesBitsThatAreOnlySetOrOnlyReset) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::overview_view_test

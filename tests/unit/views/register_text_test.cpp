@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::register_text_test {
 namespace {
 
 using Words = std::vector<std::uint16_t>;
@@ -39,4 +39,4 @@ TEST(RegisterText, JsonHasNumbers) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::register_text_test

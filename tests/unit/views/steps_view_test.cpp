@@ -3,7 +3,7 @@
 
 #include "tests/support/inspected.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::steps_view_test {
 namespace {
 
 using test::inspected;
@@ -75,4 +75,4 @@ TEST(StepsView, JsonHasTheSame) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::steps_view_test

@@ -4,7 +4,7 @@
 
 #include "tools/views/results_json.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::streamed_results_test {
 namespace {
 
 std::string streamed(const std::vector<nlohmann::ordered_json>& entries, const nlohmann::ordered_json& rest) {
@@ -32,4 +32,4 @@ TEST(StreamedResults, AreTheSameTextAsTheWhole) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::streamed_results_test

@@ -6,7 +6,7 @@
 
 #include "serial_sim/modbus/request.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::text_frame_test {
 namespace {
 
 std::string hex_of(std::string_view text) {
@@ -99,4 +99,4 @@ TEST(TextFrame, OnlyARequestWithARightCrcHasAnAnswerOfModbus) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::text_frame_test

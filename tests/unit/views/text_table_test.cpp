@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace s7200::tools {
+namespace s7200::tools::text_table_test {
 namespace {
 
 TextTable times() {
@@ -43,4 +43,4 @@ TEST(TextTable, AWordThatIsTooLongStaysWhole) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::text_table_test

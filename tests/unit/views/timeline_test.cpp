@@ -10,7 +10,7 @@
 
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::timeline_test {
 namespace {
 
 using Kind = TimelineRow::Kind;
@@ -229,4 +229,4 @@ TEST(TimelineOfStations, RowsAreInTheOrderOfTimeWithTheNameOfEachBesideThem) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::timeline_test

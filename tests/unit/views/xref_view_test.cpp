@@ -3,7 +3,7 @@
 
 #include "tests/support/inspected.hpp"
 
-namespace s7200::tools {
+namespace s7200::tools::xref_view_test {
 namespace {
 
 using test::inspected;
@@ -63,4 +63,4 @@ TEST(XrefView, AProgramWithErrorsIsShownAsFarAsItIsRead) {
 }
 
 }  // namespace
-}  // namespace s7200::tools
+}  // namespace s7200::tools::xref_view_test
