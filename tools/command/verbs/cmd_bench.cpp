@@ -56,7 +56,7 @@ void print_figures(const BenchOptions& options, const nlohmann::ordered_json& ho
     return;
   }
   const std::string build = how["build"];
-  fmt::print("{}: best of {} rounds on one core{}{}\n", stl::printable(how["program"].get<std::string>()), kRounds,
+  fmt::print("{}: best of up to {} rounds on one core{}{}\n", stl::printable(how["program"].get<std::string>()), kRounds,
              build == "Release" ? "" : fmt::format(" ({} build, not Release)", build),
              options.against.empty()
                  ? ""
