@@ -6,7 +6,7 @@
 
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::test {
+namespace s7200::test::determinism_test {
 namespace {
 
 constexpr std::array<std::string_view, 6> kFrames{"0106000a1234a4bf",  "0103000a0001a408", "010f0000000801ffbed5",
@@ -124,4 +124,4 @@ TEST(Determinism, HoldsOnALineWithFaults) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::determinism_test

@@ -6,7 +6,7 @@
 #include "tests/support/plc.hpp"
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::test {
+namespace s7200::test::libraries_test {
 namespace {
 
 std::string program(const std::string& name) {
@@ -158,4 +158,4 @@ TEST(LibraryMasterPort, IsSetUpInTheFirstScanAndWhenParametersChange) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::libraries_test

@@ -9,7 +9,7 @@
 #include "tests/support/plc.hpp"
 #include "tests/support/source_path.hpp"
 
-namespace s7200::test {
+namespace s7200::test::master_fragments_test {
 namespace {
 
 /// Lines `first` to `last` of the document, counted from 1; empty without the document.
@@ -54,4 +54,4 @@ TEST(MasterFragments, TheCrcLoopAgreesWithModbus) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::master_fragments_test

@@ -11,7 +11,7 @@
 #include "tests/support/slave_bench.hpp"
 #include "tests/support/tip41.hpp"
 
-namespace s7200::test {
+namespace s7200::test::modbus_slave_test {
 namespace {
 
 class ModbusSlave : public ::testing::Test {
@@ -581,4 +581,4 @@ TEST(ModbusSlaveForTheTip, HasNoTwelveInstructionsInARowInCommonWithTheTip) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::modbus_slave_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/slave_bench.hpp"
 
-namespace s7200::test {
+namespace s7200::test::stl_programs_test {
 namespace {
 
 std::vector<std::string> all_programs() {
@@ -106,4 +106,4 @@ TEST(Watchdog, StopsAScanOfMoreThan300MillisecondsUnlessItIsReset) {
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::stl_programs_test

@@ -12,7 +12,7 @@
 #include "serial_sim/system/system.hpp"
 #include "tests/support/ppi_master.hpp"
 
-namespace s7200::test {
+namespace s7200::test::tip41_test {
 namespace {
 
 class Tip41Slave : public ::testing::Test {
@@ -299,4 +299,4 @@ TEST_F(Tip41Departs, MissesARequestThatFollowsItsAnswerAfterNoMoreThanTheSilence
 }
 
 }  // namespace
-}  // namespace s7200::test
+}  // namespace s7200::test::tip41_test
