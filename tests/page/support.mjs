@@ -3,6 +3,7 @@ import { spawn } from 'node:child_process';
 import { createRequire } from 'node:module';
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
+import { after } from 'node:test';
 
 const { chromium } = createRequire(`${process.env.PACKAGES}/node_modules/`)('playwright-core');
 const kSource = process.env.SOURCE;
@@ -12,9 +13,19 @@ const kPageFiles = process.env.S7200_PAGE_FILES;  // a folder with another page.
 export const kDesktop = { width: 1366, height: 650 };  // what a browser leaves of 1366×768
 export const kPhone = { width: 390, height: 780 };
 
+const started = [];
+
+/** What a test that failed has left running would keep the tests from ending. */
+after(() => started.filter(is_alive).forEach((server) => server.kill('SIGKILL')));
+
+function is_alive(server) {
+  return server.exitCode === null && server.signalCode === null;
+}
+
 /** Starts `s7200 view WORDS` in the source folder; resolves to its process and address. */
 export async function view(...words) {
   const server = spawn(process.env.S7200, ['view', ...words], { cwd: kSource, stdio: ['pipe', 'pipe', 'pipe'] });
+  started.push(server);
   const address = await new Promise((done, failed) => {
     let said = '';
     const heard = (text) => {
@@ -29,11 +40,16 @@ export async function view(...words) {
   return { server, address };
 }
 
+const kLongestEnd = 10000;  // ms
+
+/** It ends by itself when it is asked to, whoever looks at it. */
 export async function end(server) {
-  if (server.exitCode !== null) return;
-  const gone = new Promise((done) => server.on('exit', done));
+  if (!is_alive(server)) return;
+  const gone = new Promise((done) => server.on('exit', (code) => done(code === 0 ? '' : `s7200 view ended with ${code}`)));
   server.kill('SIGTERM');
-  await gone;
+  const late = new Promise((done) => setTimeout(() => done(`s7200 view has not ended ${kLongestEnd} ms after SIGTERM`), kLongestEnd).unref());
+  const wrong = await Promise.race([gone, late]);
+  if (wrong !== '') throw new Error(wrong);
 }
 
 export async function browser() {
