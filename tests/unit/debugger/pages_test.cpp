@@ -1,10 +1,14 @@
 // What pages and editors ask a session: the program, memory, moments and what happened, as JSON.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
+#include <initializer_list>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "tests/support/source_path.hpp"
 #include "tests/unit/debugger/session.hpp"
@@ -235,6 +239,58 @@ TEST(Pages, SeeThatARequestAfterAnAnswerIsNoAnswer) {
   const Json frames = track(session.json("spans start end"), "frames", "port 0 frames")["spans"];
   ASSERT_EQ(frames.size(), 4U);
   for (const std::size_t request : {0U, 2U}) EXPECT_TRUE(has(frames[request]["text"].get<std::string>(), ": station 1: "));
+}
+
+/// All frames of a slave that is asked three times, and those of a part that begins `after` the first of them has.
+struct FramesOfPart {
+  FramesOfPart(std::initializer_list<std::string_view> requests, Time after) {
+    Asked session(our_slave());
+    session("continue 100ms");
+    for (const std::string_view request : requests) {
+      session(fmt::format("send {} crc", request));
+      session("continue 100ms");
+      session("continue 100ms");
+    }
+    all = texts(session.json("spans start end"));
+    const Json first = track(session.json("spans start end"), "frames", "port 0 frames"), frame = first["spans"][0];
+    const Time from = after == 0 ? frame["end_ns"].get<Time>() + 1 : frame["at_ns"].get<Time>() + after;
+    const Json part = session.json(fmt::format("spans {}ns end", from));
+    of_part = texts(part);
+    answers = part["answers"]["count"];
+  }
+
+  static std::vector<std::string> texts(const Json& spans) {
+    const Json frames = track(spans, "frames", "port 0 frames");
+    std::vector<std::string> all;
+    for (const Json& one : frames["spans"]) all.push_back(one["text"]);
+    return all;
+  }
+
+  std::vector<std::string> all{}, of_part{};
+  std::size_t answers = 0;
+};
+
+TEST(Pages, DoNotTakeAnAnswerForARequestWhereAPartBeginsBetweenThem) {
+  const FramesOfPart reads({"01 03 00 0a 00 02", "01 03 00 0a 00 02", "01 03 00 0a 00 03"}, 0);
+  ASSERT_EQ(reads.all.size(), 6U);
+  ASSERT_EQ(reads.of_part.size(), 5U);
+  EXPECT_TRUE(reads.of_part[0].ends_with(": an answer of station 1")) << reads.of_part[0];
+  for (const std::size_t i : {1U, 2U, 3U, 4U}) EXPECT_EQ(reads.of_part[i], reads.all[i + 1]);
+  EXPECT_EQ(reads.answers, 2U);
+}
+
+TEST(Pages, DoNotTakeAValueThatWasWrittenForARequestWhereAPartBeginsBetweenThem) {
+  const FramesOfPart writes({"01 06 00 00 00 01", "01 06 00 00 00 02", "01 06 00 00 00 02"}, 0);
+  ASSERT_EQ(writes.of_part.size(), 5U);
+  for (const std::size_t i : {1U, 2U, 3U, 4U}) EXPECT_EQ(writes.of_part[i], writes.all[i + 1]);
+  EXPECT_EQ(writes.answers, 2U);
+}
+
+TEST(Pages, DoNotTakeAnAnswerForARequestWhereAPartBeginsWithinOne) {
+  const FramesOfPart reads({"01 03 00 0a 00 02", "01 03 00 0a 00 02", "01 03 00 0a 00 02"}, 3 * kMillisecond);
+  ASSERT_EQ(reads.of_part.size(), 6U);
+  EXPECT_TRUE(reads.of_part[1].ends_with(": an answer of station 1")) << reads.of_part[1];
+  for (const std::size_t i : {2U, 3U, 4U, 5U}) EXPECT_EQ(reads.of_part[i], reads.all[i]);
 }
 
 TEST(Pages, SeeThatACharacterHasAWrongParity) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "interpreter/trace/trace_reasons.hpp"
 #include "serial_sim/modbus/answer.hpp"
 #include "serial_sim/modbus/functions.hpp"
+#include "serial_sim/modbus/rtu_stream.hpp"
 #include "tools/session/observers/trace_of_past.hpp"
 #include "tools/session/past/reader.hpp"
 #include "tools/views/program/listing.hpp"
@@ -44,6 +46,9 @@ class Tracks {
 
   LongestAnswers& longest() { return longest_; }
 
+  /// Something may have been under way before the part.
+  bool begin_within() const { return wanted_.from > 0; }
+
   /// By station, kind and name.
   std::vector<NamedTrack> take() {
     std::vector<NamedTrack> sorted;
@@ -62,7 +67,8 @@ class Tracks {
 /// Characters of a port that follow each other without a pause, in one direction.
 class FrameTrack {
  public:
-  FrameTrack(Tracks& tracks, std::size_t station, std::uint8_t port) : tracks_(tracks), station_(station), port_(port) {}
+  FrameTrack(Tracks& tracks, std::size_t station, std::uint8_t port)
+      : tracks_(tracks), station_(station), port_(port), unsure_(tracks.begin_within()) {}
 
   void add(const TrackSpan& character, std::uint8_t byte, bool sent, Time silence) {
     if (!bytes_.empty() && (sent != sent_ || character.at - frame_.end > silence)) finish();
@@ -75,12 +81,14 @@ class FrameTrack {
 
   void finish() {
     if (bytes_.empty()) return;
-    const bool answers = is_answer();
+    const bool follows = is_answer(), is_late = !follows && is_answer_to_earlier_request(), answers = follows || is_late;
     std::string said = serial::to_hex(bytes_);
-    if (const std::string words = in_words(answers); !words.empty()) said += ": " + words;
+    const std::string words = is_late ? fmt::format("an answer of station {}", bytes_[0]) : in_words(follows);
+    if (!words.empty()) said += ": " + words;
     frame_.text = fmt::format("{} {}", sent_ ? "sent" : "received", said);
     note_answer(std::move(said), answers);
     tracks_.add(TrackKind::Frames, fmt::format("port {} frames", port_), station_, std::exchange(frame_, {}));
+    unsure_ = unsure_ && !follows;
     request_ = answers ? Bytes{} : bytes_;
     request_was_sent_ = sent_;
     bytes_.clear();
@@ -101,10 +109,28 @@ class FrameTrack {
     }
   }
 
-  /// To the frame before it in the other direction, unless that was itself an answer.
+  /// To the frame before it in the other direction, unless that was itself an answer. In a part that may begin between a
+  /// request and its answer, a value that is written only answers the same request: else the frame before was the answer.
   bool is_answer() const {
     return request_was_sent_ != sent_ && modbus::crc_ok(bytes_) && modbus::crc_ok(request_) && bytes_[0] == request_[0] &&
-           (bytes_[1] & ~modbus::kExceptionFlag) == request_[1];
+           (bytes_[1] & ~modbus::kExceptionFlag) == request_[1] &&
+           (!unsure_ || !writes_one(request_) || bytes_ == request_ || bytes_[1] != request_[1]);
+  }
+
+  static bool writes_one(const Bytes& frame) {
+    const modbus::FunctionRow* const row = modbus::find_function(frame[1]);
+    return row && row->shape == modbus::Shape::WriteOne;
+  }
+
+  /// A part may begin between a request and its answer: that is as long as an answer of its function, and not as a request.
+  bool is_answer_to_earlier_request() const {
+    if (!unsure_ || !modbus::crc_ok(bytes_)) return false;
+    constexpr std::size_t kException = 5;
+    if ((bytes_[1] & modbus::kExceptionFlag) != 0) return bytes_.size() == kException;
+    const std::span all(bytes_);
+    const bool is_request = modbus::extent_of_request(all) != modbus::Extent::Part &&
+                            modbus::extent_of_request(all.first(all.size() - 1)) != modbus::Extent::Whole;
+    return !is_request && modbus::length_of_answer(all, all) == all.size();
   }
 
   /// Nothing of what is not Modbus RTU.
@@ -122,6 +148,7 @@ class FrameTrack {
   Bytes bytes_{};
   Bytes request_{};  ///< the frame before, unless it was an answer
   bool sent_ = false, request_was_sent_ = false;
+  bool unsure_;  ///< whether the next frame is a request: no answer has followed one yet
   std::optional<AnsweredFrame> open_{};  ///< received last, and nothing has been sent since
 };
 
