@@ -16,15 +16,23 @@ const parts = await import(path.join(folder, 'parts.mjs'));
 rmSync(folder, { recursive: true });
 
 test('moments are read in every unit that a command takes, and written so that none is rounded', () => {
-  const read = { '15.193ms': 15193000, '2 s': 2e9, '1h': 3600e9, '20 min': 1200e9, '7,5ms': 7500000, '250us': 250000, '5ns': 5 };
+  const read = { '15.193ms': 15193000, '2 s': 2e9, '1h': 3600e9, '20 min': 1200e9, '7,5ms': 7500000, '250us': 250000, '5ns': 5, '13:30': 48600e9, '0:01:30,5': 90.5e9 };
   for (const [text, ns] of Object.entries(read)) assert.equal(parts.moment_from(text), ns, text);
-  for (const text of ['', '5', 'ms', '-1ms', '1 day']) assert.equal(parts.moment_from(text), undefined, text);
+  for (const text of ['', '5', 'ms', '-1ms', '1 day', '1:60', '1:2', '0:01:60']) assert.equal(parts.moment_from(text), undefined, text);
   assert.equal(parts.moment_text(102605583), '102.605583 ms');
   assert.equal(parts.moment_text(123456789000), '123.456789 s');
   assert.equal(parts.moment_word(102605583), '102605583ns');
   for (const ns of [0, 1, 15193000, 102605583, 86400e9]) assert.equal(parts.moment_of_link(parts.link_of(ns)), ns);
   assert.equal(parts.moment_of_link('#p=abc&t=5ms'), 5000000);
   assert.equal(parts.moment_of_link('#other'), undefined);
+});
+
+test('marks of a day are hours and minutes, as far apart as those of a clock', () => {
+  const scale = (hours) => ({ from_ns: 0, to_ns: hours * 3600e9, left: 0, right: 1100 });
+  assert.deepEqual([24, 6, 1, 1 / 60, 24 * 30].map((hours) => parts.step_of(scale(hours), 110) / 1e9), [10800, 3600, 600, 10, 5 * 86400]);
+  assert.equal(parts.clock_text(48600e9, false), '13:30');
+  assert.equal(parts.clock_text(90e9, true), '0:01:30');
+  assert.equal(parts.moment_from(parts.clock_text(86399e9, true)), 86399e9);
 });
 
 test('durations are said in the unit that fits', () => {
@@ -62,6 +70,16 @@ test('a request that is late may be asked about before its time is over', () => 
   assert.ok(!parts.is_overdue(after(50)));
   assert.ok(parts.is_overdue(after(150)) && !parts.is_unanswered(after(150)));
   assert.ok(parts.is_unanswered(after(1500)));
+});
+
+test('an answer to a request before the part that is looked at is no request', () => {
+  const asked = 'received 01 06: station 1: write single register', part = (...spans) => ({ ...frames(...spans), from_ns: 5 });
+  for (const first of ['sent 01 03 04: an answer of station 1', 'received 01 83: an answer of station 1', 'sent 01 06: station 1: write single register']) {
+    const all = parts.exchanges_of(part(frame(first, 10, 20), frame(asked, 50, 60), frame('sent 01 06: written', 70, 80)), 100);
+    assert.deepEqual(all.map((one) => [one.sent, one.answer]), [[false, '01 06: written']], first);
+  }
+  const master = parts.exchanges_of(part(frame('sent 01 06: station 1: write single register', 10, 20), frame('received 01 06: written', 30, 40)), 100);
+  assert.deepEqual(master.map((one) => [one.sent, one.answer]), [[true, '01 06: written']]);
 });
 
 test('errors are the first track', () => {

@@ -33,6 +33,28 @@ export function h(tag: string, attributes: Attributes = {}, ...children: Child[]
   return { tag, attributes, children: flat };
 }
 
+/** A part that is made anew only when what it is made of is another one: it may be large. */
+export function kept<Of>(make: (of: Of) => Part): (of: Of) => Part {
+  let last: { of: Of; part: Part } | undefined;
+  return (of) => {
+    if (last?.of !== of) last = { of, part: make(of) };
+    return last.part;
+  };
+}
+
+/** Whether a key presses the element that has the focus. */
+export function is_press(event: KeyboardEvent): boolean {
+  if (event.key !== 'Enter' && event.key !== ' ') return false;
+  event.preventDefault();
+  return true;
+}
+
+/** Characters that turn the direction of the text beside them: a name with one of them could make the page read otherwise. */
+const kTurning = /[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]/g;
+export function without_turns(text: string): string {
+  return text.replace(kTurning, '\ufffd');
+}
+
 /** Refs wait until the whole page is rendered, so that sizes can be measured. */
 let referred: (() => void)[] = [];
 
@@ -59,12 +81,12 @@ function set_attribute(node: Element, name: string, value: unknown, before: unkn
   } else if (value === undefined || value === null || value === false) {
     node.removeAttribute(name);
   } else {
-    node.setAttribute(name, value === true ? '' : String(value));
+    node.setAttribute(name, value === true ? '' : without_turns(String(value)));
   }
 }
 
 function create(made: Part | string, inside_svg: boolean): Node {
-  if (typeof made === 'string') return document.createTextNode(made);
+  if (typeof made === 'string') return document.createTextNode(without_turns(made));
   const svg = inside_svg || made.tag === 'svg';
   const node = svg ? document.createElementNS(kSvg, made.tag) : document.createElement(made.tag);
   update(node, { tag: made.tag, attributes: {}, children: [] }, made);
@@ -115,8 +137,9 @@ function update_children(parent: Element, wanted: (Part | string)[]): void {
     if (node === next) next = next.nextSibling;
     else parent.insertBefore(node, next);
     if (typeof child === 'string') {
-      if (node.nodeValue !== child) node.nodeValue = child;
-    } else {
+      const text = without_turns(child);
+      if (node.nodeValue !== text) node.nodeValue = text;
+    } else if ((node as Known).was !== child) {
       update(node as Element, (node as Known).was!, child);
     }
   }

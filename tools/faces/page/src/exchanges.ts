@@ -32,6 +32,17 @@ function asks(frame: Span): boolean {
   return /: station \d+: /.test(frame.text);
 }
 
+/** Its request was before the part of the time that is looked at. */
+function answers_earlier(frame: Span): boolean {
+  return /: an answer of station \d+$/.test(frame.text);
+}
+
+/** What a part begins with may be the answer to an earlier request: nobody answers it, and what follows asks the PLC. */
+function without_first_answer(all: Exchange[]): Exchange[] {
+  const [first, second] = all;
+  return first?.sent && first.answer === undefined && second && !second.sent ? all.slice(1) : all;
+}
+
 /**
  * A frame that the PLC receives is a request, and the next one that it sends, before another request, is the answer. A PLC
  * that is a master sends requests of Modbus and receives their answers.
@@ -41,12 +52,14 @@ export function exchanges_of(spans: Spans | null, now_ns: number): Exchange[] {
   for (const track of spans?.tracks ?? []) {
     if (track.kind !== 'frames') continue;
     let open: Exchange | undefined;
+    const of_track: Exchange[] = [];
     for (const frame of track.spans) {
-      const sent = is_sent(frame), answers = open !== undefined && open.sent !== sent && !(sent && asks(frame));
+      const sent = is_sent(frame), answers = open !== undefined && open.sent !== sent && !asks(frame);
+      if (!answers && answers_earlier(frame)) continue;
       if (!answers && (!sent || asks(frame))) {
         open = { at_ns: frame.at_ns, end_ns: frame.end_ns, station: track.station ?? '', sent, request: words_of(frame) };
         if (frame.error !== undefined) open.error = frame.error;
-        all.push(open);
+        of_track.push(open);
       } else if (open) {
         open.answer = words_of(frame);
         open.latency_ns = frame.at_ns - open.end_ns;
@@ -57,6 +70,7 @@ export function exchanges_of(spans: Spans | null, now_ns: number): Exchange[] {
     }
     if (open && now_ns - open.end_ns < kAwaited) open.pending = true;
     if (open?.pending && now_ns - open.end_ns > kOverdue) open.overdue = true;
+    all.push(...(spans!.from_ns > 0 ? without_first_answer(of_track) : of_track));
   }
   return all.sort((a, b) => a.at_ns - b.at_ns);
 }

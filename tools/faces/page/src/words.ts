@@ -32,8 +32,16 @@ function trimmed(value: number): string {
 
 const kUnits: Record<string, number> = { ns: 1, us: 1e3, µs: 1e3, ms: kMs, s: kSecond, min: 60 * kSecond, h: 3600 * kSecond };
 
-/** The nanoseconds of `15.193ms`, `2 s`, `1h`; undefined if it is not a time. */
+/** `13:30`, with seconds `0:01:30`: hours, minutes. */
+export function clock_text(ns: number, with_seconds: boolean): string {
+  const seconds = Math.round(ns / kSecond), two = (part: number): string => String(part % 60).padStart(2, '0');
+  return `${Math.floor(seconds / 3600)}:${two(Math.floor(seconds / 60))}${with_seconds ? `:${two(seconds)}` : ''}`;
+}
+
+/** The nanoseconds of `15.193ms`, `2 s`, `1h`, and of `13:30` or `13:30:15.5`, as the ruler counts; undefined if it is not a time. */
 export function moment_from(text: string): number | undefined {
+  const clock = /^\s*(\d+):([0-5]\d)(?::([0-5]\d(?:[.,]\d+)?))?\s*$/.exec(text);
+  if (clock) return Math.round((Number(clock[1]) * 3600 + Number(clock[2]) * 60) * kSecond + Number((clock[3] ?? '0').replace(',', '.')) * kSecond);
   const parts = /^\s*(\d+(?:[.,]\d+)?)\s*(ns|us|µs|ms|s|min|h)\s*$/i.exec(text);
   if (!parts) return undefined;
   return Math.round(Number(parts[1]!.replace(',', '.')) * kUnits[parts[2]!.toLowerCase()]!);

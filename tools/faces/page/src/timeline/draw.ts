@@ -1,8 +1,9 @@
 // Draws tracks on a canvas. What is narrower than a pixel is added up in its column, and trouble is drawn last and at least two
 // pixels wide, so that a lost character is seen at every zoom.
 import type { SerialFormat, Span, SpanTrack, Spans } from '../protocol';
+import { without_turns } from '../dom';
 import { first_after, ns_at, step_of, x_of, type Scale } from './scale';
-import { duration_text, moment_text } from '../words';
+import { clock_text, duration_text, moment_text } from '../words';
 
 export const kRuler = 22, kGap = 3;
 
@@ -80,6 +81,7 @@ function label(c: CanvasRenderingContext2D, text: string, x: number, y: number, 
   c.fillStyle = colour;
   const letters = Math.floor((width - 6) / 6.2);
   if (letters < Math.min(text.length, kFewest)) return;
+  text = without_turns(text);
   c.fillText(text.length > letters ? (letters > 3 ? text.slice(0, letters - 1) + '…' : text.slice(0, letters)) : text, x + 3, y);
 }
 
@@ -233,7 +235,7 @@ function marks_of(scale: Scale): { x: number; text: string }[] {
   const count = Math.floor(scale.to_ns / step) - first + 1;
   return Array.from({ length: Math.max(0, count) }, (_, i) => {
     const ns = (first + i) * step;
-    return { x: Math.round(x_of(scale, ns)) + 0.5, text: mark_text(ns, step) };
+    return { x: Math.round(x_of(scale, ns)) + 0.5, text: mark_text(ns, step, scale.to_ns) };
   });
 }
 
@@ -260,7 +262,11 @@ function draw_ruler(c: CanvasRenderingContext2D, view: View, theme: Theme): void
   c.stroke();
 }
 
-function mark_text(ns: number, step: number): string {
+const kMinute = 60e9, kHour = 3600e9;
+
+/** In a part of minutes or hours, and late in a long run, as a clock that was started with it. */
+function mark_text(ns: number, step: number, to_ns: number): string {
+  if (ns >= 0 && (step >= kMinute / 4 || (step >= 1e9 && to_ns >= kHour))) return clock_text(ns, step < 10 * kMinute);
   const [unit, name] = step >= 1e9 ? [1e9, 's'] : step >= 1e3 ? [1e6, 'ms'] : [1e3, 'µs'];
   const digits = Math.max(0, Math.round(Math.log10(unit) - Math.floor(Math.log10(step))));
   return `${(ns / unit).toFixed(digits)} ${name}`;

@@ -15,9 +15,17 @@ export function ns_at(scale: Scale, x: number): number {
   return scale.from_ns + (x - scale.left) / (scale.right - scale.left) * (scale.to_ns - scale.from_ns);
 }
 
-/** 1, 2 or 5 times a power of ten, so that marks are at least that many pixels apart. */
+const kSecond = 1e9, kDay = 86400 * kSecond;
+const kClockSteps = [15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200].map((seconds) => seconds * kSecond);
+
+/** A step so that marks are at least that many pixels apart: 1, 2 or 5 times a power of ten of nanoseconds, or what clocks have. */
 export function step_of(scale: Scale, pixels: number): number {
   const least = (scale.to_ns - scale.from_ns) / (scale.right - scale.left) * pixels;
+  if (least <= 10 * kSecond) return decimal_step(least);
+  return kClockSteps.find((step) => step >= least) ?? decimal_step(least / kDay) * kDay;
+}
+
+function decimal_step(least: number): number {
   const power = 10 ** Math.floor(Math.log10(Math.max(1, least)));
   return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= least)!;
 }
