@@ -193,6 +193,25 @@ test('the tracks of many PLCs are printed within the timeline', async () => {
   await end(plant.server);
 });
 
+test('a query that a stop has dropped is asked again', async () => {
+  let dropped = 0;
+  const prepare = (page) => page.routeWebSocket(/socket/, (one) => {
+    const server = one.connectToServer();
+    one.onMessage((text) => {
+      const { id, command } = JSON.parse(text);
+      if (!/^(values|status) /.test(command ?? '') || dropped >= 6) return server.send(text);
+      ++dropped;
+      one.send(JSON.stringify({ id, text: '', json: null, moved: false, interrupted: true }));
+    });
+  });
+  const page = await open(chrome, plc.address, { prepare });
+  await page.fill('#add-address', 'SM0.0');
+  await page.press('#add-address', 'Enter');
+  await page.waitForFunction(() => document.querySelector('.chart .current')?.textContent === '2#1');
+  assert.equal(dropped, 6);
+  await page.close();
+});
+
 test('a lost connection is said, and so is its return', async () => {
   let allowed = true, socket;
   const prepare = (page) => page.routeWebSocket(/socket/, (one) => {

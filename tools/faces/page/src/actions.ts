@@ -1,5 +1,5 @@
 // Everything that one can do, once: buttons, keys and the help read this table.
-import { changed, notice, show_pane, state } from './state';
+import { changed, notice, show_pane, state, type PaneName } from './state';
 import { command, go_to, move } from './session';
 import { pause, run } from './running';
 import { ask_why } from './causes';
@@ -163,9 +163,15 @@ export function action(id: string): Action {
   return by_id.get(id)!;
 }
 
-function focus_pane(pane: Parameters<typeof show_pane>[0]): void {
+/** What takes arrow keys in a pane. */
+const kPaneContents: { [pane in PaneName]?: string } = { program: '#pane-program .listing', timeline: '#timeline' };
+
+/** At once if it is there, so that the next key finds it. */
+function focus_pane(pane: PaneName): void {
+  const focus = (): void => document.querySelector<HTMLElement>(kPaneContents[pane] ?? `#pane-${pane}`)?.focus();
   show_pane(pane);
-  requestAnimationFrame(() => document.querySelector<HTMLElement>(`#pane-${pane}`)?.focus());
+  focus();
+  requestAnimationFrame(focus);
 }
 
 /** `Shift+F10`, as the table writes keys; a shifted character is the character that it makes. */
@@ -181,8 +187,11 @@ function is_typing(target: EventTarget | null): boolean {
 
 /** A control under the focus takes these keys itself. */
 function is_taken(event: KeyboardEvent): boolean {
-  const control = event.target instanceof HTMLElement && event.target.matches('button, [role=switch], a');
-  return control && (event.key === ' ' || event.key === 'Enter');
+  if (!(event.target instanceof Element)) return false;
+  if (event.target.matches('button, summary, [role=button], a')) {
+    if (event.key === ' ' || event.key === 'Enter') return true;
+  }
+  return event.target.matches('[role=switch]') && event.key === 'F10' && event.shiftKey;  // asks for its menu
 }
 
 export function on_key(event: KeyboardEvent): void {
@@ -197,7 +206,7 @@ export function on_key(event: KeyboardEvent): void {
   const function_key = /^F\d+$/.test(event.key);
   if ((is_typing(event.target) && !function_key) || is_taken(event)) return;
   const found = kActions.find((one) => one.keys.includes(key_of(event)));
-  if (!found) return;
+  if (!found || ((state.dialog !== null || state.menu !== null) && found.id !== state.dialog)) return;
   event.preventDefault();
   found.does();
 }

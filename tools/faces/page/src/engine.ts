@@ -5,7 +5,7 @@ export type Connection = 'connecting' | 'connected' | 'lost' | 'ended';
 
 export interface Onlooker {
   notified(notification: Notification): void;
-  connection(state: Connection, why: string): void;
+  connection(state: Connection): void;
 }
 
 export interface Engine {
@@ -82,12 +82,13 @@ export class SocketEngine implements Engine {
   }
 
   private connect(): void {
-    this.onlooker.connection('connecting', '');
+    this.onlooker.connection('connecting');
     const socket = new WebSocket(this.address);
     this.socket = socket;
     socket.onopen = () => {
       this.pause = kFirstPause;
-      this.onlooker.connection('connected', '');
+      this.over = false;
+      this.onlooker.connection('connected');
     };
     socket.onmessage = ({ data }) => {
       const message = JSON.parse(String(data));
@@ -95,9 +96,9 @@ export class SocketEngine implements Engine {
       this.conversation.received(message);
     };
     socket.onclose = () => {
-      if (this.over) return;
-      this.conversation.abandon('the connection to s7200 is lost');
-      this.onlooker.connection('lost', '');
+      this.conversation.abandon(this.over ? 'the session has ended' : 'the connection to s7200 is lost');
+      this.onlooker.connection('lost');
+      if (this.over) this.pause = kLongestPause;
       setTimeout(() => this.connect(), this.pause);
       this.pause = Math.min(2 * this.pause, kLongestPause);
     };
@@ -116,9 +117,9 @@ export class WorkerEngine implements Engine {
     this.worker.onmessage = ({ data }) => this.conversation.received(data);
     this.worker.onerror = (event) => {
       this.conversation.abandon(`the engine in the browser has failed: ${event.message ?? 'it cannot be loaded'}`);
-      onlooker.connection('ended', event.message ?? 'the engine cannot be loaded');
+      onlooker.connection('ended');
     };
-    onlooker.connection('connected', '');
+    onlooker.connection('connected');
   }
 
   command<Json>(line: string): Promise<Reply<Json>> {

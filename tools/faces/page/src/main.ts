@@ -23,7 +23,7 @@ import { go_to } from './session';
 const onlooker: Onlooker = {
   notified,
   connection: (connection) => {
-    if (state.connection === 'ended' && connection !== 'connected') return;
+    if ((state.connection === 'ended' || connection === 'connecting') && connection !== 'connected') return;
     state.connection = connection;
     if (connection === 'lost') state.running = false;
     changed();
@@ -39,8 +39,30 @@ function page(): (Part | null)[] {
   ];
 }
 
+const has_overlay = (): boolean => state.dialog !== null || state.menu !== null;
+
+/** What is behind a dialog or a menu is out of reach. */
+function reachable(part: Part | null): Part | null {
+  if (part && !/shade/.test(String(part.attributes['class']))) part.attributes['inert'] = has_overlay();
+  return part;
+}
+
+/** Where the focus was before there was a dialog or a menu; it is there again after it. */
+let before: Element | null = null;
+let had_overlay = false;
+
+function give_focus_back(): void {
+  if (before instanceof HTMLElement || before instanceof SVGElement) before.focus();
+  if (before !== document.body && document.activeElement === document.body) document.querySelector<HTMLElement>(`#pane-${state.pane}`)?.focus();
+  before = null;
+}
+
 function show(): void {
-  render(document.body, page());
+  const overlay = has_overlay();
+  if (overlay && !had_overlay) before = document.activeElement;
+  render(document.body, page().map(reachable));
+  if (had_overlay && !overlay) give_focus_back();
+  had_overlay = overlay;
 }
 
 /** What is drawn for paper is drawn at once: the browser takes it as it is. */

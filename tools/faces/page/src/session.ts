@@ -1,7 +1,7 @@
 // What the page does with its session: commands, and the queries about what is seen, asked anew whenever it has moved.
 import { changed, notice, state, the_engine } from './state';
 import { kProtocol } from './protocol';
-import type { Line, Notification, Outline, Past, Reply, Status, Stopped, Stops, Value } from './protocol';
+import type { Hello, Line, Notification, Outline, Past, Reply, Status, Stopped, Stops, Value } from './protocol';
 import { is_one_word, query_of } from './formats';
 import { load_marks } from './marks';
 import { forget_pulses } from './pulses';
@@ -40,9 +40,12 @@ export async function command<Json = unknown>(line: string): Promise<Reply<Json>
   return reply;
 }
 
-/** The same without a word: queries of what may not be there. */
-export function query<Json>(line: string): Promise<Reply<Json>> {
-  return the_engine().command<Json>(line);
+/** The same without a word: queries of what may not be there. One that was dropped because a run was stopped is asked again. */
+export async function query<Json>(line: string): Promise<Reply<Json>> {
+  for (;;) {
+    const reply = await the_engine().command<Json>(line);
+    if (!reply.interrupted || reply.json !== null) return reply;
+  }
 }
 
 const kChunk = 200;  // lines of the program that are asked for at once
@@ -162,8 +165,14 @@ async function get_acquainted(): Promise<void> {
   refresh_all();
 }
 
-/** A session begins, perhaps with another program: what was known of the one before says nothing of it. */
-function forget_run(): void {
+/** Whether it is not the session that was known before a connection was lost. */
+function is_another(hello: Hello): boolean {
+  const ended = state.why_ended !== '' || the_engine().open !== undefined;
+  return ended || hello.program !== state.hello?.program || hello.now.newest_ns < (state.past?.newest_ns ?? 0);
+}
+
+/** The run that was known is asked for anew: what is true of it may have changed meanwhile. */
+function forget_answers(): void {
   state.running = false;
   state.own_run = false;
   state.spans = null;
@@ -174,7 +183,11 @@ function forget_run(): void {
   state.switched.clear();
   state.done = null;
   forget_pulses();
-  if (!the_engine().open) return;
+}
+
+/** A session begins, perhaps with another program: what was known of the one before says nothing of it. */
+function forget_session(): void {
+  state.why_ended = '';
   state.window = null;
   state.cursors = { a_ns: null, b_ns: null };
   state.trail = [];
@@ -215,9 +228,13 @@ export function notified(note: Notification): void {
   switch (note.event) {
     case 'hello':
       if (note.protocol !== kProtocol) notice(`s7200 speaks protocol ${note.protocol}, this page protocol ${kProtocol}: load the page anew`, 'error');
+      forget_answers();
+      if (is_another(note)) {
+        if (state.hello && !the_engine().open) notice('s7200 was started again: this is another session');
+        forget_session();
+      }
       state.hello = note;
       state.past = note.now;
-      forget_run();
       load_marks();
       void get_acquainted().then(follow_link);
       break;

@@ -1,5 +1,5 @@
 // The status chart, with switches of the inputs and lamps of the outputs above it.
-import { h, type Child, type Part } from '../dom';
+import { h, kept, type Child, type Part } from '../dom';
 import { command, see_values } from '../session';
 import { is_one_word, kFormats, query_of, text_in } from '../formats';
 import { is_pulsing, kMostHertz, set_hertz, toggle_pulses } from '../pulses';
@@ -7,7 +7,7 @@ import { changed, notice, state, type ChartRow, type Format, type PointRow, type
 import { level_of, switch_to, terminal_level } from '../switches';
 import { remember, remembered } from '../memory';
 import { chart_from, chart_text } from '../status_charts';
-import type { Value } from '../protocol';
+import type { Outline, Value } from '../protocol';
 import { open_menu } from './menu';
 import { icon } from '../icons';
 
@@ -168,9 +168,8 @@ function add_row(): Part {
   h('button', { 'aria-label': 'Add' }, icon('plus')));
 }
 
-function symbols(): Part {
-  return h('datalist', { id: 'symbols' }, (state.outline?.symbols ?? []).slice(0, 500).map((one) => h('option', { value: one.name }, `${one.address}  ${one.comment}`)));
-}
+const symbols = kept((outline: Outline | null): Part =>
+  h('datalist', { id: 'symbols' }, (outline?.symbols ?? []).slice(0, 500).map((one) => h('option', { value: one.name }, `${one.address}  ${one.comment}`))));
 
 function symbol_of(address: string): string {
   return state.values.get(address)?.symbol ?? '';
@@ -195,13 +194,18 @@ function input_switch(row: PointRow): Part {
   const on = kind === 'pulses' ? pulsing : terminal_level(address) === 1;
   const forced = state.values.get(address)?.forced === true;
   const press = (level: number) => (event: { button?: number }) => { if (kind === 'push' && !event.button) void switch_to(address, level); };
-  const name = `${symbol_of(address)} ${kKinds[kind]}; right click: ${kKinds[next_kind(row)]}`.trim();
+  const name = `${symbol_of(address)} ${kKinds[kind]}; right click or Shift+F10: ${kKinds[next_kind(row)]}`.trim();
   return h('div', { class: 'point', key: address },
     h('button', { class: `switch ${kind}${on ? ' on' : ''}${forced ? ' forced' : ''}`, role: 'switch', 'aria-checked': String(on),
       'aria-label': `Input ${address} ${symbol_of(address)}`.trim(), title: name,
       onclick: () => { if (kind === 'switch') void switch_to(address, on ? 0 : 1); else if (kind === 'pulses') void toggle_pulses(row); },
       onpointerdown: press(1), onpointerup: press(0), onpointerleave: () => { if (kind === 'push' && on) void switch_to(address, 0); },
-      onkeydown: (event: KeyboardEvent) => { if (event.key === ' ' && !event.repeat) press(1)({}); },
+      onkeydown: (event: KeyboardEvent) => {
+        if (event.key === ' ' && !event.repeat) press(1)({});
+        if (event.key !== 'ContextMenu' && !(event.key === 'F10' && event.shiftKey)) return;
+        event.preventDefault();
+        void change_kind(row);
+      },
       onkeyup: (event: KeyboardEvent) => { if (event.key === ' ') press(0)({}); },
       oncontextmenu: (event: Event) => { event.preventDefault(); void change_kind(row); } },
     kind === 'pulses' ? h('svg', { viewBox: '0 0 34 14', 'aria-hidden': 'true' }, h('path', { d: 'M3 11H8V3H14V11H20V3H26V11H31' })) : h('i', {})),
@@ -245,5 +249,5 @@ export function chart_pane(): Part {
     h('table', { class: 'chart' },
       h('thead', {}, h('tr', {}, ['Address', 'Format', 'Current value', 'New value', '', 'Trend'].map((name) => h('th', {}, name)))),
       h('tbody', {}, state.chart.map(chart_row))),
-    add_row(), symbols());
+    add_row(), symbols(state.outline));
 }

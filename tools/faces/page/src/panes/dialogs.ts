@@ -25,6 +25,7 @@ function help(): Part {
       h('dl', {}, kActions.filter((one) => one.group === group && one.keys.length > 0).map((one) => [
         h('dt', {}, one.keys.map((key) => h('kbd', {}, key_text(key)))), h('dd', {}, one.title)]))))),
     h('p', {}, 'Click an address for its menu, the margin of a line for a breakpoint, the timeline to go to a moment. ',
+      'In the listing ↑ and ↓ choose a line, in the ladder a network; Tab reaches its addresses, and Enter goes to the last execution of a line. ',
       'Esc closes menus and leaves fields.'));
 }
 

@@ -1,10 +1,10 @@
 // The ladder: networks as the session draws them, on a grid of characters, with power flow at the moment where it stands. Only the
 // networks in view are asked for and made.
-import { h, type Child, type Part } from '../dom';
+import { h, is_press, type Child, type Part } from '../dom';
 import { also_seen, fetch_chunk_of, query, Seen } from '../session';
 import { changed, state } from '../state';
 import type { LadderElement, LadderNetwork, Reply } from '../protocol';
-import { open_menu } from './menu';
+import { open_menu, open_menu_at } from './menu';
 
 const kCellWidth = 8, kCellHeight = 18;  // pixels of a character and a line
 const kRail = 40;                        // from the left edge to the power rail
@@ -78,11 +78,13 @@ function cell_text(text: string, column: number, row: number, style: string): Pa
   return h('text', { x: middle_x(column) - kCellWidth / 2, y: middle_y(row) + 4, class: style, textLength: [...text].length * kCellWidth, lengthAdjust: 'spacingAndGlyphs' }, text);
 }
 
-function address_text(text: string, column: number, row: number, op: number | null): Child {
+/** Those of the chosen network can be reached with the tab key. */
+function address_text(text: string, column: number, row: number, op: number | null, is_chosen: boolean): Child {
   if (text === '') return null;
   const address = text.includes(':') ? text.slice(text.lastIndexOf(':') + 1) : text;
   const part = cell_text(text, column, row, 'address');
-  part.attributes['onclick'] = (event: MouseEvent) => open_menu(event, address, op);
+  Object.assign(part.attributes, { role: 'button', tabindex: is_chosen ? '0' : '-1', onclick: (event: MouseEvent) => open_menu(event, address, op),
+    onkeydown: (event: KeyboardEvent) => { if (is_press(event)) open_menu_at(event.currentTarget as Element, address, op); } });
   return part;
 }
 
@@ -105,24 +107,24 @@ function symbol_text(one: LadderElement): Child {
   return cell_text(one.symbol, one.column + (one.width - [...one.symbol].length) / 2, one.row, '');
 }
 
-function box(one: LadderElement): Child[] {
+function box(one: LadderElement, is_chosen: boolean): Child[] {
   const left = middle_x(one.column), right = middle_x(one.column + one.width - 1);
   const top = one.row * kCellHeight + 1, bottom = middle_y(one.row + one.height - 1);
   return [h('rect', { class: 'box', x: left, y: top, width: right - left, height: bottom - top }),
     ...one.pins.flatMap((pin) => [
       pin.name === '' ? null : cell_text(pin.name, pin.name_column, pin.row, ''),
-      address_text(pin.operand, pin.operand_column, pin.row, one.op)])];
+      address_text(pin.operand, pin.operand_column, pin.row, one.op, is_chosen)])];
 }
 
 /** What the element's power flow is: from where it takes it, and where it lets it through. */
-function element(one: LadderElement, power: boolean[]): Part {
+function element(one: LadderElement, power: boolean[], is_chosen: boolean): Part {
   const on = one.to === null ? power[one.from] === true : power[one.to] === true;
   const value = one.value ?? '';
   const here = one.op !== null && one.op === state.past?.op;
   return h('g', { class: `${on ? 'on' : ''}${here ? ' here' : ''}`, onclick: () => { state.selected_line = one.line; changed(); } },
     h('title', {}, `line ${one.line}${value ? `: ${value}` : ''}`),
-    filling(one, power), one.kind === 'box' ? box(one) : h('path', { class: 'wire', d: one.kind === 'contact' ? contact_path(one) : coil_path(one) }),
-    symbol_text(one), one.operands.map((text) => address_text(text.text, text.column, text.row, one.op)));
+    filling(one, power), one.kind === 'box' ? box(one, is_chosen) : h('path', { class: 'wire', d: one.kind === 'contact' ? contact_path(one) : coil_path(one) }),
+    symbol_text(one), one.operands.map((text) => address_text(text.text, text.column, text.row, one.op, is_chosen)));
 }
 
 /** A contact that is closed is filled, as in Micro/WIN. */
@@ -150,14 +152,14 @@ function values(network: LadderNetwork): Child {
     symbols.map((note) => h('span', { class: 'hint', title: note.comment }, `${note.text} ${note.symbol}`)));
 }
 
-function drawing(network: LadderNetwork): Part {
+function drawing(network: LadderNetwork, is_chosen: boolean): Part {
   const grid = network.grid!, power = network.power ?? [];
   const width = kRail + (grid.columns + 2) * kCellWidth, height = grid.rows * kCellHeight + 10;
-  return h('svg', { class: 'ladder', width, height, viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `Network ${network.network} as ladder` },
+  return h('svg', { class: 'ladder', width, height, viewBox: `0 0 ${width} ${height}`, role: 'group', 'aria-label': `Network ${network.network} as ladder` },
     h('path', { class: `rail${power[0] ? ' on' : ''}`, d: `M${kRail} 0V${grid.rows * kCellHeight}` }),
     grid.wires.map((wire) => h('path', { class: `wire${power[wire.point] ? ' on' : ''}`,
       d: `M${middle_x(wire.column)} ${middle_y(wire.row)}L${middle_x(wire.to_column)} ${middle_y(wire.to_row)}` })),
-    (network.elements ?? []).map((one) => element(one, power)),
+    (network.elements ?? []).map((one) => element(one, power, is_chosen)),
     grid.connectors.map((one) => cell_text(one.text, one.column, one.row, 'address')));
 }
 
@@ -167,9 +169,9 @@ function stl_of(network: LadderNetwork): Part {
     h('pre', {}, lines.sort((a, b) => a.line - b.line).map((line) => `${line.text}\n`)));
 }
 
-function network_part(one: LadderNetwork): Child[] {
-  return [one.comments.map((comment) => h('div', { class: 'comment' }, comment)),
-    one.head !== null ? h('div', { class: 'ladder-stl' }, one.head) : one.grid ? [drawing(one), values(one)] : stl_of(one)];
+function network_part(one: LadderNetwork, is_chosen: boolean): Child[] {
+  return [one.comments.map((comment) => h('div', { class: 'comment', title: comment }, comment)),
+    one.head !== null ? h('div', { class: 'ladder-stl' }, one.head) : one.grid ? [drawing(one, is_chosen), values(one)] : stl_of(one)];
 }
 
 function follow(all: { place: Place; top: number }[]): void {
@@ -192,9 +194,29 @@ export function show_in_ladder(line: number): void {
   changed();
 }
 
+/** The network that was chosen with the keyboard or a click: that of the selected line, else the one where the CPU stands. */
+function chosen_of(all: Place[]): number {
+  const line = state.selected_line ?? state.past?.line ?? 0;
+  return Math.max(0, all.findIndex((place, i) => line >= place.line && line < (all[i + 1]?.line ?? Infinity)));
+}
+
+function on_key(event: KeyboardEvent): void {
+  const step = { ArrowUp: -1, ArrowDown: 1 }[event.key], all = places();
+  if (step === undefined) return;
+  event.preventDefault();
+  const next = all[chosen_of(all) + step];
+  if (!next) return;
+  state.selected_line = next.line;
+  const shown = document.querySelector(`#network-${next.line}`);
+  if (shown) shown.scrollIntoView({ block: 'nearest' });
+  else show_in_ladder(next.line);
+  changed();
+}
+
 export function ladder_view(): Part {
   let top = 0;
-  const all = places().map((place) => {
+  const networks = places(), chosen = networks[chosen_of(networks)]?.line;
+  const all = networks.map((place) => {
     const placed = { place, top, height: height_of(place) };
     top += placed.height;
     return placed;
@@ -206,10 +228,10 @@ export function ladder_view(): Part {
     in_view = shown.map((one) => one.place);
     seen.refresh();
   }
-  return h('div', { class: 'listing ladders', tabindex: '0', 'aria-label': 'Ladder', onscroll: changed,
+  return h('div', { class: 'listing ladders', tabindex: '0', role: 'group', 'aria-label': 'Ladder: arrows choose a network, Tab reaches its addresses', onscroll: changed, onkeydown: on_key,
     ref: (node: HTMLElement) => { const first = scroller !== node; scroller = node; if (first) requestAnimationFrame(changed); follow(all); } },
   h('div', { class: 'rows', style: { height: `${top}px` } }, shown.map(({ place, top: y }) =>
-    h('section', { class: `ladder-network${state.past?.op !== null && state.past && state.past.op! >= place.first && state.past.op! < place.end ? ' here' : ''}`, key: place.line, ref: measure(place), style: { top: `${y}px` } },
-      h('h3', {}, place.name), (state.ladder.get(place.line) ?? []).map(network_part),
+    h('section', { id: `network-${place.line}`, 'aria-label': place.name, class: `ladder-network${place.line === chosen ? ' chosen' : ''}${state.past?.op !== null && state.past && state.past.op! >= place.first && state.past.op! < place.end ? ' here' : ''}`, key: place.line, ref: measure(place), style: { top: `${y}px` } },
+      h('h3', {}, place.name), (state.ladder.get(place.line) ?? []).map((one) => network_part(one, place.line === chosen)),
       state.ladder.has(place.line) ? null : h('div', { class: 'hint' }, wrong || '…')))));
 }

@@ -6,21 +6,19 @@ import { command } from '../session';
 import { watch_address } from '../timeline/view';
 import { changed, state } from '../state';
 
-/** Where the keyboard was before the menu, and is again after it. */
-let before: HTMLElement | null = null;
-
 function open_at(x: number, y: number, address: string, op: number | null): void {
-  before = document.activeElement as HTMLElement | null;
   state.menu = { x, y, address, op };
   changed();
 }
 
+/** A button that was pressed with the keyboard says no place. */
 export function open_menu(event: MouseEvent, address: string, op: number | null): void {
-  open_at(event.clientX, event.clientY, address, op);
+  if (event.detail === 0 && event.currentTarget instanceof Element) open_menu_at(event.currentTarget, address, op);
+  else open_at(event.clientX, event.clientY, address, op);
 }
 
 /** Below an element that was chosen with the keyboard. */
-export function open_menu_at(element: HTMLElement, address: string, op: number | null): void {
+export function open_menu_at(element: Element, address: string, op: number | null): void {
   const box = element.getBoundingClientRect();
   open_at(box.left, box.bottom, address, op);
 }
@@ -28,7 +26,6 @@ export function open_menu_at(element: HTMLElement, address: string, op: number |
 export function close_menu(): void {
   if (!state.menu) return;
   state.menu = null;
-  before?.focus();
   changed();
 }
 

@@ -50,7 +50,7 @@ function said(): Part | null {
     const place = kPlace.exec(line);
     if (!place) return h('div', {}, line === '' ? ' ' : line);
     const shows = place[1] === state.sources[0]?.name ? () => show_line(Number(place[2])) : undefined;
-    return h('div', { class: `${place[3]}${shows ? ' leads' : ''}`, title: shows ? 'Show the line' : '', onclick: shows }, line);
+    return h(shows ? 'button' : 'div', { class: `${place[3]}${shows ? ' leads' : ''}`, title: shows ? 'Show the line' : '', onclick: shows }, line);
   }));
 }
 

@@ -1,9 +1,9 @@
 // Program status: the listing with power flow and values at the moment where the session stands. Only the lines in view are made.
-import { h, type Child, type Part } from '../dom';
+import { h, is_press, kept, type Child, type Part } from '../dom';
 import { command, fetch_chunk_of, go_to, see_lines } from '../session';
 import { changed, notice, state } from '../state';
 import { duration_text, moment_text } from '../words';
-import type { Execution, Line, Operand } from '../protocol';
+import type { Execution, Line, Operand, Outline } from '../protocol';
 import { open_menu, open_menu_at } from './menu';
 import { ladder_view, show_in_ladder } from './ladder';
 import { opener } from './opener';
@@ -85,7 +85,7 @@ function operand(one: Operand, value: number | boolean | null | undefined, line:
     class: `operand${on ? ' on' : ''}`, role: 'button', tabindex: line.line === state.selected_line ? '0' : '-1',
     title: one.symbol ? `${one.symbol} (${one.address})` : one.address,
     onclick: (event: MouseEvent) => { event.stopPropagation(); open_menu(event, one.address, line.op); },
-    onkeydown: (event: KeyboardEvent) => { if (event.key === 'Enter') open_menu_at(event.target as HTMLElement, one.address, line.op); },
+    onkeydown: (event: KeyboardEvent) => { if (is_press(event)) open_menu_at(event.target as Element, one.address, line.op); },
   }, one.text);
 }
 
@@ -114,6 +114,11 @@ function values_of(line: Line, execution: Execution): Part[] {
   });
 }
 
+function go_to_execution(line: Line | undefined): void {
+  const execution = line && line.op !== null ? state.executions.get(line.op) : undefined;
+  if (execution) void go_to(execution.at_ns);
+}
+
 function row(number: number, headings: Set<number>): Part {
   const line = state.lines.get(number);
   const op = line?.op ?? null;
@@ -124,17 +129,18 @@ function row(number: number, headings: Set<number>): Part {
   const classes = ['row', here ? 'here' : '', headings.has(number) ? 'heading' : '', op !== null ? `op ${flow}` : '',
     state.selected_line === number ? 'selected' : ''].filter(Boolean).join(' ');
   const age = execution && state.past ? state.past.now_ns - execution.at_ns : 0;
-  return h('div', { class: classes, key: number, style: { top: `${(number - 1) * kRow}px` }, role: 'row',
+  return h('div', { class: classes, key: number, id: `line-${number}`, style: { top: `${(number - 1) * kRow}px` }, role: 'row', 'aria-rowindex': number,
+    'aria-selected': String(state.selected_line === number),
     onclick: () => { state.selected_line = number; changed(); },
-    ondblclick: () => { if (execution) void go_to(execution.at_ns); } },
+    ondblclick: () => go_to_execution(line) },
   h('span', { class: `margin${stop ? ' stop' : ''}`, role: 'button', 'aria-label': `${stop ? 'Remove' : 'Set'} breakpoint in line ${number}`,
     title: op === null ? '' : 'Click: breakpoint', onclick: (event: Event) => { event.stopPropagation(); void toggle_breakpoint(number); } },
   stop ? '●' : '', here ? h('span', { class: 'arrow' }, '➤') : null),
-  h('span', { class: 'number' }, String(number)),
-  h('span', { class: 'flow', title: execution ? `power flow ${execution.powerFlow ? 1 : 0}; executed ${duration_text(age)} ago, at ${moment_text(execution.at_ns)}` : '' },
+  h('span', { class: 'number', role: 'rowheader' }, String(number)),
+  h('span', { class: 'flow', role: 'gridcell', 'aria-label': execution ? `power flow ${execution.powerFlow ? 1 : 0}` : undefined, title: execution ? `power flow ${execution.powerFlow ? 1 : 0}; executed ${duration_text(age)} ago, at ${moment_text(execution.at_ns)}` : '' },
     execution ? (execution.top ? '1' : '0') : ''),
-  h('span', { class: 'text' }, line ? text_of(line, execution) : '…'),
-  execution && line ? h('span', { class: 'values' }, values_of(line, execution)) : null);
+  h('span', { class: 'text', role: 'gridcell' }, line ? text_of(line, execution) : '…'),
+  execution && line ? h('span', { class: 'values', role: 'gridcell' }, values_of(line, execution)) : null);
 }
 
 function heading_lines(): Set<number> {
@@ -152,15 +158,17 @@ function listing(): Part {
   const first = Math.max(1, line_at_top() - kMore);
   const last = Math.min(lines, line_at_top() + Math.ceil(height / kRow) + kMore);
   if (last >= first) queueMicrotask(() => see_lines(first, last));
-  const headings = heading_lines();
+  const headings = heading_lines(), selected = state.selected_line;
   const rows: Part[] = [];
   for (let number = first; number <= last; ++number) rows.push(row(number, headings));
-  return h('div', { class: 'listing', role: 'grid', 'aria-label': 'Listing', 'aria-rowcount': lines, tabindex: '0', onscroll: changed, onkeydown: on_key,
+  return h('div', { class: 'listing', role: 'grid', 'aria-label': 'Listing', 'aria-rowcount': lines, tabindex: '0',
+    'aria-activedescendant': selected !== null && selected >= first && selected <= last ? `line-${selected}` : undefined, onscroll: changed, onkeydown: on_key,
     ref: (node: HTMLElement) => { const first_time = scroller !== node; scroller = node; if (first_time) requestAnimationFrame(changed); follow(); } },
   h('div', { class: 'rows', style: { height: `${lines * kRow}px` } }, rows));
 }
 
 function on_key(event: KeyboardEvent): void {
+  if (event.key === 'Enter' && event.target === event.currentTarget) go_to_execution(state.lines.get(state.selected_line ?? 0));
   const step = { ArrowUp: -1, ArrowDown: 1, PageUp: -20, PageDown: 20 }[event.key];
   if (step === undefined || !state.outline) return;
   event.preventDefault();
@@ -173,17 +181,16 @@ function on_key(event: KeyboardEvent): void {
 }
 
 /** Blocks and networks to jump to. */
-function block_choice(): Part {
-  return h('select', { class: 'navigator', 'aria-label': 'Go to block or network', value: '', onchange: (event: Event) => {
+const block_choice = kept((outline: Outline | null): Part =>
+  h('select', { class: 'navigator', 'aria-label': 'Go to block or network', value: '', onchange: (event: Event) => {
     const field = event.target as HTMLSelectElement;
     if (field.value !== '') (state.view === 'ladder' ? show_in_ladder : scroll_to)(Number(field.value));
     field.value = '';
   } }, h('option', { value: '' }, 'Block, network …'),
-  (state.outline?.routines ?? []).map((routine) => h('optgroup', { label: routine.name }, [
+  (outline?.routines ?? []).map((routine) => h('optgroup', { label: routine.name }, [
     h('option', { value: String(routine.line) }, routine.name),
     ...routine.networks.filter((one) => one.number !== null).map((one) =>
-      h('option', { value: String(one.line) }, `Network ${one.number}${one.title ? `  ${one.title}` : ''}`))])));
-}
+      h('option', { value: String(one.line) }, `Network ${one.number}${one.title ? `  ${one.title}` : ''}`))]))));
 
 function view_button(view: 'stl' | 'ladder', name: string): Part {
   return h('button', { 'aria-pressed': String(state.view === view), onclick: () => { state.view = view; changed(); } }, name);
@@ -197,7 +204,7 @@ function content(): Part {
 
 export function program_pane(): Part {
   return h('section', { id: 'pane-program', class: 'pane program', 'aria-label': 'Program status', tabindex: '-1' },
-    h('header', {}, h('h2', {}, 'Program status'), block_choice(),
+    h('header', {}, h('h2', {}, 'Program status'), block_choice(state.outline),
       h('form', { class: 'find', onsubmit: (event: Event) => { event.preventDefault(); void find((event.target as HTMLElement).querySelector('input')!.value); } },
         h('input', { id: 'find', type: 'search', placeholder: 'Find (/)', 'aria-label': 'Find in the program', oninput: () => { found_at = 0; } })),
       h('button', { class: 'toggle', 'aria-pressed': String(state.follow), title: 'Show where the CPU stands (f)', onclick: () => { state.follow = !state.follow; followed = null; changed(); } }, 'Follow'),

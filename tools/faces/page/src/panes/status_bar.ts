@@ -3,6 +3,7 @@ import { h, type Part } from '../dom';
 import { changed, state } from '../state';
 import { icon } from '../icons';
 import { toggle_dialog } from '../actions';
+import { can_open } from '../playground';
 
 const kConnections = {
   connecting: 'connecting …',
@@ -34,6 +35,9 @@ export function notice_bar(): Part | null {
   if (state.connection === 'lost')
     return h('div', { class: 'notice error', role: 'alert', key: 'lost' },
       'The connection to s7200 is lost. What you see is the last that was known; the page connects again by itself.');
+  if (state.connection === 'ended')
+    return h('div', { class: 'notice error', role: 'alert', key: 'ended' },
+      `The session has ended${state.why_ended ? `: ${state.why_ended}` : ''}. What you see is the last that was known${can_open() ? '' : '; when s7200 is started at this address again, the page connects to it'}.`);
   if (!state.notice) return null;
   return h('div', { class: `notice ${state.notice.kind}`, role: state.notice.kind === 'error' ? 'alert' : 'status', key: 'notice' },
     h('span', {}, state.notice.text),

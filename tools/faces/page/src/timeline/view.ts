@@ -26,7 +26,7 @@ export async function spans_between(from_ns: number, to_ns: number, elements = k
 const kLate = 300;   // ms after which it is said that something is being computed
 const kRest = 150;  // ms between two questions while it runs, so that the run goes on meanwhile
 
-const seen = new Seen(async () => {
+const seen: Seen = new Seen(async () => {
   if (state.running) await new Promise((done) => setTimeout(done, kRest));
   const past = state.past;
   if (!past || !state.outline) return;
@@ -38,11 +38,12 @@ const seen = new Seen(async () => {
     state.spans = state.picture;
     return;
   }
-  const late = setTimeout(() => { state.computing = true; changed(); }, kLate);
+  const late = setTimeout(() => { state.computing = true; changed(); }, kLate), while_running = state.running;
   const spans = await spans_between(first, last, kElements, state.watched);
   clearTimeout(late);
   state.computing = false;
   if (spans) state.spans = spans;
+  if (spans?.interrupted && while_running) seen.refresh();  // it was the run that was stopped
 });
 
 /** Whether all of the run of a report is seen, of which there is a picture. */

@@ -1,0 +1,103 @@
+// Several windows on one session, and what becomes of them when s7200 ends or is started again.
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { browser, end, open, picture, view } from './support.mjs';
+
+const kPump = ['tests/exports/pump.awl', 'tests/exports/pump_symbols.txt', 'tests/exports/pump_data.txt'];
+let chrome, folder;
+before(async () => {
+  chrome = await browser();
+  folder = mkdtempSync(path.join(tmpdir(), 's7200-'));
+  writeFileSync(path.join(folder, 'token'), 'a-token-of-32-characters-as-it-is\n');
+});
+after(async () => {
+  await chrome?.close();
+  rmSync(folder, { recursive: true });
+});
+
+/** What both show of the session. */
+const shown = (page) => page.evaluate(() => ({
+  moment: document.querySelector('#moment').value, scan: document.querySelector('.scan-number').textContent,
+  tag: document.querySelector('.tag').textContent, stops: document.querySelectorAll('.margin.stop').length,
+  forced: document.querySelectorAll('.bulb.forced').length, on: document.querySelectorAll('.switch.on').length,
+}));
+async function same(one, other) {
+  const wanted = await shown(one);
+  for (let i = 0; i < 100 && JSON.stringify(await shown(other)) !== JSON.stringify(wanted); ++i) await other.waitForTimeout(50);
+  assert.deepEqual(await shown(other), wanted);
+}
+
+test('two windows show the same, one that is loaded anew too, and one that is closed is not missed', async () => {
+  const plc = await view(...kPump);
+  const [one, other] = [await open(chrome, plc.address), await open(chrome, plc.address)];
+  await one.fill('#add-address', 'Q0.0');
+  await one.press('#add-address', 'Enter');
+  await one.click('#do-scan');
+  await one.click('[aria-label^="Input I0.2"]');
+  await one.click('#do-scan');
+  await one.click('#do-scan');
+  await one.waitForSelector('[aria-label^="Input I0.2"][aria-checked=true]');
+  await one.locator('.new-value').first().fill('1');
+  await one.click('[aria-label="Force Q0.0"]');
+  await one.waitForSelector('tr.forced');
+  await other.click('.row.here .margin');
+  await one.waitForSelector('.margin.stop');
+  await one.click('#do-rscan');
+  await one.waitForSelector('.tag.past');
+  await same(one, other);
+  await other.reload();
+  await other.waitForSelector('.margin.stop');
+  await same(one, other);
+  await other.close();
+  await one.click('#do-end');
+  await one.waitForSelector('.tag.now');
+  assert.deepEqual(one.troubles, []);
+  await one.close();
+  await end(plc.server);
+});
+
+test('s7200 ends at once when it is asked to, and each window says so', async () => {
+  const plc = await view(...kPump);
+  const [one, other] = [await open(chrome, plc.address), await open(chrome, plc.address)];
+  await one.click('#do-run');
+  await other.waitForFunction(() => document.querySelector('#do-run').textContent === 'Pause');
+  await end(plc.server);
+  for (const page of [one, other]) {
+    await page.waitForSelector('.notice.error:has-text("The session has ended")');
+    await page.waitForFunction(() => document.querySelector('#do-run').textContent === 'Run');
+  }
+  await picture(one, 'windows_ended');
+  await one.close();
+  await other.close();
+});
+
+test('a page connects to s7200 that is started at its address again, and begins anew', async () => {
+  const words = [...kPump, '--token-file', path.join(folder, 'token')];
+  let running = await view(...words);
+  const port = new URL(running.address).port;
+  const page = await open(chrome, running.address);
+  await page.click('#do-scan');
+  await page.click('[aria-label^="Input I0.2"]');
+  await page.click('#do-scan');
+  await page.fill('#moment', '2 s');
+  await page.press('#moment', 'Enter');
+  await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) > 1999);
+  for (const signal of ['SIGTERM', 'SIGKILL']) {
+    running.server.kill(signal);
+    await page.waitForSelector('.notice.error');
+    await page.waitForSelector('.connection:not(.connected)');
+    running = await view(...words, '--listen', port);
+    await page.waitForSelector('.connection.connected');
+    await page.waitForFunction(() => parseFloat(document.querySelector('#moment').value) === 0);
+    await page.waitForSelector('.notice.info:has-text("another session")');
+    await page.waitForSelector('[aria-label^="Input I0.2"][aria-checked=false]');
+    await page.click('#do-scan');
+    await page.waitForFunction(() => document.querySelector('.scan-number').textContent === 'scan 1');
+  }
+  assert.deepEqual(page.troubles.filter((one) => !/WebSocket connection/.test(one)), []);
+  await page.close();
+  await end(running.server);
+});
