@@ -107,6 +107,30 @@ TEST(IdleScans, AreLearntWhereInstructionsAreWatchedFromTheBeginning) {
   EXPECT_LT(watcher.instructions, watched.cpu.state().instructions / 2);
 }
 
+/// In the scan in which a program is learnt it may do something to the outside: that happens once, and at its instant.
+TEST(IdleScans, WhatAWatchedProgramDoesWhileItIsLearntHappensOnce) {
+  struct Watcher final : TraceSink {
+    bool wants_instructions() const override { return true; }
+    bool wants_scans() const override { return false; }
+  } watcher;
+  for (const char* does : {"MOVB 16#05, SMB30\n", "XMT VB100, 0\n", "ATCH 0, 10\nENI\n", "STOP\n", "WDR\nMOVD 16#03000000, AC1\nMOVB *AC1, VB20\n",
+                           "FOR VW8, 1, 9999\nSQRT VD60, VD64\nNEXT\n", "= Q0.3\n"}) {
+    for (int scan = 100; scan < 145; ++scan) {
+      const std::string text = fmt::format(
+          "LD SM0.1\nMOVB 9, SMB30\nMOVB 3, VB100\nMOVB 7, SMB34\nLD SM0.0\nINCW VW0\nLDW= VW0, {}\n{}MEND\nINT 0\nLD SM0.0\nINCW VW4\nRETI\n", scan, does);
+      PlcThat watched(SteadyScansUse::On, text), plain(SteadyScansUse::Off, text);
+      watched.cpu.set_sink(&watcher);
+      for (PlcThat* const plc : {&watched, &plain}) plc->run_until(400 * ms);
+      ASSERT_EQ(watched.cpu.state(), plain.cpu.state()) << text;
+      ASSERT_EQ(watched.queue, plain.queue) << text;
+      ASSERT_EQ(watched.port.sent, plain.port.sent) << text;
+      ASSERT_EQ(watched.port.format, plain.port.format) << text;
+      ASSERT_EQ(watched.port.configured_at, plain.port.configured_at) << text;
+      ASSERT_EQ(watched.port.switched_at, plain.port.switched_at) << text;
+    }
+  }
+}
+
 TEST(IdleScans, AnInterruptThatWritesWhatTheProgramReadsIsSeenInTheNextScan) {
   Both both(with_interrupt("LDW>= VW0, 50\n= Q0.0\nLDB= SMB2, 77\nEU\nINCW VW4\n", "INCW VW0\n"));
   characters(both, 200);
