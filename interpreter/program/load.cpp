@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "interpreter/base/text/text.hpp"
@@ -19,6 +20,7 @@
 #include "interpreter/stl/tables/symbols.hpp"
 #include "interpreter/stl/text/encoding.hpp"
 #include "interpreter/stl/text/plain_text.hpp"
+#include "interpreter/stl/text/string_literals.hpp"
 
 namespace s7200 {
 namespace {
@@ -178,8 +180,57 @@ std::size_t mnemonic_without_blank(std::string_view code) {
   return 0;
 }
 
+/// Text of another product's programming software, and a sign of it.
+struct OtherProduct {
+  std::string_view sign, what;
+};
+constexpr std::array kOtherProducts{
+    OtherProduct{"LOGO!",
+                 "it is about LOGO!, not the S7-200; LOGO!Soft Comfort has no STL, so enter its blocks as STL by hand"},
+    OtherProduct{"<SW.Blocks.", "it is a block of TIA Portal for the S7-1200 and S7-1500, not a program of the S7-200"},
+    OtherProduct{"S7_Optimized_Access",
+                 "it is a block of TIA Portal for the S7-1200 and S7-1500, not a program of the S7-200"},
+    OtherProduct{"http://www.plcopen.org/xml/",
+                 "it is PLCopen XML, not STL of the S7-200; export the program as STL from Micro/WIN"},
+    OtherProduct{"<RSLogix5000Content", "it is a project for Allen-Bradley controllers, not a program of the S7-200"},
+};
+
+/// `B001(On-Delay)`, `B012(AND) :`: a block as LOGO!Soft Comfort prints it.
+bool is_logo_block(std::string_view line) {
+  const std::size_t digits = line.find_first_not_of("0123456789", 1);
+  return line.starts_with('B') && digits == 4 && line[digits] == '(' && line.find(')', digits) != line.npos;
+}
+
+/// `:U E 1.0`, `:BE`, `:L KF +10`: a line of STEP 5.
+bool is_step5(std::string_view code) {
+  if (!code.starts_with(':')) return false;
+  const std::vector<std::string> words = stl::split_words(stl::upper_case(code.substr(1)));
+  constexpr std::array kWords{"U", "UN", "O", "ON", "=", "S", "R", "L", "T", "BE", "BEA", "BEB", "SPA", "SPB", "U(", "O("};
+  return !words.empty() && std::ranges::find(kWords, words[0]) != kWords.end();
+}
+
+/// The product that a text belongs to, and what to do; empty if none is known.
+std::string_view why_other_product(std::string_view text) {
+  std::size_t blocks = 0, step5 = 0;
+  constexpr std::size_t kSeen = 1 << 16;
+  text = text.substr(0, kSeen);
+  const auto* const product =
+      std::ranges::find_if(kOtherProducts, [text](const OtherProduct& each) { return text.find(each.sign) != text.npos; });
+  if (product != kOtherProducts.end()) return product->what;
+  while (!text.empty()) {
+    const std::string_view line = stl::trim(stl::take_line(text));
+    blocks += is_logo_block(line) ? 1U : 0U;
+    step5 += is_step5(line) ? 1U : 0U;
+  }
+  if (blocks > 1) return kOtherProducts[0].what;
+  if (step5 > 1)
+    return "it is a program in STEP 5 for the S5, not STL of the S7-200: A for U, I and Q for E and A, no : before it";
+  return {};
+}
+
 /// The message about a text that has no statement in its first lines.
 std::string why_not_stl(std::string_view text) {
+  if (const std::string_view product = why_other_product(text); !product.empty()) return std::string(product);
   std::uint32_t number = 0;
   while (!text.empty()) {
     const std::string_view line = stl::take_line(text), code = stl::trim(line);
@@ -192,15 +243,27 @@ std::string why_not_stl(std::string_view text) {
          "Q0.0";
 }
 
+/// Whether a line is one of a patch: `-LD I0.0`, `+= Q0.0`, but not `+I VW0, VW2`.
+bool is_changed_line(std::string_view line) {
+  if (!line.starts_with('+') && !line.starts_with('-')) return false;
+  const std::string mnemonic = stl::upper_case(line.substr(1, std::min<std::size_t>(line.find_first_of(" \t", 1), 12) - 1));
+  const bool own = find_instruction(line.front() + mnemonic) != nullptr;
+  return !own && (mnemonic == "NETWORK" || find_instruction(mnemonic) != nullptr);
+}
+
 /// What stands around a program so that it cannot be read, and what to do; empty if nothing does.
 std::string_view why_wrapped(std::string_view text) {
-  bool minus = false, plus = false, mail = false;
+  constexpr std::string_view kPatch =
+      "it is a patch (unified diff), not a program: apply it with patch, and give the program that comes out";
+  bool minus = false, plus = false, hunk = false, mail = false;
+  std::size_t changed = 0;
   while (!text.empty()) {
     const std::string_view line = stl::take_line(text);
     minus |= line.starts_with("--- ");
     plus |= line.starts_with("+++ ");
-    if (minus && plus && line.starts_with("@@ -"))
-      return "it is a patch (unified diff), not a program: apply it with patch, and give the program that comes out";
+    hunk |= line.starts_with("@@ -");
+    changed += is_changed_line(line) ? 1U : 0U;
+    if ((hunk && ((minus && plus) || changed > 0)) || changed > 1) return kPatch;
     const std::string lower = line.size() < 80 ? stl::lower_case(line) : "";
     mail |= lower.starts_with("content-transfer-encoding: quoted-printable");
     if (lower.starts_with("content-transfer-encoding: base64") || mail || line.starts_with("=3D"))
@@ -268,7 +331,8 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
     why = wrapped;
     return {};
   }
-  const stl::PlainText plain(decoded->text);
+  const auto inside = stl::program_in_strings(decoded->text);
+  const stl::PlainText plain(inside ? inside->text : decoded->text);
   const auto cpu_line = place_of_cpu_line(plain.text());
   auto source = cpu_line ? read_plain(std::string(plain.text()).insert(*cpu_line, "// "), name, force_document)
                          : read_plain(plain.text(), name, force_document);
@@ -281,6 +345,7 @@ std::optional<SourceText> read_source(std::string_view bytes, const std::string&
     std::ranges::move(stl::read_symbol_table(plain.symbols(), name).source.symbols,
                       std::back_inserter(source->parsed.source.symbols));
   plain.restore(source->parsed);
+  if (inside) source->parsed.notes.push_back(fmt::format("{}: {}", name, inside->note));
   source->encoding = decoded->encoding;
   return source;
 }

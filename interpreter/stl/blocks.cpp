@@ -236,6 +236,10 @@ class BlockReader {
 
   void read_outside(std::string_view code, std::string_view line) {
     if (code.empty()) return keep(line);
+    if (keyword_of(code) == "TITLE") {  // written before the head of its block
+      title_before_ = title_of(code, line);
+      return;
+    }
     error(position_of(code), "this line is in no block",
           "a block ends with END_ and its keyword; what follows begins with the head of another block", "outside of blocks");
   }
@@ -244,7 +248,7 @@ class BlockReader {
     if (keyword == "BEGIN") {
       state_ = State::Code;
     } else if (keyword == "TITLE") {
-      read_title(code, line);
+      block().title = title_of(code, line);
     } else if (const auto kind = declaration_kind(keyword)) {
       if (block().kind == Block::Kind::Interrupt && *kind != Variable::Kind::Temporary)
         error(position_of(code), "an interrupt routine has no parameters", "declare its variables with VAR");
@@ -270,12 +274,12 @@ class BlockReader {
     }
   }
 
-  void read_title(std::string_view code, std::string_view line) {
+  static std::string_view title_of(std::string_view code, std::string_view line) {
     const std::size_t equals = line.find('=');
     std::string_view title = equals == std::string_view::npos ? code.substr("TITLE"sv.size()) : line.substr(equals + 1);
     title = trim(title);
     if (title.starts_with("//")) title = trim(title.substr(2));
-    block().title = title;
+    return title;
   }
 
   void read_code(const std::string& keyword, std::string_view code, std::string_view line) {
@@ -349,6 +353,7 @@ class BlockReader {
 
   void begin_block() {
     open_ = true;
+    block().title = std::exchange(title_before_, {});
     state_ = State::Head;
     if (block().kind == Block::Kind::Main && std::exchange(has_main_, true))
       error(block().position, "the main program is defined twice", "a program has one ORGANIZATION_BLOCK");
@@ -599,6 +604,7 @@ class BlockReader {
   Position declaration_start_{};
   std::set<std::string> declared_;  // variables of the open block, in capitals
   bool has_main_ = false;
+  std::string title_before_{};  ///< that stands before the head of the block
   std::vector<std::size_t> without_number_;
 };
 

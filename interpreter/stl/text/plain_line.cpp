@@ -11,7 +11,7 @@
 namespace s7200::stl::plain {
 namespace {
 
-constexpr std::array<std::pair<Change, std::string_view>, 19> kChangeNames{{
+constexpr std::array<std::pair<Change, std::string_view>, 20> kChangeNames{{
     {kBlanks, "no-break and other Unicode blanks"},
     {kFullWidth, "full-width signs"},
     {kQuotes, "typographic quotes"},
@@ -31,6 +31,7 @@ constexpr std::array<std::pair<Change, std::string_view>, 19> kChangeNames{{
     {kBrokenComments, "comments that go on in the next line"},
     {kInformation, "symbol information of a printout"},
     {kSemicolons, "semicolons for commas"},
+    {kComments, "comments of other languages"},
 }};
 
 // --- single characters ---

@@ -30,6 +30,7 @@ enum Change : std::uint32_t {
   kBrokenComments = 1U << 16,
   kInformation = 1U << 17,
   kSemicolons = 1U << 18,
+  kComments = 1U << 19,
 };
 
 /// The names of changes, for a note.

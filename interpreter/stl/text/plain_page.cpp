@@ -279,8 +279,8 @@ std::size_t network_word(std::string_view text) {
   return beyond == std::end(kBeyond) ? 0 : beyond->size();
 }
 
-/// A heading of a network that is not written as STL has it: `Netzwerk 1`, `Réseau 2: arrêt`, `Network #3`; in printouts
-/// `Network 2    Timer`.
+/// A heading of a network that is not written as STL has it: `Netzwerk 1`, `Réseau 2: arrêt`, `Network #3`, `Network 1 -
+/// Start`; in printouts `Network 2    Timer`.
 struct NetworkHeading {
   std::size_t begin = 0, end = 0;  ///< of the word and its number
   std::string_view number{}, title{};
@@ -311,8 +311,11 @@ std::optional<NetworkHeading> network_heading(std::string_view line) {
   if (dash != std::end(kDashes)) heading.title = trim(rest.substr(dash->size()));
   if (own && !sharp) {  // a title as printouts have it: no statement has such a word
     const std::string_view first = heading.title.substr(0, heading.title.find_first_of(" \t"));
-    const bool printed = apart && dash == std::end(kDashes) && is_upper(first[0]) && std::ranges::any_of(first, is_lower);
-    return printed && written == "Network" ? std::optional(heading) : std::nullopt;
+    if (heading.title.empty() || looks_like_statement(heading.title) || is_digit(rest.substr(1, 1).empty() ? ' ' : rest[1]))
+      return std::nullopt;
+    const bool marked = dash != std::end(kDashes) || rest.starts_with('(') || rest.starts_with('"');
+    const bool printed = apart && is_upper(first[0]) && std::ranges::any_of(first, is_lower) && written == "Network";
+    return marked || printed ? std::optional(heading) : std::nullopt;
   }
   return dash != std::end(kDashes) || rest.starts_with('(') ? std::optional(heading) : std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "interpreter/base/text/text.hpp"
+#include "interpreter/stl/text/foreign_comments.hpp"
 #include "interpreter/stl/text/places.hpp"
 #include "interpreter/stl/text/plain_page.hpp"
 
@@ -65,7 +66,9 @@ bool is_identity(const std::vector<std::uint32_t>& columns) {
 
 bool has_such_a_line(std::string_view text) {
   while (!text.empty())
-    if (const std::string_view line = take_line(text); may_be_different(line) || may_need_page(line)) return true;
+    if (const std::string_view line = take_line(text);
+        may_be_different(line) || may_need_page(line) || may_have_foreign_comment(line))
+      return true;
   return false;
 }
 
@@ -94,7 +97,8 @@ PlainText::PlainText(std::string_view original) : original_(original) {
   using namespace plain;
   if (!has_such_a_line(original)) return;
   original_lines_ = split_lines(original);
-  const std::vector<std::string>& lines = original_lines_;
+  std::vector<std::string> lines = original_lines_;
+  const std::vector<bool> with_comments = rewrite_foreign_comments(lines);
   const bool html = std::ranges::any_of(lines, has_html);
   const auto opens_pre = [](const std::string& line) { return find_tag(line, "pre", false) != std::string::npos; };
   std::vector<Part> parts = whole(lines);
@@ -107,7 +111,10 @@ PlainText::PlainText(std::string_view original) : original_(original) {
   }
   for (std::uint32_t i = 0; i < lines.size(); ++i)
     if (parts[i].empty() && !trim(lines[i]).empty()) left_out_.push_back(i + 1);
-  Page page = read_page(read_lines(lines, parts, html), lines);
+  std::vector<Row> rows = read_lines(lines, parts, html);
+  for (Row& row : rows)
+    if (!with_comments.empty() && with_comments[row.original - 1]) row.changes |= kComments;
+  Page page = read_page(std::move(rows), lines);
   around_ |= page.around;
   left_out_.insert(left_out_.end(), page.left_out.begin(), page.left_out.end());
   std::ranges::sort(left_out_);

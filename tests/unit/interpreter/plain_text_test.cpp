@@ -412,6 +412,7 @@ TEST(PlainText, HeadingsOfNetworksInOtherLanguagesAreRead) {
                                       {"Ağ 1: Start", "Ağ 2"},
                                       {"Network #1: Start", "Network #2"},
                                       {"NW 1: Start", "NW 2"},
+                                      {"NETWORK 1: Start", "NETWORK 2"},
                                       {"Network 1    Start", "Network 2"}})
     EXPECT_EQ(program(std::string(first) + "\nLD I0.0\n= Q0.0\n" + second + "\nLD I0.1\n= Q0.1\n"), plain) << first;
   EXPECT_EQ(note("Réseau 1\nLD I0.0\n= Q0.0\n"), "page.txt: read as plain text: headings of networks; the first in line 1");
@@ -419,7 +420,7 @@ TEST(PlainText, HeadingsOfNetworksInOtherLanguagesAreRead) {
 }
 
 TEST(PlainText, AnInstructionBesideAHeadingIsNoTitle) {
-  for (const char* line : {"NETWORK 1  NOT", "NETWORK 1 LD I0.0", "network 1  not", "NETWORK 1: Start"})
+  for (const char* line : {"NETWORK 1  NOT", "NETWORK 1 LD I0.0", "network 1  not", "NETWORK 1: LD I0.0"})
     EXPECT_TRUE(stl::has_errors(checked(std::string(line) + "\nLD I0.0\n= Q0.0\n").diagnostics)) << line;
 }
 
