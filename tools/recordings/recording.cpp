@@ -11,6 +11,8 @@
 #include "interpreter/stl/text/encoding.hpp"
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/left_out.hpp"
+#include "tools/recordings/logs/rewritten.hpp"
+#include "tools/recordings/logs/two_loggers.hpp"
 #include "tools/recordings/rows/lines.hpp"
 #include "tools/recordings/rows/markup.hpp"
 
@@ -214,6 +216,8 @@ bool is_text(std::string_view bytes) { return bytes.find('\0') == std::string_vi
 std::optional<LineRecording> read_recording(std::string_view file, const ReadingChoices& choices, std::string& why) {
   std::string decoded;
   std::string_view bytes = in_utf8(file, decoded);
+  const auto rows = in_plain_rows(bytes);
+  if (rows) bytes = *rows;
   const auto plain = without_markup(bytes);
   if (plain) bytes = plain->text;
   const auto form = std::ranges::find_if(kForms, [&](const RecordingForm& each) { return each.looks_like(bytes); });
@@ -233,6 +237,7 @@ std::optional<LineRecording> read_recording(std::string_view file, const Reading
   if (!recording) return {};
   recording->form = form->name;
   recording->is_log |= form->is_log;
+  if (form->looks_like == is_text) keep_one_logger(*recording, bytes);
   name_rows_not_read(*recording);
   if (plain && !plain->note.empty()) recording->notes.push_back(plain->note);
   if (form->is_log) read_modbus_tcp(*recording);

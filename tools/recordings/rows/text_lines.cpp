@@ -98,7 +98,7 @@ ReadFrame read_text(const RecordedFrame& frame) {
 }
 
 /// A CR with nothing after it may have its LF to come.
-std::size_t first_line(Data bytes) {
+std::size_t length_of_line(Data bytes) {
   const auto end = std::ranges::find_if(bytes, ends_line);
   if (end == bytes.end()) return 0;
   if (*end == kLf) return static_cast<std::size_t>(end - bytes.begin()) + 1;
@@ -110,7 +110,7 @@ std::size_t first_line(Data bytes) {
 std::size_t first_text_message(Data bytes) {
   if (bytes.empty()) return 0;
   if (find_signal(bytes.front()) != nullptr) return 1;
-  if (bytes.front() != kStx) return first_line(bytes);
+  if (bytes.front() != kStx) return length_of_line(bytes);
   if (block_of(bytes)) return bytes.size();
   const auto end = std::ranges::find_if(bytes, ends_block);
   return end == bytes.end() ? 0 : static_cast<std::size_t>(end - bytes.begin()) + 1;
