@@ -1302,6 +1302,9 @@ class Json(Case):
         self.assertEqual(result["dump"], {"VB0:4": {"type": "byte", "hex": "00001234", "values": [0, 0, 0x12, 0x34]},
                                           "VW2": {"type": "word", "hex": "1234", "values": [0x1234]},
                                           "V2.1": {"type": "bit", "hex": "01", "values": [1]}})
+        several = self.json(FINE, "run", path, "--scans", "3", "--set", "VD100=16#7F000000,VW8=5", "--dump", "VB0:4,VW8", "--json")
+        self.assertEqual({name: each["values"] for name, each in several["dump"].items()},
+                         {"VB0:4": [0, 0, 0x12, 0x34], "VW8": [5]})
         error = result["errors"][0]
         self.assertEqual((error["code"], error["fatal"], error["line"], error["count"]), ("0006", False, 3, 3))
         self.assertEqual(self.json(FINE, "run", path, "--for", "7ms", "--json")["stop_reason"], "time")

@@ -15,6 +15,16 @@ TEST(Words, ACommentBeginsWithTwoSlashesOrWithAHashAtTheStartOfALine) {
   EXPECT_EQ(session.error_of("print VW10 # the number of scans"), "no error");
 }
 
+TEST(Words, AssignmentsHaveBlanksWithinAndCommasBetweenThem) {
+  AtPrompt session(kNested);
+  EXPECT_EQ(session.error_of("set VW 100=3"), "no error");
+  EXPECT_EQ(session.error_of("set VW 102 = 4"), "no error");
+  EXPECT_EQ(session.error_of("set VW104=5,VW106=6"), "no error");
+  EXPECT_EQ(session.error_of("set VW108=7, VB110=','"), "no error");
+  EXPECT_EQ(session.error_of("expect VW100 = 3 and VW102 = 4 and VW104 = 5 and VW106 = 6 and VW108 = 7 and VB110 = 44"),
+            "no error");
+}
+
 constexpr std::string_view kScale =
     "ORGANIZATION_BLOCK MAIN:OB1\nBEGIN\nNETWORK 1\nLD SM0.0\nCALL SBR0, 7, VW100\nEND_ORGANIZATION_BLOCK\n"
     "SUBROUTINE_BLOCK Scale:SBR0\nVAR_INPUT\nraw : INT;\nEND_VAR\nVAR_OUTPUT\nresult : INT;\nEND_VAR\nVAR\nratio : REAL;\n"

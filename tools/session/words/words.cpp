@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "interpreter/base/text/numbers.hpp"
 #include "interpreter/base/text/text.hpp"
 #include "interpreter/model/cpu_model.hpp"
@@ -14,17 +17,53 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+namespace {
+
+/// Whether a word is the letters of an address whose number follows: `VW`
+bool is_letters_of_address(std::string_view word) {
+  constexpr std::string_view kAreas[] = {"I", "Q", "M", "V", "S", "L", "SM"}, kOthers[] = {"T", "C", "AC", "HC", "AI", "AQ"};
+  const std::string letters = stl::upper_case(word);
+  const std::string_view size = std::string_view(letters).substr(letters.empty() ? 0 : letters.size() - 1);
+  const bool sized = size == "B" || size == "W" || size == "D";
+  const std::string_view area = std::string_view(letters).substr(0, letters.size() - (sized ? 1 : 0));
+  return std::ranges::find(kAreas, area) != std::end(kAreas) || std::ranges::find(kAreas, letters) != std::end(kAreas) ||
+         std::ranges::find(kOthers, sized ? area : std::string_view(letters)) != std::end(kOthers);
+}
+
+/// The parts of `VW10=4,VW12=5`; a comma in quotes, or before what is no assignment, stays.
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts{""};
+  char quote = '\0';
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote == '\0' && c == ',' && (at + 1 == text.size() || text.find('=', at) != std::string::npos)) {
+      parts.emplace_back();
+      continue;
+    }
+    if (c == '\'' || c == '"') quote = quote == '\0' ? c : c == quote ? '\0' : quote;
+    parts.back() += c;
+  }
+  std::erase(parts, "");
+  return parts;
+}
+
+}  // namespace
+
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> texts;
   bool open = false;
   for (const std::string& argument : arguments) {
-    if ((open || argument.front() == '=') && !texts.empty())
+    const bool number = stl::is_digit(argument.front()) && !texts.empty() && is_letters_of_address(texts.back());
+    if ((open || number || argument.front() == '=') && !texts.empty())
       texts.back() += argument;
     else
       texts.push_back(argument);
     open = argument.back() == '=';
   }
-  return texts;
+  std::vector<std::string> all;
+  for (const std::string& text : texts)
+    for (std::string& part : parts_of(text)) all.push_back(std::move(part));
+  return all;
 }
 
 std::string expects(std::string_view command, std::string_view what) { return fmt::format("{} expects {}", command, what); }

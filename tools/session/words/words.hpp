@@ -12,7 +12,7 @@ namespace s7200::tools {
 /// The words with a blank between them.
 std::string joined(const std::vector<std::string>& words);
 
-/// `VW100 = 5` is written with or without blanks.
+/// `VW100 = 5` is written with or without blanks, `VW 100=5` with one in the address, and `VW10=4,VW12=5` with a comma.
 std::vector<std::string> assignments_of(const std::vector<std::string>& arguments);
 
 /// `break expects a line number`

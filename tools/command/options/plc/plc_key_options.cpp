@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "interpreter/base/text/text.hpp"
 #include "tools/command/options/help_groups.hpp"
 #include "tools/command/terminal/terminal.hpp"
 
@@ -50,6 +51,28 @@ CLI::Option* add_option(CLI::App& app, const PlcKey& key, std::vector<std::strin
   return app.add_option_function<std::string>(name, take, key.option.text);
 }
 
+/// The items of `VW10,VW20` for a list and of `VW10=1,VW12=2` for a map; quoted text stays whole.
+std::vector<std::string> items_of(const PlcKey& key, const std::string& value) {
+  const bool list = key.shape == PlcKey::Shape::List, map = key.shape == PlcKey::Shape::Map;
+  if (!list && !map) return {value};
+  std::vector<std::string> items;
+  std::size_t begin = 0;
+  char quote = '\0';
+  for (std::size_t at = 0; at < value.size(); ++at) {
+    const char c = value[at];
+    if (quote != '\0')
+      quote = c == quote ? '\0' : quote;
+    else if (c == '\'' || c == '"')
+      quote = c;
+    else if (c == ',' && (list || value.find('=', at) != std::string::npos)) {
+      items.emplace_back(stl::trim(std::string_view(value).substr(begin, at - begin)));
+      begin = at + 1;
+    }
+  }
+  items.emplace_back(stl::trim(std::string_view(value).substr(begin)));
+  return items;
+}
+
 }  // namespace
 
 void PlcKeyOptions::add_to(CLI::App& app, PlcKey::Stage stage) {
@@ -70,8 +93,9 @@ bool PlcKeyOptions::given(std::string_view key) const {
 bool PlcKeyOptions::read(PlcSettings& settings, const AddressSpace* space) const {
   for (const auto& [key, values] : given_)
     for (const std::string& value : values)
-      if (const WrongValueOfKey wrong = key->take(settings, value, space); !wrong.message.empty())
-        return print_error(fmt::format("{}: {}", option_of(key->name), in_one_line(wrong))), false;
+      for (const std::string& item : items_of(*key, value))
+        if (const WrongValueOfKey wrong = key->take(settings, item, space); !wrong.message.empty())
+          return print_error(fmt::format("{}: {}", option_of(key->name), in_one_line(wrong))), false;
   return true;
 }
 
