@@ -22,7 +22,8 @@ struct Sign {
   std::string_view sign;
   bool needs_blank;
 };
-constexpr std::array kLineSigns{Sign{";", false}, Sign{"--", true}, Sign{"#", true}, Sign{"'", true}};
+constexpr std::array kLineSigns{Sign{";", false}, Sign{"--", true}, Sign{"#", true},   Sign{"'", true},
+                                Sign{"!", true},  Sign{"%%", true}, Sign{"\\\\", true}};
 
 /// The place of a text in the code of a line, outside of quoted text; npos if it is not there.
 std::size_t find_in_code(std::string_view line, std::string_view text, std::size_t from = 0) {
@@ -192,10 +193,11 @@ void rewrite_after_sign(std::vector<std::string>& lines, const Sign& sign, std::
 }  // namespace
 
 bool may_have_foreign_comment(std::string_view line) {
-  const std::size_t at = line.find_first_of(";#'*-");
+  const std::size_t at = line.find_first_of(";#'*-!%\\");
   if (at == line.npos) return false;
   const auto has = [&](std::string_view sign) { return line.find(sign) != line.npos; };
-  return has(";") || has("(*") || has("/*") || has("# ") || has("-- ") || has("' ");
+  return has(";") || has("(*") || has("/*") || has("# ") || has("-- ") || has("' ") || has("! ") || has("%% ") ||
+         has("\\\\ ");
 }
 
 std::vector<bool> rewrite_foreign_comments(std::vector<std::string>& lines) {

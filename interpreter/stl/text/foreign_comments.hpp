@@ -1,5 +1,5 @@
-// Comments as other languages and editors write them: `(* … *)`, `/* … */`, and after `;`, `--`, `#` or `'` to the end of
-// the line. They become comments with //, and code keeps its columns.
+// Comments as other languages and editors write them: `(* … *)`, `/* … */`, and to the end of the line after `;`, `--`, `#`,
+// `'`, `!`, `%%` or two backslashes. They become comments with //, and code keeps its columns.
 #pragma once
 
 #include <string>

@@ -44,7 +44,7 @@ TEST(AsItComes, CommentsInBracketsAreRead) {
 }
 
 TEST(AsItComes, CommentsAfterSignsOfOtherLanguagesAreRead) {
-  for (const std::string sign : {";", "--", "#", "'"})
+  for (const std::string sign : {";", "--", "#", "'", "!", "%%", "\\\\"})
     EXPECT_EQ(program(sign + " head\nNETWORK 1\nLD I0.0 " + sign + " start\nA I0.1 " + sign + " stop\n= Q0.0\n"),
               program(kPlain))
         << sign;

@@ -63,6 +63,12 @@ TEST(Rewritten, RowsOfSqlAreRead) {
             kConversation);
 }
 
+TEST(Rewritten, MinimalModbusHasItsBytesInQuotes) {
+  EXPECT_EQ(texts("DEBUG:minimalmodbus:Writing to instrument: '\\x01\\x03\\x00\\x00\\x00\\x02\\xc4\\x0b'\n"
+                  "DEBUG:minimalmodbus:Response from instrument: '\\x01\\x03\\x04\\x00\\n\\x00\\x14\\xda>'\n"),
+            kConversation);
+}
+
 const std::string kRequest = "01 03 00 00 00 02 C4 0B\n", kAnswer = "01 03 04 00 0A 00 14 DA 3E\n";
 
 TEST(TwoLoggers, OneOfThemIsShownAndNothingIsAnEcho) {

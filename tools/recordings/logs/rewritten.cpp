@@ -11,6 +11,7 @@
 #include "tools/recordings/forms.hpp"
 #include "tools/recordings/rows/fields.hpp"
 #include "tools/recordings/rows/lines.hpp"
+#include "tools/recordings/rows/notation.hpp"
 #include "tools/recordings/scan.hpp"
 
 namespace s7200::tools {
@@ -278,6 +279,36 @@ std::string rows_of_sql(std::string_view text) {
   return plain;
 }
 
+// --- MinimalModbus ---
+
+/// `… Writing to instrument: '\x01\x03…'`, as versions for Python 2 print it.
+constexpr std::string_view kInstrument = "instrument: '";
+
+bool is_row_of_minimalmodbus(std::string_view line) {
+  const std::size_t at = line.find(kInstrument);
+  return at != line.npos && stl::trim_end(line).ends_with('\'') && line.find("\\x", at) != line.npos;
+}
+
+std::string rows_of_minimalmodbus(std::string_view text) {
+  std::string plain;
+  for (const std::string_view line : Lines(text)) {
+    const std::size_t begin = line.find(kInstrument) + kInstrument.size();
+    const std::string_view whole = stl::trim_end(line);
+    const auto bytes = is_row_of_minimalmodbus(line) && whole.size() > begin
+                           ? bytes_of_literal(whole.substr(begin, whole.size() - 1 - begin))
+                           : std::nullopt;
+    const auto time = leading_time(line);
+    if (bytes)
+      plain.append(line.substr(0, time ? time->length : 0))
+          .append(line.find("riting") != line.npos ? " TX" : " RX")
+          .append(in_hex(*bytes));
+    else
+      plain.append(line);
+    plain += '\n';
+  }
+  return plain;
+}
+
 /// A kind of log, recognised by one of its lines.
 struct KindOfLog {
   bool (*has)(std::string_view line);
@@ -285,7 +316,8 @@ struct KindOfLog {
 };
 constexpr std::array kKindsOfLogs{KindOfLog{is_row_of_netty, without_frames_of_netty},
                                   KindOfLog{is_of_slsnif, rows_of_slsnif}, KindOfLog{is_row_of_carets, without_carets},
-                                  KindOfLog{has_row_of_sql, rows_of_sql}};
+                                  KindOfLog{has_row_of_sql, rows_of_sql},
+                                  KindOfLog{is_row_of_minimalmodbus, rows_of_minimalmodbus}};
 
 }  // namespace
 

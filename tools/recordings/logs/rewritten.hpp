@@ -1,5 +1,5 @@
 // Logs whose rows are rewritten as time, direction and hex before any form is looked for: dumps in frames of Netty, slsnif,
-// caret notation as of cat -v, and SQL.
+// caret notation as of cat -v, SQL, and MinimalModbus.
 #pragma once
 
 #include <optional>
