@@ -214,7 +214,7 @@ std::string_view why_other_product(std::string_view text) {
   std::size_t blocks = 0, step5 = 0;
   constexpr std::size_t kSeen = 1 << 16;
   text = text.substr(0, kSeen);
-  const auto* const product =
+  const auto product =
       std::ranges::find_if(kOtherProducts, [text](const OtherProduct& each) { return text.find(each.sign) != text.npos; });
   if (product != kOtherProducts.end()) return product->what;
   while (!text.empty()) {

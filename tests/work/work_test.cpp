@@ -67,7 +67,7 @@ TEST(WorkOfChecking, GrowsAsTheListingDoes) { expect_in_proportion(long_listing(
 
 TEST(WorkOfChecking, GrowsAsTheMistakesDo) {
   const auto network = [](std::uint32_t i) {
-    return fmt::format("NETWORK {0}\nLD X{0}\nFRO{0} VW{0}\nMOVB VW0, VB1\n= M3.9\n", i);
+    return fmt::format("NETWORK {0}\nLD X{0}\nFRO{0} VW{0}\nMOVB VW0, VB1\n= M3.9\nA I0.0 (\n", i);
   };
   expect_in_proportion(repeated(500, network), repeated(5'000, network), 10);
 }

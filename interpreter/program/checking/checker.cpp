@@ -681,7 +681,9 @@ class Checker {
   Op what_is_known(const stl::Statement& statement) const {
     Op op;
     op.instruction = &unread_instruction();
-    const bool of_parser = std::ranges::any_of(unread_, [&](const auto& unread) { return &unread == &statement; });
+    const auto unread = std::ranges::lower_bound(unread_, statement.position.line, {},
+                                                 [](const stl::Statement& each) { return each.position.line; });
+    const bool of_parser = unread != unread_.end() && &*unread == &statement;
     const auto words = of_parser ? stl::split_words(statement.mnemonic) : std::vector<std::string>{};
     const Instruction* const instruction = words.empty() ? nullptr : find_instruction(stl::upper_case(words.front()));
     if (!instruction || instruction->structure != Structure::None) return op;

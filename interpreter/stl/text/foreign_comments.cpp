@@ -11,11 +11,6 @@
 namespace s7200::stl::plain {
 namespace {
 
-struct Brackets {
-  std::string_view open, close;
-};
-constexpr std::array kBrackets{Brackets{"(*", "*)"}, Brackets{"/*", "*/"}};
-
 /// A sign that begins a comment up to the end of its line. Most signs also mean something else, so that a blank has to
 /// follow them: `#name` is a local variable, and `--` is a wire.
 struct Sign {
@@ -25,26 +20,32 @@ struct Sign {
 constexpr std::array kLineSigns{Sign{";", false}, Sign{"--", true}, Sign{"#", true},   Sign{"'", true},
                                 Sign{"!", true},  Sign{"%%", true}, Sign{"\\\\", true}};
 
-/// The place of a text in the code of a line, outside of quoted text; npos if it is not there.
-std::size_t find_in_code(std::string_view line, std::string_view text, std::size_t from = 0) {
-  char quote = '\0';
-  for (std::size_t at = 0; at < line.size(); ++at) {
-    const char c = line[at];
-    if (quote != '\0') {
-      quote = c == quote ? '\0' : quote;
-      continue;
-    }
-    if (line.substr(at).starts_with("//")) return line.npos;
-    if (at >= from && line.substr(at).starts_with(text)) return at;
-    if ((c == '\'' || c == '"') && line.find(c, at + 1) != line.npos) quote = c;
+/// The first of some texts in the code of a line, outside of quoted text.
+struct Place {
+  std::size_t at = std::string_view::npos;
+  std::size_t which = 0;
+};
+template <std::size_t kCount>
+Place find_in_code(std::string_view line, const std::array<std::string_view, kCount>& texts, std::size_t from = 0) {
+  for (std::size_t at = from; at < line.size(); ++at) {
+    const std::string_view rest = line.substr(at);
+    if (rest.starts_with("//")) break;
+    const auto found = std::ranges::find_if(texts, [rest](std::string_view text) { return rest.starts_with(text); });
+    if (found != texts.end()) return {at, static_cast<std::size_t>(found - texts.begin())};
+    if (rest.front() == '\'' || rest.front() == '"')
+      if (const std::size_t end = line.find(rest.front(), at + 1); end != line.npos) at = end;
   }
-  return line.npos;
+  return {};
 }
 
 /// Takes the comments in brackets out of the code of all lines, and puts them after it.
 class BracketReader {
  public:
-  explicit BracketReader(std::vector<std::string>& lines) : lines_(lines), changed_(lines.size(), false) {}
+  explicit BracketReader(std::vector<std::string>& lines) : lines_(lines), changed_(lines.size(), false) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      for (std::size_t kind = 0; kind < kClose.size(); ++kind)
+        if (lines[i].find(kClose[kind]) != std::string::npos) last_close_[kind] = i;
+  }
 
   std::vector<bool> run() {
     for (std::size_t i = 0; i < lines_.size(); ++i) read(i);
@@ -52,58 +53,46 @@ class BracketReader {
   }
 
  private:
+  static constexpr std::array<std::string_view, 2> kOpen{"(*", "/*"}, kClose{"*)", "*/"};
+
   void read(std::size_t i) {
-    std::string& line = lines_[i];
-    std::string comment;
-    std::size_t at = 0;
-    if (open_ != nullptr) {
-      const std::size_t end = line.find(open_->close);
-      at = end == line.npos ? line.size() : end + open_->close.size();
-      take_out(i, 0, at, std::string_view(line).substr(0, std::min(end, line.size())), comment);
-      if (end != line.npos) open_ = nullptr;
+    const std::string line = std::move(lines_[i]);
+    std::string code, comment;
+    for (std::size_t at = 0; at < line.size();) {
+      std::size_t inside = at;
+      if (!open_) {
+        const Place begin = find_in_code(line, kOpen, at);
+        if (begin.at == line.npos || !is_closed(i, line, begin)) {
+          code.append(line, at);
+          break;
+        }
+        code.append(line, at, begin.at - at);
+        open_ = begin.which;
+        at = begin.at;
+        inside = at + kOpen[*open_].size();
+      }
+      const std::size_t close = line.find(kClose[*open_], inside);
+      const std::size_t end = close == line.npos ? line.size() : close + kClose[*open_].size();
+      const std::string_view text = trim(std::string_view(line).substr(inside, std::min(close, line.size()) - inside));
+      if (!text.empty()) comment.append(1, ' ').append(text);
+      code.append(count_characters(std::string_view(line).substr(at, end - at)), ' ');
+      changed_[i] = true;
+      if (close != line.npos) open_.reset();
+      at = end;
     }
-    while (open_ == nullptr) {
-      const auto [begin, brackets] = next_opening(line, at);
-      if (brackets == nullptr || !is_closed(i, begin, *brackets)) break;
-      const std::size_t inside = begin + brackets->open.size(), end = line.find(brackets->close, inside);
-      at = end == line.npos ? line.size() : end + brackets->close.size();
-      const std::string text = line.substr(inside, std::min(end, line.size()) - inside);
-      if (end == line.npos) open_ = brackets;
-      take_out(i, begin, at, text, comment);
-    }
-    if (!changed_[i]) return;
-    line.erase(trim_end(line).size());
-    if (!comment.empty()) line += (line.empty() ? "//" : " //") + comment;
+    if (changed_[i]) code.erase(trim_end(code).size());
+    if (!comment.empty()) code += (code.empty() ? "//" : " //") + comment;
+    lines_[i] = std::move(code);
   }
 
-  struct Opening {
-    std::size_t begin;
-    const Brackets* brackets;
-  };
-  static Opening next_opening(std::string_view line, std::size_t from) {
-    Opening first{line.size(), nullptr};
-    for (const Brackets& each : kBrackets)
-      if (const std::size_t at = find_in_code(line, each.open, from); at < first.begin) first = {at, &each};
-    return first;
-  }
-
-  bool is_closed(std::size_t line, std::size_t begin, const Brackets& brackets) const {
-    if (lines_[line].find(brackets.close, begin + brackets.open.size()) != std::string::npos) return true;
-    return std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(line) + 1, lines_.end(),
-                       [&](const std::string& each) { return each.find(brackets.close) != std::string::npos; });
-  }
-
-  void take_out(std::size_t i, std::size_t begin, std::size_t end, std::string_view text, std::string& comment) {
-    const std::string_view trimmed = trim(text);
-    if (!trimmed.empty()) comment.append(1, ' ').append(trimmed);
-    const std::size_t characters = count_characters(std::string_view(lines_[i]).substr(begin, end - begin));
-    lines_[i].replace(begin, end - begin, characters, ' ');
-    changed_[i] = true;
+  bool is_closed(std::size_t i, std::string_view line, const Place& begin) const {
+    return last_close_[begin.which] > i || line.find(kClose[begin.which], begin.at + kOpen[begin.which].size()) != line.npos;
   }
 
   std::vector<std::string>& lines_;
   std::vector<bool> changed_;
-  const Brackets* open_ = nullptr;
+  std::array<std::size_t, 2> last_close_{};  // the last line that has each closing bracket
+  std::optional<std::size_t> open_{};        // the kind of the one that is open
 };
 
 bool has_letter(std::string_view text) {
@@ -135,8 +124,17 @@ struct Found {
   bool sure = false;  ///< there is a statement with an address before it
 };
 
+/// The sign comes after a statement, so not far from the line's beginning. A comma after its first word makes it a row of a
+/// table, as of symbols.
 std::optional<Found> comment_after(std::string_view line, const Sign& sign) {
-  for (std::size_t at = find_in_code(line, sign.sign); at != line.npos; at = find_in_code(line, sign.sign, at + 1)) {
+  constexpr std::size_t kLongestCode = 256;
+  const std::string_view near = line.substr(0, kLongestCode);
+  const std::size_t word = near.find_first_of(" \t,", near.find_first_not_of(" \t"));
+  if (word != near.npos && near[word] == ',') return {};
+  for (std::size_t from = 0;;) {
+    const std::size_t at = find_in_code(near, std::array{sign.sign}, from).at;
+    if (at == near.npos) return {};
+    from = at + 1;
     const std::string_view code = trim(line.substr(0, at)), text = line.substr(at + sign.sign.size());
     const bool apart = at > 0 && is_blank(line[at - 1]);
     const bool begins = !sign.needs_blank || (apart && !text.empty() && is_blank(text.front()));
@@ -147,7 +145,6 @@ std::optional<Found> comment_after(std::string_view line, const Sign& sign) {
     if (sign.sign == ";" && (code.find(';') != code.npos || goes_on_after_semicolon(words))) continue;
     return Found{at, sure};
   }
-  return {};
 }
 
 /// Whether a whole line is a comment with a sign, and neither a heading nor a row of a table, a drawing or a list.

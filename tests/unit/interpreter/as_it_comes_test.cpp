@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "interpreter/program/load.hpp"
 #include "interpreter/stl/printer.hpp"
+#include "interpreter/stl/text/foreign_comments.hpp"
 
 namespace s7200::as_it_comes_test {
 namespace {
@@ -50,6 +52,11 @@ TEST(AsItComes, CommentsAfterSignsOfOtherLanguagesAreRead) {
         << sign;
   EXPECT_EQ(program("LD Start ; begin\nA I0.1 ; stop\nNOT ; the other way\n= Q0.0\n"),
             program("LD Start // begin\nA I0.1 // stop\nNOT // the other way\n= Q0.0\n"));
+}
+
+TEST(AsItComes, ASemicolonInARowOfSymbolsBeginsNoComment) {
+  std::vector<std::string> lines{"Start,I0.0,first", "Buffer,VB114,number of characters; the rest"};
+  EXPECT_TRUE(stl::plain::rewrite_foreign_comments(lines).empty());
 }
 
 TEST(AsItComes, AStatementThatIsCommentedOutStaysSo) {
