@@ -67,11 +67,11 @@ class WebServer::Served : public std::enable_shared_from_this<Served> {
     thread_ = std::thread([this] { io_.run(); });
   }
 
-  /// What waits for clients is still sent to those that read.
+  /// What waits for clients is still sent to those that read, and each is told that it is over.
   void stop() {
     asio::post(io_, [this] {
       acceptor_.close();
-      end_when_all_is_sent(std::chrono::steady_clock::now() + kFarewell);
+      end_when_all_have_heard(std::chrono::steady_clock::now() + kFarewell);
     });
     thread_.join();
     sockets_.clear();
@@ -95,7 +95,7 @@ class WebServer::Served : public std::enable_shared_from_this<Served> {
   }
 
   void accept();
-  void end_when_all_is_sent(std::chrono::steady_clock::time_point latest);
+  void end_when_all_have_heard(std::chrono::steady_clock::time_point latest);
 
   void say(std::string_view why) const { calls_.said(fmt::format("a client was disconnected: {}", why)); }
 
@@ -167,7 +167,12 @@ class WebServer::Served::Socket : public std::enable_shared_from_this<Socket> {
     if (waiting_.size() == 1) write();
   }
 
-  bool is_sending() const { return !waiting_.empty(); }
+  /// Once all is sent. A socket that is closed with unread messages in it takes back what its client has not read yet, so
+  /// they are read until the client closes, too.
+  void close_when_all_is_sent() {
+    if (waiting_.empty() && !std::exchange(closing_, true))
+      stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](const beast::error_code&) {});
+  }
 
  private:
   void read() {
@@ -213,7 +218,7 @@ class WebServer::Served::Socket : public std::enable_shared_from_this<Socket> {
   beast::flat_buffer buffer_{};
   std::deque<Text> waiting_{};
   std::size_t waiting_bytes_ = 0;
-  bool gone_ = false;
+  bool gone_ = false, closing_ = false;
 };
 
 /// One request, and its answer.
@@ -330,12 +335,12 @@ void WebServer::Served::accept() {
   });
 }
 
-void WebServer::Served::end_when_all_is_sent(std::chrono::steady_clock::time_point latest) {
+void WebServer::Served::end_when_all_have_heard(std::chrono::steady_clock::time_point latest) {
   constexpr auto kSoon = std::chrono::milliseconds(5);
-  const bool sent = std::ranges::none_of(sockets_, [](const auto& one) { return one.second->is_sending(); });
-  if (sent || std::chrono::steady_clock::now() > latest) return io_.stop();
+  for (const auto& [number, socket] : sockets_) socket->close_when_all_is_sent();
+  if (sockets_.empty() || std::chrono::steady_clock::now() > latest) return io_.stop();
   timer_.expires_after(kSoon);
-  timer_.async_wait([this, latest](const beast::error_code&) { end_when_all_is_sent(latest); });
+  timer_.async_wait([this, latest](const beast::error_code&) { end_when_all_have_heard(latest); });
 }
 
 WebServer::WebServer(std::unique_ptr<TcpListener> listener, std::string token, std::vector<WebFile> files, Calls calls)
