@@ -86,7 +86,7 @@ def build(system, source, build_folder):
     """Configures and builds a preset in a folder of the native build, so that the next run finds it there. Returns the programs."""
     preset = system.preset
     folder = build_folder / "platforms" / preset
-    quickly = "-DCMAKE_CXX_FLAGS_RELEASE=-Og -DNDEBUG"
+    quickly = f"-DCMAKE_CXX_FLAGS_RELEASE={'-Og' if preset == 'mingw' else '-O1'} -DNDEBUG"
     for command in (["cmake", "--preset", preset, "-B", folder, quickly],
                     ["cmake", "--build", folder, "--target", "conversation", *filter(None, [system.engine])]):
         result = subprocess.run(command, cwd=source, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kPlace = "<script id=\"report\" type=\"text/plain\"></script>";
 constexpr Time kWithPicture = 60 * kSecond;  ///< longer runs have one
 constexpr int kElements = 400;               ///< of a track of the picture
-constexpr std::size_t kCheckpoints = 240;    ///< of a long run at most: one each six minutes of a day
+constexpr std::size_t kCheckpoints = 144;    ///< of a long run at most: one each ten minutes of a day
 constexpr Time kBetweenCheckpoints = 10 * kSecond;
 
 Bytes compressed(const std::string& text) {
