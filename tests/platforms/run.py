@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The libraries that know no operating system say the same on every system: builds them for one, lets them have the same
-conversation with the same programs, and with the engine of the page, and compares what is printed with what the native build
-prints, byte by byte.
+conversation with the same programs, all but `mingw` also with the engine of the page, and compares what is printed with what the
+native build prints, byte by byte.
 
     run.py SYSTEM NATIVE_CONVERSATION NATIVE_ENGINE_LINES SOURCE_FOLDER BUILD_FOLDER
 
