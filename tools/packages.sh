@@ -72,6 +72,7 @@ needed_to_test=(
   /usr/lib/python3/dist-packages/serial_asyncio:python3-serial-asyncio
   /usr/lib/python3/dist-packages/serial:python3-serial
   /usr/sbin/ser2net:ser2net
+  mold:mold
   mbpoll:mbpoll
   sigrok-cli:sigrok-cli
   vcd2fst:gtkwave
