@@ -139,7 +139,7 @@ class VcdReader {
     const auto said = static_cast<std::ptrdiff_t>(levels_.notes.size());
     for (const auto& [code, variable] : variables_)
       if (variable.width > 1) note_left_out(variable.name, std::to_string(variable.width));
-    std::ranges::rotate(levels_.notes, levels_.notes.begin() + said);
+    std::rotate(levels_.notes.begin(), levels_.notes.begin() + said, levels_.notes.end());
     levels_.channels = std::move(lines);
     return std::move(levels_);
   }
